@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+namespace smoothfem {
+
+/// Random numbers that depend on nothing but their place: the same seed and counters give the same
+/// bits on every machine and in every order of use. Standard distributions do not promise that.
+class CounterRandom {
+ public:
+  /// seed: any. stream and item: what the numbers are for, for example a node and its candidate.
+  CounterRandom(std::uint64_t seed, std::uint64_t stream, std::uint64_t item)
+      : state_(mix(mix(mix(seed) + stream) + item)) {}
+
+  /// The next number of SplitMix64 (Steele, Lea and Flood, Fast splittable pseudorandom number
+  /// generators, OOPSLA 2014): a Weyl sequence with the golden ratio's step, mixed.
+  std::uint64_t next() {
+    state_ += golden_step;
+    return mixed(state_);
+  }
+
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+
+  /// Uniform in [0, n), n >= 1, by the high half of a product; the bias is below n 2^-64.
+  std::uint64_t below(std::uint64_t n) {
+    const std::uint64_t x = next();
+    const std::uint64_t low = (x & 0xffffffffu) * (n & 0xffffffffu);
+    const std::uint64_t middle_1 = (x >> 32) * (n & 0xffffffffu) + (low >> 32);
+    const std::uint64_t middle_2 = (x & 0xffffffffu) * (n >> 32) + (middle_1 & 0xffffffffu);
+    return (x >> 32) * (n >> 32) + (middle_1 >> 32) + (middle_2 >> 32);
+  }
+
+ private:
+  static constexpr std::uint64_t golden_step = 0x9e3779b97f4a7c15;
+
+  /// Stafford's variant 13 of the MurmurHash3 finalizer, as in the paper.
+  static constexpr std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+  static constexpr std::uint64_t mix(std::uint64_t x) { return mixed(x + golden_step); }
+
+  std::uint64_t state_;
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,113 @@
+#include "meshes/generators/gmsh_planar.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <unordered_map>
+
+#include "meshes/io/gmsh_session.h"
+#include "smoothing/mesh/input_error.h"
+#include "smoothing/quality/mean_ratio.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr int frontal_delaunay = 6;
+constexpr int blossom = 1;
+
+/// One point a corner, one undivided line an edge, one plane surface.
+void build_geometry(const std::vector<std::vector<Point<2>>>& polygons) {
+  std::vector<int> loops;
+  int point = 0;
+  for (const auto& polygon : polygons) {
+    const int first = point + 1, n = static_cast<int>(polygon.size());
+    for (const auto& corner : polygon)
+      gmsh::model::geo::addPoint(corner.x(), corner.y(), 0.0, 0.0, ++point);
+    for (int i = 0; i < n; ++i)
+      gmsh::model::geo::addLine(first + i, first + (i + 1) % n, first + i);
+    std::vector<int> lines(polygon.size());
+    std::iota(lines.begin(), lines.end(), first);
+    loops.push_back(gmsh::model::geo::addCurveLoop(lines));
+  }
+  gmsh::model::geo::addPlaneSurface(loops, 1);
+  gmsh::model::geo::synchronize();
+  for (int line = 1; line <= point; ++line) gmsh::model::mesh::setTransfiniteCurve(line, 2);
+}
+
+void set_options(GmshSession& session, double edge_length, bool recombine) {
+  session.set_option("Mesh.Algorithm", frontal_delaunay);  // 8 hangs on some domains
+  session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
+  session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
+  session.set_option("Mesh.CharacteristicLengthMin", edge_length);
+  session.set_option("Mesh.CharacteristicLengthMax", edge_length);
+  session.set_option("Mesh.RecombineAll", recombine ? 1 : 0);
+  session.set_option("Mesh.RecombinationAlgorithm", blossom);
+}
+
+double signed_area(const PlanarCells& mesh) {
+  double twice = 0.0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto row = mesh.cells[c];
+    for (std::size_t k = 0; k < row.size(); ++k)
+      twice += cross(mesh.coordinates[row[k]], mesh.coordinates[row[(k + 1) % row.size()]]);
+  }
+  return 0.5 * twice;
+}
+
+void turn_over(PlanarCells& mesh) {
+  CompressedRows<NodeIndex> turned;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto row = mesh.cells[c];
+    turned.append(std::vector<NodeIndex>(row.rbegin(), row.rend()));
+  }
+  mesh.cells = std::move(turned);
+}
+
+PlanarCells mesh_of_model() {
+  PlanarCells mesh;
+  std::vector<std::size_t> tags;
+  std::vector<double> xyz, parameters;
+  gmsh::model::mesh::getNodes(tags, xyz, parameters);
+  std::vector<std::size_t> order(tags.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
+  std::unordered_map<std::size_t, NodeIndex> numbers;
+  for (const std::size_t i : order) {
+    numbers.emplace(tags[i], static_cast<NodeIndex>(mesh.coordinates.size()));
+    mesh.coordinates.emplace_back(xyz[3 * i], xyz[3 * i + 1]);
+  }
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 2);
+  for (std::size_t t = 0; t < types.size(); ++t) {
+    const std::size_t n = elements[t].empty() ? 0 : nodes[t].size() / elements[t].size();
+    std::vector<NodeIndex> row(n);
+    for (std::size_t e = 0; e < elements[t].size(); ++e) {
+      for (std::size_t k = 0; k < n; ++k) row[k] = numbers.at(nodes[t][e * n + k]);
+      mesh.cells.append(row);
+    }
+  }
+  if (signed_area(mesh) < 0.0) turn_over(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+PlanarCells mesh_region(const std::vector<std::vector<Point<2>>>& polygons, double edge_length,
+                        bool recombine) {
+  GmshSession session;
+  set_options(session, edge_length, recombine);
+  PlanarCells mesh;
+  session.run("the region cannot be meshed", [&] {
+    build_geometry(polygons);
+    gmsh::model::mesh::generate(2);
+    mesh = mesh_of_model();
+  });
+  return mesh;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,133 @@
+#include "meshes/io/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include "smoothing/mesh/input_error.h"
+
+namespace smoothfem {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw InputError("cannot write " + path.string() + ": " + reason);
+}
+
+void require_replaceable(const fs::path& path) {
+  if (path.filename().empty()) fail(path, "it names no file; give a file name");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) fail(path, "it is a folder; give a file name");
+  // Renaming over a device would replace the device itself by a file.
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    fail(path, "it is not a regular file; give another file name");
+}
+
+void create_folder_of(const fs::path& path) {
+  const fs::path folder = path.parent_path();
+  if (folder.empty()) return;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    fail(path, "the folder " + folder.string() + " cannot be created (" +
+                   (error ? error.message() : std::strerror(ENOTDIR)) + ")");
+}
+
+/// Hidden, and different for every call of every process, so that two writers never share one.
+fs::path temporary_beside(const fs::path& path) {
+  static std::atomic<unsigned> n_calls{0};
+  fs::path name = ".";
+  name += path.stem();
+  for (const unsigned long number : {static_cast<unsigned long>(::getpid()), 0ul + n_calls++}) {
+    name += '.';
+    name += std::to_string(number);
+  }
+  name += path.extension();
+  return path.parent_path() / name;
+}
+
+/// A file descriptor that is closed at the end of the scope.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags, 0666)) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+/// Errors of delayed writes (quota, network file systems) show up here at the latest.
+void flush_to_disk(const fs::path& path, const fs::path& temporary) {
+  const Descriptor file(temporary, O_RDONLY);
+  if (file.value() < 0) fail(path, std::strerror(errno));
+  if (::fsync(file.value()) != 0) fail(path, std::strerror(errno));
+}
+
+/// Removes the temporary unless it became the target.
+class RemovedAtExit {
+ public:
+  explicit RemovedAtExit(fs::path path) : path_(std::move(path)) {}
+  ~RemovedAtExit() {
+    std::error_code ignored;  // it may never have been created
+    if (!kept_) fs::remove(path_, ignored);
+  }
+  RemovedAtExit(const RemovedAtExit&) = delete;
+  RemovedAtExit& operator=(const RemovedAtExit&) = delete;
+  void keep() { kept_ = true; }
+
+ private:
+  fs::path path_;
+  bool kept_ = false;
+};
+
+void write_all(const fs::path& path, const fs::path& temporary, std::string_view content) {
+  const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC);
+  if (file.value() < 0) fail(path, std::strerror(errno));
+  while (!content.empty()) {
+    const ssize_t n_written = ::write(file.value(), content.data(), content.size());
+    if (n_written < 0 && errno == EINTR) continue;
+    if (n_written < 0) fail(path, std::strerror(errno));
+    content.remove_prefix(static_cast<std::size_t>(n_written));
+  }
+}
+
+}  // namespace
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  require_replaceable(path);
+  create_folder_of(path);
+  const fs::path temporary = temporary_beside(path);
+  RemovedAtExit guard(temporary);
+  try {
+    write(temporary);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail(path, error.what());
+  }
+  flush_to_disk(path, temporary);
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) fail(path, error.message());
+  guard.keep();
+}
+
+void write_atomically(const fs::path& path, std::string_view content) {
+  write_atomically(path,
+                   [&](const fs::path& temporary) { write_all(path, temporary, content); });
+}
+
+}  // namespace smoothfem

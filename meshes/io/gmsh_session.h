@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace smoothfem {
+
+/// The Gmsh library for the length of a scope, with an empty model of its own. Prints nothing, reads
+/// no configuration files and no command line, leaves signal handlers alone, uses one thread and a
+/// fixed random seed. Sessions may be nested; Gmsh itself is a global, so not used from two threads.
+class GmshSession {
+ public:
+  GmshSession();
+  ~GmshSession();
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+
+  /// Sets a numerical option until the session ends.
+  void set_option(const std::string& name, double value);
+
+  /// Runs Gmsh calls; whatever Gmsh throws or logs as an error becomes
+  /// InputError "context: Gmsh: its own words".
+  void run(const std::string& context, const std::function<void()>& calls) const;
+
+ private:
+  std::string model_;
+  std::string outer_model_;  ///< current when this session began
+  std::vector<std::pair<std::string, double>> former_options_;
+};
+
+}  // namespace smoothfem

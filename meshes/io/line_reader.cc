@@ -1,0 +1,115 @@
+#include "meshes/io/line_reader.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "smoothing/mesh/input_error.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+/// Foreign bytes in a message could garble the terminal, and a binary file has no short words.
+std::string quoted(std::string_view word) {
+  constexpr std::size_t longest = 40;
+  std::string text = "'";
+  for (const char c : word.substr(0, longest))
+    text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  if (word.size() > longest) text += "...";
+  return text + "'";
+}
+
+}  // namespace
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    throw InputError(path.string() + ": there is no such file; check the path");
+  if (std::filesystem::is_directory(status))
+    throw InputError(path.string() + ": this is a folder; give the name of a file in it");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string content;
+  if (file) content.assign(std::istreambuf_iterator<char>(file), {});
+  if (!file || file.bad())
+    throw InputError(path.string() + ": the file cannot be read (" +
+                     (errno ? std::strerror(errno) : "input error") + ")");
+  if (content.empty()) throw InputError(path.string() + ": the file is empty");
+  return content;
+}
+
+bool LineReader::next_line() {
+  while (!rest_.empty()) {
+    const std::size_t end = rest_.find('\n');
+    text_ = rest_.substr(0, end);
+    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+    ++line_;
+    if (text_.find_first_not_of(blanks) != std::string_view::npos) {
+      unread_ = text_;
+      return true;
+    }
+  }
+  text_ = unread_ = {};
+  return false;
+}
+
+void LineReader::require_line(const std::string& what) {
+  if (!next_line()) fail("the file ends before " + what + "; it is truncated");
+}
+
+std::string_view LineReader::word() {
+  const std::size_t begin = unread_.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) {
+    unread_ = {};
+    return {};
+  }
+  unread_ = unread_.substr(begin);
+  const std::string_view found = unread_.substr(0, unread_.find_first_of(blanks));
+  unread_ = unread_.substr(found.size());
+  return found;
+}
+
+double LineReader::number(const std::string& what) {
+  std::string_view found = word();
+  if (found.empty()) fail(what + " is missing at the end of the line");
+  const std::string_view as_written = found;
+  if (found.front() == '+') found.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
+  if (error == std::errc::invalid_argument || end != found.data() + found.size())
+    fail(what + " is " + quoted(as_written) + ", which is not a number");
+  // Numbers too small for a double are zero for every purpose here.
+  if (error == std::errc::result_out_of_range)
+    value = std::strtod(std::string(found).c_str(), nullptr);
+  if (!std::isfinite(value)) fail(what + " is " + quoted(as_written) + ", which is not finite");
+  return value;
+}
+
+std::uint64_t LineReader::integer(const std::string& what, std::uint64_t limit) {
+  const std::string_view found = word();
+  if (found.empty()) fail(what + " is missing at the end of the line");
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
+  if (error != std::errc() || end != found.data() + found.size())
+    fail(what + " is " + quoted(found) + ", which is not an integer from 0 on");
+  if (value >= limit)
+    fail(what + " is " + std::to_string(value) + ", but must be below " + std::to_string(limit));
+  return value;
+}
+
+void LineReader::require_end_of_line() {
+  const std::string_view found = word();
+  if (!found.empty()) fail("unexpected " + quoted(found) + " at the end of the line; remove it");
+}
+
+void LineReader::fail(const std::string& message) const {
+  throw InputError(path_ + ":" + std::to_string(line_) + ": " + message);
+}
+
+}  // namespace smoothfem
