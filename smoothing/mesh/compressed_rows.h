@@ -8,8 +8,8 @@
 
 namespace smoothfem {
 
-/// Rows of different lengths in two arrays (CSR): row i is entries[offsets[i]] .. entries[offsets[i+1]].
-/// Valid after default construction (no rows).
+/// Rows of different lengths in two arrays (CSR): row i is entries[offsets[i]] ..
+/// entries[offsets[i+1]]. Valid after default construction (no rows).
 template <class T>
 class CompressedRows {
  public:

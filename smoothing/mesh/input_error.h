@@ -6,8 +6,9 @@
 
 namespace smoothfem {
 
-/// Something the user gave (a file, a parameter, a mesh) cannot be used. The message is one sentence
-/// that says what is wrong, where, and what to do; the command line prints it and exits with code 2.
+/// Something the user gave (a file, a parameter, a mesh) cannot be used. The message is one
+/// sentence that says what is wrong, where, and what to do; the command line prints it and exits
+/// with code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

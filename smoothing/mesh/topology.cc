@@ -37,9 +37,11 @@ std::vector<CellEdge> sorted_edges(const CompressedRows<NodeIndex>& cells) {
   return edges;
 }
 
-/// Rows of values by key: row k holds the values of all pairs (k, value), in the order of the pairs.
+/// Rows of values by key: row k holds the values of all pairs (k, value), in the order of the
+/// pairs.
 template <class T>
-CompressedRows<T> group_by_key(std::size_t n_rows, const std::vector<std::pair<NodeIndex, T>>& pairs) {
+CompressedRows<T> group_by_key(std::size_t n_rows,
+                               const std::vector<std::pair<NodeIndex, T>>& pairs) {
   std::vector<std::size_t> offsets(n_rows + 1, 0);
   for (const auto& [key, value] : pairs) ++offsets[key + 1];
   for (std::size_t i = 0; i < n_rows; ++i) offsets[i + 1] += offsets[i];
@@ -66,8 +68,8 @@ void Topology::check_cells(std::size_t n_nodes) const {
   for (CellIndex c = 0; c < cells_.size(); ++c) {
     const auto nodes = cells_[c];
     if (nodes.size() < 3)
-      throw CellError(c, "has " + std::to_string(nodes.size()) +
-                             " nodes; a planar cell needs at least three");
+      throw CellError(
+          c, "has " + std::to_string(nodes.size()) + " nodes; a planar cell needs at least three");
     sorted.assign(nodes.begin(), nodes.end());
     std::sort(sorted.begin(), sorted.end());
     if (sorted.back() >= n_nodes)

@@ -18,22 +18,23 @@ using CellIndex = std::uint32_t;
 
 /// What a file says about cells besides their nodes; carried from input to output unchanged.
 struct MeshLabels {
-  std::vector<int> cell_tags;              ///< physical tag of each cell; empty if the file has none
-  CompressedRows<NodeIndex> facets;        ///< labelled boundary entities (edges of planar meshes)
-  std::vector<int> facet_tags;             ///< physical tag of each facet
+  std::vector<int> cell_tags;        ///< physical tag of each cell; empty if the file has none
+  CompressedRows<NodeIndex> facets;  ///< labelled boundary entities (edges of planar meshes)
+  std::vector<int> facet_tags;       ///< physical tag of each facet
   std::map<std::pair<int, int>, std::string> names;  ///< (dimension, tag) -> physical name
 
   bool operator==(const MeshLabels&) const = default;
 };
 
 /// The connectivity of a planar mesh: which nodes make which cell, and everything that follows
-/// from it alone. Immutable. All adjacency rows are sorted ascending, so sums over them have one order.
+/// from it alone. Immutable. All adjacency rows are sorted ascending, so sums over them have one
+/// order.
 class Topology {
  public:
-  /// cells: one row of node indices a cell, counterclockwise, at least three, all different and below
-  /// n_nodes. fixed: n_nodes flags of nodes that smoothing must not move; without it the boundary
-  /// nodes are fixed. Nodes that no cell uses are always fixed.
-  /// Throws InputError naming the first cell that breaks this, or an edge with more than two cells.
+  /// cells: one row of node indices a cell, counterclockwise, at least three, all different and
+  /// below n_nodes. fixed: n_nodes flags of nodes that smoothing must not move; without it the
+  /// boundary nodes are fixed. Nodes that no cell uses are always fixed. Throws InputError naming
+  /// the first cell that breaks this, or an edge with more than two cells.
   Topology(std::size_t n_nodes, CompressedRows<NodeIndex> cells,
            std::optional<std::vector<bool>> fixed = std::nullopt, MeshLabels labels = {});
 
@@ -47,9 +48,12 @@ class Topology {
   /// Cells that use a node.
   std::span<const CellIndex> node_cells(NodeIndex node) const { return node_cells_[node]; }
   /// Nodes joined to a node by an edge.
-  std::span<const NodeIndex> node_neighbours(NodeIndex node) const { return node_neighbours_[node]; }
+  std::span<const NodeIndex> node_neighbours(NodeIndex node) const {
+    return node_neighbours_[node];
+  }
 
-  /// Edges with one cell, as (from, to) in that cell's direction, ordered by cell and position in it.
+  /// Edges with one cell, as (from, to) in that cell's direction, ordered by cell and position in
+  /// it.
   const std::vector<std::pair<NodeIndex, NodeIndex>>& boundary_edges() const {
     return boundary_edges_;
   }

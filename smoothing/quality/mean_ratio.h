@@ -4,6 +4,7 @@
 #include <numbers>
 #include <span>
 
+#include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
@@ -16,45 +17,45 @@ struct RegularAngle {
 };
 
 /// n >= 3. Exact for n = 4, where the interior angle is right.
-inline RegularAngle regular_interior_angle(std::size_t n) {
+SMOOTHFEM_INLINE RegularAngle regular_interior_angle(std::size_t n) {
   if (n == 4) return {1.0, 0.0};
   if (n == 3) return {0.5 * std::numbers::sqrt3, 0.5};
   const double angle = std::numbers::pi * (static_cast<double>(n) - 2.0) / static_cast<double>(n);
   return {std::sin(angle), std::cos(angle)};
 }
 
-inline double cross(const Point<2>& a, const Point<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Mean ratio 2 det(S) / |S|^2 of one corner, S = D W^-1, written out: D has the columns `next` and
 /// `previous` (edges from the corner to its neighbours), W the same of the regular polygon. In
-/// [-1, 1]; positive exactly where det(D) is. Not defined for two edges of length zero.
-inline double corner_mean_ratio(const Point<2>& next, const Point<2>& previous,
-                                const RegularAngle& regular) {
+/// [-1, 1]; positive exactly where det(D) is. Not a number for two edges of length zero.
+template <class Real>
+SMOOTHFEM_INLINE Real corner_mean_ratio(Vector2<Real> next, Vector2<Real> previous,
+                                        RegularAngle regular) {
   return 2.0 * regular.sine * cross(next, previous) /
-         (next.squaredNorm() + previous.squaredNorm() -
-          2.0 * regular.cosine * next.dot(previous));
+         (squared_length(next) + squared_length(previous) -
+          2.0 * regular.cosine * dot(next, previous));
 }
 
-/// Mean ratio quality number of a planar polygon with counterclockwise corners (thesis, Section 3.1;
-/// for five and more corners the mean over the corner triangles against those of the regular n-gon,
-/// as in Vartziotis and Wipper, The GETMe Mesh Smoothing Framework, 2018).
-/// In (0, 1], 1 exactly for regular polygons, invariant under similarity. Returns 0 for an invalid
-/// cell: one where a corner has det(D) <= 0 (or is not a number).
-inline double mean_ratio(std::span<const Point<2>> corners) {
+/// Mean ratio quality number of a planar polygon with counterclockwise corners (thesis,
+/// Section 3.1; for five and more corners the mean over the corner triangles against those of the
+/// regular n-gon, as in Vartziotis and Wipper, The GETMe Mesh Smoothing Framework, 2018). In (0,
+/// 1], 1 exactly for regular polygons, invariant under similarity. 0 for an invalid cell: one where
+/// a corner has det(D) <= 0 (or is not a number). Cells with three or more corners.
+template <class Real, std::size_t extent>
+SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector2<Real>, extent> corners) {
   const std::size_t n = corners.size();
   const RegularAngle regular = regular_interior_angle(n);
   if (n == 3) {  // the three corners have the same mean ratio
-    const Point<2> next = corners[1] - corners[0], previous = corners[2] - corners[0];
-    return cross(next, previous) > 0.0 ? corner_mean_ratio(next, previous, regular) : 0.0;
+    const auto next = corners[1] - corners[0], previous = corners[2] - corners[0];
+    return cross(next, previous) > 0.0 ? corner_mean_ratio(next, previous, regular) : Real{};
   }
-  double sum = 0.0;
+  Real sum{}, all_positive = Real{} + 1.0;
   for (std::size_t k = 0; k < n; ++k) {
-    const Point<2> next = corners[(k + 1) % n] - corners[k];
-    const Point<2> previous = corners[(k + n - 1) % n] - corners[k];
-    if (!(cross(next, previous) > 0.0)) return 0.0;
+    const auto next = corners[k + 1 == n ? 0 : k + 1] - corners[k];
+    const auto previous = corners[k == 0 ? n - 1 : k - 1] - corners[k];
+    all_positive = cross(next, previous) > 0.0 ? all_positive : Real{};
     sum += corner_mean_ratio(next, previous, regular);
   }
-  return sum / static_cast<double>(n);
+  return all_positive > 0.0 ? sum / static_cast<double>(n) : Real{};
 }
 
 /// The same for a cell of a mesh.

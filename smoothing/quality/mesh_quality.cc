@@ -4,14 +4,29 @@
 #include <limits>
 #include <sstream>
 
+#include "smoothing/mesh/cell_blocks.h"
 #include "smoothing/quality/mean_ratio.h"
 
 namespace smoothfem {
 
 std::vector<double> cell_mean_ratios(const PlanarMesh& mesh) {
-  std::vector<double> quality(mesh.n_cells());
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c) quality[c] = cell_mean_ratio(mesh, c);
+  std::vector<double> quality;
+  compute_cell_mean_ratios(mesh, quality);
   return quality;
+}
+
+SMOOTHFEM_VECTOR_CLONES
+void compute_cell_mean_ratios(const PlanarMesh& mesh, std::vector<double>& cell_quality) {
+  cell_quality.resize(mesh.n_cells());
+  for_each_block(
+      mesh.topology(), mesh.coordinates(),
+      [&]<std::size_t n>(CellIndex c, const std::array<Vector2<Lanes>, n>& corners)
+          SMOOTHFEM_INLINE_LAMBDA {
+            const Lanes q = mean_ratio(std::span(corners));
+            for (std::size_t l = 0; l < n_lanes; ++l) cell_quality[c + l] = q[l];
+          },
+      [&](CellIndex c, auto corners)
+          SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = mean_ratio(corners); });
 }
 
 MeshQuality mesh_quality(const Topology& topology, std::span<const double> cell_quality) {
@@ -50,7 +65,7 @@ double signed_area(const PlanarMesh& mesh, CellIndex cell) {
   const auto& x = mesh.coordinates();
   double twice = 0.0;
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k)
-    twice += cross(x[nodes[k]] - x[nodes[0]], x[nodes[k + 1]] - x[nodes[0]]);
+    twice += cross(vector_of(x[nodes[k]] - x[nodes[0]]), vector_of(x[nodes[k + 1]] - x[nodes[0]]));
   return 0.5 * twice;
 }
 
@@ -89,7 +104,8 @@ void require_valid(const PlanarMesh& mesh, const std::string& path,
     const CellIndex c = invalid[i];
     const auto& corner = mesh.coordinates()[mesh.topology().cell_nodes(c)[0]];
     message << (i > 0 ? ", " : "") << "cell " << c << " at (" << corner.x() << ", " << corner.y()
-            << ')' << (signed_area(mesh, c) < 0.0 ? " is clockwise" : " is not convex or degenerate");
+            << ')'
+            << (signed_area(mesh, c) < 0.0 ? " is clockwise" : " is not convex or degenerate");
   }
   if (invalid.size() > n_named) message << ", ...";
   message << "; " << advice(n_clockwise, mesh.n_cells());

@@ -12,25 +12,29 @@ namespace smoothfem {
 
 /// Quality numbers of a whole mesh (thesis, Section 4.1), from the quality of its cells.
 struct MeshQuality {
-  double q_min = 0.0;       ///< lowest quality of all cells
-  double q_star_min = 0.0;  ///< lowest quality of the cells with at least one free node
-  double q_mean = 0.0;      ///< arithmetic mean over all cells
+  double q_min = 0.0;         ///< lowest quality of all cells
+  double q_star_min = 0.0;    ///< lowest quality of the cells with at least one free node
+  double q_mean = 0.0;        ///< arithmetic mean over all cells
   std::size_t n_invalid = 0;  ///< cells with quality <= 0
 };
 
 /// Mean ratio of every cell, in the order of the cells; 0 for invalid ones.
 std::vector<double> cell_mean_ratios(const PlanarMesh& mesh);
+/// The same into a vector of n_cells numbers.
+void compute_cell_mean_ratios(const PlanarMesh& mesh, std::vector<double>& cell_quality);
 
-/// cell_quality: one number a cell of the topology. Where no cell has a free node, q_star_min = q_min.
+/// cell_quality: one number a cell of the topology. Where no cell has a free node, q_star_min =
+/// q_min.
 MeshQuality mesh_quality(const Topology& topology, std::span<const double> cell_quality);
 MeshQuality mesh_quality(const PlanarMesh& mesh);
 
 /// Number of cells in each of the n_bins equal parts of [0, 1]; quality 1 counts in the last.
-std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality, std::size_t n_bins);
+std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
+                                           std::size_t n_bins);
 
-/// Throws InputError if the mesh has invalid cells; the sentence counts them and names the first ones
-/// with their place, and says when cells are clockwise. cell_lines, if not empty: the line of each
-/// cell in the file at `path`.
+/// Throws InputError if the mesh has invalid cells; the sentence counts them and names the first
+/// ones with their place, and says when cells are clockwise. cell_lines, if not empty: the line of
+/// each cell in the file at `path`.
 void require_valid(const PlanarMesh& mesh, const std::string& path = {},
                    std::span<const std::size_t> cell_lines = {});
 

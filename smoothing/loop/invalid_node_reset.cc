@@ -1,0 +1,57 @@
+#include "smoothing/loop/invalid_node_reset.h"
+
+#include <algorithm>
+
+#include "smoothing/quality/mean_ratio.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// Moves back the nodes of the invalid cells that are not back yet.
+std::vector<NodeIndex> put_back(PlanarMesh& mesh, const std::vector<Point<2>>& previous,
+                                const std::vector<CellIndex>& invalid) {
+  std::vector<NodeIndex> moved;
+  for (const CellIndex c : invalid)
+    for (const NodeIndex i : mesh.topology().cell_nodes(c))
+      if (mesh.coordinates()[i] != previous[i]) {
+        mesh.coordinates()[i] = previous[i];
+        moved.push_back(i);
+      }
+  return moved;
+}
+
+std::vector<CellIndex> cells_of(const Topology& topology, const std::vector<NodeIndex>& nodes) {
+  std::vector<CellIndex> cells;
+  for (const NodeIndex i : nodes) {
+    const auto attached = topology.node_cells(i);
+    cells.insert(cells.end(), attached.begin(), attached.end());
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+}  // namespace
+
+std::size_t reset_nodes_of_invalid_cells(PlanarMesh& mesh, const std::vector<Point<2>>& previous,
+                                         std::vector<double>& cell_quality) {
+  std::vector<CellIndex> invalid;
+  for (CellIndex c = 0; c < cell_quality.size(); ++c)
+    if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
+
+  std::size_t n_reset = 0;
+  while (!invalid.empty()) {
+    const auto moved = put_back(mesh, previous, invalid);
+    if (moved.empty()) break;  // the cells were invalid before
+    n_reset += moved.size();
+    invalid.clear();
+    for (const CellIndex c : cells_of(mesh.topology(), moved)) {
+      cell_quality[c] = cell_mean_ratio(mesh, c);
+      if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
+    }
+  }
+  return n_reset;
+}
+
+}  // namespace smoothfem

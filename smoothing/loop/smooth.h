@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/smoother.h"
+#include "smoothing/quality/mesh_quality.h"
+
+namespace smoothfem {
+
+/// One iteration as an observer sees it.
+struct IterationRecord {
+  std::size_t record = 0;        ///< 0 for the initial mesh, then one more for each call
+  std::string stage;             ///< smoother that ran; "initial" for record 0
+  std::size_t iteration = 0;     ///< within the stage, in the method's own count
+  double smoothing_seconds = 0;  ///< since the start, without the observers' time
+  MeshQuality quality;
+  std::size_t n_reset = 0;
+};
+
+/// Gets every iteration's numbers and mesh, the initial one included. Its time does not count as
+/// smoothing time. An exception it throws ends the run.
+using Observer = std::function<void(const IterationRecord&, const PlanarMesh&)>;
+
+struct StageResult {
+  std::string name;
+  std::size_t iterations = 0;  ///< in the method's own count
+};
+
+struct SmoothingResult {
+  std::vector<StageResult> stages;
+  double smoothing_seconds = 0.0;
+  MeshQuality quality;  ///< of the resulting mesh
+
+  /// As in the thesis' tables: "40/2800", one number a stage.
+  std::string iterations_text() const;
+};
+
+/// Smooths a mesh in place by the stages of a method, one after the other, each from the result of
+/// the one before. Owns what methods share: putting back the nodes of invalid cells, the best mesh,
+/// stopping, timing (thesis, Chapter 4). Deterministic.
+/// Throws InputError if the method needs a valid mesh and `mesh` is not.
+SmoothingResult smooth(PlanarMesh& mesh, Method& method, const Observer& observer = {});
+
+}  // namespace smoothfem

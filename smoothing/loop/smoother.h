@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "smoothing/loop/parameter.h"
+#include "smoothing/mesh/mesh.h"
+
+namespace smoothfem {
+
+/// What a smoother sees and changes.
+template <int dim, int spacedim = dim>
+struct SmoothingState {
+  Mesh<dim, spacedim> mesh;
+  /// Quality of each cell of `mesh` at the beginning of a step. Up to date for every smoother but
+  /// those with QualityUse::none, which must not look at it.
+  std::vector<double> cell_quality;
+};
+
+/// Who evaluates the quality of the cells, and so whether its cost is part of the method's time.
+enum class QualityUse {
+  none,  ///< the method knows no mean ratio, and nobody puts invalid cells back
+  loop,  ///< after each step the loop puts nodes of invalid cells back and evaluates the quality
+  smoother,  ///< the step keeps all cells valid and leaves cell_quality up to date
+};
+
+/// The mesh a method ends with.
+enum class ResultMesh { last, best_q_mean, best_q_star_min };
+
+/// When to stop.
+enum class StoppingCriterion {
+  q_mean_gain,       ///< q_mean rose by no more than `tolerance` in an iteration
+  max_displacement,  ///< no node moved `tolerance` times the initial mean edge length
+  q_star_min_stall,  ///< `patience` iterations in a row without a new highest q*_min
+  converged,         ///< the step says so
+};
+
+struct SmoothingRule {
+  QualityUse quality_use;
+  bool needs_valid_mesh = true;
+  ResultMesh result;
+  StoppingCriterion criterion;
+  double tolerance = 0.0;
+  int patience = 0;
+  int max_iterations = 10000;  ///< against methods that would never stop
+};
+
+/// What one step tells the loop.
+struct StepReport {
+  std::size_t n_counted = 1;      ///< iterations in the method's own count (100 for a cycle of 100)
+  double max_displacement = 0.0;  ///< longest movement of a node; needed by that criterion only
+  bool converged = false;
+  std::size_t n_reset = 0;  ///< nodes (or elements) put back because a cell became invalid
+};
+
+/// One way to move the free nodes of a mesh. A new method is one file that derives from this class
+/// and registers itself (catalogue.h); the loop (smooth.h) does everything that methods share.
+template <int dim, int spacedim = dim>
+class Smoother {
+ public:
+  virtual ~Smoother() = default;
+
+  /// Name of the stage in results, and the prefix of its parameters in methods of several stages.
+  virtual std::string_view name() const = 0;
+  virtual Parameters parameters() = 0;
+  virtual SmoothingRule rule() const = 0;
+
+  /// Called once before the first step; what depends on the topology alone belongs here.
+  virtual void initialize(const SmoothingState<dim, spacedim>& /*state*/) {}
+
+  /// Moves free nodes of state.mesh: one iteration. Must not move fixed nodes.
+  virtual StepReport step(SmoothingState<dim, spacedim>& state) = 0;
+};
+
+}  // namespace smoothfem

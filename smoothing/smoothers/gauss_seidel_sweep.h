@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "smoothing/loop/smoother.h"
+
+namespace smoothfem {
+
+/// One sweep over the free nodes in node order, each moved at once by movement(node), so that later
+/// nodes see the new places of earlier ones. Reports the longest movement.
+template <class Movement>
+StepReport gauss_seidel_sweep(PlanarMesh& mesh, const Movement& movement) {
+  double longest = 0.0;
+  for (const NodeIndex i : mesh.topology().free_nodes()) {
+    const Point<2> move = movement(i);
+    mesh.coordinates()[i] += move;
+    longest = std::max(longest, move.squaredNorm());
+  }
+  return {.max_displacement = std::sqrt(longest)};
+}
+
+/// The stopping parameters of the Laplacian methods without quality control (thesis, 1.3.2): they
+/// end when no node moves farther than a share of the mean edge length of the initial mesh.
+struct DisplacementStopping {
+  double tolerance = 0.01;  ///< the thesis' 1 %
+  int max_iterations = 10000;
+
+  Parameters parameters() {
+    return {{"tolerance",
+             "stop when the longest node movement falls below this share of the initial mean edge "
+             "length (Section 1.3.2)",
+             &tolerance, 0.0, 1e3},
+            {"max_iterations", "stop after this many iterations at the latest", &max_iterations,
+             1.0, 1e9}};
+  }
+  SmoothingRule rule() const {
+    return {.quality_use = QualityUse::none,
+            .needs_valid_mesh = false,
+            .result = ResultMesh::last,
+            .criterion = StoppingCriterion::max_displacement,
+            .tolerance = tolerance,
+            .max_iterations = max_iterations};
+  }
+};
+
+}  // namespace smoothfem
