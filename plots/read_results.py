@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads a results folder: CSV rows, provenance and the names of the meshes (columns: results/README.md)."""
+
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+# What tables and figures cannot do without; any other column may be absent and then counts as empty.
+REQUIRED_COLUMNS = {
+    "iterations.csv": ("mesh", "method", "iteration", "smoothing_seconds", "q_min", "q_mean",
+                       "n_invalid", "degree", "e_max", "e_mean"),
+    "summary.csv": ("mesh", "method", "iterations", "smoothing_seconds", "q_min", "q_mean",
+                    "degree", "condition_number", "cg_iterations", "cg_seconds",
+                    "e_max", "e_mean", "e_l2", "e_h1"),
+    "thresholds.csv": ("mesh", "degree", "error", "threshold", "reference_method",
+                       "reference_seconds", "method", "method_seconds", "speedup"),
+}
+
+INITIAL = "initial"
+
+
+class ResultsError(Exception):
+    """A file of the results folder is missing, truncated or malformed; the message is one sentence."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows of a CSV file, column by column, as the strings that stand in the file."""
+
+    path: Path
+    columns: dict  # name -> numpy array of str, all of the same length
+
+    def __len__(self):
+        return len(next(iter(self.columns.values()), ()))
+
+    def text(self, name):
+        """The strings of a column, shape (rows,); empty strings if the file has no such column."""
+        return self.columns.get(name, np.full(len(self), "", dtype=object))
+
+    def number(self, name):
+        """The numbers of a column, shape (rows,); NaN where the field is empty."""
+        try:
+            return np.array([float(field) if field else np.nan for field in self.text(name)])
+        except ValueError as error:
+            raise ResultsError(f"{self.path}: column `{name}` holds something that is "
+                               f"not a number ({error}).") from None
+
+    def select(self, **wanted):
+        """The rows whose columns equal the given strings, in the order of the file."""
+        mask = np.ones(len(self), dtype=bool)
+        for name, value in wanted.items():
+            mask &= self.text(name) == value
+        return Rows(self.path, {name: column[mask] for name, column in self.columns.items()})
+
+    def records(self):
+        """The rows as a list of dictionaries from column name to string."""
+        return [dict(zip(self.columns, fields)) for fields in zip(*self.columns.values())]
+
+
+@dataclass(frozen=True)
+class Results:
+    """One results folder. Titles map names to what a reader sees; orders are those of the study."""
+
+    folder: Path
+    study: str
+    study_title: str
+    meshes: tuple
+    methods: tuple  # without the initial mesh
+    degrees: tuple  # as strings, as in the file
+    titles: dict
+    summary: Rows
+    iterations: Rows
+    thresholds: Rows
+    provenance: dict
+
+    def title(self, name):
+        """The title of a mesh or method; its name where the provenance gives none."""
+        return self.titles.get(name, name)
+
+    def mesh_file(self, mesh, method):
+        """Path of the mesh that the method ended with (it need not exist)."""
+        return self.folder / "meshes" / f"{mesh}_{method}.vtu"
+
+    def is_published(self, mesh):
+        """Whether the provenance calls the mesh one of the published ones."""
+        return any(entry.get("name") == mesh and entry.get("published") is True
+                   for entry in entries(self.provenance, "meshes"))
+
+
+def read_rows(path, required=()):
+    """Reads a CSV file with a header line; throws ResultsError if it is missing, truncated or lacks a
+    required column."""
+    path = Path(path)
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            lines = list(csv.reader(stream))
+    except FileNotFoundError:
+        raise ResultsError(f"{path}: the file is missing; has the study been run?") from None
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ResultsError(f"{path}: the file cannot be read ({error}).") from None
+    if not lines:
+        raise ResultsError(f"{path}: the file is empty.")
+    header, body = lines[0], lines[1:]
+    for name in required:
+        if name not in header:
+            raise ResultsError(f"{path}: column `{name}` is missing.")
+    for number, line in enumerate(body, start=2):
+        if len(line) != len(header):
+            raise ResultsError(f"{path}, row {number}: {len(line)} fields instead of {len(header)}; "
+                               "the file looks truncated.")
+    # Strings of any length: object arrays, so that comparing and selecting need no common width.
+    table = np.array(body, dtype=object).reshape(len(body), len(header))
+    return Rows(path, {name: table[:, i] for i, name in enumerate(header)})
+
+
+def read_provenance(path):
+    """Reads provenance.json; an empty dictionary if there is none."""
+    try:
+        provenance = json.loads(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError) as error:
+        raise ResultsError(f"{path}: not a complete JSON file ({error}).") from None
+    if not isinstance(provenance, dict):
+        raise ResultsError(f"{path}: a JSON object is expected.")
+    return provenance
+
+
+def entries(provenance, key):
+    """The list of named objects under a key of the provenance; bare names count as objects too."""
+    found = provenance.get(key)
+    if not isinstance(found, list):
+        return []
+    found = [{"name": entry} if isinstance(entry, str) else entry for entry in found]
+    return [entry for entry in found if isinstance(entry, dict) and "name" in entry]
+
+
+def order_of(names, provenance, key):
+    """The names that occur in the rows: first in the order of the provenance, then as they appear."""
+    occurring = list(dict.fromkeys(names))
+    declared = [entry["name"] for entry in entries(provenance, key) if entry["name"] in occurring]
+    return tuple(dict.fromkeys(declared + occurring))
+
+
+def read_results(folder):
+    """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv and
+    provenance.json may be absent. Throws ResultsError with one sentence on what is wrong."""
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise ResultsError(f"{folder}: there is no such folder.")
+    summary = read_rows(folder / "summary.csv", REQUIRED_COLUMNS["summary.csv"])
+    iterations = read_rows(folder / "iterations.csv", REQUIRED_COLUMNS["iterations.csv"])
+    if not len(summary) or not len(iterations):
+        empty = summary if not len(summary) else iterations
+        raise ResultsError(f"{empty.path}: the file has no rows.")
+    required = REQUIRED_COLUMNS["thresholds.csv"]
+    path = folder / "thresholds.csv"
+    if path.exists():
+        thresholds = read_rows(path, required)
+    else:
+        thresholds = Rows(path, {name: np.array([], dtype=object) for name in required})
+    provenance = read_provenance(folder / "provenance.json")
+    study = str(provenance.get("study") or summary.text("study")[0] or folder.resolve().name)
+    titles = {INITIAL: "Initial"}
+    for key in ("meshes", "methods"):
+        titles.update({e["name"]: str(e["title"]) for e in entries(provenance, key) if e.get("title")})
+    methods = order_of(summary.text("method"), provenance, "methods")
+    return Results(
+        folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
+        meshes=order_of(summary.text("mesh"), provenance, "meshes"),
+        methods=tuple(method for method in methods if method != INITIAL),
+        degrees=tuple(sorted({degree for degree in summary.text("degree") if degree}, key=float)),
+        titles=titles, summary=summary, iterations=iterations, thresholds=thresholds,
+        provenance=provenance)

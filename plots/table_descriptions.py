@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stands in each table, as data. A new table is a new entry of TABLES; no code belongs to it."""
+
+from dataclasses import dataclass
+from typing import Callable, Optional
+
+from . import number_format as form
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A column's heading for plain text and for LaTeX."""
+
+    text: str
+    tex: str
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A column of the CSV files and how it is shown."""
+
+    column: str
+    heading: Heading
+    format: Optional[Callable]  # None: the field as it stands in the file
+    difference: bool = True  # whether a relative difference from the print makes sense
+
+
+@dataclass(frozen=True)
+class TableDescription:
+    """A table: which file, which content of the printed values, which keys and measures."""
+
+    content: str  # also the file name where no printed table gives the number
+    source: str  # summary or thresholds
+    caption: str
+    keys: tuple
+    measures: tuple
+    degree_independent: bool = False  # the same numbers stand in the rows of every degree
+    pivot: bool = False  # rows of different methods become columns
+
+
+KEY_HEADINGS = {"mesh": Heading("Mesh", "Mesh"), "method": Heading("Method", "Method"),
+                "degree": Heading("d", "$d$"), "error": Heading("Error", "Error")}
+
+SYMBOLS = {
+    "q_min": Heading("q_min", r"$q_{\min}$"), "q_mean": Heading("q_mean", r"$q_{\mathrm{mean}}$"),
+    "q_star_min": Heading("q*_min", r"$q^{*}_{\min}$"),
+    "e_max": Heading("e_max", r"$e_{\max}$"), "e_mean": Heading("e_mean", r"$e_{\mathrm{mean}}$"),
+    "e_l2": Heading("e_L2", r"$e_{L^2}$"), "e_h1": Heading("e_H1", r"$e_{H^1}$"),
+    "l2_error": Heading("|u-u_h|_L2", r"$\|u-u_h\|_{L^2}$"),
+    "h1_error": Heading("|u-u_h|_H1", r"$\|u-u_h\|_{H^1}$"),
+    "lambda_min": Heading("lambda_min", r"$\lambda_{\min}$"),
+    "lambda_max": Heading("lambda_max", r"$\lambda_{\max}$"),
+}
+
+TIME = Heading("Time (s)", "Time (s)")
+
+SMOOTHING = TableDescription(
+    content="smoothing", source="summary", keys=("mesh", "method"), degree_independent=True,
+    caption="Performance of the smoothing methods",
+    measures=(
+        Measure("iterations", Heading("Iterations", "Iterations"), None, difference=False),
+        Measure("smoothing_seconds", TIME, form.format_seconds, difference=False),
+        Measure("q_min", SYMBOLS["q_min"], form.format_quality),
+        Measure("q_mean", SYMBOLS["q_mean"], form.format_quality)))
+
+SOLVER = TableDescription(
+    content="solver", source="summary", keys=("mesh", "degree", "method"),
+    caption="Performance of the CG solver",
+    measures=(
+        Measure("condition_number", Heading("cond(A)", r"$\mathrm{cond}(A)$"),
+                form.format_scientific),
+        Measure("cg_iterations", Heading("CG iterations", "CG iterations"), form.format_integer),
+        Measure("jacobi_cg_iterations", Heading("with Jacobi", "with Jacobi"), form.format_integer),
+        Measure("cg_seconds", TIME, form.format_seconds, difference=False)))
+
+ERRORS = TableDescription(
+    content="errors", source="summary", keys=("mesh", "degree", "method"),
+    caption="Finite element solution errors",
+    measures=tuple(Measure(name, SYMBOLS[name], form.format_error)
+                   for name in ("e_max", "e_mean", "e_l2", "e_h1")))
+
+THRESHOLDS = TableDescription(
+    content="thresholds", source="thresholds", keys=("mesh", "degree", "error"), pivot=True,
+    caption="Smoothing time needed to reach an error threshold",
+    measures=(
+        Measure("threshold", Heading("Threshold", "Threshold"), form.format_error),
+        Measure("reference_seconds", TIME, form.format_seconds, difference=False),
+        Measure("method_seconds", TIME, form.format_seconds, difference=False),
+        Measure("speedup", Heading("Speedup", "Speedup"), form.format_factor, difference=False)))
+
+DETAILS = TableDescription(
+    content="details", source="summary", keys=("mesh", "degree", "method"),
+    caption="Further quality numbers, extreme eigenvalues and true errors (by quadrature)",
+    measures=(
+        Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality),
+        Measure("n_invalid", Heading("Invalid", "Invalid"), form.format_integer),
+        Measure("n_dofs", Heading("Dofs", "Dofs"), form.format_integer),
+        Measure("lambda_min", SYMBOLS["lambda_min"], form.format_scientific),
+        Measure("lambda_max", SYMBOLS["lambda_max"], form.format_scientific),
+        Measure("l2_error", SYMBOLS["l2_error"], form.format_error),
+        Measure("h1_error", SYMBOLS["h1_error"], form.format_error),
+        Measure("status", Heading("Status", "Status"), None, difference=False)))
+
+TABLES = (SMOOTHING, SOLVER, ERRORS, THRESHOLDS, DETAILS)
