@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""python3 -m plots <results folder>: makes the tables and figures of a study."""
+
+import argparse
+import sys
+
+from .printed_values import read_printed_tables
+from .read_results import ResultsError, read_results
+from .table_formats import as_latex, as_markdown, as_text
+from .tables import make_tables
+from .write_files import write_atomically
+
+
+def parse_arguments(arguments):
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="python3 -m plots", description="Makes tables and figures from a results folder.")
+    parser.add_argument("folder", help="results folder of a study, e.g. results/gear")
+    parser.add_argument("--quiet", action="store_true", help="print neither tables nor paths")
+    parser.add_argument("--no-figures", action="store_true", help="make the tables only")
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    """Runs the command line; returns the exit code: 0, or 2 if the results cannot be used."""
+    options = parse_arguments(arguments)
+    # A terminal without UTF-8 gets replacement characters instead of an exception.
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="replace")
+
+    def tell(text):
+        if not options.quiet:
+            print(text)
+
+    try:
+        results = read_results(options.folder)
+        tables = make_tables(results, read_printed_tables(results.study, results.provenance))
+        paths = []
+        for table in tables:
+            tell(as_text(table))
+            for suffix, write in ((".md", as_markdown), (".tex", as_latex)):
+                path = results.folder / "tables" / (table.name + suffix)
+                paths.append(write_atomically(path, write(table)))
+        if not options.no_figures:
+            from .figures import draw_figures  # matplotlib takes a second to load
+            paths += draw_figures(results, lambda sentence: print(sentence, file=sys.stderr))
+    except ResultsError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"The files cannot be written: {error}.", file=sys.stderr)
+        return 2
+    for path in paths:
+        tell(f"wrote {path}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

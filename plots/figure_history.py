@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figure 6.4 of the thesis: mesh quality and solution errors against smoothing time."""
+
+import matplotlib.pyplot as pyplot
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogFormatterSciNotation
+
+from . import style
+from .read_results import INITIAL
+from .table_descriptions import SYMBOLS
+
+QUALITY = ("q_min", "q_star_min", "q_mean")
+
+# An axis is logarithmic from this ratio of largest to smallest error on.
+LOGARITHMIC_FROM = 30.0
+
+MARKER_SIZE = 2.8
+MARKER_DISTANCE = 3.5  # points between the markers of one line that are drawn
+
+
+def draw_history(results, columns, degree, log_time=False):
+    """A figure with a row for each measure and a column for each mesh; None if there is no number.
+
+    `columns` are columns of iterations.csv, `degree` a string as in the file.
+    """
+    lines = {(name, mesh): panel_lines(results, name, mesh, degree)
+             for name in columns for mesh in results.meshes}
+    columns = [name for name in columns
+               if any(np.isfinite(v).any() for mesh in results.meshes
+                      for _, v in lines[name, mesh].values())]
+    if not columns:
+        return None
+    n_rows, n_columns = len(columns), len(results.meshes)
+    width = style.FULL_WIDTH if n_columns > 1 else 1.3 * style.SINGLE_WIDTH
+    width = max(width, 2.3 * n_columns)
+    styles = method_order(results)
+    legend_rows = -(-len(styles) // max(1, int(width / 1.6)))
+    head, foot = 0.22 * legend_rows + 0.3, 0.42
+    height = head + foot + 1.72 * n_rows
+    figure, axes = pyplot.subplots(n_rows, n_columns, squeeze=False, sharex="col",
+                                   figsize=(width, height))
+    figure.subplots_adjust(left=0.6 / width, right=1 - 0.08 / width, bottom=foot / height,
+                           top=1 - head / height, hspace=0.1, wspace=0.52 / (width / n_columns))
+    for row, name in zip(axes, columns):
+        for ax, mesh in zip(row, results.meshes):
+            draw_panel(ax, lines[name, mesh], name, styles, log_time)
+        row[0].set_ylabel(f"${SYMBOLS[name].tex.strip('$')}$"
+                          + (f" ($d={degree}$)" if name not in QUALITY else ""))
+    for ax, mesh in zip(axes[0], results.meshes):
+        ax.set_title(results.title(mesh))
+    for ax in axes[-1]:
+        ax.set_xlabel("Smoothing time (s)")
+    figure.align_ylabels(axes[:, 0])
+    draw_legend(figure, results, styles, height)
+    thin_markers(figure)
+    return figure
+
+
+def method_order(results):
+    """Styles of the methods in the order of the study; the initial mesh has a line of its own."""
+    styles = style.method_styles(results.methods)
+    return {method: styles[method] for method in (*results.methods, INITIAL)}
+
+
+def panel_lines(results, name, mesh, degree):
+    """What one panel shows: method -> (seconds, values), in the order of the iterations.
+
+    Values are NaN, and the line has a gap, where the mesh is invalid or the file has no number.
+    """
+    rows = results.iterations.select(mesh=mesh)
+    if name in QUALITY:  # the same for every degree
+        degree = next((d for d in rows.text("degree")), degree)
+    rows = rows.select(degree=degree)
+    lines = {}
+    for method in (*results.methods, INITIAL):
+        chosen = rows.select(method=method)
+        values = chosen.number(name)
+        invalid = chosen.number("n_invalid") > 0
+        if len(chosen):
+            lines[method] = (chosen.number("smoothing_seconds"), np.where(invalid, np.nan, values))
+    return lines
+
+
+def draw_panel(ax, lines, name, styles, log_time):
+    """The lines of all methods and a level line for the initial mesh."""
+    for method, (seconds, values) in lines.items():
+        look = styles[method]
+        if method == INITIAL:
+            continue
+        shown = seconds > 0 if log_time else np.ones(len(seconds), dtype=bool)
+        line, = ax.plot(seconds[shown], values[shown], color=look.colour, marker=look.marker,
+                        markersize=MARKER_SIZE, markeredgewidth=0.4, clip_on=True, label=method)
+        if look.dashes:
+            line.set_dashes(look.dashes)
+    level = initial_level(lines)
+    if np.isfinite(level):
+        ax.axhline(level, color=styles[INITIAL].colour, linewidth=0.8, dashes=(1, 2), zorder=1)
+    if log_time:
+        ax.set_xscale("log")
+    everything = np.concatenate([v for _, v in lines.values()] or [np.array([np.nan])])
+    scale_values(ax, name, everything[np.isfinite(everything)])
+    ax.margins(x=0.02)
+
+
+def initial_level(lines):
+    """The value on the initial mesh: its own row, or iteration 0 of any method."""
+    firsts = [lines[INITIAL][1]] if INITIAL in lines else [v for _, v in lines.values()]
+    return next((v[0] for v in firsts if len(v)), np.nan)
+
+
+def scale_values(ax, name, values):
+    """Quality from 0 on; errors from 0 on or logarithmic, as their range asks for."""
+    if not len(values):
+        return
+    low, high = values.min(), values.max()
+    if name in QUALITY:
+        ax.set_ylim(min(0.0, low) - 0.03 * high, 1.06 * high if high > 0 else 1.0)
+    elif low > 0 and high / low > LOGARITHMIC_FROM:
+        ax.set_yscale("log")
+        # Labels between the powers of ten only where there are hardly any powers.
+        ax.yaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.5)))
+    else:
+        ax.set_ylim(0.0, 1.06 * high if high > 0 else 1.0)
+
+
+def draw_legend(figure, results, styles, height):
+    """The legend of all panels, above them."""
+    handles = []
+    for method, look in styles.items():
+        handle = Line2D([], [], color=look.colour, marker=look.marker or None,
+                        markersize=MARKER_SIZE + 0.8)
+        if method == INITIAL:
+            handle.set(linewidth=0.8, label="Initial mesh")
+            handle.set_dashes((1, 2))
+        else:
+            handle.set_label(results.title(method))
+            if look.dashes:
+                handle.set_dashes(look.dashes)
+        handles.append(handle)
+    per_row = max(1, int(figure.get_figwidth() / 1.6))
+    if len(handles) == per_row + 1:
+        per_row += 1
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1 - 0.02 / height),
+                  ncol=per_row, columnspacing=1.5, handlelength=3.2, handletextpad=0.5)
+
+
+def thin_markers(figure):
+    """Leaves out markers that would touch the last one drawn; the lines keep all their points."""
+    figure.draw_without_rendering()  # the final scales are known only now
+    distance = MARKER_DISTANCE * figure.dpi / 72
+    for ax in figure.axes:
+        for line in ax.get_lines():
+            if line.get_marker() in ("", "None", None):
+                continue
+            points = ax.transData.transform(line.get_xydata())
+            kept, last = [], None
+            for i, point in enumerate(points):
+                if np.isfinite(point).all() and (last is None or np.hypot(*(point - last)) >= distance):
+                    kept.append(i)
+                    last = point
+            line.set_markevery(kept)

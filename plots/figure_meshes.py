@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figure 6.3 of the thesis: initial and smoothed meshes, elements coloured by their mean ratio."""
+
+import math
+
+import matplotlib.pyplot as pyplot
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
+from matplotlib.patches import PathPatch, Rectangle
+
+from . import style
+from .mesh_geometry import bounding_box, cells_in, outline_path, polygons_of, window_of
+
+COLUMNS = 3
+DETAIL_ASPECT = 1.3
+# Centre and width of the detail, relative to the bounding box: a tooth and part of a hole of the gear.
+DETAIL_CENTRE, DETAIL_WIDTH = (0.80, 0.60), 0.27
+QUALITY_RANGE = Normalize(0.0, 1.0)
+
+# Heights in inches of what is not a panel.
+CAPTION, BLOCK_TITLE, FOOT = 0.21, 0.26, 0.62
+
+
+def draw_meshes(blocks, detail=None):
+    """A figure with a block of panels for each mesh.
+
+    `blocks` is a list of (title, [(panel title, grid), ...]); `detail` is (centre, width), see
+    window_of, or None for full views. A free panel in a block of details shows where they lie.
+    """
+    grids = [grid for _, panels in blocks for _, grid in panels]
+    aspect = DETAIL_ASPECT if detail else min(max(box_aspect(grids[0]), 0.5), 3.0)
+    gap = 0.08
+    width = (style.FULL_WIDTH - (COLUMNS + 1) * gap) / COLUMNS
+    height = width / aspect
+    rows = [math.ceil(len(panels) / COLUMNS) for _, panels in blocks]
+    total = sum(rows) * (height + CAPTION) + len(blocks) * BLOCK_TITLE + FOOT
+    figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
+
+    def place(column, top):
+        return figure.add_axes([(gap + column * (width + gap)) / style.FULL_WIDTH,
+                                (top - height) / total, width / style.FULL_WIDTH, height / total])
+    top = total
+    for (title, panels), n_rows in zip(blocks, rows):
+        figure.text(0.5, (top - 0.7 * BLOCK_TITLE) / total, title, ha="center", fontsize=10)
+        top -= BLOCK_TITLE
+        window = window_of(panels[0][1], *detail, aspect) if detail else None
+        for i in range(n_rows * COLUMNS):
+            axes = place(i % COLUMNS, top - i // COLUMNS * (height + CAPTION))
+            if i < len(panels):
+                draw_mesh(axes, panels[i][1], window)
+                caption(axes, panels[i][0])
+            elif detail and i == len(panels):
+                draw_overview(axes, panels[0][1], window)
+                caption(axes, "Position of the detail")
+            else:
+                axes.axis("off")
+        top -= n_rows * (height + CAPTION)
+    colour_bar(figure, total)
+    return figure
+
+
+def box_aspect(grid):
+    """Width over height of a grid's bounding box."""
+    x_min, y_min, x_max, y_max = bounding_box(grid)
+    return (x_max - x_min) / (y_max - y_min)
+
+
+def caption(axes, text):
+    """The caption below a panel."""
+    axes.text(0.5, -0.025, text, transform=axes.transAxes, ha="center", va="top")
+
+
+def draw_mesh(axes, grid, window):
+    """The cells of a mesh coloured by the cell data `mean_ratio`, in a window or as a whole."""
+    chosen = None if window is None else cells_in(grid, window)
+    quality = grid.cell_data["mean_ratio"]
+    cells = PolyCollection(polygons_of(grid, chosen), cmap=style.QUALITY_MAP, norm=QUALITY_RANGE,
+                           edgecolors="0.15", linewidths=0.3 if window is not None else 0.06)
+    cells.set_array(quality if chosen is None else quality[chosen])
+    # Full views hold ten thousand cells or more: as vectors they would make huge files.
+    cells.set_rasterized(window is None)
+    axes.add_collection(cells)
+    frame(axes, window if window is not None else bounding_box(grid), boxed=window is not None)
+
+
+def draw_overview(axes, grid, window):
+    """The outline of the domain with the window of the details."""
+    axes.add_patch(PathPatch(outline_path(grid), facecolor=style.FILL_COLOUR, linewidth=0.5,
+                             edgecolor=style.OUTLINE_COLOUR))
+    axes.add_patch(Rectangle(window[:2], window[2] - window[0], window[3] - window[1],
+                             facecolor="none", edgecolor="#D55E00", linewidth=1.2))
+    frame(axes, bounding_box(grid), boxed=False)
+
+
+def frame(axes, window, boxed):
+    """Limits, equal scales and no ticks; a thin box around details only."""
+    x_min, y_min, x_max, y_max = window
+    margin = 0.0 if boxed else 0.02 * max(x_max - x_min, y_max - y_min)
+    axes.set(xlim=(x_min - margin, x_max + margin), ylim=(y_min - margin, y_max + margin),
+             xticks=(), yticks=(), aspect="equal")
+    axes.grid(False)
+    for spine in axes.spines.values():
+        spine.set_visible(boxed)
+
+
+def colour_bar(figure, total):
+    """The one colour bar of all panels, at the foot of the figure."""
+    axes = figure.add_axes([0.25, 0.36 / total, 0.5, 0.11 / total])
+    bar = figure.colorbar(ScalarMappable(QUALITY_RANGE, style.QUALITY_MAP), cax=axes,
+                          orientation="horizontal", ticks=(0, 0.2, 0.4, 0.6, 0.8, 1))
+    bar.outline.set_linewidth(0.5)
+    bar.ax.grid(False)
+    bar.set_label("Mean ratio quality number $q$", labelpad=1)

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Geometry for drawing planar meshes: boundary loops, polygons, triangles, windows."""
+
+import numpy as np
+from matplotlib.path import Path
+
+
+def edges_of(grid):
+    """All directed edges of the cells as (n, 2) node numbers; each cell is walked around once."""
+    following = np.roll(grid.connectivity, -1)
+    # The last node of a cell is followed by its first one, not by the next cell's.
+    following[grid.offsets[1:] - 1] = grid.connectivity[grid.offsets[:-1]]
+    return np.column_stack([grid.connectivity, following])
+
+
+def boundary_loops(grid):
+    """The closed boundary curves as lists of node numbers, each starting at its smallest number.
+
+    A directed edge is on the boundary if no cell has its reverse. Counterclockwise cells give a
+    counterclockwise outer curve and clockwise holes.
+    """
+    edges = edges_of(grid)
+    present = set(map(tuple, edges.tolist()))
+    successors = {}
+    for tail, head in sorted(present):
+        if (head, tail) not in present:
+            successors.setdefault(tail, []).append(head)
+    loops = []
+    while successors:
+        start = node = min(successors)
+        loop = []
+        while node in successors:  # a node where two curves touch has two successors
+            loop.append(node)
+            heads = successors[node]
+            node = heads.pop(0)
+            if not heads:
+                del successors[loop[-1]]
+            if node == start:
+                break
+        loops.append(loop)
+    return loops
+
+
+def outline_path(grid):
+    """The domain as one compound path; the opposite sense of the holes keeps them unfilled."""
+    vertices, codes = [], []
+    for loop in boundary_loops(grid):
+        points = grid.points[loop, :2]
+        vertices += [points, points[:1]]
+        codes += [Path.MOVETO] + [Path.LINETO] * (len(loop) - 1) + [Path.CLOSEPOLY]
+    return Path(np.concatenate(vertices), codes)
+
+
+def triangles_of(grid):
+    """The cells split into triangles by fans from their first nodes, shape (n, 3)."""
+    sizes = np.diff(grid.offsets)
+    starts = grid.offsets[:-1]
+    fans = [np.column_stack([grid.connectivity[starts[sizes > k + 1]],
+                             grid.connectivity[starts[sizes > k + 1] + k],
+                             grid.connectivity[starts[sizes > k + 1] + k + 1]])
+            for k in range(1, int(sizes.max()) - 1)]
+    return np.concatenate(fans)
+
+
+def polygons_of(grid, chosen=None):
+    """Corner coordinates (k, 2) of all cells or of those with `chosen` true."""
+    cells = range(len(grid.types)) if chosen is None else np.flatnonzero(chosen)
+    points = grid.points[:, :2]
+    return [points[grid.connectivity[grid.offsets[c]:grid.offsets[c + 1]]] for c in cells]
+
+
+def centroids(grid):
+    """The mean of each cell's nodes, shape (n_cells, 2)."""
+    sums = np.add.reduceat(grid.points[grid.connectivity, :2], grid.offsets[:-1], axis=0)
+    return sums / np.diff(grid.offsets)[:, None]
+
+
+def bounding_box(grid):
+    """(x_min, y_min, x_max, y_max)."""
+    low, high = grid.points[:, :2].min(axis=0), grid.points[:, :2].max(axis=0)
+    return (*low, *high)
+
+
+def window_of(grid, centre, width, aspect):
+    """A window (x_min, y_min, x_max, y_max) around a relative position in the bounding box.
+
+    `width` is relative to the longer side of the box, `aspect` is width over height. If the centre
+    lies far from every cell (in a hole, in a corner), the window moves to the nearest one.
+    """
+    x_min, y_min, x_max, y_max = bounding_box(grid)
+    sides = np.array([x_max - x_min, y_max - y_min])
+    middle = np.array([x_min, y_min]) + np.asarray(centre) * sides
+    half = 0.5 * width * sides.max() * np.array([1.0, 1.0 / aspect])
+    cells = centroids(grid)
+    if not np.any(np.all(np.abs(cells - middle) < 0.5 * half, axis=1)):
+        middle = cells[np.argmin(((cells - middle) ** 2).sum(axis=1))]
+    return (*(middle - half), *(middle + half))
+
+
+def cells_in(grid, window):
+    """Which cells have their bounding boxes meet the window, shape (n_cells,)."""
+    points = grid.points[grid.connectivity, :2]
+    low = np.minimum.reduceat(points, grid.offsets[:-1], axis=0)
+    high = np.maximum.reduceat(points, grid.offsets[:-1], axis=0)
+    return ((high >= window[:2]) & (low <= window[2:])).all(axis=1)
