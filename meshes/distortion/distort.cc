@@ -28,12 +28,15 @@ void require_in_range(const DistortionParameters& p) {
 }
 
 /// Uniform in the unit disk. By rejection: sine and cosine differ between machines.
-Point<2> point_in_unit_disk(CounterRandom random) {
+Point<2> point_in_unit_disk(CounterRandom& random) {
   while (true) {
     const Point<2> point(2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0);
     if (point.squaredNorm() <= 1.0) return point;
   }
 }
+
+/// In a ball larger than the node's cells few places are valid; some nodes have hardly any.
+constexpr int tries_per_candidate = 20;
 
 class Distortion {
  public:
@@ -64,14 +67,14 @@ class Distortion {
     const Point<2> present = place;
     Point<2> worst = present;
     double worst_quality = 2.0;  // above every mean ratio
-    for (int candidate = 0; candidate < parameters_.n_candidates; ++candidate) {
-      const auto item = static_cast<std::uint64_t>(sweep) *
-                            static_cast<std::uint64_t>(parameters_.n_candidates) +
-                        static_cast<std::uint64_t>(candidate);
-      place = original_[node] + radius * edge_length_[node] *
-                                    point_in_unit_disk({parameters_.seed, node, item});
+    CounterRandom random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
+    const int n_tries = tries_per_candidate * parameters_.n_candidates;
+    for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
+      place = original_[node] + radius * edge_length_[node] * point_in_unit_disk(random);
       const double quality = quality_around(node);
-      if (quality > 0.0 && quality < worst_quality) {
+      if (!(quality > 0.0)) continue;
+      ++n_valid;
+      if (quality < worst_quality) {
         worst_quality = quality;
         worst = place;
       }
@@ -97,10 +100,12 @@ class Distortion {
   DistortionParameters parameters_;
 };
 
-/// Radii beyond this throw nearly every candidate out of the node's cells.
-constexpr double largest_radius = 2.0;
-constexpr int n_scan_steps = 20;
-constexpr int n_bisections = 60;
+/// Balls of this radius contain the cells of nearly every node; larger ones change nothing.
+constexpr double largest_radius = 4.0;
+constexpr int n_scan_steps = 16;
+constexpr int n_bisections = 40;
+constexpr int n_neighbours = 400;
+constexpr double neighbour_distance = 1e-4;  ///< relative to the radius
 
 }  // namespace
 
@@ -116,9 +121,13 @@ DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameter
     return std::abs(result.q_mean - target) <= parameters.tolerance;
   };
   if (std::abs(q_initial - target) <= parameters.tolerance) return result;
+  if (q_initial < target)
+    throw InputError("the distortion cannot reach the mean quality " + std::to_string(target) +
+                     ", because the mesh itself has " + std::to_string(q_initial) +
+                     "; distortion only lowers it");
 
-  // The mean quality falls with the radius until most candidates are invalid, then rises again: the
-  // first step below the target brackets the smallest radius.
+  // The mean quality falls with the radius until the balls hold all valid places: the first step
+  // below the target brackets the radius.
   double q_lowest = q_initial, lower = 0.0, upper = 0.0;
   for (int step = 1; step <= n_scan_steps && !(q_lowest < target); ++step) {
     lower = upper;
@@ -126,12 +135,17 @@ DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameter
     reached(upper);
     q_lowest = std::min(q_lowest, result.q_mean);
   }
-  if (q_lowest >= target || q_initial <= target)
+  if (q_lowest >= target)
     throw InputError("the distortion cannot reach the mean quality " + std::to_string(target) +
                      "; on this mesh it reaches values from " + std::to_string(q_lowest) + " to " +
                      std::to_string(q_initial));
   for (int i = 0; i < n_bisections && !reached(0.5 * (lower + upper)); ++i)
     (result.q_mean > target ? lower : upper) = result.radius;
+  // On small meshes the quality jumps over the target where one node's choice changes; other jumps lie
+  // next to it.
+  const double jump = result.radius;
+  for (int i = 1; i <= n_neighbours && std::abs(result.q_mean - target) > parameters.tolerance; ++i)
+    reached(jump * (1.0 + (i % 2 == 0 ? -0.5 : 0.5) * i * neighbour_distance));
   if (std::abs(result.q_mean - target) > parameters.tolerance)
     throw InputError("the distortion came no closer to the mean quality " + std::to_string(target) +
                      " than " + std::to_string(result.q_mean) +
