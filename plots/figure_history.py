@@ -15,6 +15,10 @@ QUALITY = ("q_min", "q_star_min", "q_mean")
 # An axis is logarithmic from this ratio of largest to smallest error on.
 LOGARITHMIC_FROM = 30.0
 
+# Inches: the titles of the columns, the time axis, and a row of panels with the gap below it.
+HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.42, 1.72
+
+INITIAL_DASHES = (1, 2)
 MARKER_SIZE = 2.8
 MARKER_DISTANCE = 3.5  # points between the markers of one line that are drawn
 
@@ -31,30 +35,34 @@ def draw_history(results, columns, degree, log_time=False):
                       for _, v in lines[name, mesh].values())]
     if not columns:
         return None
-    n_rows, n_columns = len(columns), len(results.meshes)
-    width = style.FULL_WIDTH if n_columns > 1 else 1.3 * style.SINGLE_WIDTH
-    width = max(width, 2.3 * n_columns)
-    styles = method_order(results)
-    legend_rows = -(-len(styles) // max(1, int(width / 1.6)))
-    head, foot = 0.22 * legend_rows + 0.3, 0.42
-    height = head + foot + 1.72 * n_rows
-    figure, axes = pyplot.subplots(n_rows, n_columns, squeeze=False, sharex="col",
+    width, height = figure_size(len(columns), len(results.meshes))
+    figure, axes = pyplot.subplots(len(columns), len(results.meshes), squeeze=False, sharex="col",
                                    figsize=(width, height))
-    figure.subplots_adjust(left=0.6 / width, right=1 - 0.08 / width, bottom=foot / height,
-                           top=1 - head / height, hspace=0.1, wspace=0.52 / (width / n_columns))
-    for row, name in zip(axes, columns):
+    styles = method_order(results)
+    legend_height = draw_legend(figure, results, styles)
+    figure.set_figheight(height + legend_height)
+    height += legend_height
+    figure.subplots_adjust(left=0.6 / width, right=1 - 0.1 / width, bottom=FOOT / height,
+                           top=1 - (HEAD + legend_height) / height, hspace=0.1,
+                           wspace=0.52 * len(results.meshes) / width)
+    for letter, row, name in zip("abcdefghij", axes, columns):
         for ax, mesh in zip(row, results.meshes):
             draw_panel(ax, lines[name, mesh], name, styles, log_time)
-        row[0].set_ylabel(f"${SYMBOLS[name].tex.strip('$')}$"
-                          + (f" ($d={degree}$)" if name not in QUALITY else ""))
+        row[0].set_ylabel(f"({letter})  {SYMBOLS[name].tex}"
+                          + (f"  ($d={degree}$)" if name not in QUALITY else ""))
     for ax, mesh in zip(axes[0], results.meshes):
         ax.set_title(results.title(mesh))
     for ax in axes[-1]:
         ax.set_xlabel("Smoothing time (s)")
     figure.align_ylabels(axes[:, 0])
-    draw_legend(figure, results, styles, height)
     thin_markers(figure)
     return figure
+
+
+def figure_size(n_rows, n_columns):
+    """Width and height in inches, without the legend: page width for up to three columns."""
+    width = style.FULL_WIDTH if n_columns > 1 else 1.3 * style.SINGLE_WIDTH
+    return max(width, 2.3 * n_columns), HEAD + FOOT + PANEL_HEIGHT * n_rows
 
 
 def method_order(results):
@@ -95,7 +103,7 @@ def draw_panel(ax, lines, name, styles, log_time):
             line.set_dashes(look.dashes)
     level = initial_level(lines)
     if np.isfinite(level):
-        ax.axhline(level, color=styles[INITIAL].colour, linewidth=0.8, dashes=(1, 2), zorder=1)
+        ax.axhline(level, color=styles[INITIAL].colour, linewidth=0.8, dashes=INITIAL_DASHES, zorder=1)
     if log_time:
         ax.set_xscale("log")
     everything = np.concatenate([v for _, v in lines.values()] or [np.array([np.nan])])
@@ -124,25 +132,28 @@ def scale_values(ax, name, values):
         ax.set_ylim(0.0, 1.06 * high if high > 0 else 1.0)
 
 
-def draw_legend(figure, results, styles, height):
-    """The legend of all panels, above them."""
+def draw_legend(figure, results, styles):
+    """The legend of all panels, above them, in as few lines as fit; returns its height in inches."""
     handles = []
     for method, look in styles.items():
         handle = Line2D([], [], color=look.colour, marker=look.marker or None,
                         markersize=MARKER_SIZE + 0.8)
+        handle.set_label("Initial mesh" if method == INITIAL else results.title(method))
         if method == INITIAL:
-            handle.set(linewidth=0.8, label="Initial mesh")
-            handle.set_dashes((1, 2))
-        else:
-            handle.set_label(results.title(method))
-            if look.dashes:
-                handle.set_dashes(look.dashes)
+            handle.set_linewidth(0.8)
+            handle.set_dashes(INITIAL_DASHES)
+        elif look.dashes:
+            handle.set_dashes(look.dashes)
         handles.append(handle)
-    per_row = max(1, int(figure.get_figwidth() / 1.6))
-    if len(handles) == per_row + 1:
-        per_row += 1
-    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1 - 0.02 / height),
-                  ncol=per_row, columnspacing=1.5, handlelength=3.2, handletextpad=0.5)
+    for per_line in range(len(handles), 0, -1):
+        legend = figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0),
+                               ncol=per_line, columnspacing=1.4, handlelength=3.0,
+                               handletextpad=0.5, borderaxespad=0.1)
+        extent = legend.get_window_extent(figure.canvas.get_renderer())
+        if extent.width <= figure.bbox.width or per_line == 1:
+            return extent.height / figure.dpi
+        legend.remove()
+    return 0.0
 
 
 def thin_markers(figure):
@@ -159,4 +170,9 @@ def thin_markers(figure):
                 if np.isfinite(point).all() and (last is None or np.hypot(*(point - last)) >= distance):
                     kept.append(i)
                     last = point
-            line.set_markevery(kept)
+            finite = np.flatnonzero(np.isfinite(points).all(axis=1))
+            if len(finite) and kept[-1] != finite[-1]:
+                # The last iteration is always marked, for that the marker before it may go.
+                near = len(kept) > 1 and np.hypot(*(points[finite[-1]] - points[kept[-1]])) < distance
+                kept = (kept[:-1] if near else kept) + [finite[-1]]
+            line.set_markevery([int(i) for i in kept])

@@ -15,7 +15,7 @@ from .mesh_geometry import bounding_box, cells_in, outline_path, polygons_of, wi
 COLUMNS = 3
 DETAIL_ASPECT = 1.3
 # Centre and width of the detail, relative to the bounding box: a tooth and part of a hole of the gear.
-DETAIL_CENTRE, DETAIL_WIDTH = (0.80, 0.60), 0.27
+DETAIL_CENTRE, DETAIL_WIDTH = (0.83, 0.62), 0.33
 QUALITY_RANGE = Normalize(0.0, 1.0)
 
 # Heights in inches of what is not a panel.
@@ -75,8 +75,11 @@ def draw_mesh(axes, grid, window):
     """The cells of a mesh coloured by the cell data `mean_ratio`, in a window or as a whole."""
     chosen = None if window is None else cells_in(grid, window)
     quality = grid.cell_data["mean_ratio"]
+    # In a full view dark edges would hide the colours of the smallest elements.
+    edges = {"edgecolors": "0.15", "linewidths": 0.25} if window is not None else {
+        "edgecolors": "face", "linewidths": 0.1}
     cells = PolyCollection(polygons_of(grid, chosen), cmap=style.QUALITY_MAP, norm=QUALITY_RANGE,
-                           edgecolors="0.15", linewidths=0.3 if window is not None else 0.06)
+                           joinstyle="round", **edges)
     cells.set_array(quality if chosen is None else quality[chosen])
     # Full views hold ten thousand cells or more: as vectors they would make huge files.
     cells.set_rasterized(window is None)

@@ -153,10 +153,10 @@ def unreached(rows, results):
 
 
 def make_group(measure, pairs, notes):
-    """The columns of one measure, or None if neither we nor the print have a number."""
+    """The columns of one measure, or None if there is nothing in them worth showing."""
     fields = [ours.get(measure.column, "") for ours, _ in pairs]
     prints = [printed.get(measure.column, "") for _, printed in pairs]
-    if not any(fields) and not any(prints):
+    if not any(prints) and all(field in ("", measure.usual) for field in fields):
         return None
     values, texts = None, [field or MISSING for field in fields]
     if measure.format is not None:
