@@ -4,16 +4,13 @@
 
 namespace smoothfem {
 
-/// Random numbers that depend on nothing but their place: the same seed and counters give the same
-/// bits on every machine and in every order of use. Standard distributions do not promise that.
-class CounterRandom {
+/// SplitMix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
+/// Gives the same bits on every machine, which standard distributions do not promise.
+class SplitMix64 {
  public:
-  /// seed: any. stream and item: what the numbers are for, for example a node and its candidate.
-  CounterRandom(std::uint64_t seed, std::uint64_t stream, std::uint64_t item)
-      : state_(mix(mix(mix(seed) + stream) + item)) {}
+  explicit SplitMix64(std::uint64_t state) : state_(state) {}
 
-  /// The next number of SplitMix64 (Steele, Lea and Flood, Fast splittable pseudorandom number
-  /// generators, OOPSLA 2014): a Weyl sequence with the golden ratio's step, mixed.
+  /// The next number: a Weyl sequence with the golden ratio's step, mixed.
   std::uint64_t next() {
     state_ += golden_step;
     return mixed(state_);
@@ -22,7 +19,7 @@ class CounterRandom {
   /// Uniform in [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 
-  /// Uniform in [0, n), n >= 1, by the high half of a product; the bias is below n 2^-64.
+  /// Uniform in [0, n), n >= 1, by the high half of the 128-bit product; the bias is below n 2^-64.
   std::uint64_t below(std::uint64_t n) {
     const std::uint64_t x = next();
     const std::uint64_t low = (x & 0xffffffffu) * (n & 0xffffffffu);
@@ -40,9 +37,15 @@ class CounterRandom {
     z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
     return z ^ (z >> 31);
   }
-  static constexpr std::uint64_t mix(std::uint64_t x) { return mixed(x + golden_step); }
 
   std::uint64_t state_;
 };
+
+/// Random numbers that depend on nothing but what they are for, for example a node and a sweep: the
+/// same seed and counters give the same ones in every order of use.
+inline SplitMix64 counter_random(std::uint64_t seed, std::uint64_t stream, std::uint64_t item) {
+  const std::uint64_t hash = SplitMix64(SplitMix64(seed).next() + stream).next();
+  return SplitMix64(SplitMix64(hash + item).next());
+}
 
 }  // namespace smoothfem

@@ -28,7 +28,7 @@ void require_in_range(const DistortionParameters& p) {
 }
 
 /// Uniform in the unit disk. By rejection: sine and cosine differ between machines.
-Point<2> point_in_unit_disk(CounterRandom& random) {
+Point<2> point_in_unit_disk(SplitMix64& random) {
   while (true) {
     const Point<2> point(2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0);
     if (point.squaredNorm() <= 1.0) return point;
@@ -67,7 +67,7 @@ class Distortion {
     const Point<2> present = place;
     Point<2> worst = present;
     double worst_quality = 2.0;  // above every mean ratio
-    CounterRandom random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
+    SplitMix64 random = counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
     const int n_tries = tries_per_candidate * parameters_.n_candidates;
     for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
       place = original_[node] + radius * edge_length_[node] * point_in_unit_disk(random);
@@ -141,8 +141,8 @@ DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameter
                      std::to_string(q_initial));
   for (int i = 0; i < n_bisections && !reached(0.5 * (lower + upper)); ++i)
     (result.q_mean > target ? lower : upper) = result.radius;
-  // On small meshes the quality jumps over the target where one node's choice changes; other jumps lie
-  // next to it.
+  // On small meshes the quality jumps over the target where one node's choice changes; other jumps
+  // lie next to it.
   const double jump = result.radius;
   for (int i = 1; i <= n_neighbours && std::abs(result.q_mean - target) > parameters.tolerance; ++i)
     reached(jump * (1.0 + (i % 2 == 0 ? -0.5 : 0.5) * i * neighbour_distance));

@@ -11,8 +11,8 @@ namespace smoothfem {
 /// What every domain understands.
 struct DomainParameters {
   ElementType element_type = ElementType::triangle;  ///< triangle or quadrilateral
-  double edge_scale = 1.0;  ///< edges this much longer than in the domain's own mesh: 3 gives a ninth
-                            ///< of the cells
+  double edge_scale = 1.0;  ///< edges this much longer than in the domain's own mesh: 3 gives a
+                            ///< ninth of the cells
   std::uint64_t seed = 1;
 };
 

@@ -78,7 +78,8 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
   PlanarCells best;
   double best_deviation = 1e300;
   for (int i = 0; i < most_tries && best_deviation > close_enough * target; ++i) {
-    PlanarCells mesh = tri ? triangles(polygons, edge_length) : quadrilaterals(polygons, edge_length);
+    PlanarCells mesh =
+        tri ? triangles(polygons, edge_length) : quadrilaterals(polygons, edge_length);
     const auto n = static_cast<double>(mesh.cells.size());
     edge_length *= std::sqrt(n / aim);
     if (std::abs(n - aim) >= best_deviation) continue;
@@ -87,8 +88,8 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
   }
   const auto n = static_cast<double>(best.cells.size());
   if (std::abs(n - target) > 0.01 * target)
-    throw InputError("the gear cannot be meshed with " + std::to_string(p.n_cells) +
-                     " cells and " + std::to_string(p.n_boundary_edges) +
+    throw InputError("the gear cannot be meshed with " + std::to_string(p.n_cells) + " cells and " +
+                     std::to_string(p.n_boundary_edges) +
                      " boundary edges; the nearest count found is " +
                      std::to_string(best.cells.size()));
   return best;

@@ -7,7 +7,8 @@
 namespace smoothfem {
 
 /// An involute gear with four kidney-shaped holes and a cross-shaped bore whose arms taper. Lengths
-/// are in units of the coordinates. The defaults resemble the planar model of the thesis, Chapter 6.
+/// are in units of the coordinates. The defaults resemble the planar model of the thesis,
+/// Chapter 6.
 struct GearParameters {
   int n_teeth = 17;
   double module = 1.0;  ///< pitch diameter / n_teeth
@@ -32,8 +33,9 @@ struct GearParameters {
   double arm_half_width_at_end = 0.18125;
 
   ElementType element_type = ElementType::triangle;  ///< triangle or quadrilateral
-  std::size_t n_boundary_edges = 982;  ///< met exactly; even for quadrilaterals
-  std::size_t n_cells = 14346;  ///< met within 1 %; exactly for triangles where the size search allows
+  std::size_t n_boundary_edges = 982;                ///< met exactly; even for quadrilaterals
+  std::size_t n_cells =
+      14346;  ///< met within 1 %; exactly for triangles where the size search allows
 
   /// Random edge flips for each triangle. Gmsh's triangles are too good: they can be smoothed to a
   /// mean quality of .99. With this share the optimum is near that of the published mesh, .894.
@@ -45,9 +47,9 @@ struct GearParameters {
 /// edges give edge_scale^2 times fewer cells. Up to 3, teeth stay resolved.
 GearParameters gear_of_the_thesis(ElementType type, double edge_scale = 1.0);
 
-/// Meshes the gear with Gmsh. Boundary nodes are fixed, cells are valid and all of one type, and the
-/// same parameters give the same mesh. Takes a few seconds. Throws InputError for shapes that are
-/// not possible, numbers out of range, and counts that cannot be met.
+/// Meshes the gear with Gmsh. Boundary nodes are fixed, cells are valid and all of one type, and
+/// the same parameters give the same mesh. Takes a few seconds. Throws InputError for shapes that
+/// are not possible, numbers out of range, and counts that cannot be met.
 PlanarMesh generate_gear(const GearParameters& parameters);
 
 }  // namespace smoothfem

@@ -24,12 +24,16 @@ Curve arc(const Point<2>& centre, double radius, double from, double to) {
           [=](double t) { return on_circle(centre, radius, (1.0 - t) * from + t * to); }};
 }
 
-double angle_of(const Point<2>& vector) { return std::atan2(vector.y(), vector.x()); }
+double angle_of(const Point<2>& vector) {
+  return std::atan2(vector.y(), vector.x());
+}
 
-double involute_function(double angle) { return std::tan(angle) - angle; }
+double involute_function(double angle) {
+  return std::tan(angle) - angle;
+}
 
-/// Involute of the circle with radius `base` about the origin, between the base circle and `tip`. It
-/// leaves the base circle at `start` and turns to smaller angles if `side` is +1, to larger ones
+/// Involute of the circle with radius `base` about the origin, between the base circle and `tip`.
+/// It leaves the base circle at `start` and turns to smaller angles if `side` is +1, to larger ones
 /// if it is -1. Its arc length is base roll^2 / 2, which gives the constant speed.
 Curve involute(double base, double tip, double start, double side, bool outwards) {
   const double last_roll = std::sqrt(tip * tip / (base * base) - 1.0);
@@ -63,13 +67,13 @@ Outline teeth(const GearParameters& p) {
     const double middle = 2.0 * pi * tooth / p.n_teeth, next = 2.0 * pi * (tooth + 1) / p.n_teeth;
     const double right = middle - half_at_base, left = middle + half_at_base;
     // Below the base circle there is no involute; the flank goes on towards the centre.
-    outline.push_back(segment(on_circle(origin, p.root_radius, right),
-                              on_circle(origin, base_radius, right)));
+    outline.push_back(
+        segment(on_circle(origin, p.root_radius, right), on_circle(origin, base_radius, right)));
     outline.push_back(involute(base_radius, p.tip_radius, right, -1.0, true));
     outline.push_back(arc(origin, p.tip_radius, middle - half_at_tip, middle + half_at_tip));
     outline.push_back(involute(base_radius, p.tip_radius, left, 1.0, false));
-    outline.push_back(segment(on_circle(origin, base_radius, left),
-                              on_circle(origin, p.root_radius, left)));
+    outline.push_back(
+        segment(on_circle(origin, base_radius, left), on_circle(origin, p.root_radius, left)));
     outline.push_back(arc(origin, p.root_radius, left, next - half_at_base));
   }
   return outline;
@@ -122,8 +126,8 @@ Outline bore(const GearParameters& p) {
   const double w = p.bore_half_width, a = p.arm_half_width_at_bore, e = p.arm_half_width_at_end;
   require(0.0 < e && 0.0 < a && a < w && w < p.arm_length,
           "the bore's arms must be narrower than its square and reach beyond it");
-  const std::vector<Point<2>> quarter = {{w, -w}, {w, -a}, {p.arm_length, -e}, {p.arm_length, e},
-                                         {w, a},  {w, w}};
+  const std::vector<Point<2>> quarter = {{w, -w},           {w, -a}, {p.arm_length, -e},
+                                         {p.arm_length, e}, {w, a},  {w, w}};
   Outline side;
   for (std::size_t i = 0; i + 1 < quarter.size(); ++i)
     side.push_back(segment(quarter[i], quarter[i + 1]));
@@ -139,13 +143,12 @@ std::vector<Outline> gear_outlines(const GearParameters& p) {
   require(p.n_teeth >= 3, "it needs at least 3 teeth, not " + std::to_string(p.n_teeth));
   require(p.module > 0.0 && p.pressure_angle_degrees > 0.0 && p.pressure_angle_degrees < 45.0,
           "module and pressure angle must be positive, the angle below 45 degrees");
-  require(std::numbers::sqrt2 * p.kidney_outer_centre + p.kidney_outer_radius < p.root_radius &&
-              std::max(std::numbers::sqrt2 * p.bore_half_width, p.arm_length) <
-                  p.kidney_inner_radius,
-          "bore, kidneys and root circle overlap");
+  require(
+      std::numbers::sqrt2 * p.kidney_outer_centre + p.kidney_outer_radius < p.root_radius &&
+          std::max(std::numbers::sqrt2 * p.bore_half_width, p.arm_length) < p.kidney_inner_radius,
+      "bore, kidneys and root circle overlap");
   std::vector<Outline> outlines = {teeth(p)};
-  for (int quarters = 0; quarters < 4; ++quarters)
-    outlines.push_back(turned(kidney(p), quarters));
+  for (int quarters = 0; quarters < 4; ++quarters) outlines.push_back(turned(kidney(p), quarters));
   outlines.push_back(bore(p));
   return outlines;
 }

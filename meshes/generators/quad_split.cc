@@ -60,8 +60,7 @@ class Splitting {
   template <class Function>
   void for_each_edge(std::size_t cell, const Function& function) const {
     const auto row = cells_[cell];
-    for (std::size_t k = 0; k < row.size(); ++k)
-      function(Edge{row[k], row[(k + 1) % row.size()]});
+    for (std::size_t k = 0; k < row.size(); ++k) function(Edge{row[k], row[(k + 1) % row.size()]});
   }
 
   NodeIndex add(const Point<2>& point) {
@@ -77,8 +76,7 @@ class Splitting {
     const NodeIndex centre = add(sum / static_cast<double>(n));
     for (std::size_t k = 0; k < n; ++k)
       result_.cells.append(std::array{row[k], middle_.at(sorted({row[k], row[(k + 1) % n]})),
-                                      centre,
-                                      middle_.at(sorted({row[(k + n - 1) % n], row[k]}))});
+                                      centre, middle_.at(sorted({row[(k + n - 1) % n], row[k]}))});
   }
 
   const CompressedRows<NodeIndex>& cells_;

@@ -43,8 +43,7 @@ class Triangulation {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (std::uint32_t k = 0; k < 3; ++k)
         if (neighbours_[t][k] != outside && t < neighbours_[t][k])
-          edges.push_back(
-              {(corner(t, k + 1) - corner(t, k + 2)).squaredNorm(), t, k});
+          edges.push_back({(corner(t, k + 1) - corner(t, k + 2)).squaredNorm(), t, k});
     std::sort(edges.begin(), edges.end(), [](const InnerEdge& a, const InnerEdge& b) {
       return std::tie(b.squared_length, a.triangle, a.corner) <
              std::tie(a.squared_length, b.triangle, b.corner);
@@ -173,7 +172,7 @@ void refine_to(PlanarCells& mesh, std::size_t n_cells) {
 std::size_t flip_edges(PlanarCells& mesh, std::size_t n_flips, std::uint64_t seed) {
   constexpr std::size_t tries_per_flip = 100;
   Triangulation triangulation(mesh);
-  CounterRandom random(seed, 0, 0);
+  SplitMix64 random = counter_random(seed, 0, 0);
   std::size_t n_done = 0;
   for (std::size_t i = 0; n_done < n_flips && i < tries_per_flip * n_flips; ++i) {
     const auto triangle = static_cast<std::uint32_t>(random.below(triangulation.size()));

@@ -8,8 +8,8 @@
 
 namespace smoothfem {
 
-/// Splits the longest inner edges of a mesh of triangles at their midpoints, no two of one triangle in
-/// a round, until there are n_cells triangles (or one less: every split adds two).
+/// Splits the longest inner edges of a mesh of triangles at their midpoints, no two of one triangle
+/// in a round, until there are n_cells triangles (or one less: every split adds two).
 void refine_to(PlanarCells& mesh, std::size_t n_cells);
 
 /// Turns n_flips inner edges, chosen at random, to the other diagonal of their two triangles.

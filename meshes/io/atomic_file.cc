@@ -126,8 +126,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 }
 
 void write_atomically(const fs::path& path, std::string_view content) {
-  write_atomically(path,
-                   [&](const fs::path& temporary) { write_all(path, temporary, content); });
+  write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, content); });
 }
 
 }  // namespace smoothfem

@@ -7,12 +7,12 @@
 namespace smoothfem {
 
 /// Puts a file in place in one step, so that whoever reads `path` sees the old content or the whole
-/// new one, never a part. Creates missing parent folders, calls `write` with a path in the same folder
-/// that has the same extension and does not exist yet, flushes that file to the disk and renames it.
-/// If `write` throws, leaves no file, or anything else fails (folder that cannot be created or
-/// written, full disk), the temporary is removed, `path` stays as it was and InputError names `path`
-/// and the reason; an InputError of `write` passes unchanged. A `path` that is a folder or a device is
-/// refused.
+/// new one, never a part. Creates missing parent folders, calls `write` with a path in the same
+/// folder that has the same extension and does not exist yet, flushes that file to the disk and
+/// renames it. If `write` throws, leaves no file, or anything else fails (folder that cannot be
+/// created or written, full disk), the temporary is removed, `path` stays as it was and InputError
+/// names `path` and the reason; an InputError of `write` passes unchanged. A `path` that is a
+/// folder or a device is refused.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 

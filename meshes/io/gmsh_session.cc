@@ -37,8 +37,7 @@ std::string logged_errors() {
   gmsh::logger::get(lines);
   std::string errors;
   for (const auto& line : lines)
-    if (line.starts_with(label))
-      errors += (errors.empty() ? "" : "; ") + line.substr(label.size());
+    if (line.starts_with(label)) errors += (errors.empty() ? "" : "; ") + line.substr(label.size());
   return errors;
 }
 

@@ -7,9 +7,10 @@
 
 namespace smoothfem {
 
-/// The Gmsh library for the length of a scope, with an empty model of its own. Prints nothing, reads
-/// no configuration files and no command line, leaves signal handlers alone, uses one thread and a
-/// fixed random seed. Sessions may be nested; Gmsh itself is a global, so not used from two threads.
+/// The Gmsh library for the length of a scope, with an empty model of its own. Prints nothing,
+/// reads no configuration files and no command line, leaves signal handlers alone, uses one thread
+/// and a fixed random seed. Sessions may be nested; Gmsh itself is a global, so not used from two
+/// threads.
 class GmshSession {
  public:
   GmshSession();

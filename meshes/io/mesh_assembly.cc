@@ -12,15 +12,13 @@ namespace smoothfem {
 MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
   const std::size_t n_nodes = parts.coordinates.size();
   try {
-    auto topology = std::make_shared<const Topology>(n_nodes, std::move(parts.cells),
-                                                     std::move(parts.fixed),
-                                                     std::move(parts.labels));
+    auto topology = std::make_shared<const Topology>(
+        n_nodes, std::move(parts.cells), std::move(parts.fixed), std::move(parts.labels));
     return {PlanarMesh(std::move(topology), std::move(parts.coordinates)),
             std::move(parts.cell_lines)};
   } catch (const CellError& error) {
     std::string place = path.string() + ":";
-    if (!parts.cell_lines.empty())
-      place += std::to_string(parts.cell_lines[error.cell()]) + ":";
+    if (!parts.cell_lines.empty()) place += std::to_string(parts.cell_lines[error.cell()]) + ":";
     throw InputError(place + " " + error.what());
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());

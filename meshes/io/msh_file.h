@@ -9,11 +9,12 @@
 
 namespace smoothfem {
 
-/// Reads a Gmsh file, version 2.2 or 4.1, text or binary, through the Gmsh library. Cells come in the
-/// order of their element tags; nodes that no cell uses are dropped. Physical groups of cells and
-/// of edges are kept with their names (of several groups of one entity the first); points and edges
-/// without a group are ignored, parametric coordinates and other sections too. Refused: files that
-/// are not complete, other versions, a z coordinate that is not constant, elements with mid-nodes, volumes.
+/// Reads a Gmsh file, version 2.2 or 4.1, text or binary, through the Gmsh library. Cells come in
+/// the order of their element tags; nodes that no cell uses are dropped. Physical groups of cells
+/// and of edges are kept with their names (of several groups of one entity the first); points and
+/// edges without a group are ignored, parametric coordinates and other sections too. Refused: files
+/// that are not complete, other versions, a z coordinate that is not constant, elements with
+/// mid-nodes, volumes.
 MeshFile read_msh(const std::filesystem::path& path);
 
 /// Version and encoding follow the options. Refused: polygons with five and more nodes; in version
@@ -25,11 +26,13 @@ void write_msh(const std::filesystem::path& path, const PlanarMesh& mesh, const 
 struct MshStructure {
   bool binary = false;
   std::uint64_t n_nodes = 0, n_elements = 0;  ///< as announced
-  std::unordered_map<std::uint64_t, std::size_t> element_lines;  ///< by element tag; text files only
+  std::unordered_map<std::uint64_t, std::size_t>
+      element_lines;  ///< by element tag; text files only
 };
 
-/// Checks the sections of a .msh file: version, each section closed, and in text files as many nodes
-/// and elements as announced, all numbers finite. Throws InputError "path:line: what is wrong".
+/// Checks the sections of a .msh file: version, each section closed, and in text files as many
+/// nodes and elements as announced, all numbers finite. Throws InputError "path:line: what is
+/// wrong".
 MshStructure check_msh_structure(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace smoothfem

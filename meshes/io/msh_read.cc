@@ -55,8 +55,8 @@ std::vector<Point<2>> planar_nodes(NodeNumbers& numbers) {
     numbers.emplace(tags[i], static_cast<NodeIndex>(coordinates.size()));
     coordinates.emplace_back(xyz[3 * i], xyz[3 * i + 1]);
     if (xyz[3 * i + 2] != xyz[2])
-      throw InputError("node " + std::to_string(tags[i]) + " has z = " +
-                       std::to_string(xyz[3 * i + 2]) + " and another node z = " +
+      throw InputError("node " + std::to_string(tags[i]) +
+                       " has z = " + std::to_string(xyz[3 * i + 2]) + " and another node z = " +
                        std::to_string(xyz[2]) + "; only planar meshes with constant z can be read");
   }
   return coordinates;
@@ -77,8 +77,8 @@ std::size_t n_corners(int type) {
 NodeIndex number_of(std::size_t node, std::size_t element, const NodeNumbers& numbers) {
   const auto found = numbers.find(node);
   if (found == numbers.end())
-    throw InputError("element " + std::to_string(element) + " names node " +
-                     std::to_string(node) + ", which the file does not have");
+    throw InputError("element " + std::to_string(element) + " names node " + std::to_string(node) +
+                     ", which the file does not have");
   return found->second;
 }
 
@@ -109,9 +109,8 @@ GmshElements elements_of_dimension(int dimension, const NodeNumbers& numbers) {
 std::vector<std::size_t> order_by_tag(const GmshElements& elements) {
   std::vector<std::size_t> order(elements.tags.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return elements.tags[a] < elements.tags[b];
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return elements.tags[a] < elements.tags[b]; });
   return order;
 }
 

@@ -9,7 +9,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Walks through a text file. Sections other than nodes and elements are only looked at for their end.
+/// Walks through a text file. Sections other than nodes and elements are only looked at for their
+/// end.
 class MshScanner {
  public:
   MshScanner(LineReader& reader, bool version_4, MshStructure& structure)
@@ -20,8 +21,9 @@ class MshScanner {
     while (reader_.next_line()) {
       const std::string section(reader_.word());
       if (section.front() != '$' || section.starts_with("$End"))
-        reader_.fail("expected the beginning of a section; a section before has more lines than "
-                     "announced");
+        reader_.fail(
+            "expected the beginning of a section; a section before has more lines than "
+            "announced");
       if (section == "$Nodes") {
         version_4_ ? scan_nodes_4() : scan_nodes_2();
         has_nodes = true;
@@ -165,7 +167,8 @@ std::uint64_t binary_count(bool version_4, std::string_view section) {
   return section.size() < 16 ? 0 : bytes_as<std::uint64_t>(section.substr(8));
 }
 
-/// Binary sections have no lines: only their titles, ends and counts are looked at, Gmsh does the rest.
+/// Binary sections have no lines: only their titles, ends and counts are looked at, Gmsh does the
+/// rest.
 void scan_binary(const std::string& path, std::string_view content, bool version_4,
                  MshStructure& structure) {
   for (const std::string name : {"Nodes", "Elements"}) {

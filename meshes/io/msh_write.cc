@@ -24,10 +24,10 @@ void require_writable(const std::filesystem::path& path, const Topology& topolog
       std::string others;
       for (const auto& format : mesh_formats())
         if (format.holds_polygons) others += (others.empty() ? "" : ", ") + format.extension;
-      throw InputError("cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
-                       std::to_string(topology.cell_nodes(c).size()) +
-                       " nodes, and .msh files hold only triangles and quadrilaterals; use one of " +
-                       others);
+      throw InputError(
+          "cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
+          std::to_string(topology.cell_nodes(c).size()) +
+          " nodes, and .msh files hold only triangles and quadrilaterals; use one of " + others);
     }
   const auto& tags = topology.labels().cell_tags;
   const auto n_untagged = static_cast<std::size_t>(std::count(tags.begin(), tags.end(), 0));

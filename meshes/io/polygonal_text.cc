@@ -57,8 +57,7 @@ void read_polygons(LineReader& reader, MeshParts& parts) {
   for (std::size_t c = 0; c < n_cells; ++c) {
     reader.require_line(nth("polygon", c, n_cells));
     const std::size_t n = reader.integer("the number of the polygon's nodes");
-    if (n < 3)
-      reader.fail("the polygon has " + std::to_string(n) + " nodes; it needs at least 3");
+    if (n < 3) reader.fail("the polygon has " + std::to_string(n) + " nodes; it needs at least 3");
     nodes.clear();
     for (std::size_t k = 0; k < n; ++k)  // stops at the end of the line, however large n is
       nodes.push_back(static_cast<NodeIndex>(
@@ -139,11 +138,12 @@ void write_polygonal_text(const std::filesystem::path& path, const PlanarMesh& m
   text += "polygons " + std::to_string(mesh.n_cells()) + "\n";
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
     text += std::to_string(topology.cell_nodes(c).size());
-    for (const NodeIndex node : topology.cell_nodes(c)) text.append(1, ' ').append(std::to_string(node));
+    for (const NodeIndex node : topology.cell_nodes(c))
+      text.append(1, ' ').append(std::to_string(node));
     text += "\n";
   }
-  text += "fixed_node_indices " +
-          std::to_string(mesh.n_nodes() - topology.free_nodes().size()) + "\n";
+  text +=
+      "fixed_node_indices " + std::to_string(mesh.n_nodes() - topology.free_nodes().size()) + "\n";
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     if (topology.is_fixed(i)) text += std::to_string(i) + "\n";
   text += "polygon_mean_ratio_quality_numbers " + std::to_string(mesh.n_cells()) + "\n";

@@ -7,11 +7,12 @@
 
 namespace smoothfem {
 
-/// Read a legacy .vtk file (unstructured grid or polygonal data, text or binary) or a .vtu file (every
-/// encoding VTK knows). Cells are triangles, quadrilaterals, pixels and polygons. Lines whose entry of
-/// the cell array `physical_tag` is not zero become labelled edges; other lines and vertices are
-/// ignored. The point array `fixed` (not zero = fixed) and the cell array `physical_tag` are honoured.
-/// All nodes are kept. Refused: incomplete files, a z coordinate that is not constant, other cells.
+/// Read a legacy .vtk file (unstructured grid or polygonal data, text or binary) or a .vtu file
+/// (every encoding VTK knows). Cells are triangles, quadrilaterals, pixels and polygons. Lines
+/// whose entry of the cell array `physical_tag` is not zero become labelled edges; other lines and
+/// vertices are ignored. The point array `fixed` (not zero = fixed) and the cell array
+/// `physical_tag` are honoured. All nodes are kept. Refused: incomplete files, a z coordinate that
+/// is not constant, other cells.
 MeshFile read_legacy_vtk(const std::filesystem::path& path);
 MeshFile read_vtu(const std::filesystem::path& path);
 

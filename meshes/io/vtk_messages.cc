@@ -36,7 +36,9 @@ VtkMessages::VtkMessages()
   vtkOutputWindow::SetInstance(collector_);
 }
 
-VtkMessages::~VtkMessages() { vtkOutputWindow::SetInstance(former_); }
+VtkMessages::~VtkMessages() {
+  vtkOutputWindow::SetInstance(former_);
+}
 
 std::string VtkMessages::first() const {
   // "ERROR: In vtkReader.cxx, line 12\nvtkReader (0x55d0): what happened\n\n"

@@ -15,7 +15,8 @@ class VtkMessages {
   VtkMessages(const VtkMessages&) = delete;
   VtkMessages& operator=(const VtkMessages&) = delete;
 
-  /// The first message without VTK's frame of source file, line and address; empty if there is none.
+  /// The first message without VTK's frame of source file, line and address; empty if there is
+  /// none.
   std::string first() const;
 
  private:

@@ -156,7 +156,8 @@ void require_no_message(const std::string& path, const VtkMessages& messages) {
 void require_consistent(const std::string& path, vtkUnstructuredGrid& grid) {
   vtkUnsignedCharArray* types = grid.GetCellTypesArray();
   if (grid.GetNumberOfCells() == 0) throw InputError(path + ": the file has no cells");
-  if (!types || types->GetNumberOfTuples() != grid.GetNumberOfCells() || !grid.GetCells()->IsValid())
+  if (!types || types->GetNumberOfTuples() != grid.GetNumberOfCells() ||
+      !grid.GetCells()->IsValid())
     throw InputError(path +
                      ": the numbers of cells, cell types and cell nodes do not fit together; the "
                      "file is truncated or damaged");
@@ -168,8 +169,9 @@ MeshFile read_legacy_vtk(const std::filesystem::path& path) {
   const std::string content = read_whole_file(path);
   const std::string name = path.string();
   if (!content.starts_with("# vtk DataFile"))
-    throw InputError(name + ":1: the first line is not '# vtk DataFile Version ...'; this is not a "
-                            "legacy VTK file");
+    throw InputError(name +
+                     ":1: the first line is not '# vtk DataFile Version ...'; this is not a "
+                     "legacy VTK file");
   const VtkMessages messages;
   vtkNew<vtkGenericDataObjectReader> reader;
   reader->SetFileName(name.c_str());

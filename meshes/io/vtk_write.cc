@@ -92,8 +92,8 @@ void run(Writer& writer, const std::filesystem::path& path, const PlanarMesh& me
   const bool written = writer.Write() == 1;
   const std::string message = messages.first();
   if (!written || !message.empty())
-    throw InputError("cannot write " + path.string() + ": VTK: " +
-                     (message.empty() ? "unknown error" : message));
+    throw InputError("cannot write " + path.string() +
+                     ": VTK: " + (message.empty() ? "unknown error" : message));
   write_atomically(path, output_of(writer));
 }
 

@@ -13,8 +13,9 @@ namespace smoothfem {
 /// series can be opened at any moment, also after a crash.
 class VtuSeries {
  public:
-  /// collection: path that ends with .pvd; InputError otherwise. An existing series is replaced when
-  /// the first mesh is added; files of it with higher numbers stay, but are not in the collection.
+  /// collection: path that ends with .pvd; InputError otherwise. An existing series is replaced
+  /// when the first mesh is added; files of it with higher numbers stay, but are not in the
+  /// collection.
   explicit VtuSeries(std::filesystem::path collection);
 
   /// time: any finite number, for example the iteration. Throws InputError as write_mesh does.

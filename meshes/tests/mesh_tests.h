@@ -1,0 +1,85 @@
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "smoothing/mesh/input_error.h"
+#include "smoothing/mesh/mesh.h"
+
+namespace smoothfem {
+
+/// A folder of its own for each test, removed afterwards.
+class FileTest : public ::testing::Test {
+ protected:
+  FileTest() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("smoothfem-") + std::to_string(::getpid()) + "-" +
+               test->test_suite_name() + "-" + test->name());
+    std::filesystem::create_directories(folder_);
+  }
+  ~FileTest() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+
+  std::filesystem::path file_with(const std::string& name, const std::string& content) const {
+    std::ofstream(file(name), std::ios::binary) << content;
+    return file(name);
+  }
+
+  static std::string content_of(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// The message of the InputError that a call throws; empty if it throws none.
+template <class Call>
+std::string input_error_of(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Two triangles, two quadrilaterals and a pentagon around node 4, whose coordinates need all
+/// digits.
+inline PlanarMesh mixed_mesh(bool with_pentagon, MeshLabels labels = {},
+                             std::optional<std::vector<bool>> fixed = std::nullopt) {
+  const std::vector<Point<2>> x = {{0, 0},   {1, 0}, {2, 0}, {0, 1}, {0.9 + 1e-16, 1.0 / 3.0},
+                                   {2, 1.1}, {0, 2}, {1, 2}, {2, 2}, {-1.0 / 7.0, 1.5}};
+  CompressedRows<NodeIndex> cells;
+  cells.append(std::vector<NodeIndex>{0, 1, 4, 3});
+  cells.append(std::vector<NodeIndex>{1, 2, 4});
+  cells.append(std::vector<NodeIndex>{2, 5, 4});
+  if (with_pentagon) {
+    cells.append(std::vector<NodeIndex>{4, 7, 6, 9, 3});
+    cells.append(std::vector<NodeIndex>{4, 5, 8, 7});
+  } else {
+    cells.append(std::vector<NodeIndex>{4, 5, 8, 7});
+    cells.append(std::vector<NodeIndex>{3, 4, 7, 6});
+    cells.append(std::vector<NodeIndex>{3, 6, 9});
+  }
+  return PlanarMesh(std::make_shared<const Topology>(x.size(), std::move(cells), std::move(fixed),
+                                                     std::move(labels)),
+                    x);
+}
+
+inline void expect_same_mesh(const PlanarMesh& a, const PlanarMesh& b) {
+  EXPECT_EQ(a.coordinates(), b.coordinates());  // bit by bit
+  EXPECT_EQ(a.topology().cells(), b.topology().cells());
+  EXPECT_EQ(a.topology().free_nodes(), b.topology().free_nodes());
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,154 @@
+#include "meshes/distortion/distort.h"
+
+#include <cstring>
+
+#include "meshes/distortion/counter_random.h"
+#include "meshes/tests/mesh_tests.h"
+#include "smoothing/quality/mesh_quality.h"
+
+namespace smoothfem {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// n x n squares, each cut in two triangles if wanted.
+PlanarMesh grid(NodeIndex n, bool triangles) {
+  std::vector<Point<2>> x;
+  for (NodeIndex j = 0; j <= n; ++j)
+    for (NodeIndex i = 0; i <= n; ++i) x.emplace_back(i, j);
+  CompressedRows<NodeIndex> cells;
+  for (NodeIndex j = 0; j < n; ++j)
+    for (NodeIndex i = 0; i < n; ++i) {
+      const NodeIndex a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
+      if (triangles) {
+        cells.append(std::vector<NodeIndex>{a, b, c});
+        cells.append(std::vector<NodeIndex>{a, c, d});
+      } else {
+        cells.append(std::vector<NodeIndex>{a, b, c, d});
+      }
+    }
+  return PlanarMesh(std::make_shared<const Topology>(x.size(), std::move(cells)), x);
+}
+
+/// FNV-1a over the bytes of all coordinates.
+std::uint64_t hash(const PlanarMesh& mesh) {
+  std::uint64_t value = 0xcbf29ce484222325;
+  for (const auto& point : mesh.coordinates())
+    for (const double coordinate : {point.x(), point.y()}) {
+      unsigned char bytes[sizeof coordinate];
+      std::memcpy(bytes, &coordinate, sizeof coordinate);
+      for (const unsigned char byte : bytes) value = (value ^ byte) * 0x100000001b3;
+    }
+  return value;
+}
+
+TEST(SplitMix64, GivesTheNumbersOfTheReferenceImplementation) {
+  SplitMix64 random(1234567);
+  for (const std::uint64_t expected :
+       {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u,
+        16408922859458223821u})
+    EXPECT_EQ(random.next(), expected);
+}
+
+TEST(SplitMix64, UniformNumbersFillTheirRangeEvenly) {
+  SplitMix64 random = counter_random(1, 2, 3);
+  constexpr int n = 100000, n_bins = 10;
+  int bins[n_bins] = {}, dice[7] = {};
+  for (int i = 0; i < n; ++i) {
+    const double u = random.uniform();
+    ASSERT_TRUE(u >= 0.0 && u < 1.0);
+    ++bins[static_cast<int>(u * n_bins)];
+    ++dice[random.below(7)];
+  }
+  for (const int count : bins) EXPECT_NEAR(count, n / n_bins, 500);  // five standard deviations
+  for (const int count : dice) EXPECT_NEAR(count, n / 7, 600);
+}
+
+TEST(CounterRandom, DependsOnEachOfItsArguments) {
+  const std::uint64_t first = counter_random(1, 2, 3).next();
+  EXPECT_EQ(counter_random(1, 2, 3).next(), first);
+  for (const auto& other : {counter_random(2, 2, 3), counter_random(1, 3, 3),
+                            counter_random(1, 2, 4), counter_random(3, 2, 1)})
+    EXPECT_NE(SplitMix64(other).next(), first);
+}
+
+class Distort : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Distort, MeetsTheTargetWithAValidMeshAndFixedBoundary) {
+  const PlanarMesh original = grid(20, GetParam());
+  for (const double target : {0.7, 0.5, GetParam() ? 0.3699 : 0.4180}) {
+    PlanarMesh mesh = original;
+    const DistortionResult result = distort(mesh, {.target_q_mean = target});
+    const MeshQuality quality = mesh_quality(mesh);
+    EXPECT_NEAR(quality.q_mean, target, 1e-4);
+    EXPECT_EQ(quality.q_mean, result.q_mean);
+    EXPECT_EQ(quality.n_invalid, 0u);
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+      if (!mesh.topology().is_fixed(i)) continue;
+      EXPECT_EQ(mesh.coordinates()[i], original.coordinates()[i]);
+    }
+  }
+}
+
+TEST_P(Distort, KeepsToTheBallOfItsRadius) {
+  const PlanarMesh original = grid(20, GetParam());
+  PlanarMesh mesh = original;
+  const double radius = distort(mesh, {.target_q_mean = 0.6}).radius;
+  const double edge_length = GetParam() ? (4.0 + 2.0 * std::sqrt(2.0)) / 6.0 : 1.0;
+  double farthest = 0.0;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    farthest = std::max(farthest, (mesh.coordinates()[i] - original.coordinates()[i]).norm());
+  EXPECT_LE(farthest, radius * edge_length * (1.0 + 1e-12));
+  EXPECT_GE(farthest, 0.9 * radius * edge_length);
+}
+
+TEST_P(Distort, TheSameParametersGiveTheSameBitsAndOtherSeedsOtherMeshes) {
+  const auto hash_for = [](std::uint64_t seed, double target) {
+    PlanarMesh mesh = grid(20, GetParam());
+    distort(mesh, {.target_q_mean = target, .seed = seed});
+    return hash(mesh);
+  };
+  EXPECT_EQ(hash_for(1, 0.5), hash_for(1, 0.5));
+  EXPECT_NE(hash_for(1, 0.5), hash_for(2, 0.5));
+  EXPECT_NE(hash_for(1, 0.5), hash_for(1, 0.6));
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, Distort, ::testing::Bool(), [](const auto& info) {
+  return info.param ? "triangles" : "quadrilaterals";
+});
+
+TEST(DistortOnAnyMachine, GivesTheseBits) {
+  PlanarMesh mesh = grid(12, true);
+  distort(mesh, {.target_q_mean = 0.45, .seed = 42});
+  EXPECT_EQ(hash(mesh), 0u);
+}
+
+TEST(DistortErrors, SayWhatCanBeReached) {
+  const PlanarMesh original = grid(6, false);
+  PlanarMesh mesh = original;
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 0.01}); }),
+              HasSubstr("cannot reach the mean quality 0.010000; on this mesh it reaches values"));
+  EXPECT_EQ(mesh.coordinates(), original.coordinates());
+  mesh = grid(6, true);
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 0.95}); }),
+              HasSubstr("because the mesh itself has 0.866025"));
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 1.5}); }),
+              HasSubstr("1.500000 is not between 0 and 1"));
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_candidates = 0}); }), HasSubstr("not 0"));
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_sweeps = 0}); }), HasSubstr("not 0"));
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.tolerance = 0.0}); }), HasSubstr("positive"));
+}
+
+TEST(DistortErrors, InvalidMeshesAreRefused) {
+  PlanarMesh mesh = grid(6, false);
+  mesh.coordinates()[24] = {10, 10};
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {}); }), HasSubstr("cells are invalid"));
+}
+
+TEST(DistortErrors, AMeshWithoutFreeNodesKeepsItsQuality) {
+  PlanarMesh mesh = grid(1, true);
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {}); }), HasSubstr("cannot reach"));
+}
+
+}  // namespace
+}  // namespace smoothfem

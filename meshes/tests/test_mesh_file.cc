@@ -1,0 +1,97 @@
+#include "meshes/io/mesh_file.h"
+
+#include "meshes/tests/mesh_tests.h"
+
+namespace smoothfem {
+namespace {
+
+using ::testing::HasSubstr;
+using MeshFiles = FileTest;
+
+TEST_F(MeshFiles, PathsThatCannotBeReadAreNamed) {
+  const std::string missing = file("missing.vtu").string();
+  EXPECT_EQ(input_error_of([&] { read_mesh(missing); }),
+            missing + ": there is no such file; check the path");
+  std::filesystem::create_directory(file("folder.msh"));
+  EXPECT_THAT(input_error_of([&] { read_mesh(file("folder.msh")); }), HasSubstr("is a folder"));
+  EXPECT_THAT(input_error_of([&] { read_mesh(file_with("a.stl", "solid")); }),
+              HasSubstr("the extension .stl is not known; use one of .mesh, .msh, .vtk, .vtu"));
+  EXPECT_THAT(input_error_of([&] { read_mesh(file("mesh")); }), HasSubstr("has no extension"));
+}
+
+class EveryFormat : public FileTest, public ::testing::WithParamInterface<MeshFormat> {
+ protected:
+  std::filesystem::path target(const std::string& stem) const {
+    return file(stem + GetParam().extension);
+  }
+};
+
+TEST_P(EveryFormat, RefusesEmptyAndBlankFilesAndJunk) {
+  EXPECT_THAT(input_error_of([&] { read_mesh(file_with(target("a").filename(), "")); }),
+              HasSubstr("the file is empty"));
+  for (const std::string content : {"\n\n\n", "junk", "\xff\xfe\x01\x02\n\n"})
+    EXPECT_THAT(input_error_of([&] { read_mesh(file_with(target("b").filename(), content)); }),
+                ::testing::StartsWith(target("b").string() + ":"));
+}
+
+TEST_P(EveryFormat, RoundTripKeepsCoordinatesCellsAndFixedNodes) {
+  std::vector<bool> fixed(10, true);
+  fixed[0] = fixed[4] = false;
+  const bool holds_all = GetParam().holds_polygons && GetParam().holds_fixed_nodes;
+  const PlanarMesh mesh = holds_all ? mixed_mesh(true, {}, fixed) : mixed_mesh(false);
+  write_mesh(target("deeper/folder/a"), mesh);
+  expect_same_mesh(read_mesh(target("deeper/folder/a")).mesh, mesh);
+}
+
+TEST_P(EveryFormat, PolygonsAreHeldOrRefused) {
+  const std::string message = input_error_of([&] { write_mesh(target("a"), mixed_mesh(true)); });
+  if (GetParam().holds_polygons)
+    EXPECT_EQ(message, "");
+  else
+    EXPECT_THAT(message, HasSubstr("cell 3 has 5 nodes, and .msh files hold only triangles and "
+                                   "quadrilaterals; use one of .mesh, .vtk, .vtu"));
+}
+
+TEST_P(EveryFormat, TargetsThatCannotBeWrittenAreNamed) {
+  const auto path = std::filesystem::path("/dev/null") / target("a").filename();
+  EXPECT_THAT(input_error_of([&] { write_mesh(path, mixed_mesh(false)); }),
+              HasSubstr("cannot write " + path.string()));
+}
+
+TEST_P(EveryFormat, FieldsMustFitTheMesh) {
+  MeshFields fields;
+  fields.cell["quality"] = {1.0, 2.0};
+  EXPECT_THAT(input_error_of([&] { write_mesh(target("a"), mixed_mesh(false), fields); }),
+              HasSubstr("the cell field 'quality' has 2 values, but the mesh needs 6"));
+  fields = {};
+  fields.point["u"] = {1.0};
+  EXPECT_THAT(input_error_of([&] { write_mesh(target("a"), mixed_mesh(false), fields); }),
+              HasSubstr("the point field 'u' has 1 values, but the mesh needs 10"));
+}
+
+/// The first n bytes of a file are an error, or (where only blanks or optional parts are missing)
+/// the whole mesh: never a mesh with something missing, and never a crash.
+TEST_P(EveryFormat, TruncatedFilesAreNoticed) {
+  const PlanarMesh mesh = mixed_mesh(false);
+  write_mesh(target("whole"), mesh);
+  const std::string whole = content_of(target("whole"));
+  std::size_t n_refused = 0, n_tried = 0;
+  for (std::size_t n = 1; n < whole.size(); n += 1 + whole.size() / 200, ++n_tried) {
+    const auto path = file_with(target("cut").filename(), whole.substr(0, n));
+    try {
+      const MeshFile read = read_mesh(path);
+      EXPECT_EQ(read.mesh.coordinates(), mesh.coordinates()) << n << " of " << whole.size();
+      EXPECT_EQ(read.mesh.topology().cells(), mesh.topology().cells()) << n;
+    } catch (const InputError& error) {
+      ++n_refused;
+      EXPECT_THAT(error.what(), ::testing::StartsWith(path.string()));
+    }
+  }
+  EXPECT_GT(n_refused, n_tried / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(MeshFiles, EveryFormat, ::testing::ValuesIn(mesh_formats()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace smoothfem

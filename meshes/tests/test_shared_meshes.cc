@@ -1,0 +1,92 @@
+#include <cmath>
+#include <sstream>
+
+#include "meshes/io/mesh_file.h"
+#include "meshes/tests/mesh_tests.h"
+#include "smoothing/quality/mean_ratio.h"
+#include "smoothing/quality/mesh_quality.h"
+
+namespace smoothfem {
+namespace {
+
+/// Meshes of other people lie beside the repository, if at all.
+class SharedMeshes : public FileTest {
+ protected:
+  static std::filesystem::path shared(const std::string& name) {
+    return std::filesystem::path(SMOOTHFEM_SHARED_MESHES) / name;
+  }
+
+  void SetUp() override {
+    if (!std::filesystem::is_directory(SMOOTHFEM_SHARED_MESHES))
+      GTEST_SKIP() << "no folder " << SMOOTHFEM_SHARED_MESHES;
+  }
+};
+
+TEST_F(SharedMeshes, PrintedMeanRatiosComeOut) {
+  for (const std::string name :
+       {"simple_mixed_planar_polygonal.mesh", "gear_tri_initial.mesh", "gear_quad_initial.mesh"}) {
+    const PlanarMesh mesh = read_mesh(shared(name)).mesh;
+    const std::string content = content_of(shared(name));
+    std::istringstream printed(content.substr(content.find("polygon_mean_ratio")));
+    std::string keyword;
+    std::size_t n = 0;
+    printed >> keyword >> n;
+    ASSERT_EQ(n, mesh.n_cells());
+    // Nearly flat cells lose digits in the differences of their coordinates, in print as here.
+    const double tolerance = name.starts_with("simple") ? 1e-15 : 1e-13;
+    for (CellIndex c = 0; c < n; ++c) {
+      double expected = 0.0;
+      printed >> expected;
+      ASSERT_NEAR(cell_mean_ratio(mesh, c), expected, tolerance) << name << " cell " << c;
+    }
+  }
+}
+
+TEST_F(SharedMeshes, ThePublishedGearsHaveTheirCountsAndQuality) {
+  const MeshFile triangles = read_mesh(shared("gear_tri_initial.mesh"));
+  EXPECT_EQ(triangles.mesh.n_nodes(), 7660u);
+  EXPECT_EQ(triangles.mesh.n_cells(), 14346u);
+  EXPECT_EQ(triangles.mesh.topology().free_nodes().size(), 7660u - 982u);
+  EXPECT_NEAR(mesh_quality(triangles.mesh).q_mean, 0.36992, 5e-6);
+  const MeshFile quads = read_mesh(shared("gear_quad_initial.mesh"));
+  EXPECT_NEAR(mesh_quality(quads.mesh).q_mean, 0.41796, 5e-6);
+  EXPECT_NO_THROW(require_valid(quads.mesh));
+}
+
+TEST_F(SharedMeshes, CoordinatesAreWrittenDigitByDigit) {
+  write_mesh(file("again.mesh"), read_mesh(shared("gear_tri_initial.mesh")).mesh);
+  const std::string published = content_of(shared("gear_tri_initial.mesh"));
+  const std::size_t end = published.find("polygon_mean_ratio_quality_numbers");
+  EXPECT_EQ(content_of(file("again.mesh")).substr(0, end), published.substr(0, end));
+}
+
+TEST_F(SharedMeshes, EveryFormatGivesTheGearBack) {
+  for (const std::string name : {"gear_tri_initial.mesh", "gear_quad_initial.mesh",
+                                 "mixed2d_overture_tri382_quad4831.vtk"}) {
+    const PlanarMesh mesh = read_mesh(shared(name)).mesh;
+    for (const auto& format : mesh_formats()) {
+      write_mesh(file("copy" + format.extension), mesh);
+      expect_same_mesh(read_mesh(file("copy" + format.extension)).mesh, mesh);
+    }
+  }
+}
+
+TEST_F(SharedMeshes, MesquitesMixedMeshIsRead) {
+  const MeshFile read = read_mesh(shared("mixed2d_overture_tri382_quad4831.vtk"));
+  std::size_t n_triangles = 0;
+  for (CellIndex c = 0; c < read.mesh.n_cells(); ++c)
+    n_triangles += read.mesh.topology().cell_type(c) == ElementType::triangle;
+  EXPECT_EQ(n_triangles, 382u);
+  EXPECT_EQ(read.mesh.n_cells() - n_triangles, 4831u);
+  EXPECT_EQ(mesh_quality(read.mesh).n_invalid, 0u);
+}
+
+TEST_F(SharedMeshes, VolumesAreRefusedForNow) {
+  EXPECT_THAT(input_error_of([] { read_mesh(shared("mixed_hex_tet_pri_pyr_1622.vtk")); }),
+              ::testing::HasSubstr("only planar"));
+  EXPECT_THAT(input_error_of([] { read_mesh(shared("tet_sphere_24013.mesh")); }),
+              ::testing::HasSubstr("only planar"));
+}
+
+}  // namespace
+}  // namespace smoothfem
