@@ -12,11 +12,13 @@ from .table_descriptions import SYMBOLS
 
 QUALITY = ("q_min", "q_star_min", "q_mean")
 
-# An axis is logarithmic from this ratio of largest to smallest error on.
-LOGARITHMIC_FROM = 30.0
+# A row of panels is logarithmic from this ratio of largest to smallest error on: the thesis' own
+# figure spans a factor of 7 at most and is linear, errors of quadratic elements span more than 20.
+LOGARITHMIC_FROM = 12.0
 
 # Inches: the titles of the columns, the time axis, and a row of panels with the gap below it.
-HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.42, 1.72
+HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.4, 1.72
+LABEL_DISTANCE = 0.45  # inches from the axis to its label
 
 INITIAL_DASHES = (1, 2)
 MARKER_SIZE = 2.8
@@ -46,15 +48,19 @@ def draw_history(results, columns, degree, log_time=False):
                            top=1 - (HEAD + legend_height) / height, hspace=0.1,
                            wspace=0.52 * len(results.meshes) / width)
     for letter, row, name in zip("abcdefghij", axes, columns):
+        logarithmic = name not in QUALITY and any(
+            spans_magnitudes(finite_values(lines[name, mesh])) for mesh in results.meshes)
         for ax, mesh in zip(row, results.meshes):
-            draw_panel(ax, lines[name, mesh], name, styles, log_time)
+            draw_panel(ax, lines[name, mesh], styles, log_time)
+            scale_values(ax, finite_values(lines[name, mesh]), logarithmic)
         row[0].set_ylabel(f"({letter})  {SYMBOLS[name].tex}"
                           + (f"  ($d={degree}$)" if name not in QUALITY else ""))
     for ax, mesh in zip(axes[0], results.meshes):
         ax.set_title(results.title(mesh))
     for ax in axes[-1]:
         ax.set_xlabel("Smoothing time (s)")
-    figure.align_ylabels(axes[:, 0])
+        # A fixed distance aligns the labels of all rows, whatever their ticks are.
+        row[0].yaxis.set_label_coords(-LABEL_DISTANCE / (row[0].get_position().width * width), 0.5)
     thin_markers(figure)
     return figure
 
@@ -90,7 +96,7 @@ def panel_lines(results, name, mesh, degree):
     return lines
 
 
-def draw_panel(ax, lines, name, styles, log_time):
+def draw_panel(ax, lines, styles, log_time):
     """The lines of all methods and a level line for the initial mesh."""
     for method, (seconds, values) in lines.items():
         look = styles[method]
@@ -106,8 +112,6 @@ def draw_panel(ax, lines, name, styles, log_time):
         ax.axhline(level, color=styles[INITIAL].colour, linewidth=0.8, dashes=INITIAL_DASHES, zorder=1)
     if log_time:
         ax.set_xscale("log")
-    everything = np.concatenate([v for _, v in lines.values()] or [np.array([np.nan])])
-    scale_values(ax, name, everything[np.isfinite(everything)])
     ax.margins(x=0.02)
 
 
@@ -117,19 +121,29 @@ def initial_level(lines):
     return next((v[0] for v in firsts if len(v)), np.nan)
 
 
-def scale_values(ax, name, values):
-    """Quality from 0 on; errors from 0 on or logarithmic, as their range asks for."""
+def finite_values(lines):
+    """All numbers that a panel shows."""
+    values = np.concatenate([v for _, v in lines.values()] or [np.array([])])
+    return values[np.isfinite(values)]
+
+
+def spans_magnitudes(values):
+    """Whether the values ask for a logarithmic axis."""
+    return len(values) > 0 and values.min() > 0 and values.max() > LOGARITHMIC_FROM * values.min()
+
+
+def scale_values(ax, values, logarithmic):
+    """A logarithmic axis, or a linear one that starts at zero."""
     if not len(values):
         return
-    low, high = values.min(), values.max()
-    if name in QUALITY:
-        ax.set_ylim(min(0.0, low) - 0.03 * high, 1.06 * high if high > 0 else 1.0)
-    elif low > 0 and high / low > LOGARITHMIC_FROM:
+    high = values.max() if values.max() > 0 else 1.0
+    if logarithmic and values.min() > 0:
         ax.set_yscale("log")
         # Labels between the powers of ten only where there are hardly any powers.
         ax.yaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.5)))
     else:
-        ax.set_ylim(0.0, 1.06 * high if high > 0 else 1.0)
+        # A little room below: lowest qualities are often as good as zero and would lie on the axis.
+        ax.set_ylim(min(0.0, values.min()) - 0.03 * high, 1.06 * high)
 
 
 def draw_legend(figure, results, styles):
@@ -147,10 +161,10 @@ def draw_legend(figure, results, styles):
         handles.append(handle)
     for per_line in range(len(handles), 0, -1):
         legend = figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0),
-                               ncol=per_line, columnspacing=1.4, handlelength=3.0,
+                               ncol=per_line, columnspacing=1.2, handlelength=2.9,
                                handletextpad=0.5, borderaxespad=0.1)
         extent = legend.get_window_extent(figure.canvas.get_renderer())
-        if extent.width <= figure.bbox.width or per_line == 1:
+        if extent.width <= 0.99 * figure.bbox.width or per_line == 1:
             return extent.height / figure.dpi
         legend.remove()
     return 0.0
@@ -158,9 +172,9 @@ def draw_legend(figure, results, styles):
 
 def thin_markers(figure):
     """Leaves out markers that would touch the last one drawn; the lines keep all their points."""
-    figure.draw_without_rendering()  # the final scales are known only now
     distance = MARKER_DISTANCE * figure.dpi / 72
     for ax in figure.axes:
+        ax.get_xlim(), ax.get_ylim()  # asking brings the limits, hence transData, up to date
         for line in ax.get_lines():
             if line.get_marker() in ("", "None", None):
                 continue

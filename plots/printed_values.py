@@ -69,8 +69,8 @@ def comparison_note(table, results):
     if not stand_ins:
         return note
     known = {entry["name"] for entry in entries(results.provenance, "meshes") if "published" in entry}
-    names = " and ".join(results.title(mesh) for mesh in stand_ins)
+    names = ", ".join(stand_ins)
     if not known.issuperset(stand_ins):
-        return f"{note} Not recorded: whether ours ({names}) are these meshes."
-    return (f"{note} Ours ({names}) are generated stand-ins for them: the numbers cannot be "
-            "compared digit for digit.")
+        return f"{note} Whether ours are these meshes is not recorded for: {names}."
+    return (f"{note} Not these meshes but stand-ins for them, whose numbers cannot be compared digit "
+            f"for digit: {names}.")

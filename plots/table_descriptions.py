@@ -47,8 +47,8 @@ SYMBOLS = {
     "q_star_min": Heading("q*_min", r"$q^{*}_{\min}$"),
     "e_max": Heading("e_max", r"$e_{\max}$"), "e_mean": Heading("e_mean", r"$e_{\mathrm{mean}}$"),
     "e_l2": Heading("e_L2", r"$e_{L^2}$"), "e_h1": Heading("e_H1", r"$e_{H^1}$"),
-    "l2_error": Heading("|u-u_h|_L2", r"$\|u-u_h\|_{L^2}$"),
-    "h1_error": Heading("|u-u_h|_H1", r"$\|u-u_h\|_{H^1}$"),
+    "l2_error": Heading("|u-u_h|_L2", r"$\Vert u-u_h\Vert_{L^2}$"),
+    "h1_error": Heading("|u-u_h|_H1", r"$\Vert u-u_h\Vert_{H^1}$"),
     "lambda_min": Heading("lambda_min", r"$\lambda_{\min}$"),
     "lambda_max": Heading("lambda_max", r"$\lambda_{\max}$"),
 }

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The figures of a tiny study: that they are made, what they show, and that they are reproducible."""
+
+import contextlib
+import io
+
+import numpy as np
+
+from plots import style
+from plots.__main__ import main
+from plots.figure_history import draw_history
+from plots.read_results import read_results
+from plots.tests.synthetic_results import write_results
+from plots.tests.test_read_results import InFolder
+
+
+class Figures(InFolder):
+    def run_main(self, *arguments):
+        output, errors = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+            self.assertEqual(main([str(argument) for argument in arguments]), 0, errors.getvalue())
+        return output.getvalue(), errors.getvalue()
+
+    def test_same_results_give_the_same_bytes(self):
+        folder = write_results(self.folder / "r")
+        contents = []
+        for _ in range(2):
+            self.run_main(folder, "--quiet")
+            files = sorted([*folder.glob("figures/*"), *folder.glob("tables/*")])
+            contents.append({path.name: path.read_bytes() for path in files})
+        self.assertEqual(contents[0], contents[1])
+        names = {"figure_6_2_model", "figure_6_3_meshes", "figure_6_3_meshes_full",
+                 "figure_6_4_history", "figure_6_4_history_log_time", "figure_history_d2",
+                 "figure_history_norms_d1", "figure_history_norms_d2"}
+        self.assertEqual({path.name for path in folder.glob("figures/*")},
+                         {name + suffix for name in names for suffix in (".pdf", ".png")})
+
+    def test_other_study_several_meshes_one_mesh_file_missing(self):
+        folder = write_results(self.folder / "r", "plate", ("a", "b", "c"), ("own", "other", "laplace"))
+        (folder / "meshes" / "b_own.vtu").unlink()
+        output, errors = self.run_main(folder)
+        self.assertIn("b_own.vtu", errors)
+        self.assertIn("figures/model.pdf", output)
+        self.assertTrue((folder / "figures" / "history_log_time.png").exists())
+
+    def test_no_figures_and_no_meshes(self):
+        folder = write_results(self.folder / "r")
+        self.run_main(folder, "--no-figures")
+        self.assertFalse((folder / "figures").exists())
+        for path in (folder / "meshes").iterdir():
+            path.unlink()
+        self.run_main(folder)
+        self.assertTrue((folder / "figures" / "figure_6_4_history.pdf").exists())
+        self.assertFalse((folder / "figures" / "figure_6_2_model.pdf").exists())
+
+    def test_gaps_where_the_mesh_is_invalid(self):
+        results = read_results(write_results(self.folder / "r"))
+        style.apply_style()
+        figure = draw_history(results, ("q_min", "e_max"), "1")
+        for axes in figure.axes:
+            lines = {line.get_label(): line for line in axes.get_lines()}
+            np.testing.assert_array_equal(np.isnan(lines["weighted-laplace"].get_ydata()),
+                                          [False, True, False, False])
+            self.assertFalse(np.isnan(lines["getme"].get_ydata()).any())
+        style.pyplot.close(figure)
+
+    def test_markers_and_dashes_tell_methods_apart(self):
+        methods = (*style.KNOWN_METHODS, "mine", "yours", "another")
+        styles = style.method_styles(methods)
+        for attribute in ("colour", "marker", "dashes"):
+            known = [getattr(styles[name], attribute) for name in style.KNOWN_METHODS]
+            self.assertEqual(len(set(known)), len(known), attribute)
+        for attribute in ("marker", "dashes"):
+            values = [getattr(styles[name], attribute) for name in methods]
+            self.assertEqual(len(set(values)), len(values), attribute)
+        # The order of the study does not change the looks.
+        self.assertEqual(styles, style.method_styles(tuple(reversed(methods))))

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ours beside the printed numbers, in all formats."""
+
+import math
+
+from plots.number_format import format_error, relative_difference
+from plots.printed_values import THESIS_FOLDER, read_printed_tables
+from plots.read_results import read_results, read_rows
+from plots.table_formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
+from plots.tables import escape_tex, make_tables
+from plots.tests.synthetic_results import write_results
+from plots.tests.test_read_results import InFolder
+
+
+class Numbers(InFolder):
+    def test_relative_difference(self):
+        for ours, printed, expected in (
+                (110.0, "100", "+10.0"), (0.33674, "0.3367", "="), (377.4, "7.39e+02", "-48.9"),
+                (1.0899e8, "1.09e+08", "="), (0.1, "0.0000", "–"), (math.nan, "1.0", "–"),
+                (1.0, "", "–"), (1.00006, "1.0000", "<0.1"), (30.0, "1", "+2900")):
+            self.assertEqual(relative_difference(ours, printed), expected)
+
+    def test_small_errors_get_exponents(self):
+        self.assertEqual(format_error([1.5, math.nan]), ["1.5000", "–"])
+        self.assertEqual(format_error([1.5, 2e-6]), ["1.5000e+00", "2.0000e-06"])
+
+
+class Tables(InFolder):
+    def tables(self, **arguments):
+        results = read_results(write_results(self.folder / "r", **arguments))
+        printed = read_printed_tables(results.study, results.provenance)
+        return {table.name: table for table in make_tables(results, printed)}
+
+    def test_ours_beside_printed(self):
+        tables = self.tables()
+        self.assertEqual(list(tables), ["table_6_1_smoothing", "table_6_2_solver", "table_6_3_errors",
+                                        "table_6_4_thresholds", "table_details"])
+        q_min = next(g for g in tables["table_6_1_smoothing"].groups if g.heading.text == "q_min")
+        self.assertEqual(q_min.subheadings, ("ours", "printed", "%"))
+        # Rows: initial, then in the order of the provenance GETMe, then area-weighted Laplace.
+        self.assertEqual([cell.text for cell in q_min.cells[2]], ["0.2046", "0.2045", "<0.1"])
+        condition = tables["table_6_2_solver"].groups[0]
+        self.assertEqual([(c.text, c.mark) for c in condition.cells[2]],
+                         [("3.77e+02", ""), ("7.39e+02", "a"), ("-48.9", "")])
+        text = as_text(tables["table_6_2_solver"])
+        self.assertIn("7.39e+02ᵃ  -48.9", text)
+        self.assertIn("stand-ins", text)
+
+    def test_text_is_aligned_and_fits(self):
+        for table in self.tables(meshes=("tri", "quad")).values():
+            lines = as_text(table).split("\n\n")[1].splitlines()
+            self.assertEqual(len({len(lines[0]), len(lines[-1])}), 1)
+            self.assertLessEqual(max(map(len, as_text(table).splitlines())), TERMINAL_WIDTH)
+
+    def test_other_study_has_no_printed_columns(self):
+        tables = self.tables(study="plate", methods=("own_1", "getme"))
+        self.assertEqual(list(tables), ["table_smoothing", "table_solver", "table_errors",
+                                        "table_thresholds", "table_details"])
+        for table in tables.values():
+            self.assertNotIn("printed", as_text(table))
+            self.assertTrue(all(group.subheadings == ("",) for group in table.groups))
+
+    def test_markdown_has_equal_columns(self):
+        for table in self.tables().values():
+            rows = [line for line in as_markdown(table).splitlines() if line.startswith("|")]
+            counts = {line.replace("\\|", "").count("|") for line in rows}
+            self.assertEqual(len(counts), 1)
+
+    def test_latex(self):
+        self.assertEqual(escape_tex(r"50 % & a_b {x} \ ~ ^ # $"),
+                         r"50 \% \& a\_b \{x\} \textbackslash{} \textasciitilde{} "
+                         r"\textasciicircum{} \# \$")
+        for table in self.tables().values():
+            latex = as_latex(table)
+            self.assertIn(r"\caption{A \& B\_1: ", latex)
+            body = latex[latex.index(r"\midrule"):latex.index(r"\bottomrule")].splitlines()
+            columns = len(table.keys[0]) + sum(len(group.subheadings) for group in table.groups)
+            rows = [line for line in body if line.endswith(r"\\")]
+            self.assertEqual({line.count(" & ") for line in rows}, {columns - 1})
+            self.assertEqual(latex.count("{"), latex.count("}"))
+        self.assertIn(r"$7.39\cdot10^{2}$\rlap{\textsuperscript{a}}",
+                      as_latex(self.tables_of("r", "solver")))
+
+    def tables_of(self, folder, content):
+        """A table of a folder that has been written before."""
+        results = read_results(self.folder / folder)
+        printed = read_printed_tables(results.study, results.provenance)
+        return next(t for t in make_tables(results, printed) if t.name.endswith(content))
+
+
+class PrintedValues(InFolder):
+    def test_choice_of_tables(self):
+        self.assertEqual(set(read_printed_tables("gear", {})),
+                         {"smoothing", "solver", "errors", "thresholds"})
+        self.assertEqual(read_printed_tables("plate", {}), {})
+        self.assertEqual(read_printed_tables("gear", {"printed_values": []}), {})
+        for chosen in ("6.1", "table_6_1", "studies/thesis/table_6_1.csv"):
+            self.assertEqual(set(read_printed_tables("own", {"printed_values": [chosen]})), {"smoothing"})
+
+    def test_deviations_name_rows_that_are_printed(self):
+        index = read_rows(THESIS_FOLDER / "tables.csv").records()
+        for note in read_rows(THESIS_FOLDER / "deviations.csv").records():
+            files = [entry["file"] for entry in index if entry["table"] == note["table"]]
+            rows = [row for name in files for row in read_rows(THESIS_FOLDER / name).records()]
+            keys = [key for key in ("mesh", "degree", "method") if note[key] != "*"]
+            self.assertTrue(any(all(row.get(key) == note[key] for key in keys) for row in rows), note)
