@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fem/finite_element_space.h"
+#include "fem/manufactured_solution.h"
+
+namespace smoothfem {
+
+/// Errors of a finite element function u_h against the solution u it approximates.
+struct ErrorNorms {
+  double e_max = 0.0;   ///< largest |u - u_h| at the free dofs
+  double e_mean = 0.0;  ///< mean of |u - u_h| over the free dofs
+  /// Norms of the finite element function I_h u - u_h, I_h the nodal interpolant: what the thesis
+  /// prints as e_L2 and e_H1. H1 is the full norm, values and gradients.
+  double e_l2 = 0.0;
+  double e_h1 = 0.0;
+  /// Norms of u - u_h itself, by quadrature: the textbook's errors.
+  double l2_error = 0.0;
+  double h1_error = 0.0;
+};
+
+/// exact: u at all dofs; discrete: u_h at all dofs. coordinates: of a mesh without invalid cells.
+ErrorNorms error_norms(const FiniteElementSpace& space, const std::vector<Point<2>>& coordinates,
+                       const ManufacturedSolution& solution, const Eigen::VectorXd& exact,
+                       const Eigen::VectorXd& discrete);
+
+}  // namespace smoothfem
