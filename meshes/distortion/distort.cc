@@ -1,7 +1,7 @@
 #include "meshes/distortion/distort.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 #include "meshes/distortion/counter_random.h"
@@ -12,8 +12,6 @@
 namespace smoothfem {
 
 namespace {
-
-using Coordinates = std::vector<Point<2>>;
 
 void require_in_range(const DistortionParameters& p) {
   if (!(p.target_q_mean > 0.0 && p.target_q_mean < 1.0))
@@ -51,18 +49,54 @@ class Distortion {
     }
   }
 
-  /// Coordinates for a radius, and the mean quality they give.
+  /// Moves all nodes within a radius and returns the mean quality that gives.
   double apply(double radius) {
     mesh_.coordinates() = original_;
     for (int sweep = 0; sweep < parameters_.n_sweeps; ++sweep)
-      for (const NodeIndex node : mesh_.topology().free_nodes()) move(node, sweep, radius);
+      for (const NodeIndex node : mesh_.topology().free_nodes())
+        mesh_.coordinates()[node] = worst_place(node, sweep, radius);
     return mesh_quality(mesh_).q_mean;
   }
 
-  const Coordinates& coordinates() const { return mesh_.coordinates(); }
+  /// Moves further nodes, one after the other, until the mean quality, at present above the target,
+  /// has fallen to it; the last one stops on its way. The places that keep a node's cells valid are
+  /// convex, because each corner's determinant is linear in the node's coordinates, so the way is
+  /// valid. False if the target is not reached.
+  bool finish(double target, double radius) {
+    const auto n_cells = static_cast<double>(mesh_.n_cells());
+    double excess = (mesh_quality(mesh_).q_mean - target) * n_cells;
+    for (const NodeIndex node : mesh_.topology().free_nodes()) {
+      Point<2>& place = mesh_.coordinates()[node];
+      const Point<2> from = place, to = worst_place(node, parameters_.n_sweeps, radius);
+      const auto degree = static_cast<double>(mesh_.topology().node_cells(node).size());
+      const double before = quality_around(node);
+      place = to;
+      const double loss = degree * (before - quality_around(node));
+      if (loss < excess) {
+        if (loss > 0.0)
+          excess -= loss;
+        else
+          place = from;
+        continue;
+      }
+      double low = 0.0, high = 1.0;
+      for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        place = (1.0 - middle) * from + middle * to;
+        const double quality = quality_around(node);
+        (quality > 0.0 && degree * (before - quality) < excess ? low : high) = middle;
+      }
+      place = (1.0 - low) * from + low * to;
+      return true;
+    }
+    return false;
+  }
+
+  const PlanarMesh& mesh() const { return mesh_; }
 
  private:
-  void move(NodeIndex node, int sweep, double radius) {
+  /// The worst valid place of those a node chooses from; the present one if there is none.
+  Point<2> worst_place(NodeIndex node, int sweep, double radius) {
     Point<2>& place = mesh_.coordinates()[node];
     const Point<2> present = place;
     Point<2> worst = present;
@@ -79,7 +113,8 @@ class Distortion {
         worst = place;
       }
     }
-    place = worst;
+    place = present;
+    return worst;
   }
 
   /// Mean quality of a node's cells; 0 if one is invalid.
@@ -95,7 +130,7 @@ class Distortion {
   }
 
   PlanarMesh mesh_;
-  Coordinates original_;
+  std::vector<Point<2>> original_;
   std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
   DistortionParameters parameters_;
 };
@@ -103,9 +138,13 @@ class Distortion {
 /// Balls of this radius contain the cells of nearly every node; larger ones change nothing.
 constexpr double largest_radius = 4.0;
 constexpr int n_scan_steps = 16;
-constexpr int n_bisections = 40;
-constexpr int n_neighbours = 400;
-constexpr double neighbour_distance = 1e-4;  ///< relative to the radius
+constexpr int n_bisections = 12;
+
+std::string not_reached(double target, double q_lowest, double q_initial) {
+  return "the distortion cannot reach the mean quality " + std::to_string(target) +
+         "; on this mesh it reaches values from " + std::to_string(q_lowest) + " to " +
+         std::to_string(q_initial);
+}
 
 }  // namespace
 
@@ -113,14 +152,8 @@ DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameter
   require_in_range(parameters);
   require_valid(mesh);
   const double target = parameters.target_q_mean;
-  Distortion distortion(mesh, parameters);
-  DistortionResult result{0.0, mesh_quality(mesh).q_mean};
-  const double q_initial = result.q_mean;
-  const auto reached = [&](double radius) {
-    result = {radius, distortion.apply(radius)};
-    return std::abs(result.q_mean - target) <= parameters.tolerance;
-  };
-  if (std::abs(q_initial - target) <= parameters.tolerance) return result;
+  const double q_initial = mesh_quality(mesh).q_mean;
+  if (std::abs(q_initial - target) <= parameters.tolerance) return {0.0, q_initial};
   if (q_initial < target)
     throw InputError("the distortion cannot reach the mean quality " + std::to_string(target) +
                      ", because the mesh itself has " + std::to_string(q_initial) +
@@ -128,29 +161,25 @@ DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameter
 
   // The mean quality falls with the radius until the balls hold all valid places: the first step
   // below the target brackets the radius.
-  double q_lowest = q_initial, lower = 0.0, upper = 0.0;
-  for (int step = 1; step <= n_scan_steps && !(q_lowest < target); ++step) {
+  Distortion distortion(mesh, parameters);
+  double lower = 0.0, upper = 0.0, q_lowest = q_initial;
+  for (int step = 1; step <= n_scan_steps && q_lowest >= target; ++step) {
     lower = upper;
     upper = largest_radius * step / n_scan_steps;
-    reached(upper);
-    q_lowest = std::min(q_lowest, result.q_mean);
+    q_lowest = std::min(q_lowest, distortion.apply(upper));
   }
-  if (q_lowest >= target)
-    throw InputError("the distortion cannot reach the mean quality " + std::to_string(target) +
-                     "; on this mesh it reaches values from " + std::to_string(q_lowest) + " to " +
-                     std::to_string(q_initial));
-  for (int i = 0; i < n_bisections && !reached(0.5 * (lower + upper)); ++i)
-    (result.q_mean > target ? lower : upper) = result.radius;
-  // On small meshes the quality jumps over the target where one node's choice changes; other jumps
-  // lie next to it.
-  const double jump = result.radius;
-  for (int i = 1; i <= n_neighbours && std::abs(result.q_mean - target) > parameters.tolerance; ++i)
-    reached(jump * (1.0 + (i % 2 == 0 ? -0.5 : 0.5) * i * neighbour_distance));
+  if (q_lowest >= target) throw InputError(not_reached(target, q_lowest, q_initial));
+  for (int i = 0; i < n_bisections; ++i) {
+    const double middle = 0.5 * (lower + upper);
+    (distortion.apply(middle) > target ? lower : upper) = middle;
+  }
+  // The quality jumps where a node's choice changes, by much on small meshes.
+  if (distortion.apply(lower) > target && !distortion.finish(target, upper))
+    throw InputError(not_reached(target, q_lowest, q_initial));
+  const DistortionResult result{lower, mesh_quality(distortion.mesh()).q_mean};
   if (std::abs(result.q_mean - target) > parameters.tolerance)
-    throw InputError("the distortion came no closer to the mean quality " + std::to_string(target) +
-                     " than " + std::to_string(result.q_mean) +
-                     "; the mesh is too small for this tolerance");
-  mesh.coordinates() = distortion.coordinates();
+    throw InputError(not_reached(target, q_lowest, q_initial));
+  mesh.coordinates() = distortion.mesh().coordinates();
   return result;
 }
 

@@ -81,7 +81,8 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
     PlanarCells mesh =
         tri ? triangles(polygons, edge_length) : quadrilaterals(polygons, edge_length);
     const auto n = static_cast<double>(mesh.cells.size());
-    edge_length *= std::sqrt(n / aim);
+    // Counts scatter about the smooth law; shrinking steps look between the lengths tried before.
+    edge_length *= std::pow(n / aim, i < 4 ? 0.5 : 1.0 / (i - 1));
     if (std::abs(n - aim) >= best_deviation) continue;
     best_deviation = std::abs(n - aim);
     best = std::move(mesh);

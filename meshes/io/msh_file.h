@@ -25,7 +25,7 @@ void write_msh(const std::filesystem::path& path, const PlanarMesh& mesh, const 
 /// What a .msh file says about itself. Gmsh accepts several kinds of damaged files silently.
 struct MshStructure {
   bool binary = false;
-  std::uint64_t n_nodes = 0, n_elements = 0;  ///< as announced
+  std::uint64_t n_elements = 0;  ///< as announced
   std::unordered_map<std::uint64_t, std::size_t>
       element_lines;  ///< by element tag; text files only
 };

@@ -142,14 +142,8 @@ void add_labels(const GmshElements& edges, MeshLabels& labels) {
   }
 }
 
-/// Gmsh skips what it cannot place without an error; the announced numbers tell.
+/// Gmsh skips what it cannot place without an error; the announced number tells.
 void require_complete(const MshStructure& structure) {
-  std::vector<std::size_t> node_tags;
-  std::vector<double> xyz, parameters;
-  gmsh::model::mesh::getNodes(node_tags, xyz, parameters);
-  if (node_tags.size() != structure.n_nodes)
-    throw InputError("the file announces " + std::to_string(structure.n_nodes) + " nodes but has " +
-                     std::to_string(node_tags.size()) + " different ones");
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
   gmsh::model::mesh::getElements(types, tags, nodes);

@@ -1,5 +1,7 @@
+#include <charconv>
 #include <cstring>
 #include <string>
+#include <unordered_set>
 
 #include "meshes/io/line_reader.h"
 #include "meshes/io/msh_file.h"
@@ -59,13 +61,18 @@ class MshScanner {
     for (const char* axis : {"x", "y", "z"}) reader_.number(what + "'s " + axis + " coordinate");
   }
 
+  void scan_node_tag() {
+    const std::uint64_t tag = reader_.integer("the node's tag");
+    if (!node_tags_.insert(tag).second)
+      reader_.fail("the node tag " + std::to_string(tag) + " appears twice");
+  }
+
   void scan_nodes_2() {
     reader_.require_line("the number of nodes");
-    structure_.n_nodes = reader_.integer("the number of nodes");
-    for (std::uint64_t i = 0; i < structure_.n_nodes; ++i) {
-      reader_.require_line("node " + std::to_string(i + 1) + " of " +
-                           std::to_string(structure_.n_nodes));
-      reader_.integer("the node's tag");
+    const std::uint64_t n_nodes = reader_.integer("the number of nodes");
+    for (std::uint64_t i = 0; i < n_nodes; ++i) {
+      reader_.require_line("node " + std::to_string(i + 1) + " of " + std::to_string(n_nodes));
+      scan_node_tag();
       scan_point("the node");
       reader_.require_end_of_line();
     }
@@ -74,7 +81,7 @@ class MshScanner {
   void scan_nodes_4() {
     reader_.require_line("the numbers of nodes");
     const std::uint64_t n_blocks = reader_.integer("the number of node blocks");
-    structure_.n_nodes = reader_.integer("the number of nodes");
+    const std::uint64_t n_nodes = reader_.integer("the number of nodes");
     std::uint64_t n_found = 0;
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       reader_.require_line("node block " + std::to_string(b + 1) + " of " +
@@ -85,7 +92,7 @@ class MshScanner {
       n_found += n;
       for (std::uint64_t i = 0; i < n; ++i) {
         reader_.require_line("the tags of " + std::to_string(n) + " nodes");
-        reader_.integer("the node's tag");
+        scan_node_tag();
         reader_.require_end_of_line();
       }
       for (std::uint64_t i = 0; i < n; ++i) {
@@ -93,7 +100,7 @@ class MshScanner {
         scan_point("the node");  // parametric coordinates may follow
       }
     }
-    require_total("nodes", n_found, structure_.n_nodes);
+    require_total("nodes", n_found, n_nodes);
   }
 
   void scan_elements_2() {
@@ -130,14 +137,27 @@ class MshScanner {
   void scan_element() {
     const std::uint64_t tag = reader_.integer("the element's tag");
     structure_.element_lines.emplace(tag, reader_.line());
-    while (true) {
-      const std::string_view word = reader_.word();
-      if (word.empty()) break;
-      for (const char c : word)
-        if ((c < '0' || c > '9') && c != '-')
-          reader_.fail("the element's line holds '" + std::string(word.substr(0, 40)) +
-                       "', which is not an integer");
+    if (!version_4_) {
+      reader_.integer("the element's type");
+      const std::uint64_t n_tags = reader_.integer("the number of the element's tags");
+      for (std::uint64_t i = 0; i < n_tags; ++i) scan_integer(reader_.word());
     }
+    for (std::string_view word = reader_.word(); !word.empty(); word = reader_.word()) {
+      const long node = scan_integer(word);
+      if (!node_tags_.contains(static_cast<std::uint64_t>(node)))
+        reader_.fail("element " + std::to_string(tag) + " names node " + std::to_string(node) +
+                     ", which the file does not have");
+    }
+  }
+
+  /// Tags may be negative.
+  long scan_integer(std::string_view word) {
+    long value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || word.empty())
+      reader_.fail("the element's line holds '" + std::string(word.substr(0, 40)) +
+                   "', which is not an integer");
+    return value;
   }
 
   void require_total(const std::string& what, std::uint64_t n_found, std::uint64_t n_announced) {
@@ -149,6 +169,7 @@ class MshScanner {
   LineReader& reader_;
   bool version_4_;
   MshStructure& structure_;
+  std::unordered_set<std::uint64_t> node_tags_;
 };
 
 template <class T>
@@ -158,7 +179,7 @@ T bytes_as(std::string_view bytes) {
   return value;
 }
 
-/// The count of nodes or elements that a binary section announces, from the bytes after its title.
+/// The count of elements that a binary section announces, from the bytes after its title.
 std::uint64_t binary_count(bool version_4, std::string_view section) {
   if (!version_4) {
     LineReader reader({}, section);
@@ -179,8 +200,8 @@ void scan_binary(const std::string& path, std::string_view content, bool version
                        "; it is truncated or holds no mesh");
     if (content.rfind(end) == std::string_view::npos)
       throw InputError(path + ": the section $" + name + " has no end; the file is truncated");
-    (name == "Nodes" ? structure.n_nodes : structure.n_elements) =
-        binary_count(version_4, content.substr(begin + title.size()));
+    if (name == "Elements")
+      structure.n_elements = binary_count(version_4, content.substr(begin + title.size()));
   }
 }
 

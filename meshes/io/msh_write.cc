@@ -113,6 +113,7 @@ void write_msh(const std::filesystem::path& path, const PlanarMesh& mesh, const 
   const bool version_4 = options.msh_version == MshVersion::v4_1;
   session.set_option("Mesh.MshFileVersion", version_4 ? 4.1 : 2.2);
   session.set_option("Mesh.Binary", options.msh_binary ? 1 : 0);
+  session.set_option("Mesh.PreserveNumberingMsh2", 1);    // the order of the cells
   session.set_option("Mesh.SaveAll", version_4 ? 1 : 0);  // 2.2 would lose the tags
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     session.run("cannot write " + path.string(), [&] {

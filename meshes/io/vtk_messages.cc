@@ -1,5 +1,6 @@
 #include "meshes/io/vtk_messages.h"
 
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 
 namespace smoothfem {
@@ -34,6 +35,8 @@ vtkStandardNewMacro(Collector);
 VtkMessages::VtkMessages()
     : collector_(vtkSmartPointer<Collector>::New()), former_(vtkOutputWindow::GetInstance()) {
   vtkOutputWindow::SetInstance(collector_);
+  // Since version 9 VTK also logs by itself.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 
 VtkMessages::~VtkMessages() {

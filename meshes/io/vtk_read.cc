@@ -155,7 +155,8 @@ void require_no_message(const std::string& path, const VtkMessages& messages) {
 /// VTK does not look whether offsets, types and connectivity belong together.
 void require_consistent(const std::string& path, vtkUnstructuredGrid& grid) {
   vtkUnsignedCharArray* types = grid.GetCellTypesArray();
-  if (grid.GetNumberOfCells() == 0) throw InputError(path + ": the file has no cells");
+  if (grid.GetNumberOfCells() == 0)
+    throw InputError(path + ": the file has no cells; it holds no mesh or is truncated");
   if (!types || types->GetNumberOfTuples() != grid.GetNumberOfCells() ||
       !grid.GetCells()->IsValid())
     throw InputError(path +

@@ -55,8 +55,8 @@ TEST_P(Gear, IsValidWithATenthOfTheCells) {
   EXPECT_EQ(mesh.topology().boundary_edges().size(), 326u);
   EXPECT_EQ(euler_characteristic(mesh), -4);
   EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
-  EXPECT_NEAR(area_inside(mesh), area_inside(generate_gear(gear_of_the_thesis(GetParam(), 2.0))),
-              1.0);
+  const PlanarMesh finer = generate_gear(gear_of_the_thesis(GetParam(), 2.0));
+  EXPECT_NEAR(area_inside(mesh) / area_inside(finer), 1.0, 0.01);
 }
 
 TEST_P(Gear, TheSameParametersGiveTheSameMesh) {
@@ -115,7 +115,7 @@ TEST(GearErrors, NameWhatIsNotPossible) {
   EXPECT_THAT(error_with([](auto& p) { p.n_teeth = 2; }), HasSubstr("at least 3 teeth"));
   EXPECT_THAT(error_with([](auto& p) { p.root_radius = 8.0; }), HasSubstr("base circle"));
   EXPECT_THAT(error_with([](auto& p) { p.tip_radius = 12.0; }), HasSubstr("pointed"));
-  EXPECT_THAT(error_with([](auto& p) { p.kidney_fillet_radius = 1.2; }), HasSubstr("fillets"));
+  EXPECT_THAT(error_with([](auto& p) { p.kidney_fillet_radius = 3.0; }), HasSubstr("fillets"));
   EXPECT_THAT(error_with([](auto& p) { p.arm_length = 3.0; }), HasSubstr("overlap"));
   EXPECT_THAT(error_with([](auto& p) { p.bore_half_width = 0.1; }), HasSubstr("narrower"));
   EXPECT_THAT(error_with([](auto& p) { p.element_type = ElementType::polygon; }),

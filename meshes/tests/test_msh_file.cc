@@ -87,6 +87,12 @@ TEST_F(Msh, NodesAreNumberedFromZeroWithoutUnusedOnes) {
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{15, 16}));
 }
 
+TEST_F(Msh, NodesThatNothingUsesAreAllowed) {
+  std::string content = square();
+  content.replace(content.find("15 2 0 1 5"), 10, "15 2 0 1 3");
+  EXPECT_EQ(read_mesh(file_with("a.msh", content)).mesh.n_nodes(), 4u);
+}
+
 TEST_F(Msh, ConstantZIsPlanarWhateverItsValue) {
   std::string content = square();
   for (const std::string node : {"0 0 0\n", "1 0 0\n", "5 5 0\n", "1 1 0\n", "0 1 0\n"})
@@ -141,13 +147,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadMsh{"too_many_nodes", head_2 + "$Nodes\n1\n1 0 0 0\n2 1 0 0\n$EndNodes\n",
                ":7: expected $EndNodes"},
         BadMsh{"nan", square("9 0 nan 0"), ":10: the node's y coordinate is 'nan'"},
-        BadMsh{"missing_node", square("9 0 1 0", "12 2 2 1 1 2 7 8"), "8"},
+        BadMsh{"missing_node", square("9 0 1 0", "12 2 2 1 1 2 7 8"),
+               ":16: element 12 names node 8, which the file does not have"},
         BadMsh{"too_few_element_nodes", square("9 0 1 0", "12 2 2 1 1 2 7"), "Gmsh"},
         BadMsh{"node_twice", square("9 0 1 0", "12 2 2 1 1 2 7 7"),
                ":16: cell 1 names node 2 more than once"},
         BadMsh{"element_junk", square("9 0 1 0", "12 2 2 1 1 2 7 x"),
                ":16: the element's line holds 'x'"},
-        BadMsh{"same_node_tag_twice", square("7 0 1 0"), "nodes"},
+        BadMsh{"same_node_tag_twice", square("7 0 1 0"), ":10: the node tag 7 appears twice"},
         BadMsh{"not_flat", square("9 0 1 .5"), "only planar meshes with constant z"},
         BadMsh{"second_order", second_order, "save it with element order 1"},
         BadMsh{"volume", tetrahedron, "volume elements"},
@@ -158,7 +165,8 @@ INSTANTIATE_TEST_SUITE_P(
                head_4 + nodes_4 + "$Elements\n1 2 1 2\n2 1 2 1\n1 1 2 3\n$EndElements\n",
                "announces 2 elements but has 1"},
         BadMsh{"missing_node_4",
-               head_4 + nodes_4 + "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 4\n$EndElements\n", "4"}),
+               head_4 + nodes_4 + "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 4\n$EndElements\n",
+               "element 1 names node 4"}),
     [](const auto& info) { return info.param.name; });
 
 TEST_F(Msh, SessionsMayBeNestedAndKeepOptionsApart) {

@@ -42,7 +42,7 @@ TEST_F(Vtk, ReadsFixedTagsLinesAndPixels) {
   const MeshFile read = read_mesh(file_with(
       "a.vtk",
       head + "POINTS 6 double\n0 0 3\n1 0 3\n0 1 3\n1 1 3\n2 0 3\n2 1 3\n"
-             "CELLS 5 19\n2 0 1\n4 0 1 2 3\n1 4\n4 1 4 5 3\n2 1 4\nCELL_TYPES 5\n3\n8\n1\n9\n3\n"
+             "CELLS 5 18\n2 0 1\n4 0 1 2 3\n1 4\n4 1 4 5 3\n2 1 4\nCELL_TYPES 5\n3\n8\n1\n9\n3\n"
              "CELL_DATA 5\nSCALARS other int\nLOOKUP_TABLE default\n1 2 3 4 5\n"
              "SCALARS physical_tag int\nLOOKUP_TABLE default\n8 1 0 2 0\n"
              "POINT_DATA 6\nSCALARS fixed float\nLOOKUP_TABLE default\n0 1 0 0 0 2\n"));
@@ -117,7 +117,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadVtk{"cut_points", ".vtk", head + "POINTS 4 double\n0 0 0\n1 0", "VTK: "},
         BadVtk{"junk_points", ".vtk", head + "POINTS 4 double\n0 0 0\n1 0 x 1 1 1 0 0 1\n",
                "VTK: "},
-        BadVtk{"cut_cells", ".vtk", head + points + "CELLS 2 8\n3 0 1 2\n3 0", "VTK: "},
+        BadVtk{"cut_cells", ".vtk", head + points + "CELLS 2 8\n3 0 1 2\n3 0",
+               "the file has no cells; it holds no mesh or is truncated"},
         BadVtk{"cut_types", ".vtk", head + points + "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5",
                ""},
         BadVtk{"no_types", ".vtk", head + points + "CELLS 2 8\n3 0 1 2\n3 0 2 3\n", ""},
@@ -127,6 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
                "cell 0 names point -1"},
         BadVtk{"wrong_row", ".vtk", head + points + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n5\n",
                "cell 0 has 4 nodes, but its type has 3"},
+        BadVtk{"size_beyond_rows", ".vtk",
+               head + points + "CELLS 2 9\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\n", ""},
         BadVtk{"row_beyond_size", ".vtk", head + points + "CELLS 1 4\n9 0 1 2\nCELL_TYPES 1\n5\n",
                ""},
         BadVtk{"two_gon", ".vtk", head + points + "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n7\n",
