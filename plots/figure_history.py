@@ -4,7 +4,7 @@
 import matplotlib.pyplot as pyplot
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogFormatterSciNotation
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from . import style
 from .read_results import INITIAL
@@ -18,7 +18,7 @@ LOGARITHMIC_FROM = 12.0
 
 # Inches: the titles of the columns, the time axis, and a row of panels with the gap below it.
 HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.4, 1.72
-LABEL_DISTANCE = 0.45  # inches from the axis to its label
+LABEL_DISTANCE = 0.36  # inches from the axis to its label
 
 INITIAL_DASHES = (1, 2)
 MARKER_SIZE = 2.8
@@ -55,12 +55,12 @@ def draw_history(results, columns, degree, log_time=False):
             scale_values(ax, finite_values(lines[name, mesh]), logarithmic)
         row[0].set_ylabel(f"({letter})  {SYMBOLS[name].tex}"
                           + (f"  ($d={degree}$)" if name not in QUALITY else ""))
+        # A fixed distance aligns the labels of all rows, whatever their ticks are.
+        row[0].yaxis.set_label_coords(-LABEL_DISTANCE / (row[0].get_position().width * width), 0.5)
     for ax, mesh in zip(axes[0], results.meshes):
         ax.set_title(results.title(mesh))
     for ax in axes[-1]:
         ax.set_xlabel("Smoothing time (s)")
-        # A fixed distance aligns the labels of all rows, whatever their ticks are.
-        row[0].yaxis.set_label_coords(-LABEL_DISTANCE / (row[0].get_position().width * width), 0.5)
     thin_markers(figure)
     return figure
 
@@ -139,11 +139,24 @@ def scale_values(ax, values, logarithmic):
     high = values.max() if values.max() > 0 else 1.0
     if logarithmic and values.min() > 0:
         ax.set_yscale("log")
-        # Labels between the powers of ten only where there are hardly any powers.
-        ax.yaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.5)))
+        label_logarithmic(ax, values.min(), values.max())
     else:
         # A little room below: lowest qualities are often as good as zero and would lie on the axis.
         ax.set_ylim(min(0.0, values.min()) - 0.03 * high, 1.06 * high)
+
+
+def label_logarithmic(ax, low, high):
+    """Plain numbers instead of powers of ten where they are short, with 2 and 5 if the range is small."""
+    if low < 1e-3 or high > 1e4:
+        return
+    plain = FuncFormatter(lambda value, _: f"{value:g}")
+    ax.yaxis.set_major_formatter(plain)
+    if high / low < 300:
+        ax.yaxis.set_minor_locator(LogLocator(subs=(2, 5)))
+        ax.yaxis.set_minor_formatter(plain)
+        ax.tick_params(axis="y", which="minor", labelsize=8)
+    else:
+        ax.yaxis.set_minor_formatter(NullFormatter())
 
 
 def draw_legend(figure, results, styles):

@@ -33,7 +33,7 @@ def draw_meshes(blocks, detail=None):
     gap = 0.08
     width = (style.FULL_WIDTH - (COLUMNS + 1) * gap) / COLUMNS
     height = width / aspect
-    rows = [math.ceil(len(panels) / COLUMNS) for _, panels in blocks]
+    rows = [rows_of_panels(panels) for _, panels in blocks]
     total = sum(rows) * (height + CAPTION) + len(blocks) * BLOCK_TITLE + FOOT
     figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
 
@@ -58,6 +58,11 @@ def draw_meshes(blocks, detail=None):
         top -= n_rows * (height + CAPTION)
     colour_bar(figure, total)
     return figure
+
+
+def rows_of_panels(panels):
+    """How many rows a block of panels takes."""
+    return math.ceil(len(panels) / COLUMNS)
 
 
 def box_aspect(grid):

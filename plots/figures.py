@@ -3,13 +3,16 @@
 
 from . import style
 from .figure_history import draw_history
-from .figure_meshes import DETAIL_CENTRE, DETAIL_WIDTH, draw_meshes
+from .figure_meshes import DETAIL_CENTRE, DETAIL_WIDTH, draw_meshes, rows_of_panels
 from .figure_model import draw_model
 from .read_results import INITIAL
 from .read_vtu import read_vtu
 
 # Numbers in the thesis of the figures of its studies; any other figure has no number.
 THESIS_NUMBERS = {"gear": {"model": "6_2", "meshes": "6_3", "history": "6_4"}}
+
+# Rows of panels that fit a page; with more of them each mesh gets figures of its own.
+ROWS_OF_A_PAGE = 4
 
 
 def figure_name(study, kind, variant=""):
@@ -78,11 +81,17 @@ def draw_mesh_figures(results, grids, save, report):
         save(draw_model(grid), figure_name(results.study, "model"), "model and exact solution")
     else:
         report("No figure of the model: no mesh has the point data `exact_solution`.")
+    names = list(dict.fromkeys(mesh for mesh, _ in grids))
     blocks = [(results.title(mesh), [(results.title(method), grid)
                                      for (name, method), grid in grids.items() if name == mesh])
-              for mesh in dict.fromkeys(mesh for mesh, _ in grids)]
+              for mesh in names]
     settings = results.provenance.get("figures")
     settings = settings if isinstance(settings, dict) else {}
     detail = (settings.get("detail_centre", DETAIL_CENTRE), settings.get("detail_width", DETAIL_WIDTH))
-    save(draw_meshes(blocks, detail), figure_name(results.study, "meshes"), "details of the meshes")
-    save(draw_meshes(blocks), figure_name(results.study, "meshes", "_full"), "meshes")
+    parts = {"": blocks}
+    if sum(rows_of_panels(panels) for _, panels in blocks) > ROWS_OF_A_PAGE:
+        parts = {f"_{name}": [block] for name, block in zip(names, blocks)}
+    for part, shown in parts.items():
+        for variant, window in (("", detail), ("_full", None)):
+            save(draw_meshes(shown, window), figure_name(results.study, "meshes", part + variant),
+                 "meshes" if window is None else "details of the meshes")
