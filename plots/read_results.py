@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads a results folder: CSV rows, provenance and the names of the meshes (columns: results/README.md)."""
+"""Reads a results folder: CSV rows, provenance, names of mesh files.
+
+Columns are documented in results/README.md.
+"""
 
 import csv
 import json

@@ -168,8 +168,9 @@ def make_group(measure, pairs, notes):
         texts = measure.format(values)
     columns, subheadings = [[number_cell(text) for text in texts]], ["ours"]
     if any(prints):
-        columns.append([number_cell(printed or MISSING, notes.letter(measure.column, row) if printed else "")
-                        for row, (_, printed) in enumerate(zip(pairs, prints))])
+        marks = [notes.letter(measure.column, row) if printed else ""
+                 for row, printed in enumerate(prints)]
+        columns.append([number_cell(printed or MISSING, mark) for printed, mark in zip(prints, marks)])
         subheadings.append("printed")
         if measure.difference and values is not None:
             columns.append([number_cell(relative_difference(value, printed))
@@ -195,7 +196,7 @@ def number_cell(text, mark=""):
 def escape_tex(text):
     """Text with LaTeX's special characters escaped."""
     special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-               "–": "--", **{c: "\\" + c for c in "&%$#_{}"}}
+               "–": "--", "<": "$<$", ">": "$>$", "|": "$|$", **{c: "\\" + c for c in "&%$#_{}"}}
     return "".join(special.get(character, character) for character in text)
 
 

@@ -67,6 +67,7 @@ class Tables(InFolder):
             self.assertEqual(len(counts), 1)
 
     def test_latex(self):
+        self.assertEqual(escape_tex("<0.1"), "$<$0.1")
         self.assertEqual(escape_tex(r"50 % & a_b {x} \ ~ ^ # $"),
                          r"50 \% \& a\_b \{x\} \textbackslash{} \textasciitilde{} "
                          r"\textasciicircum{} \# \$")
