@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -66,29 +67,60 @@ PlanarCells quadrilaterals(const Polygons& polygons, double edge_length) {
       [&](NodeIndex a, NodeIndex b) { return middle.at(std::minmax(a, b)); });
 }
 
+/// Search for the edge length that gives a count of cells. The count falls with the length, by no
+/// known law near the boundary, and scatters.
+class EdgeLengthSearch {
+ public:
+  EdgeLengthSearch(double first, double aim) : length_(first), aim_(aim) {}
+
+  double length() const { return length_; }
+
+  void found(double n_cells) {
+    Try& side = n_cells > aim_ ? finer_ : coarser_;
+    side = {true, std::log(length_), std::log(n_cells / aim_)};
+    if (!finer_.known || !coarser_.known) {
+      length_ *= n_cells / aim_;
+      return;
+    }
+    // Between the two by a straight line in logarithms, but away from its ends.
+    const double share = finer_.excess / (finer_.excess - coarser_.excess);
+    length_ =
+        std::exp(std::lerp(finer_.log_length, coarser_.log_length, std::clamp(share, 0.1, 0.9)));
+  }
+
+ private:
+  struct Try {
+    bool known = false;
+    double log_length = 0.0, excess = 0.0;
+  };
+
+  double length_, aim_;
+  Try finer_, coarser_;
+};
+
 /// Meshes with varying edge length until the count of cells is met. Triangles may be too few by a
 /// little, because edges can be split afterwards.
 PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
-  constexpr int most_tries = 12;
+  constexpr int most_tries = 16;
   const bool tri = p.element_type == ElementType::triangle;
   const auto target = static_cast<double>(p.n_cells);
   const double aim = tri ? 0.998 * target : target;
   const double close_enough = tri ? 0.002 : 0.001;
-  double edge_length = std::sqrt(area(polygons) / target * (tri ? 4.0 / std::sqrt(3.0) : 1.0));
+  EdgeLengthSearch search(std::sqrt(area(polygons) / target * (tri ? 4.0 / std::sqrt(3.0) : 1.0)),
+                          aim);
   PlanarCells best;
-  double best_deviation = 1e300;
+  double best_deviation = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_tries && best_deviation > close_enough * target; ++i) {
     PlanarCells mesh =
-        tri ? triangles(polygons, edge_length) : quadrilaterals(polygons, edge_length);
+        tri ? triangles(polygons, search.length()) : quadrilaterals(polygons, search.length());
     const auto n = static_cast<double>(mesh.cells.size());
-    // Counts scatter about the smooth law; shrinking steps look between the lengths tried before.
-    edge_length *= std::pow(n / aim, i < 4 ? 0.5 : 1.0 / (i - 1));
+    search.found(n);
     if (std::abs(n - aim) >= best_deviation) continue;
     best_deviation = std::abs(n - aim);
     best = std::move(mesh);
   }
   const auto n = static_cast<double>(best.cells.size());
-  if (std::abs(n - target) > 0.01 * target)
+  if (std::abs(n - target) > 0.05 * target)
     throw InputError("the gear cannot be meshed with " + std::to_string(p.n_cells) + " cells and " +
                      std::to_string(p.n_boundary_edges) +
                      " boundary edges; the nearest count found is " +
