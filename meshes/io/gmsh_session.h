@@ -22,7 +22,7 @@ class GmshSession {
   void set_option(const std::string& name, double value);
 
   /// Runs Gmsh calls; whatever Gmsh throws or logs as an error becomes
-  /// InputError "context: Gmsh: its own words".
+  /// InputError "context: Gmsh: its own words". Not to be called from inside `calls`.
   void run(const std::string& context, const std::function<void()>& calls) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <exception>
 
 #include "meshes/io/msh_file.h"
 #include "meshes/io/polygonal_text.h"
@@ -51,7 +52,13 @@ void require_sizes(const std::string& path, const std::string& kind,
 }  // namespace
 
 MeshFile read_mesh(const std::filesystem::path& path) {
-  return format_of(path, path.string()).read(path);
+  try {
+    return format_of(path, path.string()).read(path);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {  // a damaged count can ask for more memory than there is
+    throw InputError(path.string() + ": the file is damaged or too large (" + error.what() + ")");
+  }
 }
 
 void write_mesh(const std::filesystem::path& path, const PlanarMesh& mesh, const MeshFields& fields,

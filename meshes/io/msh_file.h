@@ -35,4 +35,8 @@ struct MshStructure {
 /// wrong".
 MshStructure check_msh_structure(const std::filesystem::path& path, std::string_view content);
 
+/// The part of check_msh_structure for binary files; returns the number of elements.
+std::uint64_t check_binary_msh(const std::filesystem::path& path, std::string_view content,
+                               bool version_4);
+
 }  // namespace smoothfem

@@ -1,5 +1,4 @@
 #include <charconv>
-#include <cstring>
 #include <string>
 #include <unordered_set>
 
@@ -172,39 +171,6 @@ class MshScanner {
   std::unordered_set<std::uint64_t> node_tags_;
 };
 
-template <class T>
-T bytes_as(std::string_view bytes) {
-  T value;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return value;
-}
-
-/// The count of elements that a binary section announces, from the bytes after its title.
-std::uint64_t binary_count(bool version_4, std::string_view section) {
-  if (!version_4) {
-    LineReader reader({}, section);
-    return reader.next_line() ? reader.integer("the count") : 0;
-  }
-  return section.size() < 16 ? 0 : bytes_as<std::uint64_t>(section.substr(8));
-}
-
-/// Binary sections have no lines: only their titles, ends and counts are looked at, Gmsh does the
-/// rest.
-void scan_binary(const std::string& path, std::string_view content, bool version_4,
-                 MshStructure& structure) {
-  for (const std::string name : {"Nodes", "Elements"}) {
-    const std::string title = "\n$" + name + "\n", end = "\n$End" + name;
-    const std::size_t begin = content.find(title);
-    if (begin == std::string_view::npos)
-      throw InputError(path + ": the file has no section $" + name +
-                       "; it is truncated or holds no mesh");
-    if (content.rfind(end) == std::string_view::npos)
-      throw InputError(path + ": the section $" + name + " has no end; the file is truncated");
-    if (name == "Elements")
-      structure.n_elements = binary_count(version_4, content.substr(begin + title.size()));
-  }
-}
-
 }  // namespace
 
 MshStructure check_msh_structure(const std::filesystem::path& path, std::string_view content) {
@@ -221,7 +187,7 @@ MshStructure check_msh_structure(const std::filesystem::path& path, std::string_
   MshStructure structure;
   structure.binary = reader.integer("the file type", 2) == 1;
   if (structure.binary) {
-    scan_binary(path.string(), content, version_4, structure);
+    structure.n_elements = check_binary_msh(path, content, version_4);
     return structure;
   }
   reader.require_line("$EndMeshFormat");

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <string_view>
 
 #include "meshes/io/mesh_file.h"
 
@@ -24,5 +24,9 @@ void write_legacy_vtk(const std::filesystem::path& path, const PlanarMesh& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options);
 void write_vtu(const std::filesystem::path& path, const PlanarMesh& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
+
+/// Checks that the rows of the cell sections of a legacy file (versions below 5) fill exactly the
+/// announced size, which VTK relies on. Throws InputError that names the section.
+void check_legacy_vtk_cells(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace smoothfem

@@ -173,6 +173,7 @@ MeshFile read_legacy_vtk(const std::filesystem::path& path) {
     throw InputError(name +
                      ":1: the first line is not '# vtk DataFile Version ...'; this is not a "
                      "legacy VTK file");
+  check_legacy_vtk_cells(path, content);
   const VtkMessages messages;
   vtkNew<vtkGenericDataObjectReader> reader;
   reader->SetFileName(name.c_str());
