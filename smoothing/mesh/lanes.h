@@ -69,6 +69,9 @@ SMOOTHFEM_INLINE Vector2<double> vector_of(const Point<2>& p) {
 SMOOTHFEM_INLINE Point<2> point_of(Vector2<double> v) {
   return {v.x, v.y};
 }
+SMOOTHFEM_INLINE double cross(const Point<2>& a, const Point<2>& b) {
+  return cross(vector_of(a), vector_of(b));
+}
 
 /// The k-th corners of n_lanes cells whose node rows of length n follow each other at `nodes`.
 template <std::size_t n>

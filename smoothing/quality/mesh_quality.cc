@@ -65,7 +65,7 @@ double signed_area(const PlanarMesh& mesh, CellIndex cell) {
   const auto& x = mesh.coordinates();
   double twice = 0.0;
   for (std::size_t k = 1; k + 1 < nodes.size(); ++k)
-    twice += cross(vector_of(x[nodes[k]] - x[nodes[0]]), vector_of(x[nodes[k + 1]] - x[nodes[0]]));
+    twice += cross(x[nodes[k]] - x[nodes[0]], x[nodes[k + 1]] - x[nodes[0]]);
   return 0.5 * twice;
 }
 
