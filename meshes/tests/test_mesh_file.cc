@@ -90,6 +90,20 @@ TEST_P(EveryFormat, TruncatedFilesAreNoticed) {
   EXPECT_GT(n_refused, n_tried / 2);
 }
 
+/// A changed byte gives another mesh or an InputError: no other exception, crash or endless loop.
+TEST_P(EveryFormat, DamagedFilesAreSurvived) {
+  write_mesh(target("whole"), mixed_mesh(false));
+  const std::string whole = content_of(target("whole"));
+  std::size_t n_refused = 0;
+  for (std::size_t n = 0; n < whole.size(); n += 1 + whole.size() / 300) {
+    std::string damaged = whole;
+    damaged[n] = static_cast<char>(damaged[n] ^ 0x41);
+    const auto path = file_with(target("damaged").filename(), damaged);
+    n_refused += !input_error_of([&] { read_mesh(path); }).empty();
+  }
+  EXPECT_GT(n_refused, 50u);
+}
+
 INSTANTIATE_TEST_SUITE_P(MeshFiles, EveryFormat, ::testing::ValuesIn(mesh_formats()),
                          [](const auto& info) { return info.param.name; });
 
