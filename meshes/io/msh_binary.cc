@@ -106,6 +106,12 @@ class BinaryMshScanner {
       fail("an element names node " + std::to_string(tag) + ", which the file does not have");
   }
 
+  /// Gmsh reserves memory for all tags up to the announced one.
+  void require_range(std::uint64_t first, std::uint64_t last, std::uint64_t smallest,
+                     std::uint64_t largest) const {
+    if (first != smallest || last != largest) fail("tags are not in the announced range");
+  }
+
   void scan_nodes_2() {
     const std::uint64_t n = count_in_text();
     for (std::uint64_t i = 0; i < n; ++i) {
@@ -143,7 +149,7 @@ class BinaryMshScanner {
 
   void scan_nodes_4() {
     const auto n_blocks = take<std::uint64_t>(), n_nodes = take<std::uint64_t>();
-    skip(2, sizeof(std::uint64_t));
+    const auto smallest = take<std::uint64_t>(), largest = take<std::uint64_t>();
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       const auto dimension = take<std::int32_t>();
       skip(1, sizeof(std::int32_t));
@@ -155,21 +161,28 @@ class BinaryMshScanner {
       skip(n, (3 + (parametric ? static_cast<std::size_t>(dimension) : 0)) * sizeof(double));
     }
     if (nodes_.size() != n_nodes) fail("there are not as many nodes as announced");
+    if (nodes_.empty()) fail("there are no nodes");
+    const auto [first, last] = std::minmax_element(nodes_.begin(), nodes_.end());
+    require_range(*first, *last, smallest, largest);
   }
 
   void scan_elements_4() {
     const auto n_blocks = take<std::uint64_t>();
     n_elements_ = take<std::uint64_t>();
-    skip(2, sizeof(std::uint64_t));
+    const auto smallest = take<std::uint64_t>(), largest = take<std::uint64_t>();
+    std::uint64_t first = UINT64_MAX, last = 0;
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       skip(2, sizeof(std::int32_t));
       const std::uint64_t n_nodes = nodes_of_type(take<std::int32_t>());
       const auto n = take<std::uint64_t>();
       for (std::uint64_t i = 0; i < n; ++i) {
-        skip(1, sizeof(std::uint64_t));
+        const auto tag = take<std::uint64_t>();
+        first = std::min(first, tag);
+        last = std::max(last, tag);
         for (std::uint64_t k = 0; k < n_nodes; ++k) require_node(take<std::uint64_t>());
       }
     }
+    if (first <= last) require_range(first, last, smallest, largest);
   }
 
   /// Points, lines, triangles, quadrilaterals and volumes, by Gmsh's numbers of the types.
