@@ -170,18 +170,20 @@ class BinaryMshScanner {
     const auto n_blocks = take<std::uint64_t>();
     n_elements_ = take<std::uint64_t>();
     const auto smallest = take<std::uint64_t>(), largest = take<std::uint64_t>();
-    std::uint64_t first = UINT64_MAX, last = 0;
+    std::uint64_t first = UINT64_MAX, last = 0, n_found = 0;
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       skip(2, sizeof(std::int32_t));
       const std::uint64_t n_nodes = nodes_of_type(take<std::int32_t>());
       const auto n = take<std::uint64_t>();
       for (std::uint64_t i = 0; i < n; ++i) {
         const auto tag = take<std::uint64_t>();
+        ++n_found;
         first = std::min(first, tag);
         last = std::max(last, tag);
         for (std::uint64_t k = 0; k < n_nodes; ++k) require_node(take<std::uint64_t>());
       }
     }
+    if (n_found != n_elements_) fail("there are not as many elements as announced");
     if (first <= last) require_range(first, last, smallest, largest);
   }
 
