@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "fem/manufactured_solution.h"
+#include "meshes/generators/domains.h"
+#include "meshes/io/mesh_file.h"
+#include "smoothing/loop/catalogue.h"
+#include "studies/cli/commands.h"
+#include "studies/framework/study.h"
+
+namespace smoothfem {
+
+namespace {
+
+struct Arguments {
+  std::filesystem::path studies;
+  bool study_keys = false;
+};
+
+void list_methods() {
+  std::printf("METHODS (smooth -m NAME, 'methods' in study files)\n");
+  for (const auto& info : method_catalogue()) {
+    std::printf("\n  %s: %s\n      %s. Source: %s.\n", info.name.c_str(), info.title.c_str(),
+                info.description.c_str(), info.source.c_str());
+    Method method = make_method(info.name);
+    for (const auto& parameter : method.parameters())
+      std::printf("      %-32s %-8s %s\n", parameter.name.c_str(), value_text(parameter).c_str(),
+                  parameter.description.c_str());
+  }
+}
+
+void list_studies(const std::filesystem::path& folder) {
+  std::printf("\nSTUDIES (study FILE, or ./run study NAME)\n\n");
+  if (!std::filesystem::is_directory(folder)) return;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".prm") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files)
+    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_study(file, false).title.c_str(),
+                file.c_str());
+}
+
+void list_the_rest() {
+  std::printf("\nDOMAINS (generate NAME, 'domain' in study files)\n\n");
+  for (const auto& domain : domains())
+    std::printf("  %-16s %s\n", domain.name.c_str(), domain.description.c_str());
+  std::printf("\nSOLUTIONS ('solution' in study files)\n\n");
+  for (const auto& solution : manufactured_solutions())
+    std::printf("  %-16s u = %s (%s)\n", solution.name.c_str(), solution.formula.c_str(),
+                solution.source.c_str());
+  std::printf("\nFORMATS\n\n");
+  for (const auto& format : mesh_formats())
+    std::printf("  %-8s %s: %s\n", format.extension.c_str(), format.name.c_str(),
+                format.description.c_str());
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->studies = "studies";
+  auto* command =
+      app.add_subcommand("list", "methods with their parameters and sources, studies, formats");
+  command->add_option("--studies", arguments->studies, "folder with study files");
+  command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");
+  command->callback([arguments] {
+    if (arguments->study_keys) {
+      std::printf("%s", study_template().c_str());
+      return;
+    }
+    list_methods();
+    list_studies(arguments->studies);
+    list_the_rest();
+  });
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,62 @@
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "smoothfem_versions.h"
+#include "smoothing/mesh/input_error.h"
+#include "studies/cli/commands.h"
+
+namespace smoothfem {
+
+std::atomic<bool> interrupted{false};
+
+namespace {
+
+constexpr int exit_bad_input = 2;
+
+/// A second Ctrl-C ends the process at once.
+void on_interrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("smoothfem: what mesh smoothing does to a finite element solution");
+  app.set_version_flag("--version", SMOOTHFEM_VERSION);
+  app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();
+  add_study_command(app);
+  add_smooth_command(app);
+  add_quality_command(app);
+  add_generate_command(app);
+  add_list_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "smoothfem: %s; 'smoothfem --help' shows the commands\n", error.what());
+    return exit_bad_input;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace smoothfem
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, smoothfem::on_interrupt);
+  std::signal(SIGTERM, smoothfem::on_interrupt);
+  try {
+    return smoothfem::run(argc, argv);
+  } catch (const smoothfem::InputError& error) {
+    std::fprintf(stderr, "smoothfem: %s\n", error.what());
+    return smoothfem::exit_bad_input;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "smoothfem: there is not enough memory for this mesh; use a smaller one\n");
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "smoothfem: internal error: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace smoothfem {
+
+/// Tells on standard error how far a run is: a bar that is drawn over on a terminal, a plain line now
+/// and then elsewhere, nothing when quiet.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+
+  /// A phase with n_steps steps begins.
+  void begin(const std::string& phase, std::size_t n_steps);
+  /// `done` steps of the phase are finished; `what`: what is being worked on.
+  void update(std::size_t done, const std::string& what);
+  /// The phase is over: its line says how long it took.
+  void end();
+  /// A line of its own.
+  void say(const std::string& text);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double seconds() const;
+  void clear_line();
+
+  bool quiet_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::string phase_;
+  std::size_t n_steps_ = 0;
+  Clock::time_point started_, last_shown_;
+};
+
+}  // namespace smoothfem

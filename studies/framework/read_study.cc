@@ -1,0 +1,352 @@
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "smoothing/mesh/input_error.h"
+#include "studies/framework/study.h"
+
+namespace smoothfem {
+
+namespace {
+
+using dealii::ParameterHandler;
+namespace Patterns = dealii::Patterns;
+
+/// Enters a subsection for as long as it lives.
+class Subsection {
+ public:
+  Subsection(ParameterHandler& parameters, const std::string& name) : parameters_(parameters) {
+    parameters_.enter_subsection(name);
+  }
+  ~Subsection() { parameters_.leave_subsection(); }
+  Subsection(const Subsection&) = delete;
+
+ private:
+  ParameterHandler& parameters_;
+};
+
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> items;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');) {
+    const auto first = item.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    items.push_back(item.substr(first, item.find_last_not_of(" \t") - first + 1));
+  }
+  return items;
+}
+
+void declare_lists(ParameterHandler& p) {
+  p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("meshes", "", Patterns::Anything(),
+                  "Labels of the meshes, separated by commas; each has a subsection 'mesh LABEL'.");
+  p.declare_entry("methods", "all", Patterns::Anything(),
+                  "Methods, separated by commas, or 'all'. A label with a subsection 'method LABEL' "
+                  "may be any registered method with other parameters.");
+}
+
+void declare_mesh(ParameterHandler& p, const std::string& name) {
+  const Subsection subsection(p, "mesh " + name);
+  p.declare_entry("title", name, Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("file", "", Patterns::Anything(),
+                  "Mesh file, relative to this file; empty: generate.");
+  p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
+  p.declare_entry("elements", "triangles", Patterns::Selection("triangles|quadrilaterals"),
+                  "Elements of a generated mesh.");
+  p.declare_entry("published file", "", Patterns::Anything(),
+                  "File that --mesh-dir looks for in place of the above; not distorted.");
+  p.declare_entry("distort to", "0", Patterns::Double(0.0, 1.0),
+                  "Mean quality to distort the mesh to; 0: as it is.");
+  p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
+}
+
+/// The parameters of a method are those it registers, with its own defaults.
+void declare_method(ParameterHandler& p, const std::string& name, const std::string& type) {
+  const Subsection subsection(p, "method " + name);
+  p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
+  if (type.empty()) return;
+  Method method = make_method(type);
+  p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
+                  "Title in tables and figures.");
+  for (const auto& parameter : method.parameters())
+    p.declare_entry(parameter.name, value_text(parameter), Patterns::Anything(),
+                    parameter.description);
+}
+
+void declare_problem(ParameterHandler& p) {
+  p.declare_entry("degrees", "1, 2", Patterns::Anything(),
+                  "Degrees of the finite elements; empty: smoothing only.");
+  p.declare_entry("record every", "1", Patterns::Integer(1),
+                  "Solve at every k-th iteration; the initial and the resulting mesh always.");
+  p.declare_entry("timing runs", "3", Patterns::Integer(1),
+                  "Smoothing times are medians over this many runs.");
+  p.declare_entry("edge scale", "1", Patterns::Double(1.0),
+                  "Generated meshes: edges longer by this factor.");
+  p.declare_entry("write series", "false", Patterns::Bool(),
+                  "Write each method's meshes as a VTU series (.pvd).");
+  {
+    const Subsection subsection(p, "solution");
+    p.declare_entry("name", "gear", Patterns::Anything(),
+                    "Solution (see 'list'), or 'expression' for the three below.");
+    p.declare_entry("value", "", Patterns::Anything(), "u as an expression in x and y.");
+    p.declare_entry("gradient", "", Patterns::Anything(), "Its gradient: 'u_x ; u_y'.");
+    p.declare_entry("load", "", Patterns::Anything(), "f = -laplace(u).");
+  }
+  {
+    const Subsection subsection(p, "finite elements");
+    p.declare_entry("load", "nodal", Patterns::Selection("nodal|quadrature"),
+                    "nodal: f interpolated (thesis); quadrature: Galerkin load.");
+    p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
+                    "Gauss points a direction on quadrilaterals.");
+    p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "On |r| / |b|.");
+    p.declare_entry("boundary in norm", "true", Patterns::Bool(),
+                    "Take the boundary values into |b| (the thesis' counts do).");
+    p.declare_entry("condition number", "true", Patterns::Bool(), "Compute it.");
+    p.declare_entry("jacobi cg", "true", Patterns::Bool(), "Also run CG with Jacobi.");
+  }
+  const Subsection subsection(p, "thresholds");
+  p.declare_entry("reference", "", Patterns::Anything(),
+                  "Method whose least errors set the thresholds; empty: none.");
+  p.declare_entry("margin", "0.05", Patterns::Double(0.0), "Share added to the least errors.");
+}
+
+/// What --quick changes.
+void declare_quick(ParameterHandler& p) {
+  const Subsection subsection(p, "quick");
+  p.declare_entry("record every", "5", Patterns::Integer(1), "In place of the value above.");
+  p.declare_entry("edge scale", "1", Patterns::Double(1.0), "In place of the value above.");
+}
+
+/// deal.II's messages run over several lines and name the line and the problem somewhere inside.
+InputError parse_error(const std::filesystem::path& file, const std::string& what) {
+  std::smatch match;
+  std::string line, reason = what;
+  if (std::regex_search(what, match, std::regex("[Ll]ine <?([0-9]+)>?"))) line = match[1];
+  const auto begin = what.find("Additional information:");
+  if (begin != std::string::npos) reason = what.substr(begin + 23);
+  reason = reason.substr(0, reason.find("Stacktrace"));
+  reason = reason.substr(0, reason.find("\n----"));
+  reason = std::regex_replace(reason, std::regex("Line <?[0-9]+>? of file <[^>]*>:?"), "");
+  reason = std::regex_replace(reason, std::regex("\\s+"), " ");
+  const auto first = reason.find_first_not_of(' ');
+  if (first != std::string::npos) reason = reason.substr(first);
+  while (!reason.empty() && (reason.back() == ' ' || reason.back() == '.')) reason.pop_back();
+  return InputError(file.string() + (line.empty() ? "" : ":" + line) + ": " + reason +
+                    "; 'smoothfem list --study-keys' shows the keys there are");
+}
+
+void parse(ParameterHandler& p, const std::string& text, const std::filesystem::path& file,
+           bool skip_undefined) {
+  std::istringstream stream(text);
+  try {
+    p.parse_input(stream, file.string(), "", skip_undefined);
+  } catch (const dealii::ExceptionBase& error) {
+    throw parse_error(file, error.what());
+  }
+}
+
+std::vector<std::string> method_labels(const std::string& list) {
+  if (list != "all") return split_list(list);
+  std::vector<std::string> names;
+  for (const auto& info : method_catalogue()) names.push_back(info.name);
+  return names;
+}
+
+void check_label(const std::string& label, const std::string& what, const std::string& file) {
+  static const std::regex allowed("[A-Za-z0-9._-]+");
+  if (!std::regex_match(label, allowed))
+    throw InputError(file + ": the " + what + " label '" + label +
+                     "' may only have letters, digits, '.', '_' and '-'");
+}
+
+void check_unique(std::vector<std::string> labels, const std::string& what,
+                  const std::string& file) {
+  if (labels.empty()) throw InputError(file + ": the study names no " + what);
+  for (const auto& label : labels) check_label(label, what, file);
+  std::sort(labels.begin(), labels.end());
+  const auto twice = std::adjacent_find(labels.begin(), labels.end());
+  if (twice != labels.end())
+    throw InputError(file + ": the " + what + " '" + *twice + "' is named twice");
+}
+
+StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
+                            const std::filesystem::path& folder) {
+  const Subsection subsection(p, "mesh " + name);
+  StudyMesh mesh{.name = name,
+                 .title = p.get("title"),
+                 .file = p.get("file"),
+                 .domain = p.get("domain"),
+                 .element_type = p.get("elements") == "triangles" ? ElementType::triangle
+                                                                  : ElementType::quadrilateral,
+                 .published_file = p.get("published file"),
+                 .distort_to_q_mean = p.get_double("distort to"),
+                 .seed = static_cast<std::uint64_t>(p.get_integer("seed"))};
+  if (!mesh.file.empty() && mesh.file.is_relative()) mesh.file = folder / mesh.file;
+  return mesh;
+}
+
+StudyMethod read_method_section(ParameterHandler& p, const std::string& name) {
+  const Subsection subsection(p, "method " + name);
+  StudyMethod method{.name = name, .type = p.get("type"), .title = p.get("title"), .settings = {}};
+  Method defaults = make_method(method.type);
+  for (const auto& parameter : defaults.parameters())
+    if (p.get(parameter.name) != value_text(parameter))
+      method.settings.emplace_back(parameter.name, p.get(parameter.name));
+  (void)method.make();  // throws for values out of range
+  return method;
+}
+
+std::vector<int> read_degrees(const std::string& list, const std::string& file) {
+  std::vector<int> degrees;
+  for (const auto& item : split_list(list)) {
+    if (item != "1" && item != "2")
+      throw InputError(file + ": finite elements of degree '" + item +
+                       "' are not available; choose 1 or 2");
+    degrees.push_back(item == "1" ? 1 : 2);
+  }
+  return degrees;
+}
+
+void read_problem(ParameterHandler& p, const std::string& file, bool quick, Study& study) {
+  study.degrees = read_degrees(p.get("degrees"), file);
+  study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
+  study.write_series = p.get_bool("write series");
+  {
+    const Subsection subsection(p, "solution");
+    study.solution = {p.get("name"), p.get("value"), p.get("gradient"), p.get("load")};
+  }
+  {
+    const Subsection subsection(p, "finite elements");
+    study.finite_elements.galerkin_load = p.get("load") == "quadrature";
+    study.finite_elements.n_quadrilateral_points =
+        static_cast<int>(p.get_integer("quadrilateral points"));
+    study.finite_elements.cg_tolerance = p.get_double("cg tolerance");
+    study.finite_elements.boundary_in_norm = p.get_bool("boundary in norm");
+    study.finite_elements.condition_number = p.get_bool("condition number");
+    study.finite_elements.jacobi_cg = p.get_bool("jacobi cg");
+  }
+  {
+    const Subsection subsection(p, "thresholds");
+    study.thresholds = {p.get("reference"), p.get_double("margin")};
+  }
+  const auto read_scale = [&] {
+    study.record_every = static_cast<int>(p.get_integer("record every"));
+    study.edge_scale = p.get_double("edge scale");
+  };
+  if (quick) {
+    const Subsection subsection(p, "quick");
+    read_scale();
+  } else {
+    read_scale();
+  }
+}
+
+void check_thresholds(const Study& study, const std::string& file) {
+  const auto& reference = study.thresholds.reference;
+  if (reference.empty()) return;
+  const bool named = std::any_of(study.methods.begin(), study.methods.end(),
+                                 [&](const auto& method) { return method.name == reference; });
+  if (!named)
+    throw InputError(file + ": the thresholds' reference '" + reference +
+                     "' is not one of the study's methods");
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError(file.string() + ": cannot read this study file; check its path");
+  return text.str() + "\n";
+}
+
+/// "key = value" lines in force, subsections as prefix.
+std::vector<std::pair<std::string, std::string>> effective_parameters(ParameterHandler& p) {
+  std::vector<std::pair<std::string, std::string>> result;
+  std::ostringstream text;
+  p.print_parameters(text, ParameterHandler::ShortPRM);
+  std::istringstream lines(text.str());
+  std::vector<std::string> prefix;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, std::regex("\\s*subsection (.*)")))
+      prefix.push_back(match[1].str() + "/");
+    else if (std::regex_match(line, std::regex("\\s*end\\s*")))
+      prefix.pop_back();
+    else if (std::regex_match(line, match, std::regex("\\s*set (.*?)\\s*=\\s*(.*)"))) {
+      std::string key;
+      for (const auto& part : prefix) key += part;
+      result.emplace_back(key + match[1].str(), match[2].str());
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Method StudyMethod::make() const {
+  Method method = make_method(type);
+  for (const auto& [parameter, value] : settings) method.set(parameter, value);
+  return method;
+}
+
+Study read_study(const std::filesystem::path& file, bool quick) {
+  const std::string text = read_text(file);
+  // Which subsections there are depends on what the file says: first the lists, then the methods'
+  // types, then everything, strictly.
+  ParameterHandler lists;
+  declare_lists(lists);
+  parse(lists, text, file, true);
+  const auto meshes = split_list(lists.get("meshes"));
+  const auto methods = method_labels(lists.get("methods"));
+  check_unique(meshes, "mesh", file.string());
+  check_unique(methods, "method", file.string());
+
+  ParameterHandler types;
+  for (const auto& method : methods) declare_method(types, method, "");
+  parse(types, text, file, true);
+
+  ParameterHandler p;
+  declare_lists(p);
+  declare_problem(p);
+  declare_quick(p);
+  for (const auto& mesh : meshes) declare_mesh(p, mesh);
+  for (const auto& method : methods) {
+    std::string type;
+    {
+      const Subsection subsection(types, "method " + method);
+      type = types.get("type");
+    }
+    declare_method(p, method, type);
+  }
+  parse(p, text, file, false);
+
+  Study study;
+  study.name = file.stem().string();
+  study.title = p.get("title");
+  check_label(study.name, "study", file.string());
+  if (study.title.empty()) study.title = study.name;
+  for (const auto& mesh : meshes)
+    study.meshes.push_back(read_mesh_section(p, mesh, file.parent_path()));
+  for (const auto& method : methods) study.methods.push_back(read_method_section(p, method));
+  read_problem(p, file.string(), quick, study);
+  check_thresholds(study, file.string());
+  study.parameters = effective_parameters(p);
+  return study;
+}
+
+std::string study_template() {
+  ParameterHandler p;
+  declare_lists(p);
+  declare_problem(p);
+  declare_quick(p);
+  declare_mesh(p, "LABEL");
+  std::ostringstream text;
+  p.print_parameters(text, ParameterHandler::PRM);
+  return text.str();
+}
+
+}  // namespace smoothfem

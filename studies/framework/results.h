@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fem/poisson_solver.h"
+#include "smoothing/loop/smooth.h"
+
+namespace smoothfem {
+
+/// A row of iterations.csv: one iteration of one method on one mesh, at one degree.
+struct IterationRow {
+  std::string mesh, method;
+  IterationRecord iteration;
+  int degree = 0;                        ///< 0: the study solves nothing
+  std::optional<SolutionRecord> solved;  ///< empty where there is no solution
+  std::string status;                    ///< "ok", or why a row has no finite element numbers
+};
+
+/// A row of summary.csv: a method's result on one mesh, at one degree.
+struct SummaryRow {
+  std::string mesh, method;
+  std::string iterations{};  ///< "40/2800"; empty for the initial mesh
+  double smoothing_seconds = 0.0;
+  MeshQuality quality{};
+  int degree = 0;
+  std::optional<SolutionRecord> solved{};
+  std::string status{};
+};
+
+/// A row of thresholds.csv: when a method's error came below a threshold, if it did.
+struct ThresholdRow {
+  std::string mesh;
+  int degree = 0;
+  std::string error;
+  double threshold = 0.0;
+  std::string reference_method;
+  std::optional<double> reference_seconds;
+  std::string method;
+  std::optional<double> method_seconds;
+};
+
+/// The thresholds that the reference's least errors, increased by the margin, set on each mesh, degree
+/// and error, and when each other method first comes below them (thesis, Table 6.4).
+std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
+                                           const std::string& reference, double margin);
+
+/// The tables as text; columns, units and order are a contract (results/README.md).
+std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows);
+std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows);
+std::string thresholds_csv(const std::string& study, const std::vector<ThresholdRow>& rows);
+
+}  // namespace smoothfem

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/poisson_solver.h"
+#include "smoothing/loop/catalogue.h"
+
+namespace smoothfem {
+
+/// One of a study's meshes: read from a file or generated, and distorted if asked for.
+struct StudyMesh {
+  std::string name;   ///< label in results: letters, digits, '.', '_', '-'
+  std::string title;  ///< in tables and figures
+  std::filesystem::path file;  ///< empty: generate
+  std::string domain;          ///< which domain to generate
+  ElementType element_type = ElementType::triangle;
+  /// File name looked for with --mesh-dir, in place of `file` or `domain`. It is taken as it is, not
+  /// distorted: published meshes are already.
+  std::string published_file;
+  double distort_to_q_mean = 0.0;  ///< 0: not distorted
+  std::uint64_t seed = 1;
+};
+
+struct StudyMethod {
+  std::string name;   ///< label in results
+  std::string type;   ///< registered method
+  std::string title;  ///< in tables and figures
+  std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
+
+  /// The method with its settings.
+  Method make() const;
+};
+
+/// Where the manufactured solution comes from: a name, or three expressions.
+struct StudySolution {
+  std::string name;
+  std::string value, gradient, load;
+};
+
+/// When error thresholds count as reached (thesis, Table 6.4).
+struct StudyThresholds {
+  std::string reference;  ///< method whose least errors set the thresholds; empty: no thresholds
+  double margin = 0.05;   ///< thresholds are the least errors increased by this share
+};
+
+/// A study as data: which meshes, which methods, which problem, what to record.
+struct Study {
+  std::string name;
+  std::string title;
+  std::vector<StudyMesh> meshes;
+  std::vector<StudyMethod> methods;
+  std::vector<int> degrees;  ///< of the finite elements; empty: smoothing only
+  StudySolution solution;
+  PoissonOptions finite_elements;  ///< its degree is not used
+  StudyThresholds thresholds;
+  int record_every = 1;  ///< solve at every k-th iteration; initial and resulting mesh always
+  int timing_runs = 1;   ///< smoothing times are medians over this many runs
+  double edge_scale = 1.0;     ///< generated meshes: edges this much longer
+  bool write_series = false;   ///< a VTU series for each mesh and method
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< as read, for the provenance
+};
+
+/// Reads a study from a parameter file (deal.II's ParameterHandler format). quick: with the changes of
+/// its subsection `quick`. Throws InputError with file and line for unknown keys and bad values.
+Study read_study(const std::filesystem::path& file, bool quick);
+
+/// A commented parameter file with every key and its default, for the methods and meshes named.
+std::string study_template();
+
+}  // namespace smoothfem
