@@ -135,8 +135,7 @@ class Triangulation {
     constexpr double least_quality = 1e-3;
     const std::array corners{vector_of(coordinates_[a]), vector_of(coordinates_[b]),
                              vector_of(coordinates_[c])};
-    return mean_ratio(std::span<const Vector2<double>, 3>(corners)) >
-           least_quality;
+    return mean_ratio(std::span<const Vector2<double>, 3>(corners)) > least_quality;
   }
 
   /// Leaves neighbours_ behind: connect() must follow.
