@@ -25,6 +25,19 @@ namespace smoothfem {
 constexpr std::size_t n_lanes = 4;
 using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double))));
 
+/// n_lanes numbers from and to an array of double, on any address. (With std::memcpy GCC goes by
+/// way of the stack.)
+SMOOTHFEM_INLINE Lanes load_lanes(const double* numbers) {
+  using Unaligned =
+      double __attribute__((vector_size(sizeof(Lanes)), aligned(sizeof(double)), may_alias));
+  return *reinterpret_cast<const Unaligned*>(numbers);
+}
+SMOOTHFEM_INLINE void store_lanes(Lanes lanes, double* numbers) {
+  using Unaligned =
+      double __attribute__((vector_size(sizeof(Lanes)), aligned(sizeof(double)), may_alias));
+  *reinterpret_cast<Unaligned*>(numbers) = lanes;
+}
+
 SMOOTHFEM_INLINE double square_root(double value) {
   return std::sqrt(value);
 }

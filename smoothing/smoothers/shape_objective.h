@@ -5,6 +5,7 @@
 
 #include "smoothing/mesh/mesh.h"
 #include "smoothing/smoothers/block_matrix.h"
+#include "smoothing/smoothers/cell_derivatives.h"
 
 namespace smoothfem {
 
@@ -16,8 +17,6 @@ namespace smoothfem {
 /// invalid.
 class ShapeObjective {
  public:
-  using Vector = BlockMatrix<2>::Vector;
-
   /// Unknowns are the places of the free nodes, in the order of topology.free_nodes().
   explicit ShapeObjective(std::shared_ptr<const Topology> topology);
 
@@ -26,21 +25,23 @@ class ShapeObjective {
   /// coordinates: of all nodes. Infinity if a cell is invalid.
   double value(const std::vector<Point<2>>& coordinates) const;
 
-  /// Gradient (one entry a free node) and Hessian (node blocks) at coordinates where value is
-  /// finite.
-  void derivatives(const std::vector<Point<2>>& coordinates, Vector& gradient,
-                   BlockMatrix<2>& hessian) const;
+  /// Gradient and Hessian (or the model of it) at coordinates where value is finite.
+  void derivatives(const std::vector<Point<2>>& coordinates, HessianModel model,
+                   BlockVector& gradient, BlockMatrix& hessian) const;
 
   /// A matrix with the Hessian's pattern.
-  BlockMatrix<2> make_hessian() const;
+  BlockMatrix make_hessian() const;
 
  private:
   void build_pattern();
+  template <class Real, std::size_t extent>
+  void scatter(CellIndex first, const CellDerivatives<Real, extent>& cell, BlockVector& gradient,
+               BlockMatrix& hessian) const;
 
   std::shared_ptr<const Topology> topology_;
-  std::vector<std::uint32_t> unknown_;     ///< number of each free node; absent for fixed ones
+  std::vector<std::uint32_t> unknown_;     ///< number of each free node; n_unknown_nodes for fixed
   CompressedRows<std::uint32_t> pattern_;  ///< unknowns that share a cell
-  CompressedRows<std::uint32_t> block_positions_;  ///< n x n for each cell; absent for fixed nodes
+  CompressedRows<std::uint32_t> block_positions_;  ///< n x n for each cell
 };
 
 }  // namespace smoothfem

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "smoothing/quality/inverse_mean_ratio.h"
+
+namespace smoothfem {
+
+/// A 2 x 2 matrix, columns first.
+template <class Real>
+struct Block2 {
+  Real m00, m10, m01, m11;
+
+  SMOOTHFEM_INLINE void add_product(Vector2<Real> u, Vector2<Real> v) {
+    m00 += u.x * v.x;
+    m10 += u.y * v.x;
+    m01 += u.x * v.y;
+    m11 += u.y * v.y;
+  }
+};
+
+/// Arrays for the n (or n x n) entries of a cell: on the stack where n is known.
+template <class T, std::size_t extent>
+struct CellArray : std::array<T, extent> {
+  explicit CellArray(std::size_t) { this->fill(T{}); }
+};
+template <class T>
+struct CellArray<T, std::dynamic_extent> : std::vector<T> {
+  explicit CellArray(std::size_t n) : std::vector<T>(n) {}
+};
+constexpr std::size_t square_extent(std::size_t n) {
+  return n == std::dynamic_extent ? n : n * n;
+}
+
+/// What stands for the Hessian of an element's h = m^2, m its mean inverse mean ratio.
+enum class HessianModel {
+  exact,
+  /// h times the Hessian of log h without its concave part. Positive semidefinite, and the same as
+  /// the exact one at a regular element. Where an element has almost collapsed h grows like 1 /
+  /// det^2: a Newton step lets the determinant grow by a third there, this model doubles it.
+  convex
+};
+
+/// Gradient and Hessian of one cell's h: an entry for each node, and a block for each pair of nodes
+/// p <= q at p n + q (the others are their transposes).
+template <class Real, std::size_t extent>
+class CellDerivatives {
+ public:
+  CellArray<Vector2<Real>, extent> gradient;
+  CellArray<Block2<Real>, square_extent(extent)> hessian;
+
+  /// x: the n corners of a valid cell.
+  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector2<Real>, extent> x,
+                                   const CornerWeights& weights, HessianModel model)
+      : gradient(x.size()), hessian(x.size() * x.size()), n_(x.size()) {
+    const std::size_t n_corners = n_ == 3 ? 1 : n_;  // a triangle's corners are all alike
+    const double share = 1.0 / static_cast<double>(n_corners);
+    const double concave_share = model == HessianModel::exact ? 1.0 : 0.0;
+    Real mean{};
+    for (std::size_t k = 0; k < n_corners; ++k) mean += value_of(map_of(x, weights, k));
+    mean = share * mean;
+    for (std::size_t k = 0; k < n_corners; ++k)
+      add_corner(map_of(x, weights, k), weights, k, 2.0 * share * mean, concave_share);
+    // 2 m Hess(m) stands there now; h adds 2 grad(m) grad(m)', h Hess(log h) subtracts it.
+    const Real factor = (model == HessianModel::exact ? 0.5 : -0.5) / (mean * mean);
+    for (std::size_t p = 0; p < n_; ++p)
+      for (std::size_t q = p; q < n_; ++q)
+        hessian[p * n_ + q].add_product(factor * gradient[p], gradient[q]);
+  }
+
+ private:
+  SMOOTHFEM_INLINE std::size_t next(std::size_t k) const { return k + 1 == n_ ? 0 : k + 1; }
+  SMOOTHFEM_INLINE std::size_t previous(std::size_t k) const { return k == 0 ? n_ - 1 : k - 1; }
+
+  static SMOOTHFEM_INLINE Real value_of(const CornerMap<Real>& map) {
+    return (squared_length(map.a) + squared_length(map.b)) / map.determinant();
+  }
+  SMOOTHFEM_INLINE CornerMap<Real> map_of(std::span<const Vector2<Real>, extent> x,
+                                          const CornerWeights& weights, std::size_t k) const {
+    return corner_map(weights, x[k], x[next(k)], x[previous(k)]);
+  }
+
+  SMOOTHFEM_INLINE void add_corner(const CornerMap<Real>& map, const CornerWeights& weights,
+                                   std::size_t k, Real scale, double concave_share) {
+    const InverseMeanRatio<Real> f(map);
+    const std::array places{k, next(k), previous(k)};
+    const Real aa = scale * f.aa, ab = scale * f.ab, bb = scale * f.bb;
+    const Real gradient_a = scale * f.gradient_a, gradient_b = scale * f.gradient_b;
+    const Real aa_one = concave_share * scale * f.aa_one, bb_one = scale * f.bb_one;
+    // A node's place moves a by its weight and b by the conjugate: rows of the chain rule.
+    std::array<Vector2<Real>, 3> u, v, hu, hv;
+    for (std::size_t i = 0; i < 3; ++i) {
+      u[i] = conjugate_product(weights.weights[i], map.a);
+      v[i] = complex_product(weights.weights[i], map.b);
+      hu[i] = aa * u[i] + ab * v[i];
+      hv[i] = ab * u[i] + bb * v[i];
+      gradient[places[i]] = gradient[places[i]] + gradient_a * u[i] + gradient_b * v[i];
+    }
+    const Real even = aa_one + bb_one, odd = aa_one - bb_one;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (places[i] > places[j]) continue;
+        auto& block = hessian[places[i] * n_ + places[j]];
+        block.add_product(u[i], hu[j]);
+        block.add_product(v[i], hv[j]);
+        const Real real = even * weights.products[i][j].x;
+        const Real imaginary = odd * weights.products[i][j].y;
+        block.m00 += real;
+        block.m10 += imaginary;
+        block.m01 -= imaginary;
+        block.m11 += real;
+      }
+  }
+
+  std::size_t n_;
+};
+
+}  // namespace smoothfem
