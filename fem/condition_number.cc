@@ -59,11 +59,7 @@ double relative_residual(const SparseMatrix& matrix, const Eigen::VectorXd& v, d
 
 ConditionNumber ConditionNumberSolver::compute(const SparseMatrix& matrix) {
   const Eigen::Index n = matrix.rows();
-  const Eigen::VectorXd generic = start_vector(n).normalized();
-  // The lowest mode hardly changes from mesh to mesh and is worth keeping; the highest one sits at
-  // the worst element, which is another one every time.
-  Eigen::VectorXd largest_vector = generic, smallest_vector = generic;
-  if (last_smallest_vector_.size() == n) smallest_vector += last_smallest_vector_;
+  Eigen::VectorXd largest_vector = start_vector(n), smallest_vector = largest_vector;
   ConditionNumber result;
   if (n == 1) {
     result.lambda_min = result.lambda_max = matrix.coeff(0, 0);
@@ -88,7 +84,6 @@ ConditionNumber ConditionNumberSolver::compute(const SparseMatrix& matrix) {
   smallest_vector = factorization_.solve(smallest_vector).normalized();
   result.lambda_max_residual = relative_residual(matrix, largest_vector, result.lambda_max);
   result.lambda_min_residual = relative_residual(matrix, smallest_vector, result.lambda_min);
-  last_smallest_vector_ = std::move(smallest_vector);
   result.verified =
       std::max(result.lambda_max_residual, result.lambda_min_residual) < residual_tolerance;
   return result;

@@ -24,7 +24,7 @@ struct ConditionNumber {
 
 /// Extreme eigenvalues of matrices that share one pattern: the largest by the Lanczos method on A,
 /// the smallest by the Lanczos method on A^-1 with a sparse Cholesky factorization, whose symbolic
-/// part is done once. Each computation starts from the last one's lowest eigenvector.
+/// part is done once.
 class ConditionNumberSolver {
  public:
   /// Name of the method in results.
@@ -37,7 +37,6 @@ class ConditionNumberSolver {
 
   Eigen::SimplicialLLT<ColumnMatrix> factorization_;
   bool analyzed_ = false;
-  Eigen::VectorXd last_smallest_vector_;
 };
 
 }  // namespace smoothfem

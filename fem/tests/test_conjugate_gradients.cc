@@ -1,0 +1,88 @@
+#include "fem/conjugate_gradients.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+namespace smoothfem {
+namespace {
+
+/// Tridiagonal (-1, 2, -1) with a diagonal scaling that Jacobi undoes.
+SparseMatrix scaled_laplacian(int n, double ratio) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto scale = [&](int i) { return std::pow(ratio, static_cast<double>(i) / n); };
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 2.0 * scale(i) * scale(i));
+    if (i + 1 < n) {
+      entries.emplace_back(i, i + 1, -scale(i) * scale(i + 1));
+      entries.emplace_back(i + 1, i, -scale(i) * scale(i + 1));
+    }
+  }
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+TEST(ConjugateGradients, SolvesToTheToleranceInNoMoreIterationsThanUnknowns) {
+  constexpr int n = 40;
+  const SparseMatrix matrix = scaled_laplacian(n, 1.0);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, 3.0);
+  Eigen::VectorXd x;
+  const auto result = conjugate_gradients(matrix, b, x, 1e-10, 1000, Preconditioner::none);
+  EXPECT_TRUE(result.converged);
+  EXPECT_LE(result.iterations, static_cast<std::size_t>(n));
+  EXPECT_LE((b - matrix * x).norm(), 2e-10 * b.norm());
+  EXPECT_LT((x - Eigen::MatrixXd(matrix).ldlt().solve(b)).norm(), 1e-7 * x.norm());
+}
+
+TEST(ConjugateGradients, StopsOneIterationBeforeItWouldBeTooEarly) {
+  const SparseMatrix matrix = scaled_laplacian(60, 3.0);
+  const Eigen::VectorXd b = Eigen::VectorXd::Random(60);
+  Eigen::VectorXd x;
+  const auto full = conjugate_gradients(matrix, b, x, 1e-8, 1000, Preconditioner::none);
+  ASSERT_TRUE(full.converged);
+  EXPECT_LE((b - matrix * x).norm(), 1.001e-8 * b.norm());
+  const auto cut =
+      conjugate_gradients(matrix, b, x, 1e-8, full.iterations - 1, Preconditioner::none);
+  EXPECT_FALSE(cut.converged);
+  EXPECT_GT((b - matrix * x).norm(), 0.999e-8 * b.norm());
+}
+
+TEST(ConjugateGradients, LanczosNumbersHaveTheExtremeEigenvalues) {
+  const SparseMatrix matrix = scaled_laplacian(30, 2.0);
+  Eigen::VectorXd x;
+  const auto result = conjugate_gradients(matrix, Eigen::VectorXd::Random(30), x, 1e-12, 1000,
+                                          Preconditioner::none);
+  const auto m = static_cast<Eigen::Index>(result.iterations);
+  const Eigen::Map<const Eigen::VectorXd> diagonal(result.lanczos_diagonal.data(), m);
+  const Eigen::Map<const Eigen::VectorXd> off(result.lanczos_off_diagonal.data(), m - 1);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> lanczos;
+  lanczos.computeFromTridiagonal(diagonal, off, Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{Eigen::MatrixXd(matrix)};
+  EXPECT_NEAR(lanczos.eigenvalues().maxCoeff() / dense.eigenvalues().maxCoeff(), 1.0, 1e-8);
+  EXPECT_NEAR(lanczos.eigenvalues().minCoeff() / dense.eigenvalues().minCoeff(), 1.0, 1e-8);
+}
+
+TEST(ConjugateGradients, JacobiUndoesADiagonalScaling) {
+  const SparseMatrix scaled = scaled_laplacian(50, 1e3), plain = scaled_laplacian(50, 1.0);
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(50);
+  Eigen::VectorXd x;
+  const auto none = conjugate_gradients(scaled, b, x, 1e-8, 10000, Preconditioner::none);
+  const auto jacobi = conjugate_gradients(scaled, b, x, 1e-8, 10000, Preconditioner::jacobi);
+  EXPECT_LT((b - scaled * x).norm(), 1.1e-8 * b.norm());
+  EXPECT_LT(jacobi.iterations, none.iterations / 2);
+  EXPECT_LE(jacobi.iterations,
+            2 * conjugate_gradients(plain, b, x, 1e-8, 1000, Preconditioner::none).iterations);
+}
+
+TEST(ConjugateGradients, ZeroRightHandSideNeedsNoIteration) {
+  Eigen::VectorXd x;
+  const auto result = conjugate_gradients(scaled_laplacian(5, 1.0), Eigen::VectorXd::Zero(5), x,
+                                          1e-8, 10, Preconditioner::none);
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.iterations, 0U);
+  EXPECT_EQ(x.norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace smoothfem
