@@ -18,12 +18,12 @@ struct Arguments {
 };
 
 void generate(const Arguments& arguments) {
-  PlanarMesh mesh = find_domain(arguments.domain)
-                        .generate({.element_type = arguments.elements == "triangles"
-                                                       ? ElementType::triangle
-                                                       : ElementType::quadrilateral,
-                                   .edge_scale = arguments.edge_scale,
-                                   .seed = arguments.seed});
+  PlanarMesh mesh =
+      find_domain(arguments.domain)
+          .generate({.element_type = arguments.elements == "triangles" ? ElementType::triangle
+                                                                       : ElementType::quadrilateral,
+                     .edge_scale = arguments.edge_scale,
+                     .seed = arguments.seed});
   if (arguments.distort_to > 0.0) {
     DistortionParameters parameters;
     parameters.target_q_mean = arguments.distort_to;
@@ -45,7 +45,8 @@ void add_generate_command(CLI::App& app) {
   command->add_option("--elements", arguments->elements, "triangles or quadrilaterals")
       ->check(CLI::IsMember({"triangles", "quadrilaterals"}));
   command->add_option("--edge-scale", arguments->edge_scale, "edges longer by this factor");
-  command->add_option("--distort-to", arguments->distort_to, "mean quality to distort to");
+  command->add_option("--distort-to", arguments->distort_to, "mean quality to distort to")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--seed", arguments->seed, "seed of generation and distortion");
   command->callback([arguments] { generate(*arguments); });
 }

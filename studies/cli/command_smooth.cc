@@ -52,8 +52,7 @@ class Recorder {
     series_->add(static_cast<double>(record.record), mesh, fields);
   }
   void write_log() const {
-    if (!arguments_.log.empty())
-      write_atomically(arguments_.log, iterations_csv("smooth", rows_));
+    if (!arguments_.log.empty()) write_atomically(arguments_.log, iterations_csv("smooth", rows_));
   }
 
  private:

@@ -1,3 +1,5 @@
+#include <atomic>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 
@@ -12,6 +14,14 @@ struct Arguments {
   std::filesystem::path file;
   StudyOptions options;
 };
+
+std::atomic<bool> interrupted{false};
+
+/// A study stops at the next good place; a second Ctrl-C ends the process at once.
+void on_interrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
 
 }  // namespace
 
@@ -29,6 +39,8 @@ void add_study_command(CLI::App& app) {
                     "the study's quick variant: smaller meshes, every k-th record");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");
   command->callback([arguments] {
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
     arguments->options.interrupted = &interrupted;
     const Study study = read_study(arguments->file, arguments->options.quick);
     if (arguments->options.out.empty())

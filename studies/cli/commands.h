@@ -1,12 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 
 namespace smoothfem {
-
-/// Set by Ctrl-C while a study runs.
-extern std::atomic<bool> interrupted;
 
 /// Each adds one subcommand to the program. Their callbacks throw InputError.
 void add_smooth_command(CLI::App& app);

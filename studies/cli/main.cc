@@ -1,4 +1,3 @@
-#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -8,17 +7,9 @@
 
 namespace smoothfem {
 
-std::atomic<bool> interrupted{false};
-
 namespace {
 
 constexpr int exit_bad_input = 2;
-
-/// A second Ctrl-C ends the process at once.
-void on_interrupt(int signal) {
-  interrupted = true;
-  std::signal(signal, SIG_DFL);
-}
 
 int run(int argc, char** argv) {
   CLI::App app("smoothfem: what mesh smoothing does to a finite element solution");
@@ -45,15 +36,14 @@ int run(int argc, char** argv) {
 }  // namespace smoothfem
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, smoothfem::on_interrupt);
-  std::signal(SIGTERM, smoothfem::on_interrupt);
   try {
     return smoothfem::run(argc, argv);
   } catch (const smoothfem::InputError& error) {
     std::fprintf(stderr, "smoothfem: %s\n", error.what());
     return smoothfem::exit_bad_input;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "smoothfem: there is not enough memory for this mesh; use a smaller one\n");
+    std::fprintf(stderr,
+                 "smoothfem: there is not enough memory for this mesh; use a smaller one\n");
     return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "smoothfem: internal error: %s\n", error.what());

@@ -25,7 +25,9 @@ std::string duration_text(double seconds) {
 
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
-Progress::~Progress() { clear_line(); }
+Progress::~Progress() {
+  clear_line();
+}
 
 double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - started_).count();
@@ -59,9 +61,8 @@ void Progress::update(std::size_t done, const std::string& what) {
   }
   constexpr int width = 30;
   const int filled = static_cast<int>(share * width);
-  const std::string bar =
-      std::string(static_cast<std::size_t>(filled), '#') +
-      std::string(static_cast<std::size_t>(width - filled), '.');
+  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                          std::string(static_cast<std::size_t>(width - filled), '.');
   std::fprintf(stderr, "\r\033[K%s [%s] %3d %%%s  %s", phase_.c_str(), bar.c_str(), percent,
                left.c_str(), what.c_str());
   std::fflush(stderr);

@@ -5,8 +5,8 @@
 
 namespace smoothfem {
 
-/// Tells on standard error how far a run is: a bar that is drawn over on a terminal, a plain line now
-/// and then elsewhere, nothing when quiet.
+/// Tells on standard error how far a run is: a bar that is drawn over on a terminal, a plain line
+/// now and then elsewhere, nothing when quiet.
 class Progress {
  public:
   explicit Progress(bool quiet);

@@ -3,8 +3,8 @@
 #include <openssl/evp.h>
 #include <sys/utsname.h>
 
-#include <Eigen/Core>
 #include <Spectra/Util/Version.h>
+#include <Eigen/Core>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -97,8 +97,7 @@ Json describe_methods(const Study& study) {
     Method method = entry.make();
     Json parameters;
     for (const auto& parameter : method.parameters())
-      std::visit([&](const auto* value) { parameters[parameter.name] = *value; },
-                 parameter.value);
+      std::visit([&](const auto* value) { parameters[parameter.name] = *value; }, parameter.value);
     methods.push_back({{"name", entry.name},
                        {"title", entry.title},
                        {"type", entry.type},
@@ -111,16 +110,16 @@ Json describe_methods(const Study& study) {
 }  // namespace
 
 std::map<std::string, std::string> library_versions() {
-  return {{"deal.II", SMOOTHFEM_DEAL_II_VERSION},
-          {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." +
-                        std::to_string(EIGEN_MAJOR_VERSION) + "." +
-                        std::to_string(EIGEN_MINOR_VERSION)},
-          {"Gmsh", SMOOTHFEM_GMSH_VERSION},
-          {"Spectra", std::to_string(SPECTRA_MAJOR_VERSION) + "." +
-                          std::to_string(SPECTRA_MINOR_VERSION) + "." +
-                          std::to_string(SPECTRA_PATCH_VERSION)},
-          {"Trilinos", SMOOTHFEM_TRILINOS_VERSION},
-          {"VTK", SMOOTHFEM_VTK_VERSION}};
+  return {
+      {"deal.II", SMOOTHFEM_DEAL_II_VERSION},
+      {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                    "." + std::to_string(EIGEN_MINOR_VERSION)},
+      {"Gmsh", SMOOTHFEM_GMSH_VERSION},
+      {"Spectra", std::to_string(SPECTRA_MAJOR_VERSION) + "." +
+                      std::to_string(SPECTRA_MINOR_VERSION) + "." +
+                      std::to_string(SPECTRA_PATCH_VERSION)},
+      {"Trilinos", SMOOTHFEM_TRILINOS_VERSION},
+      {"VTK", SMOOTHFEM_VTK_VERSION}};
 }
 
 std::string provenance_json(const RunFacts& facts) {

@@ -15,12 +15,12 @@ struct RunFacts {
   const StudyOptions& options;
   const std::vector<PreparedMesh>& meshes;
   unsigned int n_threads;
-  std::string status;                         ///< "running", "interrupted" or "complete"
-  std::map<std::string, double> seconds;      ///< time split
+  std::string status;                     ///< "running", "interrupted" or "complete"
+  std::map<std::string, double> seconds;  ///< time split
 };
 
-/// provenance.json as text: commit, compiler, versions, machine, seeds, SHA-256 of every initial mesh
-/// (of its polygonal text form in `meshes/`), effective parameters, time split.
+/// provenance.json as text: commit, compiler, versions, machine, seeds, SHA-256 of every initial
+/// mesh (of its polygonal text form in `meshes/`), effective parameters, time split.
 std::string provenance_json(const RunFacts& facts);
 
 /// One line a library: name and version, for the command line.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
+#include <memory>
 #include <regex>
 #include <sstream>
 
+#include "meshes/generators/domains.h"
 #include "smoothing/mesh/input_error.h"
 #include "studies/framework/study.h"
 
@@ -43,9 +46,10 @@ void declare_lists(ParameterHandler& p) {
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Labels of the meshes, separated by commas; each has a subsection 'mesh LABEL'.");
-  p.declare_entry("methods", "all", Patterns::Anything(),
-                  "Methods, separated by commas, or 'all'. A label with a subsection 'method LABEL' "
-                  "may be any registered method with other parameters.");
+  p.declare_entry(
+      "methods", "all", Patterns::Anything(),
+      "Methods, separated by commas, or 'all'. A label with a subsection 'method LABEL' "
+      "may be any registered method with other parameters.");
 }
 
 void declare_mesh(ParameterHandler& p, const std::string& name) {
@@ -63,6 +67,25 @@ void declare_mesh(ParameterHandler& p, const std::string& name) {
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
 }
 
+/// For calls whose errors do not know which file they are about.
+template <class Call>
+auto in_file(const std::filesystem::path& file, const Call& call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
+
+/// The range of a parameter as deal.II checks it, which knows the line of a bad value.
+std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
+  if (!std::holds_alternative<int*>(parameter.value))
+    return std::make_unique<Patterns::Double>(parameter.lower, parameter.upper);
+  constexpr double most = std::numeric_limits<int>::max();
+  return std::make_unique<Patterns::Integer>(static_cast<int>(std::max(parameter.lower, -most)),
+                                             static_cast<int>(std::min(parameter.upper, most)));
+}
+
 /// The parameters of a method are those it registers, with its own defaults.
 void declare_method(ParameterHandler& p, const std::string& name, const std::string& type) {
   const Subsection subsection(p, "method " + name);
@@ -72,7 +95,7 @@ void declare_method(ParameterHandler& p, const std::string& name, const std::str
   p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
                   "Title in tables and figures.");
   for (const auto& parameter : method.parameters())
-    p.declare_entry(parameter.name, value_text(parameter), Patterns::Anything(),
+    p.declare_entry(parameter.name, value_text(parameter), *range_of(parameter),
                     parameter.description);
 }
 
@@ -244,6 +267,13 @@ void read_problem(ParameterHandler& p, const std::string& file, bool quick, Stud
   }
 }
 
+/// Whether what the study names is there; better now than after the first mesh is generated.
+void check_names(const Study& study) {
+  if (study.solution.name != "expression") (void)manufactured_solution(study.solution.name);
+  for (const auto& mesh : study.meshes)
+    if (!mesh.domain.empty()) (void)find_domain(mesh.domain);
+}
+
 void check_thresholds(const Study& study, const std::string& file) {
   const auto& reference = study.thresholds.reference;
   if (reference.empty()) return;
@@ -320,7 +350,7 @@ Study read_study(const std::filesystem::path& file, bool quick) {
       const Subsection subsection(types, "method " + method);
       type = types.get("type");
     }
-    declare_method(p, method, type);
+    in_file(file, [&] { declare_method(p, method, type); });
   }
   parse(p, text, file, false);
 
@@ -331,8 +361,10 @@ Study read_study(const std::filesystem::path& file, bool quick) {
   if (study.title.empty()) study.title = study.name;
   for (const auto& mesh : meshes)
     study.meshes.push_back(read_mesh_section(p, mesh, file.parent_path()));
-  for (const auto& method : methods) study.methods.push_back(read_method_section(p, method));
+  for (const auto& method : methods)
+    study.methods.push_back(in_file(file, [&] { return read_method_section(p, method); }));
   read_problem(p, file.string(), quick, study);
+  in_file(file, [&] { check_names(study); });
   check_thresholds(study, file.string());
   study.parameters = effective_parameters(p);
   return study;

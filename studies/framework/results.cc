@@ -45,7 +45,8 @@ class CsvText {
 
 constexpr const char* solution_columns =
     "degree,n_dofs,n_free,condition_number,condition_method,lambda_min,lambda_max,cg_iterations,"
-    "cg_seconds,cg_converged,jacobi_cg_iterations,jacobi_cg_seconds,e_max,e_mean,e_l2,e_h1,l2_error,"
+    "cg_seconds,cg_converged,jacobi_cg_iterations,jacobi_cg_seconds,e_max,e_mean,e_l2,e_h1,l2_"
+    "error,"
     "h1_error,status";
 constexpr int n_solution_numbers = 17;  ///< between degree and status
 

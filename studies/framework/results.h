@@ -42,8 +42,8 @@ struct ThresholdRow {
   std::optional<double> method_seconds;
 };
 
-/// The thresholds that the reference's least errors, increased by the margin, set on each mesh, degree
-/// and error, and when each other method first comes below them (thesis, Table 6.4).
+/// The thresholds that the reference's least errors, increased by the margin, set on each mesh,
+/// degree and error, and when each other method first comes below them (thesis, Table 6.4).
 std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
                                            const std::string& reference, double margin);
 

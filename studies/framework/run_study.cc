@@ -1,7 +1,11 @@
 #include "studies/framework/run_study.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <list>
 
 #include "meshes/io/atomic_file.h"
@@ -20,12 +24,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The finite element tasks of one mesh: those of the initial mesh, shared by all methods, and those of
-/// each method's snapshots; one a degree in each list.
+/// The finite element tasks of one mesh: those of the initial mesh, shared by all methods, and
+/// those of each method's snapshots; one a degree in each list.
 struct MeshTasks {
   std::vector<SolveTask*> initial;
   std::vector<std::vector<std::vector<SolveTask*>>> methods;  ///< [method][snapshot][degree]
 };
+
+/// Before hours of work, and without leaving a trace: can files be written below this folder?
+void require_writable(const fs::path& folder) {
+  fs::path existing = fs::absolute(folder);
+  while (!fs::exists(existing) && existing.has_relative_path()) existing = existing.parent_path();
+  if (!fs::is_directory(existing))
+    throw InputError("cannot write results to " + folder.string() + ": " + existing.string() +
+                     " is not a folder");
+  if (::access(existing.c_str(), W_OK | X_OK) != 0)
+    throw InputError("cannot write results to " + folder.string() + ": " + std::strerror(errno));
+}
 
 class StudyRun {
  public:
@@ -37,9 +52,14 @@ class StudyRun {
         progress_(options.quiet) {}
 
   void run() {
-    write_provenance("running");  // also finds out early whether the folder can be written
-    timed("meshes", [&] { prepare_meshes(); });
-    write_provenance("running");
+    // Everything the user gave is checked before the first file is written.
+    require_writable(options_.out);
+    timed("meshes", [&] {
+      prepare_meshes();
+      solution_ = make_solution();
+      make_solvers();
+    });
+    begin_writing();
     timed("smoothing", [&] { smooth_meshes(); });
     timed("finite_elements", [&] { solve(); });
     timed("writing", [&] { write_results(); });
@@ -56,28 +76,42 @@ class StudyRun {
   }
 
   void prepare_meshes() {
-    solution_ = study_.solution.name == "expression"
-                    ? std::nullopt
-                    : std::optional(manufactured_solution(study_.solution.name));
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
       progress_.update(meshes_.size(), description.name);
       meshes_.push_back(prepare_mesh(description, study_.edge_scale, options_.mesh_dir));
-      write_mesh(mesh_path(description.name, "initial", ".mesh"), meshes_.back().mesh);
       stop_if_interrupted();
     }
-    if (!solution_) solution_ = parse_solution();
     progress_.end();
   }
 
-  /// The expressions are checked at nodes of the first mesh.
-  ManufacturedSolution parse_solution() const {
+  /// Expressions are checked at nodes of the first mesh.
+  ManufacturedSolution make_solution() const {
+    if (study_.solution.name != "expression") return manufactured_solution(study_.solution.name);
     const auto& points = meshes_.front().mesh.coordinates();
     std::vector<Point<2>> sample;
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
       sample.push_back(points[i]);
     return parsed_solution(study_.solution.value, study_.solution.gradient, study_.solution.load,
                            sample);
+  }
+
+  void make_solvers() {
+    for (const auto& prepared : meshes_)
+      for (const int degree : study_.degrees) {
+        PoissonOptions options = study_.finite_elements;
+        options.degree = degree;
+        solvers_.emplace_back(prepared.mesh, options);
+      }
+  }
+
+  /// The provenance first, so that nobody takes old results for those of this run.
+  void begin_writing() {
+    writing_ = true;
+    write_provenance("running");
+    for (const auto& prepared : meshes_)
+      write_mesh(mesh_path(prepared.description.name, "initial", ".mesh"), prepared.mesh);
+    write_provenance("running");  // now with the checksums
   }
 
   void smooth_meshes() {
@@ -114,8 +148,8 @@ class StudyRun {
           auto& of_snapshot = of_method.emplace_back();
           if (trajectory.records[snapshot.record].quality.n_invalid > 0) continue;
           for (std::size_t d = 0; d < study_.degrees.size(); ++d)
-            of_snapshot.push_back(add_task(m, d, snapshot.coordinates,
-                                           snapshot.record == trajectory.result_record));
+            of_snapshot.push_back(
+                add_task(m, d, snapshot.coordinates, snapshot.record == trajectory.result_record));
         }
       }
     }
@@ -123,26 +157,19 @@ class StudyRun {
 
   void solve() {
     make_tasks();
-    std::vector<PoissonSolver> solvers;
-    for (const auto& prepared : meshes_)
-      for (const int degree : study_.degrees) {
-        PoissonOptions options = study_.finite_elements;
-        options.degree = degree;
-        solvers.emplace_back(prepared.mesh, options);
-      }
     std::vector<SolveTask*> queue;
     for (auto& task : tasks_) queue.push_back(&task);
     progress_.begin("Finite elements", queue.size());
-    work_off(std::move(solvers), std::move(queue));
+    work_off(std::move(queue));
     progress_.end();
   }
 
   /// Waits for the queue; writes the rows there are every few seconds.
-  void work_off(std::vector<PoissonSolver> solvers, std::vector<SolveTask*> tasks) {
+  void work_off(std::vector<SolveTask*> tasks) {
     using Clock = std::chrono::steady_clock;
     constexpr auto look = std::chrono::milliseconds(50);
     constexpr auto between_writes = std::chrono::seconds(5);
-    SolveQueue queue(std::move(solvers), *solution_, std::move(tasks), n_threads_);
+    SolveQueue queue(std::move(solvers_), *solution_, std::move(tasks), n_threads_);
     auto last_write = Clock::now();
     while (!queue.finished()) {
       std::this_thread::sleep_for(look);
@@ -159,6 +186,10 @@ class StudyRun {
   /// Tasks may be under way on other threads, for a long time: the process ends without them.
   void stop_if_interrupted() {
     if (options_.interrupted == nullptr || !*options_.interrupted) return;
+    if (!writing_) {
+      progress_.say("Interrupted before the first result.");
+      std::_Exit(130);
+    }
     const auto rows = write_iterations();
     write_provenance("interrupted");
     progress_.say("Interrupted: the " + std::to_string(rows) + " rows finished so far are in " +
@@ -306,11 +337,10 @@ class StudyRun {
     progress_.begin("Results", 0);
     write_iterations();
     write_atomically(options_.out / "summary.csv", summary_csv(study_.name, summary_rows()));
-    const auto thresholds =
-        study_.thresholds.reference.empty()
-            ? std::vector<ThresholdRow>()
-            : reach_thresholds(finished_rows(), study_.thresholds.reference,
-                               study_.thresholds.margin);
+    const auto thresholds = study_.thresholds.reference.empty()
+                                ? std::vector<ThresholdRow>()
+                                : reach_thresholds(finished_rows(), study_.thresholds.reference,
+                                                   study_.thresholds.margin);
     write_atomically(options_.out / "thresholds.csv", thresholds_csv(study_.name, thresholds));
     write_meshes();
     progress_.end();
@@ -327,6 +357,8 @@ class StudyRun {
   mutable Progress progress_;
   std::optional<ManufacturedSolution> solution_;
   std::vector<PreparedMesh> meshes_;
+  std::vector<PoissonSolver> solvers_;  ///< [mesh * number of degrees + degree]
+  bool writing_ = false;                ///< the folder of the results holds files of this run
   std::vector<std::vector<Trajectory>> trajectories_;  ///< [mesh][method]
   std::list<SolveTask> tasks_;                         ///< stay where they are
   std::vector<MeshTasks> mesh_tasks_;

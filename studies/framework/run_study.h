@@ -20,8 +20,8 @@ struct StudyOptions {
 /// Runs a study: meshes, then smoothing (one method at a time on one thread, nothing else running),
 /// then a finite element record for every iteration (all cores), and writes iterations.csv,
 /// summary.csv, thresholds.csv, provenance.json and the resulting meshes. Every file appears in one
-/// piece; iterations.csv is written anew every few seconds with the rows finished so far. Numbers do
-/// not depend on n_threads. Throws InputError.
+/// piece; iterations.csv is written anew every few seconds with the rows finished so far. Numbers
+/// do not depend on n_threads. Throws InputError.
 void run_study(const Study& study, const StudyOptions& options);
 
 }  // namespace smoothfem

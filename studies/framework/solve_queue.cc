@@ -10,7 +10,9 @@ SolveQueue::SolveQueue(std::vector<PoissonSolver> solvers, const ManufacturedSol
   for (unsigned int i = 0; i < n_threads; ++i) threads_.emplace_back([this] { work(); });
 }
 
-SolveQueue::~SolveQueue() { next_ = tasks_.size(); }
+SolveQueue::~SolveQueue() {
+  next_ = tasks_.size();
+}
 
 void SolveQueue::rethrow() const {
   if (failed_) std::rethrow_exception(failure_);

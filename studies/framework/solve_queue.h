@@ -25,8 +25,8 @@ struct SolveTask {
       : solver(which), mesh(std::move(where)), keep_nodal_errors(keep) {}
 };
 
-/// Works off tasks on several threads, each with its own copies of the solvers: records do not depend
-/// on each other, so neither on the threads.
+/// Works off tasks on several threads, each with its own copies of the solvers: records do not
+/// depend on each other, so neither on the threads.
 class SolveQueue {
  public:
   SolveQueue(std::vector<PoissonSolver> solvers, const ManufacturedSolution& solution,

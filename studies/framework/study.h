@@ -13,22 +13,22 @@ namespace smoothfem {
 
 /// One of a study's meshes: read from a file or generated, and distorted if asked for.
 struct StudyMesh {
-  std::string name;   ///< label in results: letters, digits, '.', '_', '-'
-  std::string title;  ///< in tables and figures
+  std::string name;            ///< label in results: letters, digits, '.', '_', '-'
+  std::string title;           ///< in tables and figures
   std::filesystem::path file;  ///< empty: generate
   std::string domain;          ///< which domain to generate
   ElementType element_type = ElementType::triangle;
-  /// File name looked for with --mesh-dir, in place of `file` or `domain`. It is taken as it is, not
-  /// distorted: published meshes are already.
+  /// File name looked for with --mesh-dir, in place of `file` or `domain`. It is taken as it is,
+  /// not distorted: published meshes are already.
   std::string published_file;
   double distort_to_q_mean = 0.0;  ///< 0: not distorted
   std::uint64_t seed = 1;
 };
 
 struct StudyMethod {
-  std::string name;   ///< label in results
-  std::string type;   ///< registered method
-  std::string title;  ///< in tables and figures
+  std::string name;                                           ///< label in results
+  std::string type;                                           ///< registered method
+  std::string title;                                          ///< in tables and figures
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
 
   /// The method with its settings.
@@ -57,15 +57,15 @@ struct Study {
   StudySolution solution;
   PoissonOptions finite_elements;  ///< its degree is not used
   StudyThresholds thresholds;
-  int record_every = 1;  ///< solve at every k-th iteration; initial and resulting mesh always
-  int timing_runs = 1;   ///< smoothing times are medians over this many runs
-  double edge_scale = 1.0;     ///< generated meshes: edges this much longer
-  bool write_series = false;   ///< a VTU series for each mesh and method
+  int record_every = 1;       ///< solve at every k-th iteration; initial and resulting mesh always
+  int timing_runs = 1;        ///< smoothing times are medians over this many runs
+  double edge_scale = 1.0;    ///< generated meshes: edges this much longer
+  bool write_series = false;  ///< a VTU series for each mesh and method
   std::vector<std::pair<std::string, std::string>> parameters;  ///< as read, for the provenance
 };
 
-/// Reads a study from a parameter file (deal.II's ParameterHandler format). quick: with the changes of
-/// its subsection `quick`. Throws InputError with file and line for unknown keys and bad values.
+/// Reads a study from a parameter file (deal.II's ParameterHandler format). quick: with the changes
+/// of its subsection `quick`. Throws InputError with file and line for unknown keys and bad values.
 Study read_study(const std::filesystem::path& file, bool quick);
 
 /// A commented parameter file with every key and its default, for the methods and meshes named.

@@ -8,8 +8,8 @@
 
 namespace smoothfem {
 
-/// Everything that smoothing one mesh by one method went through: the numbers of every iteration, and
-/// the coordinates of those at which finite elements will be solved.
+/// Everything that smoothing one mesh by one method went through: the numbers of every iteration,
+/// and the coordinates of those at which finite elements will be solved.
 struct Trajectory {
   struct Snapshot {
     std::size_t record;  ///< index into records
@@ -24,9 +24,10 @@ struct Trajectory {
   MeshQuality quality;                   ///< of the result
 };
 
-/// Runs a method timing_runs times on copies of the mesh, on this thread alone, and keeps the median of
-/// the accumulated times of each record; the meshes are the same every time. Snapshots: every
-/// record_every-th record but the initial one, and the result. progress: called after each run.
+/// Runs a method timing_runs times on copies of the mesh, on this thread alone, and keeps the
+/// median of the accumulated times of each record; the meshes are the same every time. Snapshots:
+/// every record_every-th record but the initial one, and the result. progress: called after each
+/// run.
 Trajectory record_trajectory(const PlanarMesh& mesh, const StudyMethod& method, int timing_runs,
                              int record_every);
 
