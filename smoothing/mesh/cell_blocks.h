@@ -43,16 +43,22 @@ SMOOTHFEM_INLINE void with_room_for_result(std::span<const Vector2<double>, exte
   }
 }
 
+/// The corners of n_lanes cells with n nodes each, given by their rows of nodes.
+template <std::size_t n>
+SMOOTHFEM_INLINE std::array<Vector2<Lanes>, n> gather_cells(
+    const Point<2>* x, const std::array<const NodeIndex*, n_lanes>& rows) {
+  if constexpr (n == 3)
+    return {gather_corner(x, rows, 0), gather_corner(x, rows, 1), gather_corner(x, rows, 2)};
+  else
+    return {gather_corner(x, rows, 0), gather_corner(x, rows, 1), gather_corner(x, rows, 2),
+            gather_corner(x, rows, 3)};
+}
+
 /// The corners of n_lanes neighbouring cells with n nodes each.
 template <std::size_t n>
 SMOOTHFEM_INLINE std::array<Vector2<Lanes>, n> gather_block(const Point<2>* x,
                                                             const NodeIndex* nodes) {
-  if constexpr (n == 3)
-    return {gather_corner<3>(x, nodes, 0), gather_corner<3>(x, nodes, 1),
-            gather_corner<3>(x, nodes, 2)};
-  else
-    return {gather_corner<4>(x, nodes, 0), gather_corner<4>(x, nodes, 1),
-            gather_corner<4>(x, nodes, 2), gather_corner<4>(x, nodes, 3)};
+  return gather_cells<n>(x, {nodes, nodes + n, nodes + 2 * n, nodes + 3 * n});
 }
 
 /// Visits all cells in order: visit_block(cell, corners) with the corners of the n_lanes cells from

@@ -86,12 +86,11 @@ SMOOTHFEM_INLINE double cross(const Point<2>& a, const Point<2>& b) {
   return cross(vector_of(a), vector_of(b));
 }
 
-/// The k-th corners of n_lanes cells whose node rows of length n follow each other at `nodes`.
-template <std::size_t n>
-SMOOTHFEM_INLINE Vector2<Lanes> gather_corner(const Point<2>* x, const NodeIndex* nodes,
+/// The k-th corners of n_lanes cells, given by their rows of nodes.
+SMOOTHFEM_INLINE Vector2<Lanes> gather_corner(const Point<2>* x,
+                                              const std::array<const NodeIndex*, n_lanes>& rows,
                                               std::size_t k) {
-  const auto &a = x[nodes[k]], &b = x[nodes[n + k]], &c = x[nodes[2 * n + k]],
-             &d = x[nodes[3 * n + k]];
+  const auto &a = x[rows[0][k]], &b = x[rows[1][k]], &c = x[rows[2][k]], &d = x[rows[3][k]];
   return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()}};
 }
 

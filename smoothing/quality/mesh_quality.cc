@@ -31,17 +31,20 @@ void compute_cell_mean_ratios(const PlanarMesh& mesh, std::vector<double>& cell_
 
 MeshQuality mesh_quality(const Topology& topology, std::span<const double> cell_quality) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  MeshQuality result{none, none, 0.0, 0};
+  double q_min = none, q_star_min = none, sum = 0.0;
+  std::size_t n_invalid = 0;
   for (CellIndex c = 0; c < cell_quality.size(); ++c) {
     const double q = cell_quality[c];
-    result.q_min = std::min(result.q_min, q);
-    if (topology.has_free_node(c)) result.q_star_min = std::min(result.q_star_min, q);
-    result.q_mean += q;
-    if (!(q > 0.0)) ++result.n_invalid;
+    q_min = q < q_min ? q : q_min;
+    const double free_q = topology.has_free_node(c) ? q : none;
+    q_star_min = free_q < q_star_min ? free_q : q_star_min;
+    sum += q;
+    n_invalid += q > 0.0 ? 0 : 1;
   }
-  result.q_mean /= static_cast<double>(cell_quality.size());
-  if (result.q_star_min == none) result.q_star_min = result.q_min;
-  return result;
+  return {.q_min = q_min,
+          .q_star_min = q_star_min == none ? q_min : q_star_min,
+          .q_mean = sum / static_cast<double>(cell_quality.size()),
+          .n_invalid = n_invalid};
 }
 
 MeshQuality mesh_quality(const PlanarMesh& mesh) {

@@ -35,10 +35,10 @@ class GetmeSimultaneous final : public Smoother<2> {
   StepReport step(SmoothingState<2>& state) override {
     sums_.assign(state.mesh.n_nodes(), Point<2>::Zero());
     if (eta_ == 0.0) {
-      add_transformed_elements<false>(state);
+      add_with_equal_weights(state);
     } else {
       weights_.assign(state.mesh.n_nodes(), 0.0);
-      add_transformed_elements<true>(state);
+      add_with_quality_weights(state);
     }
     const auto& weights = eta_ == 0.0 ? counts_ : weights_;
     // Where all weights are zero the node's elements are regular already: it stays.
@@ -62,6 +62,9 @@ class GetmeSimultaneous final : public Smoother<2> {
 
   template <bool weighted>
   void add_transformed_elements(const SmoothingState<2>& state);
+  // Templates cannot be compiled for several kinds of registers; these can.
+  void add_with_equal_weights(const SmoothingState<2>& state);
+  void add_with_quality_weights(const SmoothingState<2>& state);
 
   PolygonRegularization element_{.lambda = 7.0 / 20.0, .theta_degrees = 15.0, .rho = 1.0};
   double eta_ = 0.0;
@@ -73,8 +76,7 @@ class GetmeSimultaneous final : public Smoother<2> {
 
 /// Adds each element's nodes in the order of the elements, so every node's sum has one order.
 template <bool weighted>
-SMOOTHFEM_VECTOR_CLONES void GetmeSimultaneous::add_transformed_elements(
-    const SmoothingState<2>& state) {
+SMOOTHFEM_INLINE void GetmeSimultaneous::add_transformed_elements(const SmoothingState<2>& state) {
   const PolygonTransformation transformation = element_.transformation();
   const double rho = element_.rho;
   const auto& cells = state.mesh.topology().cells();
@@ -96,6 +98,15 @@ SMOOTHFEM_VECTOR_CLONES void GetmeSimultaneous::add_transformed_elements(
             add_node<weighted>(state, c, cells[c][k], point_of(result[k]));
         });
       });
+}
+
+SMOOTHFEM_VECTOR_CLONES
+void GetmeSimultaneous::add_with_equal_weights(const SmoothingState<2>& state) {
+  add_transformed_elements<false>(state);
+}
+SMOOTHFEM_VECTOR_CLONES
+void GetmeSimultaneous::add_with_quality_weights(const SmoothingState<2>& state) {
+  add_transformed_elements<true>(state);
 }
 
 const RegisteredMethod registered({.name = "getme-simultaneous",
