@@ -5,7 +5,7 @@
 
 namespace smoothfem {
 
-ConjugateGradientsResult conjugate_gradients(const SparseMatrix& matrix, const Eigen::VectorXd& b,
+ConjugateGradientsResult conjugate_gradients(const SlicedMatrix& matrix, const Eigen::VectorXd& b,
                                              Eigen::VectorXd& x, double tolerance,
                                              std::size_t max_iterations,
                                              Preconditioner preconditioner, double norm_offset) {
@@ -24,7 +24,7 @@ ConjugateGradientsResult conjugate_gradients(const SparseMatrix& matrix, const E
   double rho = r.dot(z), previous_alpha = 0.0, beta = 0.0;
   double residual = r.squaredNorm();
   while (residual > goal && result.iterations < max_iterations) {
-    product.noalias() = matrix * p;
+    matrix.multiply(p, product);
     const double alpha = rho / p.dot(product);
     x += alpha * p;
     r -= alpha * product;
@@ -37,7 +37,10 @@ ConjugateGradientsResult conjugate_gradients(const SparseMatrix& matrix, const E
     const double rho_new = jacobi ? r.dot(z) : residual;
     beta = rho_new / rho;
     result.lanczos_off_diagonal.push_back(std::sqrt(beta) / alpha);
-    p = (jacobi ? z : r) + beta * p;
+    if (jacobi)
+      p = z + beta * p;
+    else
+      p = r + beta * p;
     rho = rho_new;
     previous_alpha = alpha;
   }

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fem/finite_element_space.h"
+#include "fem/sliced_matrix.h"
 
 namespace smoothfem {
 
@@ -22,7 +22,7 @@ enum class Preconditioner { none, jacobi };
 /// Solves A x = b from the zero start until |r| <= tolerance |b| in the Euclidean norm of the
 /// residual that the recurrence carries, or max_iterations are done. b = 0 gives x = 0.
 /// norm_offset: added to |b|^2 in the stopping test only (see PoissonOptions::boundary_in_norm).
-ConjugateGradientsResult conjugate_gradients(const SparseMatrix& matrix, const Eigen::VectorXd& b,
+ConjugateGradientsResult conjugate_gradients(const SlicedMatrix& matrix, const Eigen::VectorXd& b,
                                              Eigen::VectorXd& x, double tolerance,
                                              std::size_t max_iterations,
                                              Preconditioner preconditioner,

@@ -10,11 +10,12 @@ namespace smoothfem {
 struct PoissonSolver::Workspace {
   std::shared_ptr<const FiniteElementSpace> space;
   PoissonSystem system;
+  SlicedMatrix sliced;  ///< the system's matrix, for products
   ConditionNumberSolver condition_solver;
   Eigen::VectorXd free_solution, discrete;
 
   explicit Workspace(std::shared_ptr<const FiniteElementSpace> shared)
-      : space(std::move(shared)), system(make_system(*space)) {}
+      : space(std::move(shared)), system(make_system(*space)), sliced(system.matrix) {}
 };
 
 PoissonSolver::PoissonSolver(const PlanarMesh& mesh, const PoissonOptions& options)
@@ -51,7 +52,7 @@ void record_condition_number(const ConditionNumber& condition, SolutionRecord& r
 }  // namespace
 
 SolutionRecord PoissonSolver::solve(const PlanarMesh& mesh, const ManufacturedSolution& solution) {
-  auto& [space, system, condition_solver, free_solution, discrete] = *work_;
+  auto& [space, system, sliced, condition_solver, free_solution, discrete] = *work_;
   SolutionRecord record{.degree = options_.degree,
                         .n_dofs = space->n_dofs,
                         .n_free = space->n_free,
@@ -62,12 +63,13 @@ SolutionRecord PoissonSolver::solve(const PlanarMesh& mesh, const ManufacturedSo
   if (options_.condition_number)
     record_condition_number(condition_solver.compute(system.matrix), record);
 
+  sliced.set_values(system.matrix);
   const double offset = options_.boundary_in_norm ? boundary_square_sum(*space, system.exact) : 0.0;
   const auto max_iterations = static_cast<std::size_t>(options_.max_cg_iterations_per_dof *
                                                        static_cast<double>(space->n_free));
   const auto run = [&](Preconditioner preconditioner) {
-    return conjugate_gradients(system.matrix, system.right_hand_side, free_solution,
-                               options_.cg_tolerance, max_iterations, preconditioner, offset);
+    return conjugate_gradients(sliced, system.right_hand_side, free_solution, options_.cg_tolerance,
+                               max_iterations, preconditioner, offset);
   };
   if (options_.jacobi_cg) {
     const auto jacobi = run(Preconditioner::jacobi);

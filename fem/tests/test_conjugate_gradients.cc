@@ -28,7 +28,8 @@ TEST(ConjugateGradients, SolvesToTheToleranceInNoMoreIterationsThanUnknowns) {
   const SparseMatrix matrix = scaled_laplacian(n, 1.0);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, 3.0);
   Eigen::VectorXd x;
-  const auto result = conjugate_gradients(matrix, b, x, 1e-10, 1000, Preconditioner::none);
+  const auto result =
+      conjugate_gradients(SlicedMatrix(matrix), b, x, 1e-10, 1000, Preconditioner::none);
   EXPECT_TRUE(result.converged);
   EXPECT_LE(result.iterations, static_cast<std::size_t>(n));
   EXPECT_LE((b - matrix * x).norm(), 2e-10 * b.norm());
@@ -39,11 +40,12 @@ TEST(ConjugateGradients, StopsOneIterationBeforeItWouldBeTooEarly) {
   const SparseMatrix matrix = scaled_laplacian(60, 3.0);
   const Eigen::VectorXd b = Eigen::VectorXd::Random(60);
   Eigen::VectorXd x;
-  const auto full = conjugate_gradients(matrix, b, x, 1e-8, 1000, Preconditioner::none);
+  const auto full =
+      conjugate_gradients(SlicedMatrix(matrix), b, x, 1e-8, 1000, Preconditioner::none);
   ASSERT_TRUE(full.converged);
   EXPECT_LE((b - matrix * x).norm(), 1.001e-8 * b.norm());
-  const auto cut =
-      conjugate_gradients(matrix, b, x, 1e-8, full.iterations - 1, Preconditioner::none);
+  const auto cut = conjugate_gradients(SlicedMatrix(matrix), b, x, 1e-8, full.iterations - 1,
+                                       Preconditioner::none);
   EXPECT_FALSE(cut.converged);
   EXPECT_GT((b - matrix * x).norm(), 0.999e-8 * b.norm());
 }
@@ -51,8 +53,8 @@ TEST(ConjugateGradients, StopsOneIterationBeforeItWouldBeTooEarly) {
 TEST(ConjugateGradients, LanczosNumbersHaveTheExtremeEigenvalues) {
   const SparseMatrix matrix = scaled_laplacian(30, 2.0);
   Eigen::VectorXd x;
-  const auto result = conjugate_gradients(matrix, Eigen::VectorXd::Random(30), x, 1e-12, 1000,
-                                          Preconditioner::none);
+  const auto result = conjugate_gradients(SlicedMatrix(matrix), Eigen::VectorXd::Random(30), x,
+                                          1e-12, 1000, Preconditioner::none);
   const auto m = static_cast<Eigen::Index>(result.iterations);
   const Eigen::Map<const Eigen::VectorXd> diagonal(result.lanczos_diagonal.data(), m);
   const Eigen::Map<const Eigen::VectorXd> off(result.lanczos_off_diagonal.data(), m - 1);
@@ -67,21 +69,46 @@ TEST(ConjugateGradients, JacobiUndoesADiagonalScaling) {
   const SparseMatrix scaled = scaled_laplacian(50, 1e3), plain = scaled_laplacian(50, 1.0);
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(50);
   Eigen::VectorXd x;
-  const auto none = conjugate_gradients(scaled, b, x, 1e-8, 10000, Preconditioner::none);
-  const auto jacobi = conjugate_gradients(scaled, b, x, 1e-8, 10000, Preconditioner::jacobi);
+  const auto none =
+      conjugate_gradients(SlicedMatrix(scaled), b, x, 1e-8, 10000, Preconditioner::none);
+  const auto jacobi =
+      conjugate_gradients(SlicedMatrix(scaled), b, x, 1e-8, 10000, Preconditioner::jacobi);
   EXPECT_LT((b - scaled * x).norm(), 1.1e-8 * b.norm());
   EXPECT_LT(jacobi.iterations, none.iterations / 2);
   EXPECT_LE(jacobi.iterations,
-            2 * conjugate_gradients(plain, b, x, 1e-8, 1000, Preconditioner::none).iterations);
+            2 * conjugate_gradients(SlicedMatrix(plain), b, x, 1e-8, 1000, Preconditioner::none)
+                    .iterations);
 }
 
 TEST(ConjugateGradients, ZeroRightHandSideNeedsNoIteration) {
   Eigen::VectorXd x;
-  const auto result = conjugate_gradients(scaled_laplacian(5, 1.0), Eigen::VectorXd::Zero(5), x,
-                                          1e-8, 10, Preconditioner::none);
+  const auto result =
+      conjugate_gradients(SlicedMatrix(scaled_laplacian(5, 1.0)), Eigen::VectorXd::Zero(5), x, 1e-8,
+                          10, Preconditioner::none);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ(result.iterations, 0U);
   EXPECT_EQ(x.norm(), 0.0);
+}
+
+TEST(SlicedMatrix, MultipliesAsTheMatrixItWasMadeOf) {
+  // Rows of very different lengths, and a number of rows that is no multiple of the lanes.
+  for (const int n : {1, 3, 4, 37, 301}) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i)
+      for (int j = i % 7; j < n; j += 1 + (i * i) % 11) entries.emplace_back(i, j, i - 0.3 * j);
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    SlicedMatrix sliced(matrix);
+    const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
+    Eigen::VectorXd y(n);
+    sliced.multiply(x, y);
+    EXPECT_LT((y - Eigen::MatrixXd(matrix) * x).norm(), 1e-12 * (1.0 + y.norm()));
+    matrix *= 2.0;
+    sliced.set_values(matrix);
+    Eigen::VectorXd twice(n);
+    sliced.multiply(x, twice);
+    EXPECT_EQ(twice, 2.0 * y);
+  }
 }
 
 }  // namespace
