@@ -33,11 +33,12 @@ void print_text(const PlanarMesh& mesh, const MeshQuality& q,
   const Topology& topology = mesh.topology();
   std::printf("nodes      %zu (%zu fixed)\n", mesh.n_nodes(),
               mesh.n_nodes() - topology.free_nodes().size());
-  std::printf("cells      %zu", mesh.n_cells());
+  std::string types;
   for (const auto& [type, count] : count_types(topology))
-    std::printf(" %s %zu %s%s", type == count_types(topology).begin()->first ? ":" : ",", count,
-                type.c_str(), count == 1 ? "" : "s");
-  std::printf("\nq_min      %.6f\nq*_min     %.6f\nq_mean     %.6f\ninvalid    %zu\n", q.q_min,
+    types +=
+        (types.empty() ? "" : ", ") + std::to_string(count) + " " + type + (count == 1 ? "" : "s");
+  std::printf("cells      %zu (%s)\n", mesh.n_cells(), types.c_str());
+  std::printf("q_min      %.6f\nq*_min     %.6f\nq_mean     %.6f\ninvalid    %zu\n", q.q_min,
               q.q_star_min, q.q_mean, q.n_invalid);
   const std::size_t most = *std::max_element(histogram.begin(), histogram.end());
   constexpr std::size_t width = 50;
