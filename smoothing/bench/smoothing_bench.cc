@@ -1,0 +1,142 @@
+/// Times of the smoothers: whole runs and single kernels, by element and as multiples of a plain
+/// Laplace sweep over the same mesh (the cheapest thing a smoother can do). Meshes: a generated
+/// distorted grid, and the published gears where the folder SMOOTHFEM_BENCH_MESHES (environment;
+/// default: shared/meshes beside the repository) has them.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "smoothing/loop/smooth.h"
+#include "smoothing/tests/planar_meshes.h"
+#ifdef SMOOTHFEM_BENCH_READS_FILES
+#include "meshes/io/mesh_file.h"
+#endif
+
+namespace smoothfem {
+namespace {
+
+struct NamedMesh {
+  std::string name;
+  PlanarMesh mesh;
+  double laplace_sweep_seconds = 0.0;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The unit of the ratios: the shortest of several sweeps.
+double laplace_sweep_seconds(const PlanarMesh& mesh) {
+  const auto stages = stages_of("laplace");
+  SmoothingState<2> state{mesh, {}};
+  double shortest = 1e300;
+  for (int i = 0; i < 50; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    stages[0]->step(state);
+    shortest = std::min(shortest, seconds_since(start));
+  }
+  return shortest;
+}
+
+std::vector<NamedMesh> meshes() {
+  std::vector<NamedMesh> all;
+  all.push_back({"grid_triangles", test::grid_mesh(80, test::GridCells::triangles)});
+  all.push_back({"grid_quadrilaterals", test::grid_mesh(80, test::GridCells::quadrilaterals)});
+  for (auto& [name, mesh, seconds] : all) test::distort(mesh, 0.9, 1);
+#ifdef SMOOTHFEM_BENCH_READS_FILES
+  const char* set = std::getenv("SMOOTHFEM_BENCH_MESHES");
+  const std::filesystem::path folder = set ? set : SMOOTHFEM_SHARED_MESHES;
+  for (const std::string name : {"gear_tri_initial", "gear_quad_initial"}) {
+    const auto path = folder / (name + ".mesh");
+    if (std::filesystem::exists(path))
+      all.push_back({name, read_mesh(path).mesh});
+    else
+      std::cerr << "skipping " << name << ": there is no " << path << '\n';
+  }
+#else
+  std::cerr << "skipping the published meshes: built without the meshes library\n";
+#endif
+  for (auto& named : all) named.laplace_sweep_seconds = laplace_sweep_seconds(named.mesh);
+  return all;
+}
+
+/// work_seconds: of one run of what is measured.
+void report(benchmark::State& state, const NamedMesh& named, double work_seconds) {
+  state.counters["ns/element"] = 1e9 * work_seconds / static_cast<double>(named.mesh.n_cells());
+  state.counters["laplace_sweeps"] = work_seconds / named.laplace_sweep_seconds;
+}
+
+void whole_run(benchmark::State& state, const NamedMesh& named, const std::string& method_name) {
+  double total = 0.0;
+  SmoothingResult result;
+  for (auto _ : state) {
+    PlanarMesh mesh = named.mesh;
+    Method method = make_method(method_name);
+    result = smooth(mesh, method);
+    state.SetIterationTime(result.smoothing_seconds);
+    total += result.smoothing_seconds;
+  }
+  report(state, named, total / static_cast<double>(state.iterations()));
+  state.SetLabel(result.iterations_text() + " iterations");
+}
+
+void mean_ratios(benchmark::State& state, const NamedMesh& named) {
+  std::vector<double> quality;
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state) {
+    compute_cell_mean_ratios(named.mesh, quality);
+    benchmark::DoNotOptimize(quality.data());
+  }
+  report(state, named, seconds_since(start) / static_cast<double>(state.iterations()));
+}
+
+/// One iteration (of GETMe sequential: one transformation), again and again.
+void single_step(benchmark::State& state, const NamedMesh& named, const std::string& method_name) {
+  const auto stages = stages_of(method_name);
+  SmoothingState<2> smoothing{named.mesh, cell_mean_ratios(named.mesh)};
+  stages[0]->initialize(smoothing);
+  std::size_t n_steps = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state) n_steps += stages[0]->step(smoothing).n_counted;
+  const double seconds = seconds_since(start) / static_cast<double>(n_steps);
+  report(state, named, seconds);
+  state.counters["us/step"] = 1e6 * seconds;
+}
+
+void register_all(const std::vector<NamedMesh>& all) {
+  for (const auto& named : all) {
+    const auto name = [&](const std::string& what) { return what + "/" + named.name; };
+    for (const std::string method : {"laplace", "weighted-laplace", "smart-laplace",
+                                     "getme-simultaneous", "getme", "global-optimization"})
+      benchmark::RegisterBenchmark(
+          name("run/" + method).c_str(),
+          [&named, method](benchmark::State& state) { whole_run(state, named, method); })
+          ->UseManualTime()
+          ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(name("kernel/mean_ratios").c_str(), [&named](
+                                                                         benchmark::State& state) {
+      mean_ratios(state, named);
+    })->Unit(benchmark::kMicrosecond);
+    for (const std::string method : {"laplace", "getme-simultaneous", "getme-sequential"})
+      benchmark::RegisterBenchmark(
+          name("kernel/step/" + method).c_str(),
+          [&named, method](benchmark::State& state) { single_step(state, named, method); })
+          ->Unit(benchmark::kMicrosecond);
+  }
+}
+
+}  // namespace
+}  // namespace smoothfem
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  const auto all = smoothfem::meshes();
+  smoothfem::register_all(all);
+  benchmark::RunSpecifiedBenchmarks();
+}
