@@ -143,21 +143,26 @@ void declare_quick(ParameterHandler& p) {
   p.declare_entry("edge scale", "1", Patterns::Double(1.0), "In place of the value above.");
 }
 
-/// deal.II's messages run over several lines and name the line and the problem somewhere inside.
+/// How deal.II calls the study file in its messages; the path itself could hold anything.
+constexpr const char* this_file = "this file";
+
+/// deal.II's messages run over several lines, with its own source line first and ours inside.
 InputError parse_error(const std::filesystem::path& file, const std::string& what) {
-  std::smatch match;
-  std::string line, reason = what;
-  if (std::regex_search(what, match, std::regex("[Ll]ine <?([0-9]+)>?"))) line = match[1];
-  const auto begin = what.find("Additional information:");
-  if (begin != std::string::npos) reason = what.substr(begin + 23);
+  const std::string mark = "Additional information:";
+  const auto begin = what.find(mark);
+  std::string reason = begin == std::string::npos ? what : what.substr(begin + mark.size());
   reason = reason.substr(0, reason.find("Stacktrace"));
   reason = reason.substr(0, reason.find("\n----"));
-  reason = std::regex_replace(reason, std::regex("Line <?[0-9]+>? of file <[^>]*>:?"), "");
   reason = std::regex_replace(reason, std::regex("\\s+"), " ");
-  const auto first = reason.find_first_not_of(' ');
-  if (first != std::string::npos) reason = reason.substr(first);
-  while (!reason.empty() && (reason.back() == ' ' || reason.back() == '.')) reason.pop_back();
-  return InputError(file.string() + (line.empty() ? "" : ":" + line) + ": " + reason +
+  reason = std::regex_replace(reason, std::regex("^ +|[ .]+$"), "");
+  std::string place = file.string();
+  std::smatch match;
+  if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <([^>:]*)>?: ?(.*)"))) {
+    if (match[2] != this_file) place = match[2];  // a file that the study includes
+    place += ":" + match[1].str();
+    reason = match[3].str();
+  }
+  return InputError(place + ": " + reason +
                     "; 'smoothfem list --study-keys' shows the keys there are");
 }
 
@@ -165,7 +170,7 @@ void parse(ParameterHandler& p, const std::string& text, const std::filesystem::
            bool skip_undefined) {
   std::istringstream stream(text);
   try {
-    p.parse_input(stream, file.string(), "", skip_undefined);
+    p.parse_input(stream, this_file, "", skip_undefined);
   } catch (const dealii::ExceptionBase& error) {
     throw parse_error(file, error.what());
   }
