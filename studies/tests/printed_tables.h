@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cmath>
+
+#include "fem/poisson_solver.h"
+#include "smoothing/loop/smooth.h"
+#include "studies/framework/study.h"
+#include "studies/tests/study_tests.h"
+
+namespace smoothfem {
+
+/// The tables of the thesis (studies/thesis/) on the published meshes, where these are at hand.
+class PrintedTables : public ::testing::Test {
+ protected:
+  /// Relative tolerances.
+  struct Tolerances {
+    double condition_number = 0.01;
+    double cg_iterations = 0.03;
+    double errors = 0.002;
+  };
+
+  void SetUp() override {
+    if (!std::filesystem::is_directory(SMOOTHFEM_SHARED_MESHES))
+      GTEST_SKIP() << "the published meshes are not in " << SMOOTHFEM_SHARED_MESHES;
+  }
+
+  static PlanarMesh published(const std::string& mesh) {
+    return read_mesh(std::filesystem::path(SMOOTHFEM_SHARED_MESHES) /
+                     ("gear_" + mesh + "_initial.mesh"))
+        .mesh;
+  }
+
+  /// As the study `gear` does it.
+  static SolutionRecord solve(const PlanarMesh& mesh, int degree) {
+    static const Study gear =
+        read_study(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "gear.prm", false);
+    PoissonOptions options = gear.finite_elements;
+    options.degree = degree;
+    return PoissonSolver(mesh, options).solve(mesh, manufactured_solution(gear.solution.name));
+  }
+
+  static CsvTable::Row printed_row(const std::string& file, const CsvTable::Row& wanted) {
+    std::ifstream stream(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "thesis" / file);
+    const CsvTable table({std::istreambuf_iterator<char>(stream), {}});
+    const auto rows = table.select(wanted);
+    EXPECT_EQ(rows.size(), 1u) << file;
+    return rows.empty() ? CsvTable::Row{} : rows.front();
+  }
+
+  static std::string four_digits(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4f", value);
+    return text;
+  }
+
+  static void expect_printed_quality(const std::string& mesh, const std::string& method,
+                                     const MeshQuality& quality) {
+    const auto row = printed_row("table_6_1.csv", {{"mesh", mesh}, {"method", method}});
+    EXPECT_EQ(four_digits(quality.q_min), row.at("q_min"));
+    EXPECT_EQ(four_digits(quality.q_mean), row.at("q_mean"));
+  }
+
+  static void expect_near(double ours, double printed, double relative, double absolute,
+                          const std::string& what) {
+    EXPECT_NEAR(ours, printed, relative * printed + absolute) << what;
+  }
+
+  static void expect_printed_solution(const std::string& mesh, const std::string& method,
+                                      int degree, const SolutionRecord& ours,
+                                      const Tolerances& tolerances) {
+    SCOPED_TRACE(mesh + " " + method + " of degree " + std::to_string(degree));
+    EXPECT_EQ(ours.status, "ok");
+    const CsvTable::Row key = {
+        {"mesh", mesh}, {"method", method}, {"degree", std::to_string(degree)}};
+    const auto solver = printed_row("table_6_2.csv", key);
+    const double condition = std::stod(solver.at("condition_number"));
+    if (method == "weighted-laplace") {
+      // The print is about twice the matrices' condition number (deviations.csv). Should ours ever
+      // agree, that line is wrong.
+      EXPECT_NEAR(ours.condition_number / condition, 0.5, 0.05);
+    } else {
+      expect_near(ours.condition_number, condition, tolerances.condition_number, 0.0, "condition");
+    }
+    expect_near(static_cast<double>(ours.cg_iterations), std::stod(solver.at("cg_iterations")),
+                tolerances.cg_iterations, 0.0, "cg_iterations");
+    const auto errors = printed_row("table_6_3.csv", key);
+    const std::map<std::string, double> values = {
+        {"e_max", ours.e_max}, {"e_mean", ours.e_mean}, {"e_l2", ours.e_l2}, {"e_h1", ours.e_h1}};
+    constexpr double half_a_unit = 0.5e-4;  // errors are printed with four digits
+    for (const auto& [error, value] : values)
+      expect_near(value, std::stod(errors.at(error)), tolerances.errors, half_a_unit, error);
+  }
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "meshes/io/mesh_file.h"
+#include "meshes/tests/mesh_tests.h"
+
+namespace smoothfem {
+
+/// One CSV line's fields. Understands quotes, so that it also reads what a spreadsheet would.
+inline std::vector<std::string> csv_fields(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      fields.back() += line[i++];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += line[i];
+  }
+  return fields;
+}
+
+/// A CSV text without line breaks in its fields: one map from column to field for each line.
+struct CsvTable {
+  using Row = std::map<std::string, std::string>;
+
+  std::vector<std::string> columns;
+  std::vector<Row> rows;
+
+  explicit CsvTable(const std::string& text) {
+    EXPECT_TRUE(text.ends_with('\n')) << "the last line is not whole";
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    columns = csv_fields(line);
+    while (std::getline(lines, line)) {
+      const auto fields = csv_fields(line);
+      EXPECT_EQ(fields.size(), columns.size()) << line;
+      Row row;
+      for (std::size_t i = 0; i < std::min(fields.size(), columns.size()); ++i)
+        row[columns[i]] = fields[i];
+      rows.push_back(row);
+    }
+  }
+
+  /// The rows whose columns have these values, in the order of the file.
+  std::vector<Row> select(const Row& wanted) const {
+    std::vector<Row> found;
+    for (const auto& row : rows) {
+      bool fits = true;
+      for (const auto& [column, value] : wanted) fits = fits && row.at(column) == value;
+      if (fits) found.push_back(row);
+    }
+    return found;
+  }
+};
+
+/// n x n unit squares whose inner nodes are moved at random by up to `shift` in each direction: up
+/// to 0.2 all cells stay valid.
+inline PlanarMesh shaken_grid(std::size_t n, double shift) {
+  std::mt19937 random(7);
+  const auto move = [&] { return shift * (2.0 * (random() / 4294967296.0) - 1.0); };
+  std::vector<Point<2>> x;
+  for (std::size_t j = 0; j <= n; ++j)
+    for (std::size_t i = 0; i <= n; ++i) {
+      const bool inner = i > 0 && j > 0 && i < n && j < n;
+      const double dx = inner ? move() : 0.0, dy = inner ? move() : 0.0;
+      x.emplace_back(static_cast<double>(i) + dx, static_cast<double>(j) + dy);
+    }
+  CompressedRows<NodeIndex> cells;
+  const auto node = [n](std::size_t i, std::size_t j) {
+    return static_cast<NodeIndex>(j * (n + 1) + i);
+  };
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i)
+      cells.append(
+          std::vector<NodeIndex>{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+  return PlanarMesh(
+      std::make_shared<const Topology>(x.size(), std::move(cells), std::nullopt, MeshLabels{}), x);
+}
+
+/// An arrow head with one free node, between its tip and its notch. The mean of the node's
+/// neighbours is beyond the notch, outside: Laplace smoothing makes the mesh invalid.
+inline PlanarMesh arrow_head() {
+  const std::vector<Point<2>> x = {{-3, 3}, {0, -1}, {3, 3}, {0, 0}, {0, -0.5}};
+  CompressedRows<NodeIndex> cells;
+  for (NodeIndex k = 0; k < 4; ++k)
+    cells.append(std::vector<NodeIndex>{k, static_cast<NodeIndex>((k + 1) % 4), 4});
+  return PlanarMesh(
+      std::make_shared<const Topology>(x.size(), std::move(cells), std::nullopt, MeshLabels{}), x);
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <set>
+
+#include "studies/tests/command_line.h"
+
+namespace smoothfem {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Bad input of every kind: one sentence that says what and where, exit code 2, no file left.
+class BadInput : public CommandLine {
+ protected:
+  BadInput() { write_mesh(file("good.mesh"), shaken_grid(3, 0.1)); }
+
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(file("")))
+      if (const auto name = fs::relative(entry.path(), file("")).string(); !name.starts_with("."))
+        names.insert(name);
+    return names;
+  }
+
+  /// Each of `words` has to be in the sentence.
+  void expect_refused(const std::vector<std::string>& arguments,
+                      const std::vector<std::string>& words) const {
+    std::string call = "smoothfem";
+    for (const auto& argument : arguments) call += " " + argument;
+    SCOPED_TRACE(call);
+    const auto before = files();
+    const Outcome outcome = smoothfem(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("smoothfem: ")) << outcome.err;
+    EXPECT_TRUE(outcome.err.ends_with('\n')) << outcome.err;
+    for (const std::string inside : {"terminate", "what()", "internal error", "Stacktrace"})
+      EXPECT_EQ(outcome.err.find(inside), std::string::npos) << outcome.err;
+    for (const auto& word : words)
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;
+    EXPECT_EQ(files(), before) << "files are left";
+  }
+
+  /// A bad mesh is a bad mesh whatever is done with it.
+  void expect_mesh_refused(const std::string& mesh, const std::vector<std::string>& words) const {
+    expect_refused({"quality", mesh}, words);
+    expect_refused({"smooth", mesh, "-m", "getme", "-o", "out.vtu", "--log", "log.csv", "--series",
+                    "series.pvd"},
+                   words);
+    file_with(".bad.prm", "set meshes = m\nset methods = laplace\nsubsection mesh m\n set file = " +
+                              mesh + "\nend\n");
+    expect_refused({"study", ".bad.prm", "--out", "results", "--quiet"}, words);
+  }
+};
+
+// Nodes on lines 3 to 7, cells on lines 9 to 12: the unit square around a fifth node.
+std::string square(const std::string& centre, const std::string& first_cell) {
+  return "planar_polygonal_mesh\nnodes 5\n0 0\n1 0\n1 1\n0 1\n" + centre + "\npolygons 4\n" +
+         first_cell + "\n3 1 2 4\n3 2 3 4\n3 3 0 4\nfixed_node_indices 4\n0\n1\n2\n3\n";
+}
+
+TEST_F(BadInput, TheSquareOfTheseTestsIsGood) {
+  file_with("square.mesh", square("0.5 0.5", "3 0 1 4"));
+  EXPECT_EQ(smoothfem({"quality", "square.mesh"}).exit_code, 0);
+}
+
+TEST_F(BadInput, InvertedElement) {
+  file_with("inverted.mesh", square("0.5 1.5", "3 0 1 4"));
+  expect_mesh_refused("inverted.mesh", {"inverted.mesh:11: "});
+}
+
+TEST_F(BadInput, ClockwisePolygon) {
+  // As a mesh of its own; among others its edges would contradict those of its neighbours.
+  file_with("clockwise.mesh",
+            "planar_polygonal_mesh\nnodes 4\n0 0\n1 0\n1 1\n0 1\npolygons 1\n4 3 2 1 0\n"
+            "fixed_node_indices 0\n");
+  expect_mesh_refused("clockwise.mesh", {"clockwise.mesh:8: ", "clockwise"});
+  file_with("mixed.mesh", square("0.5 0.5", "3 4 1 0"));
+  expect_mesh_refused("mixed.mesh", {"mixed.mesh:"});
+}
+
+TEST_F(BadInput, CellWithANodeThatIsNotThere) {
+  file_with("node.mesh", square("0.5 0.5", "3 0 1 5"));
+  expect_mesh_refused("node.mesh", {"node.mesh:9: "});
+}
+
+TEST_F(BadInput, CoordinateThatIsNoNumber) {
+  file_with("nan.mesh", square("nan 0.5", "3 0 1 4"));
+  expect_mesh_refused("nan.mesh", {"nan.mesh:7: "});
+  file_with("infinite.mesh", square("0.5 -inf", "3 0 1 4"));
+  expect_mesh_refused("infinite.mesh", {"infinite.mesh:7: "});
+}
+
+TEST_F(BadInput, FileThatEndsTooEarly) {
+  const std::string whole = square("0.5 0.5", "3 0 1 4");
+  file_with("cells.mesh", whole.substr(0, whole.find("3 2 3 4")));
+  expect_mesh_refused("cells.mesh", {"cells.mesh:"});
+  file_with("empty.mesh", "");
+  expect_mesh_refused("empty.mesh", {"empty.mesh"});
+  // Binary files have no lines, but they must not be taken for whole either.
+  for (const std::string name : {"cut.vtu", "cut.vtk", "cut.msh"}) {
+    write_mesh(file(name), shaken_grid(3, 0.1));
+    const std::string content = content_of(file(name));
+    file_with(name, content.substr(0, content.size() / 2));
+    expect_mesh_refused(name, {name});
+  }
+}
+
+TEST_F(BadInput, FileThatIsNotThere) {
+  expect_mesh_refused("missing.mesh", {"missing.mesh"});
+  expect_refused({"study", "missing.prm"}, {"missing.prm"});
+  fs::create_directory(file("folder.mesh"));
+  expect_mesh_refused("folder.mesh", {"folder.mesh"});
+}
+
+TEST_F(BadInput, FormatThatIsNotKnown) {
+  fs::copy_file(file("good.mesh"), file("good.stl"));
+  expect_mesh_refused("good.stl", {"good.stl"});
+  expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "out.stl"}, {"out.stl"});
+  expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "out.mesh", "--series", "a.vtu"},
+                 {"a.vtu"});
+}
+
+TEST_F(BadInput, MethodOrParameterThatIsNotThere) {
+  const std::vector<std::string> smooth = {"smooth", "good.mesh", "-o", "out.mesh", "-m"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), smooth.begin(), smooth.end());
+    return more;
+  };
+  expect_refused(with({"magic"}), {"magic", "getme"});
+  expect_refused(with({"getme", "--set", "magic=1"}), {"magic", "simultaneous.lambda"});
+  expect_refused(with({"getme", "--set", "simultaneous.lambda"}), {"key=value"});
+  expect_refused(with({"getme", "--set", "simultaneous.lambda=much"}), {"much"});
+  expect_refused(with({"getme", "--set", "simultaneous.lambda=-3"}), {"-3"});
+}
+
+TEST_F(BadInput, OptionOrCommandThatIsNotThere) {
+  expect_refused({"quality", "good.mesh", "--magic"}, {"--magic"});
+  expect_refused({"magic"}, {"magic"});
+  expect_refused({}, {});
+  expect_refused({"smooth", "good.mesh", "-o", "out.mesh"}, {"--method"});
+  expect_refused({"smooth", "good.mesh", "-m", "laplace"}, {"--out"});
+}
+
+TEST_F(BadInput, FolderThatCannotBeMade) {
+  file_with("regular", "content");
+  expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "regular/out.mesh"},
+                 {"regular/out.mesh"});
+  expect_refused({"generate", "gear", "--edge-scale", "3", "-o", "regular/out.mesh"},
+                 {"regular/out.mesh"});
+  file_with("good.prm",
+            "set meshes = m\nset methods = laplace\nset degrees =\nsubsection mesh m\n"
+            " set file = good.mesh\nend\n");
+  expect_refused({"study", "good.prm", "--out", "regular/results"}, {"regular"});
+  EXPECT_EQ(content_of(file("regular")), "content");
+}
+
+TEST_F(BadInput, StudyFile) {
+  file_with("bad.prm", "set meshes = m\nset degres = 1\n");
+  expect_refused({"study", "bad.prm", "--out", "results"}, {"bad.prm:2: "});
+}
+
+TEST_F(BadInput, Generator) {
+  expect_refused({"generate", "moon", "-o", "out.mesh"}, {"moon", "gear"});
+  expect_refused({"generate", "gear", "-o", "out.mesh", "--edge-scale", "0"}, {});
+  expect_refused({"generate", "gear", "-o", "out.mesh", "--edge-scale", "nan"}, {});
+  expect_refused({"generate", "gear", "-o", "out.mesh", "--elements", "stars"}, {"stars"});
+  expect_refused({"generate", "gear", "-o", "out.mesh", "--distort-to", "-1"}, {"-1"});
+  expect_refused({"generate", "gear", "-o", "out.mesh", "--distort-to", "nan"}, {"nan"});
+  expect_refused({"generate", "gear", "-o", "out.mesh", "--seed", "-1"}, {"-1"});
+}
+
+}  // namespace
+}  // namespace smoothfem

@@ -1,0 +1,14 @@
+#include "studies/tests/printed_tables.h"
+
+namespace smoothfem {
+namespace {
+
+TEST_F(PrintedTables, InitialTrianglesOfDegree2) {
+  // A condition number of 1.5e9: the errors printed are those of the iterate at which CG stopped
+  // (deviations.csv).
+  expect_printed_solution("tri", "initial", 2, solve(published("tri"), 2),
+                          {.cg_iterations = 0.06, .errors = 0.03});
+}
+
+}  // namespace
+}  // namespace smoothfem

@@ -1,0 +1,232 @@
+#include <algorithm>
+
+#include "studies/framework/study.h"
+#include "studies/tests/study_tests.h"
+
+namespace smoothfem {
+namespace {
+
+const std::filesystem::path gear_file =
+    std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "gear.prm";
+
+std::vector<std::string> names_of(const std::vector<StudyMethod>& methods) {
+  std::vector<std::string> names;
+  for (const auto& method : methods) names.push_back(method.name);
+  return names;
+}
+
+TEST(GearStudy, IsTheExampleOfTheThesis) {
+  const Study study = read_study(gear_file, false);
+  EXPECT_EQ(study.name, "gear");
+  EXPECT_EQ(study.title, "Involute gear");
+  ASSERT_EQ(study.meshes.size(), 2u);
+  EXPECT_EQ(study.meshes[0].name, "tri");
+  EXPECT_EQ(study.meshes[0].domain, "gear");
+  EXPECT_EQ(study.meshes[0].element_type, ElementType::triangle);
+  EXPECT_EQ(study.meshes[0].published_file, "gear_tri_initial.mesh");
+  EXPECT_EQ(study.meshes[0].distort_to_q_mean, 0.3699);
+  EXPECT_EQ(study.meshes[1].name, "quad");
+  EXPECT_EQ(study.meshes[1].element_type, ElementType::quadrilateral);
+  EXPECT_EQ(study.meshes[1].distort_to_q_mean, 0.4180);
+  EXPECT_EQ(names_of(study.methods), (std::vector<std::string>{"weighted-laplace", "smart-laplace",
+                                                               "global-optimization", "getme"}));
+  for (const auto& method : study.methods) {
+    EXPECT_EQ(method.type, method.name);
+    EXPECT_TRUE(method.settings.empty()) << method.name;
+  }
+  EXPECT_EQ(study.degrees, (std::vector<int>{1, 2}));
+  EXPECT_EQ(study.solution.name, "gear");
+  EXPECT_FALSE(study.finite_elements.galerkin_load);
+  EXPECT_EQ(study.finite_elements.n_quadrilateral_points, 8);
+  EXPECT_EQ(study.finite_elements.cg_tolerance, 1e-8);
+  EXPECT_TRUE(study.finite_elements.boundary_in_norm);
+  EXPECT_TRUE(study.finite_elements.condition_number);
+  EXPECT_TRUE(study.finite_elements.jacobi_cg);
+  EXPECT_EQ(study.thresholds.reference, "global-optimization");
+  EXPECT_EQ(study.thresholds.margin, 0.05);
+  EXPECT_EQ(study.record_every, 1);
+  EXPECT_EQ(study.edge_scale, 1.0);
+}
+
+TEST(GearStudy, QuickChangesWhatItsSubsectionSaysAndNothingElse) {
+  Study quick = read_study(gear_file, true);
+  EXPECT_EQ(quick.record_every, 10);
+  EXPECT_EQ(quick.edge_scale, 2.5);
+  const Study full = read_study(gear_file, false);
+  // The parameters as read hold every key of the file, so they stand for all other fields.
+  EXPECT_EQ(quick.parameters, full.parameters);
+  EXPECT_EQ(names_of(quick.methods), names_of(full.methods));
+  EXPECT_EQ(quick.degrees, full.degrees);
+  EXPECT_EQ(quick.timing_runs, full.timing_runs);
+  EXPECT_EQ(quick.meshes.size(), full.meshes.size());
+}
+
+class StudyFile : public FileTest {
+ protected:
+  Study read(const std::string& content) const {
+    return read_study(file_with("own.prm", content), false);
+  }
+
+  /// The sentence about a bad file. Checks what holds for every such sentence: it begins with the
+  /// file, is one line, and shows no insides of the program.
+  std::string error_of(const std::string& content) const {
+    return checked(input_error_of([&] { read(content); }), file("own.prm"));
+  }
+
+  static std::string checked(const std::string& message, const std::filesystem::path& path) {
+    EXPECT_TRUE(message.starts_with(path.string() + ":")) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    for (const std::string word : {"Stacktrace", "dealii", "Exc", "violated", "----", "  "})
+      EXPECT_EQ(message.find(word), std::string::npos) << word << " in: " << message;
+    return message;
+  }
+
+  /// error_of, where the line has to be given.
+  void expect_error_at(int line, const std::string& content, const std::string& word) const {
+    const std::string message = error_of(content);
+    const std::string place = file("own.prm").string() + ":" + std::to_string(line) + ": ";
+    EXPECT_TRUE(message.starts_with(place)) << message;
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+
+  void expect_error(const std::string& content, const std::string& word) const {
+    const std::string message = error_of(content);
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+};
+
+const std::string one_mesh = "set meshes = a\nsubsection mesh a\n set file = a.mesh\nend\n";
+
+TEST_F(StudyFile, NamesItsMeshFileRelativeToItself) {
+  const Study study = read(one_mesh + "set methods = laplace\n");
+  EXPECT_EQ(study.name, "own");
+  EXPECT_EQ(study.title, "own");
+  EXPECT_EQ(study.meshes.at(0).file, file("a.mesh"));
+  EXPECT_TRUE(study.thresholds.reference.empty());
+}
+
+TEST_F(StudyFile, AllMeansEveryRegisteredMethod) {
+  std::vector<std::string> registered;
+  for (const auto& info : method_catalogue()) registered.push_back(info.name);
+  ASSERT_GE(registered.size(), 4u);
+  EXPECT_EQ(names_of(read(one_mesh + "set methods = all\n").methods), registered);
+  EXPECT_EQ(names_of(read(one_mesh).methods), registered) << "'all' is the default";
+}
+
+TEST_F(StudyFile, DegreesMayBeEmptyForSmoothingOnly) {
+  EXPECT_TRUE(read(one_mesh + "set degrees =\n").degrees.empty());
+  EXPECT_EQ(read(one_mesh + "set degrees = 2\n").degrees, std::vector<int>{2});
+}
+
+TEST_F(StudyFile, LabelsOfOneTypeHaveTheirOwnSettings) {
+  const Study study = read(one_mesh + R"(
+set methods = getme, my-getme
+subsection method my-getme
+  set type                = getme
+  set simultaneous.lambda = 0.4
+end
+)");
+  ASSERT_EQ(names_of(study.methods), (std::vector<std::string>{"getme", "my-getme"}));
+  EXPECT_TRUE(study.methods[0].settings.empty());
+  EXPECT_EQ(study.methods[1].type, "getme");
+  using Setting = std::pair<std::string, std::string>;
+  EXPECT_EQ(study.methods[1].settings, (std::vector<Setting>{{"simultaneous.lambda", "0.4"}}));
+  EXPECT_NE(study.methods[0].title, study.methods[1].title);
+  Method standard = study.methods[0].make(), own = study.methods[1].make();
+  const auto lambda = [](Method& method) {
+    return value_text(find_parameter(method.parameters(), "simultaneous.lambda", "getme"));
+  };
+  EXPECT_EQ(lambda(own), "0.4");
+  EXPECT_NE(lambda(standard), "0.4");
+}
+
+TEST_F(StudyFile, UnknownKeysAndSubsectionsAreFoundWithTheirLine) {
+  expect_error_at(5, one_mesh + "set degres = 1\n", "degres");
+  expect_error_at(4, "set meshes = a\nsubsection mesh a\n set file = a.mesh\n set fil = b\nend\n",
+                  "fil");
+  expect_error_at(5, one_mesh + "subsection solutions\n set name = gear\nend\n", "solutions");
+  expect_error_at(5, one_mesh + "subsection mesh b\n set file = b.mesh\nend\n", "mesh b");
+  expect_error_at(7,
+                  one_mesh +
+                      "set methods = laplace\nsubsection method laplace\n"
+                      " set lambda = 1\nend\n",
+                  "lambda");
+}
+
+TEST_F(StudyFile, BadValuesAreFoundWithTheirLine) {
+  expect_error_at(5, one_mesh + "set record every = often\n", "often");
+  expect_error_at(5, one_mesh + "set record every = 0\n", "record every");
+  expect_error_at(5, one_mesh + "set edge scale = 0.5\n", "0.5");
+  expect_error_at(5, one_mesh + "set write series = maybe\n", "maybe");
+  expect_error_at(6, one_mesh + "subsection finite elements\n set cg tolerance = 1e-8x\nend\n",
+                  "1e-8x");
+  expect_error_at(4,
+                  "set meshes = a\nsubsection mesh a\n set file = a.mesh\n"
+                  " set elements = hexagons\nend\n",
+                  "hexagons");
+}
+
+TEST_F(StudyFile, MethodParametersOutOfRangeAreFoundWithTheirLine) {
+  const std::string start = one_mesh + "set methods = getme\nsubsection method getme\n";
+  expect_error_at(7, start + " set simultaneous.lambda = -1\nend\n", "simultaneous.lambda");
+  expect_error_at(7, start + " set simultaneous.lambda = much\nend\n", "much");
+}
+
+TEST_F(StudyFile, WhatIsNotAParameterFileIsRefused) {
+  expect_error_at(5, one_mesh + "degrees = 1\n", "degrees");
+  error_of(one_mesh + "subsection solution\n set name = gear\n");  // no 'end'
+  error_of(one_mesh + "end\n");
+}
+
+TEST_F(StudyFile, UnknownNamesAreRefused) {
+  expect_error(one_mesh + "set methods = laplace, magic\n", "magic");
+  expect_error(one_mesh + "set methods = a\nsubsection method a\n set type = magic\nend\n",
+               "magic");
+  expect_error(one_mesh + "set degrees = 1, 3\n", "'3'");
+  expect_error(one_mesh + "subsection solution\n set name = nowhere\nend\n", "nowhere");
+  expect_error("set meshes = a\nsubsection mesh a\n set domain = moon\nend\n", "moon");
+  expect_error(one_mesh +
+                   "set methods = laplace\nsubsection thresholds\n set reference = getme\n"
+                   "end\n",
+               "getme");
+}
+
+TEST_F(StudyFile, LabelsThatWouldBreakFilesAreRefused) {
+  expect_error("set meshes = a b\nsubsection mesh a b\n set file = a.mesh\nend\n", "'a b'");
+  expect_error("set meshes = ../a\nsubsection mesh ../a\n set file = a.mesh\nend\n", "'../a'");
+  // A comma in the list makes two labels of it, so the subsection belongs to none.
+  expect_error_at(2, "set meshes = a,b\nsubsection mesh a,b\n set file = a.mesh\nend\n", "a,b");
+  expect_error(one_mesh + "set methods = my method\n", "'my method'");
+  expect_error("set meshes = a, a\nsubsection mesh a\n set file = a.mesh\nend\n", "'a'");
+  expect_error(one_mesh + "set methods = laplace, laplace\n", "'laplace'");
+  expect_error("", "mesh");
+  expect_error(one_mesh + "set methods =\n", "method");
+}
+
+TEST_F(StudyFile, FilesThatAreNotThereAreRefused) {
+  const auto missing = file("missing.prm");
+  checked(input_error_of([&] { read_study(missing, false); }), missing);
+  const auto folder = file("folder.prm");
+  std::filesystem::create_directory(folder);
+  checked(input_error_of([&] { read_study(folder, false); }), folder);
+}
+
+TEST_F(StudyFile, AFileThatBreaksTheCsvByItsNameIsRefused) {
+  const auto spaced = file_with("my study.prm", one_mesh);
+  EXPECT_NE(input_error_of([&] { read_study(spaced, false); }).find("'my study'"),
+            std::string::npos);
+}
+
+TEST_F(StudyFile, TheTemplateListsKeysThatAStudyMayHave) {
+  // 'smoothfem list --study-keys' prints it; with a label for LABEL it has to be a study.
+  std::string text = study_template();
+  for (std::size_t at = text.find("LABEL"); at != std::string::npos; at = text.find("LABEL", at))
+    text.replace(at, 5, "a");
+  const auto at = text.find("set meshes");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(text.find('=', at), 1, "= a");
+  EXPECT_EQ(read(text).parameters, read("set meshes = a\n").parameters);
+}
+
+}  // namespace
+}  // namespace smoothfem

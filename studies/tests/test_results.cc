@@ -1,0 +1,252 @@
+#include <cmath>
+#include <limits>
+
+#include "studies/framework/results.h"
+#include "studies/tests/study_tests.h"
+
+namespace smoothfem {
+namespace {
+
+/// The columns that results/README.md documents for a file: the first cells, in backticks, of the
+/// table under the file's heading.
+std::vector<std::string> documented_columns(const std::string& csv_file) {
+  std::ifstream readme(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "results" / "README.md");
+  std::vector<std::string> columns;
+  bool here = false;
+  for (std::string line; std::getline(readme, line);) {
+    if (line.starts_with("#")) here = line == "## " + csv_file;
+    if (here && line.starts_with("| `")) columns.push_back(line.substr(3, line.find('`', 3) - 3));
+  }
+  return columns;
+}
+
+void expect_documented(const std::string& csv_file, const std::string& text) {
+  EXPECT_EQ(CsvTable(text).columns, documented_columns(csv_file)) << csv_file;
+}
+
+TEST(ResultColumns, OfIterationsAreTheDocumentedOnes) {
+  expect_documented("iterations.csv", iterations_csv("s", {}));
+}
+TEST(ResultColumns, OfSummaryAreTheDocumentedOnes) {
+  expect_documented("summary.csv", summary_csv("s", {}));
+}
+TEST(ResultColumns, OfThresholdsAreTheDocumentedOnes) {
+  expect_documented("thresholds.csv", thresholds_csv("s", {}));
+}
+
+IterationRow iteration_row(const std::string& method, std::size_t iteration, double seconds) {
+  IterationRow row{
+      .mesh = "tri", .method = method, .iteration = {}, .degree = 2, .solved = {}, .status = "ok"};
+  row.iteration.stage = iteration == 0 ? "initial" : "stage";
+  row.iteration.iteration = iteration;
+  row.iteration.smoothing_seconds = seconds;
+  return row;
+}
+
+SolutionRecord full_record() {
+  SolutionRecord record;
+  record.degree = 2;
+  record.n_dofs = 9;
+  record.n_free = 1;
+  record.condition_number = 12.5;
+  record.lambda_min = 0.1;
+  record.lambda_max = 1.25;
+  record.condition_method = "method";
+  record.cg_iterations = 7;
+  record.jacobi_cg_iterations = 5;
+  record.cg_seconds = 1e-5;
+  record.jacobi_cg_seconds = 2e-5;
+  record.cg_converged = true;
+  record.e_max = 1.0 / 3.0;
+  record.e_mean = 5e-324;
+  record.e_l2 = 1e300;
+  record.e_h1 = 4.0;
+  record.l2_error = 0.30000000000000004;
+  record.h1_error = 6.0;
+  record.status = "ok";
+  return record;
+}
+
+TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
+  IterationRow row = iteration_row("getme", 3, 0.1);
+  row.iteration.quality = {.q_min = 0.1, .q_star_min = 0.2, .q_mean = 2.0 / 3.0, .n_invalid = 0};
+  row.iteration.n_reset = 4;
+  row.solved = full_record();
+  const auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
+  const CsvTable::Row expected_texts = {{"study", "study"},
+                                        {"mesh", "tri"},
+                                        {"method", "getme"},
+                                        {"stage", "stage"},
+                                        {"iteration", "3"},
+                                        {"smoothing_seconds", "0.1"},
+                                        {"q_min", "0.1"},
+                                        {"q_star_min", "0.2"},
+                                        {"n_invalid", "0"},
+                                        {"n_reset", "4"},
+                                        {"degree", "2"},
+                                        {"n_dofs", "9"},
+                                        {"n_free", "1"},
+                                        {"lambda_min", "0.1"},
+                                        {"lambda_max", "1.25"},
+                                        {"cg_iterations", "7"},
+                                        {"cg_converged", "true"},
+                                        {"jacobi_cg_iterations", "5"},
+                                        {"condition_number", "12.5"},
+                                        {"condition_method", "method"},
+                                        {"status", "ok"}};
+  for (const auto& [column, text] : expected_texts) EXPECT_EQ(fields.at(column), text) << column;
+  const std::map<std::string, double> expected_numbers = {
+      {"q_mean", 2.0 / 3.0}, {"e_max", 1.0 / 3.0}, {"e_mean", 5e-324},
+      {"e_l2", 1e300},       {"e_h1", 4.0},        {"l2_error", 0.30000000000000004},
+      {"h1_error", 6.0},     {"cg_seconds", 1e-5}, {"jacobi_cg_seconds", 2e-5}};
+  for (const auto& [column, number] : expected_numbers)
+    EXPECT_EQ(std::strtod(fields.at(column).c_str(), nullptr), number) << column;
+  EXPECT_EQ(fields.size(), expected_texts.size() + expected_numbers.size());
+  // Shortest: no digits that are only there because the number was printed with 17.
+  EXPECT_EQ(fields.at("l2_error"), "0.30000000000000004");
+  EXPECT_EQ(fields.at("cg_seconds"), "1e-05");
+}
+
+TEST(IterationsCsv, WhatThereIsNotIsLeftEmpty) {
+  IterationRow row = iteration_row("getme", 1, 0.5);
+  row.status = "invalid mesh";
+  auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
+  for (const std::string column :
+       {"n_dofs", "n_free", "condition_number", "condition_method", "lambda_min", "lambda_max",
+        "cg_iterations", "cg_seconds", "cg_converged", "jacobi_cg_iterations", "jacobi_cg_seconds",
+        "e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error"})
+    EXPECT_EQ(fields.at(column), "") << column;
+  EXPECT_EQ(fields.at("degree"), "2");
+  EXPECT_EQ(fields.at("status"), "invalid mesh");
+
+  row.degree = 0;  // the study solves nothing
+  EXPECT_EQ(CsvTable(iterations_csv("study", {row})).rows.at(0).at("degree"), "");
+
+  row.degree = 1;
+  row.solved = full_record();
+  row.solved->condition_number = row.solved->lambda_min = row.solved->lambda_max = 0.0;
+  row.solved->condition_method = "none";
+  row.solved->jacobi_cg_iterations = 0;
+  fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
+  for (const std::string column : {"condition_number", "lambda_min", "lambda_max",
+                                   "jacobi_cg_iterations", "jacobi_cg_seconds"})
+    EXPECT_EQ(fields.at(column), "") << column;
+  EXPECT_EQ(fields.at("cg_iterations"), "7");
+}
+
+TEST(IterationsCsv, CommasAndQuotesAreQuoted) {
+  IterationRow row = iteration_row("getme", 1, 0.5);
+  row.status = R"(says "no", twice)";
+  const std::string text = iterations_csv("study", {row});
+  EXPECT_NE(text.find(R"(,"says ""no"", twice")"), std::string::npos) << text;
+  EXPECT_EQ(CsvTable(text).rows.at(0).at("status"), row.status);
+}
+
+TEST(SummaryCsv, TheInitialMeshHasNoIterationsAndNoTime) {
+  SummaryRow initial{.mesh = "tri", .method = "initial"};
+  initial.degree = 1;
+  SummaryRow smoothed{
+      .mesh = "tri", .method = "getme", .iterations = "40/2800", .smoothing_seconds = 0.25};
+  smoothed.degree = 1;
+  const CsvTable table(summary_csv("study", {initial, smoothed}));
+  EXPECT_EQ(table.rows.at(0).at("iterations"), "");
+  EXPECT_EQ(table.rows.at(0).at("smoothing_seconds"), "");
+  EXPECT_EQ(table.rows.at(1).at("iterations"), "40/2800");
+  EXPECT_EQ(table.rows.at(1).at("smoothing_seconds"), "0.25");
+}
+
+/// Rows of a method at 0, 1, 2, ... seconds with these values of every error; NaN: invalid mesh.
+std::vector<IterationRow> curve(const std::string& method, const std::vector<double>& errors) {
+  std::vector<IterationRow> rows;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    auto& row = rows.emplace_back(iteration_row(method, i, static_cast<double>(i)));
+    if (std::isnan(errors[i])) {
+      row.status = "invalid mesh";
+      continue;
+    }
+    SolutionRecord record;
+    record.e_max = record.e_mean = record.e_l2 = record.e_h1 = errors[i];
+    row.solved = record;
+  }
+  return rows;
+}
+
+std::vector<IterationRow> joined(std::vector<IterationRow> a, const std::vector<IterationRow>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+constexpr double invalid = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Thresholds, AreReachedByTheFirstRowBelowThem) {
+  const auto rows = reach_thresholds(
+      joined(curve("reference", {10, 4, 2, 2.1}), curve("other", {10, 2.15, 5, 1})), "reference",
+      0.1);
+  ASSERT_EQ(rows.size(), 4u) << "one for each error";
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.mesh, "tri");
+    EXPECT_EQ(row.degree, 2);
+    EXPECT_EQ(row.reference_method, "reference");
+    EXPECT_EQ(row.method, "other");
+    EXPECT_DOUBLE_EQ(row.threshold, 2.2);
+    EXPECT_EQ(row.reference_seconds, 2.0);
+    EXPECT_EQ(row.method_seconds, 1.0) << "the first time below counts, even if it is left again";
+  }
+  EXPECT_EQ(rows[0].error, "e_max");
+  EXPECT_EQ(rows[3].error, "e_h1");
+  const auto csv = CsvTable(thresholds_csv("study", rows)).rows.at(0);
+  EXPECT_EQ(csv.at("speedup"), "2");
+}
+
+TEST(Thresholds, TheMarginMovesTheTimes) {
+  const auto all = joined(curve("reference", {10, 4, 2}), curve("other", {10, 3.9, 1.9}));
+  EXPECT_EQ(reach_thresholds(all, "reference", 0.0).at(0).method_seconds, 2.0);
+  EXPECT_EQ(reach_thresholds(all, "reference", 1.0).at(0).method_seconds, 1.0);
+  EXPECT_EQ(reach_thresholds(all, "reference", 1.0).at(0).reference_seconds, 1.0);
+  EXPECT_EQ(reach_thresholds(all, "reference", 4.0).at(0).method_seconds, 0.0);
+}
+
+TEST(Thresholds, ThatAreNeverReachedHaveNoTimeAndNoSpeedup) {
+  const auto rows = reach_thresholds(
+      joined(curve("reference", {10, 2}), curve("other", {10, 9, 8})), "reference", 0.05);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_FALSE(rows[0].method_seconds);
+  const auto csv = CsvTable(thresholds_csv("study", rows)).rows.at(0);
+  EXPECT_EQ(csv.at("method_seconds"), "");
+  EXPECT_EQ(csv.at("speedup"), "");
+  EXPECT_EQ(csv.at("reference_seconds"), "1");
+}
+
+TEST(Thresholds, ReachedByTheInitialMeshHaveNoSpeedup) {
+  const auto rows = reach_thresholds(joined(curve("reference", {10, 9.9}), curve("other", {10, 5})),
+                                     "reference", 0.05);
+  EXPECT_EQ(rows.at(0).method_seconds, 0.0);
+  EXPECT_EQ(CsvTable(thresholds_csv("study", rows)).rows.at(0).at("speedup"), "");
+}
+
+TEST(Thresholds, SkipInvalidMeshes) {
+  const auto rows = reach_thresholds(joined(curve("reference", {10, invalid, 2, invalid}),
+                                            curve("other", {10, invalid, invalid, 1.5})),
+                                     "reference", 0.0);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].reference_seconds, 2.0);
+  EXPECT_EQ(rows[0].method_seconds, 3.0);
+}
+
+TEST(Thresholds, AreSetForEachMeshAndDegreeAlone) {
+  auto all = joined(curve("reference", {10, 2}), curve("other", {10, 2}));
+  auto coarse = joined(curve("reference", {10, 8}), curve("other", {10, 9}));
+  for (auto& row : coarse) row.degree = 1;
+  auto elsewhere = curve("other", {10, 2});  // where the reference has no row there is no threshold
+  for (auto& row : elsewhere) row.mesh = "quad";
+  const auto rows = reach_thresholds(joined(joined(all, coarse), elsewhere), "reference", 0.0);
+  ASSERT_EQ(rows.size(), 8u);
+  EXPECT_EQ(rows[0].degree, 2);
+  EXPECT_EQ(rows[0].threshold, 2.0);
+  EXPECT_EQ(rows[4].degree, 1);
+  EXPECT_EQ(rows[4].threshold, 8.0);
+  EXPECT_FALSE(rows[4].method_seconds);
+}
+
+}  // namespace
+}  // namespace smoothfem

@@ -1,0 +1,389 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "smoothing/quality/mesh_quality.h"
+#include "studies/framework/run_study.h"
+#include "studies/tests/study_tests.h"
+
+namespace smoothfem {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Small studies run into a temporary folder.
+class RunStudy : public FileTest {
+ protected:
+  RunStudy() { write_mesh(file("grid.mesh"), shaken_grid(5, 0.2)); }
+
+  Study study(const std::string& more = {}) const {
+    return read_study(file_with("tiny.prm",
+                                "set meshes = grid\n"
+                                "set methods = laplace, getme\n"
+                                "set timing runs = 1\n"
+                                "subsection mesh grid\n set file = grid.mesh\nend\n" +
+                                    more),
+                      false);
+  }
+
+  fs::path run(const Study& study, const std::string& folder = "out",
+               unsigned int n_threads = 2) const {
+    run_study(study, {.out = file(folder), .mesh_dir = {}, .quiet = true, .n_threads = n_threads});
+    return file(folder);
+  }
+
+  static CsvTable table(const fs::path& folder, const std::string& name) {
+    return CsvTable(content_of(folder / name));
+  }
+
+  /// Every file below a folder, relative to it.
+  static std::set<std::string> files_in(const fs::path& folder) {
+    std::set<std::string> files;
+    if (fs::exists(folder))
+      for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), folder).string());
+    return files;
+  }
+
+  /// A table without the columns that are times.
+  static std::vector<CsvTable::Row> without_times(const fs::path& folder, const std::string& name) {
+    auto rows = table(folder, name).rows;
+    for (auto& row : rows)
+      for (const std::string column : {"smoothing_seconds", "cg_seconds", "jacobi_cg_seconds",
+                                       "reference_seconds", "method_seconds", "speedup"})
+        row.erase(column);
+    return rows;
+  }
+
+  static void expect_same_but_for_times(const fs::path& a, const fs::path& b) {
+    for (const std::string name : {"iterations.csv", "summary.csv", "thresholds.csv"})
+      EXPECT_EQ(without_times(a, name), without_times(b, name)) << name;
+    EXPECT_EQ(files_in(a), files_in(b));
+    for (const auto& name : files_in(a))
+      if (name.ends_with(".vtu") || name.ends_with(".mesh"))
+        EXPECT_EQ(content_of(a / name), content_of(b / name)) << name;
+  }
+};
+
+/// What a smoothing iteration and a record of the finite elements have in common: all but the
+/// columns named.
+CsvTable::Row without(CsvTable::Row row, const std::vector<std::string>& columns) {
+  for (const auto& column : columns) row.erase(column);
+  return row;
+}
+
+TEST_F(RunStudy, LeavesTheseFiles) {
+  EXPECT_EQ(
+      files_in(run(study())),
+      (std::set<std::string>{"iterations.csv", "summary.csv", "thresholds.csv", "provenance.json",
+                             "meshes/grid_initial.mesh", "meshes/grid_initial.vtu",
+                             "meshes/grid_laplace.vtu", "meshes/grid_getme.vtu"}));
+}
+
+TEST_F(RunStudy, EveryMethodBeginsWithTheInitialMesh) {
+  const fs::path out = run(study());
+  const CsvTable iterations = table(out, "iterations.csv");
+  for (const std::string degree : {"1", "2"}) {
+    const auto rows = iterations.select({{"stage", "initial"}, {"degree", degree}});
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].at("iteration"), "0");
+    EXPECT_EQ(without(rows[0], {"method", "smoothing_seconds"}),
+              without(rows[1], {"method", "smoothing_seconds"}));
+    const auto initial =
+        table(out, "summary.csv").select({{"method", "initial"}, {"degree", degree}});
+    ASSERT_EQ(initial.size(), 1u);
+    for (const std::string column : {"q_min", "q_mean", "condition_number", "cg_iterations",
+                                     "e_max", "e_l2", "h1_error", "status"})
+      EXPECT_EQ(initial[0].at(column), rows[0].at(column)) << column;
+  }
+}
+
+TEST_F(RunStudy, TheSummaryHasTheRowOfTheResultingMesh) {
+  const fs::path out = run(study());
+  const CsvTable iterations = table(out, "iterations.csv"), summary = table(out, "summary.csv");
+  ASSERT_EQ(summary.rows.size(), 2u * 3u);
+  for (const std::string method : {"laplace", "getme"}) {
+    const PlanarMesh result = read_mesh(out / "meshes" / ("grid_" + method + ".vtu")).mesh;
+    for (const std::string degree : {"1", "2"}) {
+      const auto row = summary.select({{"method", method}, {"degree", degree}}).at(0);
+      EXPECT_EQ(std::stod(row.at("q_mean")), mesh_quality(result).q_mean);
+      const auto same = iterations.select({{"method", method},
+                                           {"degree", degree},
+                                           {"q_min", row.at("q_min")},
+                                           {"q_mean", row.at("q_mean")},
+                                           {"e_max", row.at("e_max")},
+                                           {"e_h1", row.at("e_h1")},
+                                           {"lambda_min", row.at("lambda_min")},
+                                           {"cg_iterations", row.at("cg_iterations")}});
+      EXPECT_GE(same.size(), 1u) << method << " " << degree;
+      EXPECT_EQ(row.at("status"), "ok");
+    }
+  }
+  // GETMe has two stages, Laplace smoothing one.
+  EXPECT_NE(summary.select({{"method", "getme"}}).at(0).at("iterations").find('/'),
+            std::string::npos);
+  const auto laplace = iterations.select({{"method", "laplace"}, {"degree", "1"}});
+  EXPECT_EQ(summary.select({{"method", "laplace"}}).at(0).at("iterations"),
+            laplace.back().at("iteration"));
+}
+
+TEST_F(RunStudy, SmoothingTimeNeverGoesBack) {
+  const CsvTable iterations = table(run(study("set timing runs = 3\n")), "iterations.csv");
+  double last = 0.0;
+  for (const auto& row : iterations.select({{"method", "getme"}, {"degree", "1"}})) {
+    EXPECT_GE(std::stod(row.at("smoothing_seconds")), last);
+    last = std::stod(row.at("smoothing_seconds"));
+  }
+  EXPECT_GT(last, 0.0);
+}
+
+TEST_F(RunStudy, NumbersDependNeitherOnTheThreadsNorOnTheRun) {
+  const std::string thresholds = "subsection thresholds\n set reference = getme\nend\n";
+  const fs::path two = run(study(thresholds), "two", 2);
+  expect_same_but_for_times(run(study(thresholds), "one", 1), two);
+  expect_same_but_for_times(run(study(thresholds), "again", 2), two);
+  EXPECT_EQ(table(two, "thresholds.csv").rows.size(), 2u * 4u);
+}
+
+TEST_F(RunStudy, RecordEveryKeepsEveryKthTheBestAndTheLast) {
+  const std::string only = "set degrees = 1\nset methods = getme\n";
+  const fs::path all = run(study(only), "all"),
+                 some = run(study(only + "set record every = 7\n"), "some");
+  const auto every = without_times(all, "iterations.csv");
+  const auto kept = without_times(some, "iterations.csv");
+  const auto result = table(all, "summary.csv").select({{"method", "getme"}}).at(0);
+  std::vector<CsvTable::Row> expected;
+  std::size_t best = 0;
+  for (std::size_t r = 0; r < every.size(); ++r)
+    if (every[r].at("q_min") == result.at("q_min") && every[r].at("e_max") == result.at("e_max"))
+      best = r;
+  ASSERT_GT(best, 0u);
+  for (std::size_t r = 0; r < every.size(); ++r)
+    if (r % 7 == 0 || r == best || r + 1 == every.size()) expected.push_back(every[r]);
+  ASSERT_LT(expected.size(), every.size());
+  EXPECT_EQ(kept, expected);
+  EXPECT_EQ(without_times(all, "summary.csv"), without_times(some, "summary.csv"));
+}
+
+TEST_F(RunStudy, WithoutDegreesItOnlySmooths) {
+  const fs::path out = run(study("set degrees =\n"));
+  const CsvTable iterations = table(out, "iterations.csv");
+  EXPECT_GT(iterations.rows.size(), 4u);
+  for (const auto& row : iterations.rows) {
+    EXPECT_EQ(row.at("degree") + row.at("e_max") + row.at("n_dofs"), "");
+    EXPECT_EQ(row.at("status"), "not solved");
+  }
+  EXPECT_EQ(table(out, "summary.csv").rows.size(), 3u);
+  EXPECT_GT(std::stod(table(out, "summary.csv").rows[2].at("q_mean")),
+            std::stod(table(out, "summary.csv").rows[0].at("q_mean")));
+}
+
+TEST_F(RunStudy, WithoutDegreesCellsMayBePentagons) {
+  write_mesh(file("grid.mesh"), mixed_mesh(true));
+  EXPECT_EQ(table(run(study("set degrees =\n")), "summary.csv").rows.size(), 3u);
+}
+
+TEST_F(RunStudy, InvalidMeshesHaveRowsWithoutSolutions) {
+  write_mesh(file("grid.mesh"), arrow_head());
+  const fs::path out = run(study("set methods = weighted-laplace, smart-laplace\n"));
+  for (const std::string name : {"iterations.csv", "summary.csv"}) {
+    const auto rows = table(out, name).select({{"method", "weighted-laplace"}});
+    EXPECT_GE(rows.size(), 2u) << name;
+    for (const auto& row : rows) {
+      if (row.at("n_invalid") == "0") continue;  // the initial mesh
+      EXPECT_EQ(row.at("status"), "invalid mesh");
+      for (const std::string column :
+           {"n_dofs", "condition_number", "cg_iterations", "e_max", "l2_error"})
+        EXPECT_EQ(row.at(column), "") << column;
+    }
+    EXPECT_GT(std::stoi(rows.back().at("n_invalid")), 0) << "else this test tests nothing";
+  }
+  for (const auto& row : table(out, "summary.csv").select({{"method", "smart-laplace"}}))
+    EXPECT_EQ(row.at("status"), "ok");
+}
+
+TEST_F(RunStudy, TheSeriesHasAStepForEveryRecord) {
+  const fs::path out = run(study("set write series = true\nset degrees = 1\n"));
+  for (const std::string method : {"laplace", "getme"}) {
+    const auto n = table(out, "iterations.csv").select({{"method", method}}).size();
+    const std::string pvd = content_of(out / "meshes" / ("grid_" + method + ".pvd"));
+    std::size_t n_steps = 0;
+    for (std::size_t at = pvd.find("<DataSet"); at != std::string::npos;
+         at = pvd.find("<DataSet", at + 1))
+      ++n_steps;
+    EXPECT_EQ(n_steps, n);
+    std::size_t n_files = 0;
+    for (const auto& entry : fs::directory_iterator(out / "meshes" / ("grid_" + method))) {
+      EXPECT_NO_THROW(read_mesh(entry.path()));
+      ++n_files;
+    }
+    EXPECT_EQ(n_files, n);
+  }
+}
+
+TEST_F(RunStudy, ExpressionsGiveTheNumbersOfTheNamedSolution) {
+  const std::string own = R"(
+subsection solution
+  set name     = expression
+  set value    = 40*sin((x+1)*(y-1)/2) + 60
+  set gradient = 20*(y-1)*cos((x+1)*(y-1)/2) ; 20*(x+1)*cos((x+1)*(y-1)/2)
+  set load     = 10*((x+1)^2 + (y-1)^2)*sin((x+1)*(y-1)/2)
+end
+)";
+  const auto named = table(run(study(), "named"), "summary.csv").rows;
+  const auto parsed = table(run(study(own), "parsed"), "summary.csv").rows;
+  ASSERT_EQ(named.size(), parsed.size());
+  for (std::size_t r = 0; r < named.size(); ++r) {
+    EXPECT_EQ(named[r].at("cg_iterations"), parsed[r].at("cg_iterations"));
+    for (const std::string column : {"e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error"}) {
+      const double expected = std::stod(named[r].at(column));
+      EXPECT_NEAR(std::stod(parsed[r].at(column)), expected, 1e-9 * expected) << column;
+    }
+  }
+}
+
+TEST_F(RunStudy, ExpressionsInTheSpaceAreFoundToRoundOff) {
+  const std::string own = R"(
+set degrees = 2
+subsection solution
+  set name     = expression
+  set value    = x*x - 2*x*y + 3*y
+  set gradient = 2*x - 2*y ; 3 - 2*x
+  set load     = -2
+end
+subsection finite elements
+  set cg tolerance = 1e-13
+end
+)";
+  for (const auto& row : table(run(study(own)), "summary.csv").rows) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_LT(std::stod(row.at("e_max")), 1e-10);
+    EXPECT_LT(std::stod(row.at("h1_error")), 1e-10);
+  }
+}
+
+TEST_F(RunStudy, WrongExpressionsAreRefusedBeforeAnythingIsWritten) {
+  const auto wrong = study(
+      "subsection solution\n set name = expression\n set value = x*x\n set gradient = x ; 0\n"
+      " set load = -2\nend\n");
+  EXPECT_NE(input_error_of([&] { run(wrong); }), "");
+  EXPECT_EQ(files_in(file("out")), std::set<std::string>{});
+}
+
+TEST_F(RunStudy, ProvenanceSaysWhereEverythingComesFrom) {
+  const fs::path out = run(study("subsection method getme\n set simultaneous.lambda = 0.4\nend\n"));
+  const auto json = nlohmann::json::parse(content_of(out / "provenance.json"));
+  EXPECT_EQ(json.at("status"), "complete");
+  EXPECT_EQ(json.at("study"), "tiny");
+  EXPECT_EQ(json.at("quick"), false);
+  for (const std::string key : {"version", "commit", "compiler", "flags"})
+    EXPECT_FALSE(json.at("program").at(key).get<std::string>().empty()) << key;
+  EXPECT_TRUE(json.at("program").at("uncommitted_changes").is_boolean());
+  for (const std::string library : {"deal.II", "Eigen", "Gmsh", "Spectra", "Trilinos", "VTK"})
+    EXPECT_FALSE(json.at("program").at("libraries").at(library).get<std::string>().empty());
+  EXPECT_FALSE(json.at("machine").at("cpu").get<std::string>().empty());
+  EXPECT_EQ(json.at("machine").at("finite_element_threads"), 2);
+  for (const std::string phase : {"meshes", "smoothing", "finite_elements", "writing"})
+    EXPECT_GE(json.at("seconds").at(phase).get<double>(), 0.0) << phase;
+
+  const auto& mesh = json.at("meshes").at(0);
+  EXPECT_EQ(mesh.at("seed"), 1);
+  EXPECT_EQ(mesh.at("n_cells"), 25);
+  EXPECT_EQ(mesh.at("published"), false);
+  EXPECT_EQ(mesh.at("origin"), file("grid.mesh").string());
+  EXPECT_EQ(json.at("methods").at(0).at("name"), "laplace");
+  EXPECT_EQ(json.at("methods").at(1).at("parameters").at("simultaneous.lambda"), 0.4);
+
+  // The checksum against coreutils' own.
+  const fs::path initial = out / mesh.at("file").get<std::string>();
+  FILE* pipe = ::popen(("sha256sum '" + initial.string() + "'").c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  char digits[65] = {};
+  EXPECT_EQ(std::fread(digits, 1, 64, pipe), 64u);
+  ::pclose(pipe);
+  EXPECT_EQ(mesh.at("sha256"), std::string(digits));
+  EXPECT_EQ(read_mesh(initial).mesh.coordinates(), shaken_grid(5, 0.2).coordinates());
+}
+
+TEST_F(RunStudy, PublishedMeshesAreTakenAsTheyAre) {
+  fs::create_directory(file("published"));
+  write_mesh(file("published") / "p.mesh", shaken_grid(4, 0.1));
+  const auto with_published = study(
+      "set degrees =\nsubsection mesh grid\n set published file = p.mesh\n set distort to = 0.5\n"
+      "end\n");
+  run_study(with_published, {.out = file("out"), .mesh_dir = file("published"), .quiet = true});
+  const auto json = nlohmann::json::parse(content_of(file("out") / "provenance.json"));
+  EXPECT_EQ(json.at("meshes").at(0).at("published"), true);
+  EXPECT_EQ(json.at("meshes").at(0).at("n_cells"), 16);
+  EXPECT_EQ(json.at("meshes").at(0).at("q_mean"), mesh_quality(shaken_grid(4, 0.1)).q_mean);
+}
+
+TEST_F(RunStudy, GeneratesDistortsAndSmoothsAGear) {
+  const Study gear = read_study(file_with("gear.prm", R"(
+set meshes = tri, quad
+set methods = smart-laplace, getme
+set degrees = 1
+set edge scale = 3
+set timing runs = 1
+set record every = 1000
+subsection mesh tri
+  set domain = gear
+  set distort to = 0.45
+end
+subsection mesh quad
+  set domain = gear
+  set elements = quadrilaterals
+  set distort to = 0.45
+end
+)"),
+                                false);
+  const CsvTable summary = table(run(gear), "summary.csv");
+  ASSERT_EQ(summary.rows.size(), 6u);
+  for (const auto& row : summary.rows) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_EQ(row.at("n_invalid"), "0");
+    if (row.at("method") == "initial")
+      EXPECT_NEAR(std::stod(row.at("q_mean")), 0.45, 1e-4);
+    else
+      EXPECT_GT(std::stod(row.at("q_mean")), 0.8) << row.at("mesh") << row.at("method");
+  }
+}
+
+TEST_F(RunStudy, RefusesInvalidMeshesBeforeAnythingIsWritten) {
+  PlanarMesh inverted = shaken_grid(5, 0.0);
+  inverted.coordinates()[7] = {4.5, 4.5};  // an inner node, far outside of its cells
+  write_mesh(file("inverted.mesh"), inverted);
+  const auto bad = study(
+      "set meshes = grid, bad\nsubsection mesh bad\n set file = inverted.mesh\n"
+      "end\n");
+  const std::string message = input_error_of([&] { run(bad); });
+  EXPECT_NE(message.find(file("inverted.mesh").string()), std::string::npos) << message;
+  EXPECT_EQ(files_in(file("out")), std::set<std::string>{});
+  EXPECT_NE(input_error_of([&] { run(study("subsection mesh grid\n set file = no.mesh\nend\n")); }),
+            "");
+  EXPECT_EQ(files_in(file("out")), std::set<std::string>{});
+}
+
+TEST_F(RunStudy, RefusesPentagonsBeforeAnythingIsWritten) {
+  write_mesh(file("grid.mesh"), mixed_mesh(true));
+  EXPECT_NE(input_error_of([&] { run(study()); }), "");
+  EXPECT_EQ(files_in(file("out")), std::set<std::string>{});
+}
+
+TEST_F(RunStudy, AFailedStartLeavesOlderResultsAlone) {
+  const fs::path out = run(study("set degrees =\n"));
+  const std::string before = content_of(out / "provenance.json");
+  fs::remove(file("grid.mesh"));
+  EXPECT_NE(input_error_of([&] { run(study()); }), "");
+  EXPECT_EQ(content_of(out / "provenance.json"), before);
+}
+
+TEST_F(RunStudy, RefusesFoldersItCannotMake) {
+  file_with("regular", "content");
+  const std::string message = input_error_of([&] { run(study("set degrees =\n"), "regular/out"); });
+  EXPECT_NE(message.find("regular"), std::string::npos) << message;
+  EXPECT_EQ(content_of(file("regular")), "content");
+}
+
+}  // namespace
+}  // namespace smoothfem
