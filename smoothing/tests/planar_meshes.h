@@ -46,6 +46,47 @@ inline PlanarMesh grid_mesh(std::uint32_t n, GridCells kind, bool equilateral = 
   return make_mesh(x, cells);
 }
 
+/// A pentagon ringed by five others; its nodes are free.
+inline PlanarMesh pentagon_mesh() {
+  std::vector<Point<2>> x;
+  const auto add = [&x](double radius, double turn) {
+    const double angle = 2.0 * std::numbers::pi * turn;
+    x.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  };
+  Cells cells{{0, 1, 2, 3, 4}};
+  for (int k = 0; k < 5; ++k) add(1.0, k / 5.0);
+  for (int k = 0; k < 5; ++k) add(2.0, k / 5.0);
+  for (int k = 0; k < 5; ++k) add(2.3, (k + 0.5) / 5.0);
+  for (NodeIndex k = 0; k < 5; ++k) {
+    const NodeIndex next = (k + 1) % 5;
+    cells.push_back({k, 5 + k, 10 + k, 5 + next, next});
+  }
+  return make_mesh(x, cells);
+}
+
+/// Three rings of regular hexagons with edges of length one around a regular hexagon.
+inline PlanarMesh honeycomb_mesh() {
+  constexpr double s = 0.5 * std::numbers::sqrt3;
+  std::vector<Point<2>> x;
+  Cells cells;
+  const auto node_at = [&x](const Point<2>& place) {
+    for (NodeIndex i = 0; i < x.size(); ++i)
+      if ((x[i] - place).norm() < 1e-6) return i;
+    x.push_back(place);
+    return static_cast<NodeIndex>(x.size() - 1);
+  };
+  for (int j = -3; j <= 3; ++j)
+    for (int i = -3; i <= 3; ++i) {
+      if (std::abs(i + j) > 3) continue;
+      const Point<2> centre(2.0 * s * (i + 0.5 * j), 1.5 * j);
+      cells.emplace_back();
+      for (const auto& [dx, dy] :
+           {std::pair{0.0, -1.0}, {s, -0.5}, {s, 0.5}, {0.0, 1.0}, {-s, 0.5}, {-s, -0.5}})
+        cells.back().push_back(node_at(centre + Point<2>(dx, dy)));
+    }
+  return make_mesh(x, cells);
+}
+
 /// Numbers in [-1, 1), the same on every machine (SplitMix64).
 class Random {
  public:
