@@ -18,6 +18,9 @@ struct Arguments {
 };
 
 void generate(const Arguments& arguments) {
+  if (!(arguments.distort_to >= 0.0 && arguments.distort_to < 1.0))
+    throw InputError("--distort-to is " + std::to_string(arguments.distort_to) +
+                     ", but a mean quality lies between 0 (not distorted) and 1");
   PlanarMesh mesh =
       find_domain(arguments.domain)
           .generate({.element_type = arguments.elements == "triangles" ? ElementType::triangle
@@ -45,9 +48,9 @@ void add_generate_command(CLI::App& app) {
   command->add_option("--elements", arguments->elements, "triangles or quadrilaterals")
       ->check(CLI::IsMember({"triangles", "quadrilaterals"}));
   command->add_option("--edge-scale", arguments->edge_scale, "edges longer by this factor");
-  command->add_option("--distort-to", arguments->distort_to, "mean quality to distort to")
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--seed", arguments->seed, "seed of generation and distortion");
+  command->add_option("--distort-to", arguments->distort_to, "mean quality to distort to");
+  command->add_option("--seed", arguments->seed, "seed of generation and distortion")
+      ->check(CLI::NonNegativeNumber);
   command->callback([arguments] { generate(*arguments); });
 }
 

@@ -33,8 +33,10 @@ void add_study_command(CLI::App& app) {
                       "folder for the results (results/NAME unless given)");
   command->add_option("--mesh-dir", arguments->options.mesh_dir,
                       "folder with the published meshes that the study names");
-  command->add_option("--threads", arguments->options.n_threads,
-                      "threads for the finite elements (all cores unless given)");
+  command
+      ->add_option("--threads", arguments->options.n_threads,
+                   "threads for the finite elements (all cores unless given)")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--quick", arguments->options.quick,
                     "the study's quick variant: smaller meshes, every k-th record");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");

@@ -26,7 +26,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "smoothfem: %s; 'smoothfem --help' shows the commands\n", error.what());
+    const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+    const std::string what =
+        unknown ? "there is no command '" + std::string(argv[1]) + "'" : error.what();
+    std::fprintf(stderr, "smoothfem: %s; 'smoothfem --help' shows the commands\n", what.c_str());
     return exit_bad_input;
   }
   return 0;
