@@ -187,7 +187,7 @@ TEST_F(CommandLine, QuietStudiesPrintNothing) {
 
 TEST_F(CommandLine, AnInterruptedStudyLeavesTheRowsItHas) {
   // Fine enough that the finite elements of all iterations take minutes.
-  write_mesh(file("fine.vtu"), shaken_grid(150, 0.3));
+  write_mesh(file("fine.vtu"), shaken_grid(150, 0.2));
   file_with("long.prm",
             "set meshes = m\nset methods = laplace, smart-laplace\nset degrees = 2\n"
             "set timing runs = 1\nsubsection mesh m\n set file = fine.vtu\nend\n");

@@ -136,6 +136,8 @@ TEST_F(BadInput, MethodOrParameterThatIsNotThere) {
 TEST_F(BadInput, OptionOrCommandThatIsNotThere) {
   expect_refused({"quality", "good.mesh", "--magic"}, {"--magic"});
   expect_refused({"magic"}, {"magic"});
+  expect_refused({"study", "good.prm", "--threads", "-1"}, {"--threads"});
+  expect_refused({"study", "good.prm", "--threads", "many"}, {"many"});
   expect_refused({}, {});
   expect_refused({"smooth", "good.mesh", "-o", "out.mesh"}, {"--method"});
   expect_refused({"smooth", "good.mesh", "-m", "laplace"}, {"--out"});

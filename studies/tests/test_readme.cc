@@ -55,8 +55,11 @@ TEST_F(Readme, ItsCommandsAndOptionsExist) {
     EXPECT_TRUE(commands_of_run().contains(command[0])) << "./run " << command[0];
     if (command[0] != "study") continue;
     const std::string help = smoothfem({"study", "--help"}).out;
-    for (const auto& word : command)
-      if (word.starts_with("-")) EXPECT_NE(help.find(word), std::string::npos) << word;
+    for (const auto& word : command) {
+      if (word.starts_with("-")) {
+        EXPECT_NE(help.find(word), std::string::npos) << word;
+      }
+    }
     ASSERT_GE(command.size(), 2u);
     if (!command[1].ends_with(".prm")) {
       EXPECT_TRUE(fs::exists(root / "studies" / (command[1] + ".prm"))) << command[1];
