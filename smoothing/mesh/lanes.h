@@ -23,6 +23,8 @@
 namespace smoothfem {
 
 constexpr std::size_t n_lanes = 4;
+/// For local variables only: code for wider registers expects more alignment of it than
+/// std::vector<Lanes> has. Arrays are kept as double (load_lanes).
 using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double))));
 
 /// n_lanes numbers from and to an array of double, on any address. (With std::memcpy GCC goes by
