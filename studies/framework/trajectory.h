@@ -26,8 +26,7 @@ struct Trajectory {
 
 /// Runs a method timing_runs times on copies of the mesh, on this thread alone, and keeps the
 /// median of the accumulated times of each record; the meshes are the same every time. Snapshots:
-/// every record_every-th record but the initial one, and the result. progress: called after each
-/// run.
+/// every record_every-th record but the initial one, the result and the last.
 Trajectory record_trajectory(const PlanarMesh& mesh, const StudyMethod& method, int timing_runs,
                              int record_every);
 
