@@ -6,30 +6,18 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <list>
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
-#include "meshes/io/vtu_series.h"
 #include "studies/framework/progress.h"
 #include "studies/framework/provenance.h"
-#include "studies/framework/results.h"
-#include "studies/framework/solve_queue.h"
-#include "studies/framework/study_meshes.h"
-#include "studies/framework/trajectory.h"
+#include "studies/framework/study_data.h"
 
 namespace smoothfem {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The finite element tasks of one mesh: those of the initial mesh, shared by all methods, and
-/// those of each method's snapshots; one a degree in each list.
-struct MeshTasks {
-  std::vector<SolveTask*> initial;
-  std::vector<std::vector<std::vector<SolveTask*>>> methods;  ///< [method][snapshot][degree]
-};
 
 /// Before hours of work, and without leaving a trace: can files be written below this folder?
 void require_writable(const fs::path& folder) {
@@ -49,14 +37,16 @@ class StudyRun {
         options_(options),
         n_threads_(options.n_threads > 0 ? options.n_threads
                                          : std::max(1U, std::thread::hardware_concurrency())),
-        progress_(options.quiet) {}
+        progress_(options.quiet),
+        data_{study} {}
 
   void run() {
     // Everything the user gave is checked before the first file is written.
     require_writable(options_.out);
+    require_published_files();
     timed("meshes", [&] {
       prepare_meshes();
-      solution_ = make_solution();
+      data_.solution = make_solution();
       make_solvers();
     });
     begin_writing();
@@ -75,11 +65,20 @@ class StudyRun {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
 
+  /// --mesh-dir must not be taken for something that it does not do.
+  void require_published_files() const {
+    if (options_.mesh_dir.empty()) return;
+    for (const auto& mesh : study_.meshes)
+      if (!mesh.published_file.empty()) return;
+    throw InputError("--mesh-dir is given, but no mesh of the study " + study_.name +
+                     " names a published file; leave it out or set 'published file' for a mesh");
+  }
+
   void prepare_meshes() {
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
-      progress_.update(meshes_.size(), description.name);
-      meshes_.push_back(prepare_mesh(description, study_.edge_scale, options_.mesh_dir));
+      progress_.update(data_.meshes.size(), description.name);
+      data_.meshes.push_back(prepare_mesh(description, study_.edge_scale, options_.mesh_dir));
       stop_if_interrupted();
     }
     progress_.end();
@@ -88,7 +87,7 @@ class StudyRun {
   /// Expressions are checked at nodes of the first mesh.
   ManufacturedSolution make_solution() const {
     if (study_.solution.name != "expression") return manufactured_solution(study_.solution.name);
-    const auto& points = meshes_.front().mesh.coordinates();
+    const auto& points = data_.meshes.front().mesh.coordinates();
     std::vector<Point<2>> sample;
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
       sample.push_back(points[i]);
@@ -97,7 +96,7 @@ class StudyRun {
   }
 
   void make_solvers() {
-    for (const auto& prepared : meshes_)
+    for (const auto& prepared : data_.meshes)
       for (const int degree : study_.degrees) {
         PoissonOptions options = study_.finite_elements;
         options.degree = degree;
@@ -109,16 +108,17 @@ class StudyRun {
   void begin_writing() {
     writing_ = true;
     write_provenance("running");
-    for (const auto& prepared : meshes_)
-      write_mesh(mesh_path(prepared.description.name, "initial", ".mesh"), prepared.mesh);
+    for (const auto& prepared : data_.meshes)
+      write_mesh(mesh_path(options_.out, prepared.description.name, "initial", ".mesh"),
+                 prepared.mesh);
     write_provenance("running");  // now with the checksums
   }
 
   void smooth_meshes() {
-    progress_.begin("Smoothing", meshes_.size() * study_.methods.size());
+    progress_.begin("Smoothing", data_.meshes.size() * study_.methods.size());
     std::size_t done = 0;
-    for (const auto& prepared : meshes_) {
-      auto& of_mesh = trajectories_.emplace_back();
+    for (const auto& prepared : data_.meshes) {
+      auto& of_mesh = data_.trajectories.emplace_back();
       for (const auto& method : study_.methods) {
         progress_.update(done++, prepared.description.name + ", " + method.title);
         of_mesh.push_back(
@@ -131,18 +131,18 @@ class StudyRun {
 
   SolveTask* add_task(std::size_t mesh, std::size_t degree, std::vector<Point<2>> coordinates,
                       bool is_result) {
-    PlanarMesh smoothed(meshes_[mesh].mesh.shared_topology(), std::move(coordinates));
-    return &tasks_.emplace_back(mesh * study_.degrees.size() + degree, std::move(smoothed),
-                                is_result || study_.write_series);
+    PlanarMesh smoothed(data_.meshes[mesh].mesh.shared_topology(), std::move(coordinates));
+    return &data_.tasks.emplace_back(mesh * study_.degrees.size() + degree, std::move(smoothed),
+                                     is_result || study_.write_series);
   }
 
   /// Tasks for the initial meshes and for the valid snapshots of every method.
   void make_tasks() {
-    for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      auto& of_mesh = mesh_tasks_.emplace_back();
+    for (std::size_t m = 0; m < data_.meshes.size(); ++m) {
+      auto& of_mesh = data_.mesh_tasks.emplace_back();
       for (std::size_t d = 0; d < study_.degrees.size(); ++d)
-        of_mesh.initial.push_back(add_task(m, d, meshes_[m].mesh.coordinates(), true));
-      for (const auto& trajectory : trajectories_[m]) {
+        of_mesh.initial.push_back(add_task(m, d, data_.meshes[m].mesh.coordinates(), true));
+      for (const auto& trajectory : data_.trajectories[m]) {
         auto& of_method = of_mesh.methods.emplace_back();
         for (const auto& snapshot : trajectory.snapshots) {
           auto& of_snapshot = of_method.emplace_back();
@@ -158,7 +158,7 @@ class StudyRun {
   void solve() {
     make_tasks();
     std::vector<SolveTask*> queue;
-    for (auto& task : tasks_) queue.push_back(&task);
+    for (auto& task : data_.tasks) queue.push_back(&task);
     progress_.begin("Finite elements", queue.size());
     work_off(std::move(queue));
     progress_.end();
@@ -169,13 +169,13 @@ class StudyRun {
     using Clock = std::chrono::steady_clock;
     constexpr auto look = std::chrono::milliseconds(50);
     constexpr auto between_writes = std::chrono::seconds(5);
-    SolveQueue queue(std::move(solvers_), *solution_, std::move(tasks), n_threads_);
+    SolveQueue queue(std::move(solvers_), *data_.solution, std::move(tasks), n_threads_);
     auto last_write = Clock::now();
     while (!queue.finished()) {
       std::this_thread::sleep_for(look);
       stop_if_interrupted();
       progress_.update(queue.n_done(), std::to_string(queue.n_done()) + " of " +
-                                           std::to_string(tasks_.size()) + " solved");
+                                           std::to_string(data_.tasks.size()) + " solved");
       if (Clock::now() - last_write < between_writes) continue;
       write_iterations();
       last_write = Clock::now();
@@ -197,171 +197,39 @@ class StudyRun {
     std::_Exit(130);
   }
 
-  fs::path mesh_path(const std::string& mesh, const std::string& method,
-                     const std::string& extension) const {
-    return options_.out / "meshes" / (mesh + "_" + method + extension);
-  }
-
-  /// The rows of one record: one a degree whose task is done, or the reason why there is none.
-  void append_rows(std::size_t mesh, std::size_t method, std::size_t record,
-                   const std::vector<SolveTask*>& tasks, std::vector<IterationRow>& rows) const {
-    IterationRow row{.mesh = meshes_[mesh].description.name,
-                     .method = study_.methods[method].name,
-                     .iteration = trajectories_[mesh][method].records[record],
-                     .degree = 0,
-                     .solved = {},
-                     .status = {}};
-    if (study_.degrees.empty()) {
-      row.status = "not solved";
-      rows.push_back(row);
-    }
-    for (std::size_t d = 0; d < study_.degrees.size(); ++d) {
-      row.degree = study_.degrees[d];
-      row.solved.reset();
-      if (tasks.empty()) {
-        row.status = "invalid mesh";
-      } else {
-        if (!tasks[d]->done) continue;
-        row.solved = tasks[d]->record;
-        row.status = tasks[d]->record.status;
-      }
-      rows.push_back(row);
-    }
-  }
-
-  std::vector<IterationRow> finished_rows() const {
-    std::vector<IterationRow> rows;
-    for (std::size_t m = 0; m < mesh_tasks_.size(); ++m)
-      for (std::size_t k = 0; k < study_.methods.size(); ++k) {
-        append_rows(m, k, 0, mesh_tasks_[m].initial, rows);
-        const auto& snapshots = trajectories_[m][k].snapshots;
-        for (std::size_t s = 0; s < snapshots.size(); ++s)
-          append_rows(m, k, snapshots[s].record, mesh_tasks_[m].methods[k][s], rows);
-      }
-    return rows;
-  }
-
   std::size_t write_iterations() const {
-    const auto rows = finished_rows();
+    const auto rows = finished_rows(data_);
     write_atomically(options_.out / "iterations.csv", iterations_csv(study_.name, rows));
     return rows.size();
-  }
-
-  /// The tasks of a method's resulting mesh; of the initial mesh if the method improved nothing.
-  const std::vector<SolveTask*>& result_tasks(std::size_t mesh, std::size_t method) const {
-    const auto& trajectory = trajectories_[mesh][method];
-    for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s)
-      if (trajectory.snapshots[s].record == trajectory.result_record)
-        return mesh_tasks_[mesh].methods[method][s];
-    return mesh_tasks_[mesh].initial;
-  }
-
-  void append_summary(SummaryRow row, const std::vector<SolveTask*>& tasks,
-                      std::vector<SummaryRow>& rows) const {
-    if (study_.degrees.empty()) {
-      row.status = "not solved";
-      rows.push_back(row);
-    }
-    for (std::size_t d = 0; d < study_.degrees.size(); ++d) {
-      row.degree = study_.degrees[d];
-      row.status = tasks.empty() ? "invalid mesh" : tasks[d]->record.status;
-      row.solved = tasks.empty() ? std::nullopt : std::optional(tasks[d]->record);
-      rows.push_back(row);
-    }
-  }
-
-  std::vector<SummaryRow> summary_rows() const {
-    std::vector<SummaryRow> rows;
-    for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      const std::string& name = meshes_[m].description.name;
-      append_summary({.mesh = name, .method = "initial", .quality = meshes_[m].quality},
-                     mesh_tasks_[m].initial, rows);
-      for (std::size_t k = 0; k < study_.methods.size(); ++k) {
-        const auto& trajectory = trajectories_[m][k];
-        append_summary({.mesh = name,
-                        .method = study_.methods[k].name,
-                        .iterations = trajectory.iterations_text,
-                        .smoothing_seconds = trajectory.smoothing_seconds,
-                        .quality = trajectory.quality},
-                       result_tasks(m, k), rows);
-      }
-    }
-    return rows;
-  }
-
-  MeshFields fields_of(const PlanarMesh& mesh, const std::vector<SolveTask*>& tasks) const {
-    MeshFields fields;
-    fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
-    auto& exact = fields.point["exact_solution"];
-    for (const auto& p : mesh.coordinates()) exact.push_back(solution_->value(p));
-    for (std::size_t d = 0; d < tasks.size(); ++d)
-      fields.point["nodal_error_d" + std::to_string(study_.degrees[d])] = tasks[d]->nodal_errors;
-    return fields;
-  }
-
-  PlanarMesh result_mesh(std::size_t mesh, std::size_t method) const {
-    const auto& trajectory = trajectories_[mesh][method];
-    for (const auto& snapshot : trajectory.snapshots)
-      if (snapshot.record == trajectory.result_record)
-        return {meshes_[mesh].mesh.shared_topology(), snapshot.coordinates};
-    return meshes_[mesh].mesh;
-  }
-
-  void write_meshes() const {
-    for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      const std::string& name = meshes_[m].description.name;
-      write_mesh(mesh_path(name, "initial", ".vtu"), meshes_[m].mesh,
-                 fields_of(meshes_[m].mesh, mesh_tasks_[m].initial));
-      for (std::size_t k = 0; k < study_.methods.size(); ++k) {
-        const PlanarMesh mesh = result_mesh(m, k);
-        write_mesh(mesh_path(name, study_.methods[k].name, ".vtu"), mesh,
-                   fields_of(mesh, result_tasks(m, k)));
-        if (study_.write_series) write_series(m, k);
-      }
-    }
-  }
-
-  void write_series(std::size_t m, std::size_t k) const {
-    const std::string& name = meshes_[m].description.name;
-    VtuSeries series(mesh_path(name, study_.methods[k].name, ".pvd"));
-    series.add(0.0, meshes_[m].mesh, fields_of(meshes_[m].mesh, mesh_tasks_[m].initial));
-    const auto& snapshots = trajectories_[m][k].snapshots;
-    for (std::size_t s = 0; s < snapshots.size(); ++s) {
-      const PlanarMesh mesh(meshes_[m].mesh.shared_topology(), snapshots[s].coordinates);
-      series.add(static_cast<double>(snapshots[s].record), mesh,
-                 fields_of(mesh, mesh_tasks_[m].methods[k][s]));
-    }
   }
 
   void write_results() {
     progress_.begin("Results", 0);
     write_iterations();
-    write_atomically(options_.out / "summary.csv", summary_csv(study_.name, summary_rows()));
-    const auto thresholds = study_.thresholds.reference.empty()
-                                ? std::vector<ThresholdRow>()
-                                : reach_thresholds(finished_rows(), study_.thresholds.reference,
-                                                   study_.thresholds.margin);
+    write_atomically(options_.out / "summary.csv", summary_csv(study_.name, summary_rows(data_)));
+    const auto thresholds =
+        study_.thresholds.reference.empty()
+            ? std::vector<ThresholdRow>()
+            : reach_thresholds(finished_rows(data_), study_.thresholds.reference,
+                               study_.thresholds.margin);
     write_atomically(options_.out / "thresholds.csv", thresholds_csv(study_.name, thresholds));
-    write_meshes();
+    write_meshes(data_, options_.out);
     progress_.end();
   }
 
   void write_provenance(const std::string& status) const {
-    write_atomically(options_.out / "provenance.json",
-                     provenance_json({study_, options_, meshes_, n_threads_, status, seconds_}));
+    write_atomically(
+        options_.out / "provenance.json",
+        provenance_json({study_, options_, data_.meshes, n_threads_, status, seconds_}));
   }
 
   const Study& study_;
   const StudyOptions& options_;
   unsigned int n_threads_;
   mutable Progress progress_;
-  std::optional<ManufacturedSolution> solution_;
-  std::vector<PreparedMesh> meshes_;
+  StudyData data_;
   std::vector<PoissonSolver> solvers_;  ///< [mesh * number of degrees + degree]
   bool writing_ = false;                ///< the folder of the results holds files of this run
-  std::vector<std::vector<Trajectory>> trajectories_;  ///< [mesh][method]
-  std::list<SolveTask> tasks_;                         ///< stay where they are
-  std::vector<MeshTasks> mesh_tasks_;
   std::map<std::string, double> seconds_;
 };
 

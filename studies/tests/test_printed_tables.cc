@@ -20,10 +20,11 @@ TEST_P(PrintedRows, ComeOut) {
   const SmoothingResult result = smooth(mesh, method);
   expect_printed_quality(mesh_name, method_name, result.quality);
   // What an optimizer needs depends on how it is written (deviations.csv); the others are formulas.
-  if (method_name != "global-optimization")
+  if (method_name != "global-optimization") {
     EXPECT_EQ(result.iterations_text(),
               printed_row("table_6_1.csv", {{"mesh", mesh_name}, {"method", method_name}})
                   .at("iterations"));
+  }
   for (const int degree : {1, 2})
     expect_printed_solution(mesh_name, method_name, degree, solve(mesh, degree), {});
 }
