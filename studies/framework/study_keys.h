@@ -1,0 +1,32 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace smoothfem {
+
+/// Enters a subsection for as long as it lives.
+class Subsection {
+ public:
+  Subsection(dealii::ParameterHandler& parameters, const std::string& name)
+      : parameters_(parameters) {
+    parameters_.enter_subsection(name);
+  }
+  ~Subsection() { parameters_.leave_subsection(); }
+  Subsection(const Subsection&) = delete;
+
+ private:
+  dealii::ParameterHandler& parameters_;
+};
+
+/// Declare the keys of a study file: the lists that say which subsections there are, the subsection
+/// of one mesh, that of one method (its parameters only if the type is known: not empty), the
+/// problem, and what --quick changes.
+void declare_lists(dealii::ParameterHandler& p);
+void declare_mesh(dealii::ParameterHandler& p, const std::string& name);
+void declare_method(dealii::ParameterHandler& p, const std::string& name, const std::string& type);
+void declare_problem(dealii::ParameterHandler& p);
+void declare_quick(dealii::ParameterHandler& p);
+
+}  // namespace smoothfem
