@@ -25,8 +25,10 @@ def format_quality(values):
 
 
 def format_seconds(values):
-    """Milliseconds resolved: today's times are a tenth of the printed ones."""
-    return [MISSING if math.isnan(v) else f"{v:.3f}" for v in values]
+    """Milliseconds resolved, and as many decimals more as the shortest time needs for two digits."""
+    shortest = min((v for v in values if v > 0), default=1.0)
+    decimals = min(max(3, 1 - math.floor(math.log10(shortest))), 6)
+    return [MISSING if math.isnan(v) else f"{v:.{decimals}f}" for v in values]
 
 
 def format_factor(values):
