@@ -42,10 +42,25 @@ struct Target {
   }
 };
 
-template <std::size_t n_dofs, std::size_t n_vertices>
+// One function an element: templates are not compiled for wider registers.
 SMOOTHFEM_VECTOR_CLONES void compute_matrices(const QuadratureTable& table,
-                                              const CellBatch<n_vertices>& batch,
-                                              CellMatrices<n_dofs, Lanes>& matrices) {
+                                              const CellBatch<3>& batch,
+                                              CellMatrices<3, Lanes>& matrices) {
+  matrices.compute(table, batch.vertices);
+}
+SMOOTHFEM_VECTOR_CLONES void compute_matrices(const QuadratureTable& table,
+                                              const CellBatch<3>& batch,
+                                              CellMatrices<6, Lanes>& matrices) {
+  matrices.compute(table, batch.vertices);
+}
+SMOOTHFEM_VECTOR_CLONES void compute_matrices(const QuadratureTable& table,
+                                              const CellBatch<4>& batch,
+                                              CellMatrices<4, Lanes>& matrices) {
+  matrices.compute(table, batch.vertices);
+}
+SMOOTHFEM_VECTOR_CLONES void compute_matrices(const QuadratureTable& table,
+                                              const CellBatch<4>& batch,
+                                              CellMatrices<9, Lanes>& matrices) {
   matrices.compute(table, batch.vertices);
 }
 
