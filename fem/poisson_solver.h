@@ -9,8 +9,6 @@
 
 namespace smoothfem {
 
-enum class Load;
-
 /// What a finite element record measures and how (thesis, Section 6.1).
 struct PoissonOptions {
   int degree = 1;                  ///< of the Lagrange elements: 1 or 2
