@@ -83,8 +83,9 @@ void locate_dofs(FiniteElementSpace& space) {
 /// Dofs at boundary nodes and, for degree 2, in the middle of boundary edges are not free.
 void number_free_dofs(const Topology& topology, FiniteElementSpace& space) {
   std::set<std::array<NodeIndex, 2>> boundary;
-  for (const auto& [a, b] : topology.boundary_edges())
-    boundary.insert({std::min(a, b), std::max(a, b)});
+  const auto& edges = topology.boundary_facets();
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    boundary.insert({std::min(edges[e][0], edges[e][1]), std::max(edges[e][0], edges[e][1])});
   space.free_number.assign(space.n_dofs, FiniteElementSpace::absent);
   space.vertex_dof.assign(topology.n_nodes(), FiniteElementSpace::absent);
   for (std::uint32_t dof = 0; dof < space.n_dofs; ++dof) {

@@ -52,7 +52,7 @@ TEST_P(PoissonSolverTest, NumberOfDofsFollowsFromTheTopology) {
                                    ? mesh.n_nodes()
                                    : mesh.n_nodes() + topology.n_edges() + n_quadrilaterals;
   EXPECT_EQ(space->n_dofs, expected);
-  const std::size_t on_boundary = topology.boundary_edges().size() * GetParam().degree;
+  const std::size_t on_boundary = topology.boundary_facets().size() * GetParam().degree;
   EXPECT_EQ(space->n_free, expected - on_boundary);
 }
 
@@ -198,7 +198,8 @@ TEST(PoissonSolver, IterationLimitIsAStatusNotASilentCut) {
 TEST(PoissonSolver, RefusesPolygonsDegreesAndMeshesWithoutUnknowns) {
   const std::vector<Point<2>> corners{{0, 0}, {1, 0}, {1.3, 0.8}, {0.5, 1.4}, {-0.3, 0.8}};
   const PlanarMesh pentagon(
-      std::make_shared<Topology>(5, CompressedRows<NodeIndex>({0, 5}, {0, 1, 2, 3, 4})), corners);
+      std::make_shared<Topology>(2, 5, CompressedRows<NodeIndex>({0, 5}, {0, 1, 2, 3, 4})),
+      corners);
   PoissonOptions options;
   EXPECT_THROW(PoissonSolver(pentagon, options), InputError);
   EXPECT_THROW(PoissonSolver(unit_square(1, Cells::quadrilaterals, 0.0), options), InputError);

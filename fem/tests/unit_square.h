@@ -34,7 +34,7 @@ inline PlanarMesh unit_square(std::size_t n, Cells kind, double amount) {
       }
     }
   const std::size_t n_nodes = points.size();
-  return {std::make_shared<Topology>(n_nodes, std::move(cells)), std::move(points)};
+  return {std::make_shared<Topology>(2, n_nodes, std::move(cells)), std::move(points)};
 }
 
 }  // namespace smoothfem

@@ -158,7 +158,7 @@ PlanarMesh generate_gear(const GearParameters& p) {
     flip_edges(cells, static_cast<std::size_t>(n_flips), p.seed);
   }
   auto topology =
-      std::make_shared<const Topology>(cells.coordinates.size(), std::move(cells.cells));
+      std::make_shared<const Topology>(2, cells.coordinates.size(), std::move(cells.cells));
   PlanarMesh mesh(std::move(topology), std::move(cells.coordinates));
   require_valid(mesh, "generated gear");
   return mesh;

@@ -13,7 +13,7 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
   const std::size_t n_nodes = parts.coordinates.size();
   try {
     auto topology = std::make_shared<const Topology>(
-        n_nodes, std::move(parts.cells), std::move(parts.fixed), std::move(parts.labels));
+        2, n_nodes, std::move(parts.cells), std::move(parts.fixed), std::move(parts.labels));
     return {PlanarMesh(std::move(topology), std::move(parts.coordinates)),
             std::move(parts.cell_lines)};
   } catch (const CellError& error) {

@@ -71,8 +71,8 @@ inline PlanarMesh mixed_mesh(bool with_pentagon, MeshLabels labels = {},
     cells.append(std::vector<NodeIndex>{3, 4, 7, 6});
     cells.append(std::vector<NodeIndex>{3, 6, 9});
   }
-  return PlanarMesh(std::make_shared<const Topology>(x.size(), std::move(cells), std::move(fixed),
-                                                     std::move(labels)),
+  return PlanarMesh(std::make_shared<const Topology>(2, x.size(), std::move(cells),
+                                                     std::move(fixed), std::move(labels)),
                     x);
 }
 

@@ -27,7 +27,7 @@ PlanarMesh grid(NodeIndex n, bool triangles) {
         cells.append(std::vector<NodeIndex>{a, b, c, d});
       }
     }
-  return PlanarMesh(std::make_shared<const Topology>(x.size(), std::move(cells)), x);
+  return PlanarMesh(std::make_shared<const Topology>(2, x.size(), std::move(cells)), x);
 }
 
 /// FNV-1a over the bytes of all coordinates.

@@ -23,8 +23,9 @@ long euler_characteristic(const PlanarMesh& mesh) {
 /// Twice the area inside the boundary edges, by Green's theorem: a second way to the cells' area.
 double area_inside(const PlanarMesh& mesh) {
   double twice = 0.0;
-  for (const auto& [a, b] : mesh.topology().boundary_edges())
-    twice += cross(mesh.coordinates()[a], mesh.coordinates()[b]);
+  const auto& sides = mesh.topology().boundary_facets();
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    twice += cross(mesh.coordinates()[sides[s][0]], mesh.coordinates()[sides[s][1]]);
   return 0.5 * twice;
 }
 
@@ -36,7 +37,7 @@ TEST_P(Gear, HasTheCountsAndTheBoxOfThePublishedMesh) {
   const Topology& topology = mesh.topology();
   const double n_cells = tri ? 14346 : 6229;
   EXPECT_NEAR(static_cast<double>(mesh.n_cells()), n_cells, tri ? 0 : 0.01 * n_cells);
-  EXPECT_EQ(topology.boundary_edges().size(), 982u);
+  EXPECT_EQ(topology.boundary_facets().size(), 982u);
   EXPECT_EQ(mesh.n_nodes() - topology.free_nodes().size(), 982u);
   EXPECT_EQ(euler_characteristic(mesh), 1 - 5);
   EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
@@ -52,7 +53,7 @@ TEST_P(Gear, HasTheCountsAndTheBoxOfThePublishedMesh) {
 
 TEST_P(Gear, IsValidWithATenthOfTheCells) {
   const PlanarMesh mesh = generate_gear(gear_of_the_thesis(GetParam(), 3.0));
-  EXPECT_EQ(mesh.topology().boundary_edges().size(), 326u);
+  EXPECT_EQ(mesh.topology().boundary_facets().size(), 326u);
   EXPECT_EQ(euler_characteristic(mesh), -4);
   EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
   const PlanarMesh finer = generate_gear(gear_of_the_thesis(GetParam(), 2.0));
@@ -142,8 +143,8 @@ TEST(TriangulationEdits, RefineSplitsInnerEdgesOnly) {
   refine_to(mesh, 5);  // an even number of triangles cannot become odd
   EXPECT_EQ(mesh.cells.size(), 4u);
   EXPECT_EQ(mesh.coordinates.back(), Point<2>(0.5, 0.5));
-  const Topology topology(mesh.coordinates.size(), mesh.cells);
-  EXPECT_EQ(topology.boundary_edges().size(), 4u);
+  const Topology topology(2, mesh.coordinates.size(), mesh.cells);
+  EXPECT_EQ(topology.boundary_facets().size(), 4u);
   EXPECT_EQ(topology.node_cells(4).size(), 4u);
 }
 
@@ -154,8 +155,9 @@ TEST(TriangulationEdits, FlipsKeepCountsValidityAndDegrees) {
   PlanarCells cells{plain.coordinates(), plain.topology().cells()};
   EXPECT_EQ(flip_edges(cells, 1000, 1), 1000u);
   EXPECT_EQ(cells.coordinates, plain.coordinates());
-  const PlanarMesh flipped(std::make_shared<const Topology>(cells.coordinates.size(), cells.cells),
-                           cells.coordinates);
+  const PlanarMesh flipped(
+      std::make_shared<const Topology>(2, cells.coordinates.size(), cells.cells),
+      cells.coordinates);
   EXPECT_EQ(flipped.topology().n_edges(), plain.topology().n_edges());
   EXPECT_EQ(mesh_quality(flipped).n_invalid, 0u);
   EXPECT_NEAR(area_inside(flipped), area_inside(plain), 1e-12);
@@ -175,8 +177,9 @@ TEST(QuadSplit, TrianglesQuadrilateralsAndNonConvexOnes) {
   mesh.coordinates[3] = {0.7, 0.6};  // a dart
   const PlanarCells split = split_to_quadrilaterals(mesh);
   EXPECT_EQ(split.cells.size(), 6u);
-  const PlanarMesh result(std::make_shared<const Topology>(split.coordinates.size(), split.cells),
-                          split.coordinates);
+  const PlanarMesh result(
+      std::make_shared<const Topology>(2, split.coordinates.size(), split.cells),
+      split.coordinates);
   EXPECT_EQ(mesh_quality(result).n_invalid, 0u);
 }
 
@@ -191,7 +194,7 @@ TEST(QuadSplit, BoundaryMidpointsAreWhereTheyAreWanted) {
 TEST(Domains, AreFoundByName) {
   const PlanarMesh mesh =
       find_domain("gear").generate({.element_type = ElementType::quadrilateral, .edge_scale = 3.0});
-  EXPECT_EQ(mesh.topology().boundary_edges().size(), 326u);
+  EXPECT_EQ(mesh.topology().boundary_facets().size(), 326u);
   EXPECT_THAT(input_error_of([] { find_domain("bolt"); }),
               HasSubstr("there is no domain 'bolt'; use one of gear"));
 }

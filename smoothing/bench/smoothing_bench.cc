@@ -32,7 +32,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// The unit of the ratios: the shortest of several sweeps.
 double laplace_sweep_seconds(const PlanarMesh& mesh) {
-  const auto stages = stages_of("laplace");
+  const auto stages = stages_of<2>("laplace");
   SmoothingState<2> state{mesh, {}};
   double shortest = 1e300;
   for (int i = 0; i < 50; ++i) {
@@ -76,7 +76,7 @@ void whole_run(benchmark::State& state, const NamedMesh& named, const std::strin
   SmoothingResult result;
   for (auto _ : state) {
     PlanarMesh mesh = named.mesh;
-    Method method = make_method(method_name);
+    Method<2> method = make_method<2>(method_name);
     result = smooth(mesh, method);
     state.SetIterationTime(result.smoothing_seconds);
     total += result.smoothing_seconds;
@@ -97,7 +97,7 @@ void mean_ratios(benchmark::State& state, const NamedMesh& named) {
 
 /// One iteration (of GETMe sequential: one transformation), again and again.
 void single_step(benchmark::State& state, const NamedMesh& named, const std::string& method_name) {
-  const auto stages = stages_of(method_name);
+  const auto stages = stages_of<2>(method_name);
   SmoothingState<2> smoothing{named.mesh, cell_mean_ratios(named.mesh)};
   stages[0]->initialize(smoothing);
   std::size_t n_steps = 0;

@@ -10,7 +10,7 @@ namespace {
 
 struct Entry {
   MethodInfo info;
-  std::function<Stages()> make_stages;
+  StageFactories factories;
 };
 
 /// Ordered by name, so listings do not depend on the order in which files are linked or loaded.
@@ -22,17 +22,16 @@ std::map<std::string, Entry>& entries() {
 const Entry& entry(const std::string& name) {
   const auto found = entries().find(name);
   if (found != entries().end()) return found->second;
-  std::string known;
-  for (const auto& [known_name, unused] : entries())
-    known += (known.empty() ? "" : ", ") + known_name;
-  throw InputError("there is no method '" + name + "'; choose one of " + known);
+  std::vector<std::string> known;
+  for (const auto& [known_name, unused] : entries()) known.push_back(known_name);
+  throw InputError("there is no method '" + name + "'; " + choose_one_of(known));
 }
 
 }  // namespace
 
-RegisteredMethod::RegisteredMethod(MethodInfo info, std::function<Stages()> make_stages) {
+RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
   const std::string name = info.name;
-  if (!entries().emplace(name, Entry{std::move(info), std::move(make_stages)}).second)
+  if (!entries().emplace(name, Entry{std::move(info), std::move(factories)}).second)
     throw std::logic_error("two methods are registered as '" + name + "'");
 }
 
@@ -42,15 +41,22 @@ std::vector<MethodInfo> method_catalogue() {
   return infos;
 }
 
-Method make_method(const std::string& name) {
-  return {entry(name).info, entry(name).make_stages()};
+template <int dim>
+Stages<dim> stages_of(const std::string& name) {
+  const StageFactories& factories = entry(name).factories;
+  if constexpr (dim == 2)
+    return factories.planar();
+  else
+    return factories.volume();
 }
 
-Stages stages_of(const std::string& name) {
-  return entry(name).make_stages();
+template <int dim>
+Method<dim> make_method(const std::string& name) {
+  return {entry(name).info, stages_of<dim>(name)};
 }
 
-Parameters Method::parameters() {
+template <int dim>
+Parameters Method<dim>::parameters() {
   Parameters all;
   for (const auto& stage : stages)
     for (auto& parameter : stage->parameters()) {
@@ -60,9 +66,17 @@ Parameters Method::parameters() {
   return all;
 }
 
-void Method::set(const std::string& name, const std::string& value) {
+template <int dim>
+void Method<dim>::set(const std::string& name, const std::string& value) {
   const std::string owner = "method " + info.name;
   set_value(find_parameter(parameters(), name, owner), value, owner);
 }
+
+template Stages<2> stages_of(const std::string&);
+template Stages<3> stages_of(const std::string&);
+template Method<2> make_method(const std::string&);
+template Method<3> make_method(const std::string&);
+template struct Method<2>;
+template struct Method<3>;
 
 }  // namespace smoothfem

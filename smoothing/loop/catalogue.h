@@ -16,12 +16,14 @@ struct MethodInfo {
   std::string source;       ///< thesis section or paper
 };
 
-using Stages = std::vector<std::unique_ptr<Smoother<2>>>;
+template <int dim>
+using Stages = std::vector<std::unique_ptr<Smoother<dim>>>;
 
-/// A smoothing method: one or more smoothers in turn.
+/// A smoothing method for meshes of one dimension: one or more smoothers in turn.
+template <int dim>
 struct Method {
   MethodInfo info;
-  Stages stages;
+  Stages<dim> stages;
 
   /// All parameters, "stage.name" where the method has more than one stage.
   Parameters parameters();
@@ -29,26 +31,38 @@ struct Method {
   void set(const std::string& name, const std::string& value);
 };
 
+/// How to make the stages of a method for planar and for volume meshes.
+struct StageFactories {
+  std::function<Stages<2>()> planar;
+  std::function<Stages<3>()> volume;
+};
+
 /// Registers a method when its file is loaded: one namespace-scope object a method.
 struct RegisteredMethod {
-  RegisteredMethod(MethodInfo info, std::function<Stages()> make_stages);
+  RegisteredMethod(MethodInfo info, StageFactories factories);
 };
 
 /// All registered methods, sorted by name.
 std::vector<MethodInfo> method_catalogue();
 
 /// A method with its default parameters; throws InputError listing the names there are.
-Method make_method(const std::string& name);
+template <int dim>
+Method<dim> make_method(const std::string& name);
 
 /// The stages of a registered method, for methods that are made of others.
-Stages stages_of(const std::string& name);
+template <int dim>
+Stages<dim> stages_of(const std::string& name);
 
-/// make_stages for a method of one smoother.
-template <class SmootherType>
-Stages single_stage() {
-  Stages stages;
-  stages.push_back(std::make_unique<SmootherType>());
-  return stages;
+/// Factories for a method of one smoother, a class template over the dimension.
+template <template <int> class SmootherType>
+StageFactories single_stage() {
+  const auto make = []<int dim>() {
+    Stages<dim> stages;
+    stages.push_back(std::make_unique<SmootherType<dim>>());
+    return stages;
+  };
+  return {[make] { return make.template operator()<2>(); },
+          [make] { return make.template operator()<3>(); }};
 }
 
 }  // namespace smoothfem

@@ -9,7 +9,8 @@ namespace smoothfem {
 namespace {
 
 /// Moves back the nodes of the invalid cells that are not back yet.
-std::vector<NodeIndex> put_back(PlanarMesh& mesh, const std::vector<Point<2>>& previous,
+template <int dim>
+std::vector<NodeIndex> put_back(Mesh<dim>& mesh, const std::vector<Point<dim>>& previous,
                                 const std::vector<CellIndex>& invalid) {
   std::vector<NodeIndex> moved;
   for (const CellIndex c : invalid)
@@ -34,7 +35,8 @@ std::vector<CellIndex> cells_of(const Topology& topology, const std::vector<Node
 
 }  // namespace
 
-std::size_t reset_nodes_of_invalid_cells(PlanarMesh& mesh, const std::vector<Point<2>>& previous,
+template <int dim>
+std::size_t reset_nodes_of_invalid_cells(Mesh<dim>& mesh, const std::vector<Point<dim>>& previous,
                                          std::vector<double>& cell_quality) {
   std::vector<CellIndex> invalid;
   for (CellIndex c = 0; c < cell_quality.size(); ++c)
@@ -53,5 +55,10 @@ std::size_t reset_nodes_of_invalid_cells(PlanarMesh& mesh, const std::vector<Poi
   }
   return n_reset;
 }
+
+template std::size_t reset_nodes_of_invalid_cells(Mesh<2>&, const std::vector<Point<2>>&,
+                                                  std::vector<double>&);
+template std::size_t reset_nodes_of_invalid_cells(Mesh<3>&, const std::vector<Point<3>>&,
+                                                  std::vector<double>&);
 
 }  // namespace smoothfem

@@ -1,7 +1,10 @@
 #include "smoothing/loop/parameter.h"
 
+#include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <system_error>
+#include <type_traits>
 
 #include "smoothing/mesh/input_error.h"
 
@@ -26,26 +29,74 @@ bool parse_all(const std::string& text, T& value) {
 }  // namespace
 
 std::string value_text(const Parameter& parameter) {
-  return std::visit([](const auto* value) { return number_text(*value); }, parameter.value);
+  if (const auto* choice = std::get_if<Choice>(&parameter.value))
+    return choice->names[static_cast<std::size_t>(*choice->index)];
+  if (const auto* list = std::get_if<std::vector<double>*>(&parameter.value)) {
+    std::string text;
+    for (const double number : **list) text += (text.empty() ? "" : ", ") + number_text(number);
+    return text;
+  }
+  if (const auto* whole = std::get_if<int*>(&parameter.value)) return number_text(**whole);
+  return number_text(*std::get<double*>(parameter.value));
 }
 
+namespace {
+
+template <class Value>
+Value number_in_range(const Parameter& parameter, const std::string& text,
+                      const std::string& what) {
+  Value value;
+  if (!parse_all(text, value))
+    throw InputError(what + " needs " +
+                     (std::is_same_v<Value, int> ? "a whole number" : "a number") +
+                     ", but is given as '" + text + "'");
+  if (!(value >= parameter.lower && value <= parameter.upper))
+    throw InputError(what + " = " + text + " is outside its range [" +
+                     number_text(parameter.lower) + ", " + number_text(parameter.upper) + "]");
+  return value;
+}
+
+std::vector<double> numbers_in_range(const Parameter& parameter, const std::string& text,
+                                     const std::string& what) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string entry; std::getline(stream, entry, ',');) {
+    const auto first = entry.find_first_not_of(' ');
+    const auto last = entry.find_last_not_of(' ');
+    entry = first == std::string::npos ? "" : entry.substr(first, last - first + 1);
+    numbers.push_back(number_in_range<double>(parameter, entry, what));
+  }
+  if (numbers.empty()) throw InputError(what + " needs at least one number");
+  return numbers;
+}
+
+int position_of(const Choice& choice, const std::string& text, const std::string& what) {
+  const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+  if (found != choice.names.end()) return static_cast<int>(found - choice.names.begin());
+  throw InputError(what + " is given as '" + text + "'; " + choose_one_of(choice.names));
+}
+
+}  // namespace
+
 void set_value(const Parameter& parameter, const std::string& text, const std::string& owner) {
+  const std::string what = owner + ": parameter " + parameter.name;
   std::visit(
-      [&](auto* target) {
-        using Value = std::remove_pointer_t<decltype(target)>;
-        Value value;
-        const std::string what = owner + ": parameter " + parameter.name;
-        if (!parse_all(text, value))
-          throw InputError(what + " needs " +
-                           (std::is_same_v<Value, int> ? "a whole number" : "a number") +
-                           ", but is given as '" + text + "'");
-        if (!(value >= parameter.lower && value <= parameter.upper))
-          throw InputError(what + " = " + text + " is outside its range [" +
-                           number_text(parameter.lower) + ", " + number_text(parameter.upper) +
-                           "]");
-        *target = value;
+      [&](const auto& target) {
+        using Target = std::decay_t<decltype(target)>;
+        if constexpr (std::is_same_v<Target, Choice>)
+          *target.index = position_of(target, text, what);
+        else if constexpr (std::is_same_v<Target, std::vector<double>*>)
+          *target = numbers_in_range(parameter, text, what);
+        else
+          *target = number_in_range<std::remove_pointer_t<Target>>(parameter, text, what);
       },
       parameter.value);
+}
+
+std::string choose_one_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  return "choose one of " + list;
 }
 
 const Parameter& find_parameter(const Parameters& parameters, const std::string& name,

@@ -7,14 +7,21 @@
 
 namespace smoothfem {
 
+/// One of several names; the field holds its position.
+struct Choice {
+  int* index;
+  std::vector<std::string> names;
+};
+
 /// A named parameter of a method: bound to the field that holds it, whose present value is the
 /// default until it is set. Read from the command line and study files, written to the results.
 struct Parameter {
   std::string name;         ///< as users write it, e.g. "lambda"
   std::string description;  ///< meaning, unit and source in one sentence
-  std::variant<double*, int*> value;
-  double lower = -std::numeric_limits<double>::infinity();  ///< smallest value allowed
-  double upper = std::numeric_limits<double>::infinity();   ///< largest value allowed
+  /// Lists are written with commas: "1, 0.25, 0".
+  std::variant<double*, int*, Choice, std::vector<double>*> value;
+  double lower = -std::numeric_limits<double>::infinity();  ///< smallest number allowed
+  double upper = std::numeric_limits<double>::infinity();   ///< largest number allowed
 };
 
 using Parameters = std::vector<Parameter>;
@@ -23,8 +30,11 @@ using Parameters = std::vector<Parameter>;
 std::string value_text(const Parameter& parameter);
 
 /// Sets a parameter from text. Throws InputError with `owner` in its sentence if the text is no
-/// number (or no integer where one is needed) or outside the range.
+/// number (or no integer where one is needed, or none of the names) or outside the range.
 void set_value(const Parameter& parameter, const std::string& text, const std::string& owner);
+
+/// "choose one of a, b, c", the end of a sentence that refuses a name.
+std::string choose_one_of(const std::vector<std::string>& names);
 
 /// The parameter of this name; throws InputError listing the names there are.
 const Parameter& find_parameter(const Parameters& parameters, const std::string& name,

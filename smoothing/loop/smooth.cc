@@ -4,6 +4,8 @@
 #include <chrono>
 
 #include "smoothing/loop/invalid_node_reset.h"
+#include "smoothing/mesh/reordering.h"
+#include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
@@ -23,23 +25,38 @@ class SmoothingClock {
 };
 
 /// Remembers the best mesh a stage has met, by the number its rule names.
+template <int dim>
 class BestMesh {
  public:
-  BestMesh(ResultMesh rule, const std::vector<Point<2>>& coordinates, const MeshQuality& quality)
+  BestMesh(ResultMesh rule, const std::vector<Point<dim>>& coordinates, const MeshQuality& quality)
       : rule_(rule) {
-    if (rule_ != ResultMesh::last) keep(coordinates, quality);
+    if (rule_ == ResultMesh::last) return;
+    best_ = number(quality);
+    coordinates_ = coordinates;
   }
 
-  /// True if this mesh is the new best.
-  bool offer(const std::vector<Point<2>>& coordinates, const MeshQuality& quality) {
-    if (rule_ == ResultMesh::last || quality.n_invalid > 0 || !(number(quality) > best_))
-      return false;
-    keep(coordinates, quality);
+  /// True if this mesh is the new best. moved: nodes that have moved since the last offer, null if
+  /// they are not known.
+  bool offer(const std::vector<Point<dim>>& coordinates, const MeshQuality& quality,
+             const std::vector<NodeIndex>* moved) {
+    if (rule_ == ResultMesh::last) return false;
+    if (moved)
+      moved_since_best_.insert(moved_since_best_.end(), moved->begin(), moved->end());
+    else
+      all_moved_ = true;
+    if (quality.n_invalid > 0 || !(number(quality) > best_)) return false;
+    best_ = number(quality);
+    if (all_moved_)
+      coordinates_ = coordinates;
+    else
+      for (const NodeIndex i : moved_since_best_) coordinates_[i] = coordinates[i];
+    moved_since_best_.clear();
+    all_moved_ = false;
     return true;
   }
 
   /// Puts the best mesh in place of the last one.
-  void restore(std::vector<Point<2>>& coordinates) {
+  void restore(std::vector<Point<dim>>& coordinates) {
     if (rule_ != ResultMesh::last) coordinates = std::move(coordinates_);
   }
 
@@ -47,59 +64,75 @@ class BestMesh {
   double number(const MeshQuality& quality) const {
     return rule_ == ResultMesh::best_q_mean ? quality.q_mean : quality.q_star_min;
   }
-  void keep(const std::vector<Point<2>>& coordinates, const MeshQuality& quality) {
-    best_ = number(quality);
-    coordinates_ = coordinates;
-  }
 
   ResultMesh rule_;
   double best_ = 0.0;
-  std::vector<Point<2>> coordinates_;
+  std::vector<Point<dim>> coordinates_;
+  std::vector<NodeIndex> moved_since_best_;
+  bool all_moved_ = false;
 };
 
-/// Over the edges of every cell: an inner edge counts twice, as in the thesis' stopping rule.
-double mean_edge_length(const PlanarMesh& mesh) {
+/// Over the edges of every cell: an inner edge counts once a cell, as in the thesis' stopping rule.
+template <int dim>
+double mean_edge_length(const Mesh<dim>& mesh) {
   double sum = 0.0;
+  std::size_t n_edges = 0;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
     const auto nodes = mesh.topology().cell_nodes(c);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      sum +=
-          (mesh.coordinates()[nodes[(k + 1) % nodes.size()]] - mesh.coordinates()[nodes[k]]).norm();
+    for_each_edge(dim, nodes.size(), [&](std::size_t a, std::size_t b) {
+      sum += (mesh.coordinates()[nodes[b]] - mesh.coordinates()[nodes[a]]).norm();
+      ++n_edges;
+    });
   }
-  return sum / static_cast<double>(mesh.topology().cells().n_entries());
+  return sum / static_cast<double>(n_edges);
+}
+
+template <int dim>
+bool any_stage(const Method<dim>& method, const auto& condition) {
+  return std::any_of(method.stages.begin(), method.stages.end(),
+                     [&](const auto& stage) { return condition(stage->rule()); });
 }
 
 /// The run of one method: what its stages share.
+template <int dim>
 class SmoothingRun {
  public:
   /// The initial quality costs a method time only if it looks at quality at all.
-  SmoothingRun(PlanarMesh& mesh, bool uses_quality, const Observer& observer)
-      : state_{mesh, {}}, observer_(observer) {
+  SmoothingRun(Mesh<dim>& mesh, const Method<dim>& method, const Observer<dim>& observer)
+      : users_mesh_(mesh), state_{mesh, {}}, observer_(observer) {
+    reorder(method);
+    const bool uses_quality =
+        any_stage(method, [](const auto& rule) { return rule.quality_use != QualityUse::none; });
     if (uses_quality) clock_.start();
     evaluate_quality();
     if (uses_quality) clock_.stop();
-    clock_.start();
-    mean_edge_length_ = mean_edge_length(state_.mesh);
-    clock_.stop();
+    if (any_stage(method, [](const auto& rule) {
+          return rule.criterion == StoppingCriterion::max_displacement;
+        })) {
+      clock_.start();
+      mean_edge_length_ = mean_edge_length(state_.mesh);
+      clock_.stop();
+    }
     observe("initial", 0, 0);
   }
 
-  StageResult run_stage(Smoother<2>& smoother) {
+  StageResult run_stage(Smoother<dim>& smoother) {
     const SmoothingRule rule = smoother.rule();
-    if (rule.needs_valid_mesh) require_valid(state_.mesh);
+    if (rule.needs_valid_mesh) require_valid(users_mesh());
     StageResult result{std::string(smoother.name()), 0};
     clock_.start();
     smoother.initialize(state_);
-    BestMesh best(rule.result, state_.mesh.coordinates(), quality_);
+    BestMesh<dim> best(rule.result, state_.mesh.coordinates(), quality_);
     clock_.stop();
     int n_without_best = 0;
     for (int i = 0; i < rule.max_iterations; ++i) {
       const MeshQuality before = quality_;
       clock_.start();
       const StepReport report = guarded_step(smoother, rule);
-      n_without_best = best.offer(state_.mesh.coordinates(), quality_) ? 0 : n_without_best + 1;
+      n_without_best =
+          best.offer(state_.mesh.coordinates(), quality_, report.moved) ? 0 : n_without_best + 1;
       clock_.stop();
-      if (rule.quality_use == QualityUse::none) evaluate_quality();
+      complete_quality(rule, report);
       result.iterations += report.n_counted;
       observe(result.name, result.iterations, report.n_reset);
       if (stops(rule, report, before, n_without_best)) break;
@@ -111,28 +144,63 @@ class SmoothingRun {
     return result;
   }
 
-  SmoothingResult finish(PlanarMesh& mesh, std::vector<StageResult> stages) {
-    mesh = std::move(state_.mesh);
+  SmoothingResult finish(std::vector<StageResult> stages) {
+    users_mesh_.coordinates() = users_mesh().coordinates();
     return {std::move(stages), clock_.seconds(), quality_};
   }
 
  private:
-  void evaluate_quality() {
-    compute_cell_mean_ratios(state_.mesh, state_.cell_quality);
-    quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
+  /// Small meshes stay in the cache in any order, and keep the sums of the published numbers.
+  void reorder(const Method<dim>& method) {
+    constexpr std::size_t min_nodes = 16384;
+    if (state_.mesh.n_nodes() < min_nodes ||
+        any_stage(method, [](const auto& rule) { return rule.needs_node_order; }))
+      return;
+    clock_.start();
+    reordering_.emplace(state_.mesh.topology());
+    Mesh<dim> ordered = reordering_->apply(state_.mesh);
+    clock_.stop();
+    scratch_.emplace(std::move(state_.mesh));
+    state_.mesh = std::move(ordered);
   }
 
+  /// The present mesh in the caller's order.
+  const Mesh<dim>& users_mesh() {
+    if (!reordering_) return state_.mesh;
+    reordering_->restore(state_.mesh.coordinates(), scratch_->coordinates());
+    return *scratch_;
+  }
+
+  void evaluate_quality() { quality_ = compute_cell_mean_ratios(state_.mesh, state_.cell_quality); }
+
   /// One step, and what has to follow it for the quality to be known and every cell valid.
-  StepReport guarded_step(Smoother<2>& smoother, const SmoothingRule& rule) {
+  StepReport guarded_step(Smoother<dim>& smoother, const SmoothingRule& rule) {
     if (rule.quality_use == QualityUse::loop) previous_ = state_.mesh.coordinates();
     StepReport report = smoother.step(state_);
     if (rule.quality_use == QualityUse::loop) {
-      compute_cell_mean_ratios(state_.mesh, state_.cell_quality);
-      report.n_reset += reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality);
+      evaluate_quality();
+      if (quality_.n_invalid > 0) {
+        report.n_reset += reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality);
+        quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
+      }
     }
-    if (rule.quality_use != QualityUse::none)
-      quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
+    if (rule.quality_use == QualityUse::smoother) {
+      if (report.quality)
+        quality_ = *report.quality;
+      else if (report.q_star_min)
+        quality_.q_star_min = *report.q_star_min;
+      else
+        quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
+    }
     return report;
+  }
+
+  /// What the method need not know, but whoever looks on wants to: not part of its time.
+  void complete_quality(const SmoothingRule& rule, const StepReport& report) {
+    if (rule.quality_use == QualityUse::none)
+      evaluate_quality();
+    else if (rule.quality_use == QualityUse::smoother && !report.quality && observer_)
+      quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
   }
 
   bool stops(const SmoothingRule& rule, const StepReport& report, const MeshQuality& before,
@@ -152,16 +220,19 @@ class SmoothingRun {
 
   void observe(const std::string& stage, std::size_t iteration, std::size_t n_reset) {
     if (observer_)
-      observer_({n_records_, stage, iteration, clock_.seconds(), quality_, n_reset}, state_.mesh);
+      observer_({n_records_, stage, iteration, clock_.seconds(), quality_, n_reset}, users_mesh());
     ++n_records_;
   }
 
-  SmoothingState<2> state_;
-  const Observer& observer_;
+  Mesh<dim>& users_mesh_;
+  SmoothingState<dim> state_;
+  const Observer<dim>& observer_;
+  std::optional<Reordering<dim>> reordering_;
+  std::optional<Mesh<dim>> scratch_;  ///< in the caller's order, where there is another one
   SmoothingClock clock_;
   MeshQuality quality_;
   double mean_edge_length_ = 0.0;
-  std::vector<Point<2>> previous_;
+  std::vector<Point<dim>> previous_;
   std::size_t n_records_ = 0;
 };
 
@@ -174,14 +245,16 @@ std::string SmoothingResult::iterations_text() const {
   return text;
 }
 
-SmoothingResult smooth(PlanarMesh& mesh, Method& method, const Observer& observer) {
-  const bool uses_quality =
-      std::any_of(method.stages.begin(), method.stages.end(),
-                  [](const auto& stage) { return stage->rule().quality_use != QualityUse::none; });
-  SmoothingRun run(mesh, uses_quality, observer);
+template <int dim>
+SmoothingResult smooth(Mesh<dim>& mesh, Method<dim>& method,
+                       const std::type_identity_t<Observer<dim>>& observer) {
+  SmoothingRun<dim> run(mesh, method, observer);
   std::vector<StageResult> stages;
   for (auto& stage : method.stages) stages.push_back(run.run_stage(*stage));
-  return run.finish(mesh, std::move(stages));
+  return run.finish(std::move(stages));
 }
+
+template SmoothingResult smooth(Mesh<2>&, Method<2>&, const Observer<2>&);
+template SmoothingResult smooth(Mesh<3>&, Method<3>&, const Observer<3>&);
 
 }  // namespace smoothfem

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "smoothing/loop/catalogue.h"
@@ -22,7 +23,8 @@ struct IterationRecord {
 
 /// Gets every iteration's numbers and mesh, the initial one included. Its time does not count as
 /// smoothing time. An exception it throws ends the run.
-using Observer = std::function<void(const IterationRecord&, const PlanarMesh&)>;
+template <int dim>
+using Observer = std::function<void(const IterationRecord&, const Mesh<dim>&)>;
 
 struct StageResult {
   std::string name;
@@ -40,8 +42,11 @@ struct SmoothingResult {
 
 /// Smooths a mesh in place by the stages of a method, one after the other, each from the result of
 /// the one before. Owns what methods share: putting back the nodes of invalid cells, the best mesh,
-/// stopping, timing (thesis, Chapter 4). Deterministic.
-/// Throws InputError if the method needs a valid mesh and `mesh` is not.
-SmoothingResult smooth(PlanarMesh& mesh, Method& method, const Observer& observer = {});
+/// stopping, timing (thesis, Chapter 4), and an order of large meshes that suits the memory: the
+/// caller and the observer see their own. Deterministic: the same bits for every number of threads.
+/// Throws InputError if the method needs a valid mesh and `mesh` is not. dim = 2 or 3.
+template <int dim>
+SmoothingResult smooth(Mesh<dim>& mesh, Method<dim>& method,
+                       const std::type_identity_t<Observer<dim>>& observer = {});
 
 }  // namespace smoothfem

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "smoothing/loop/parameter.h"
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 
@@ -44,6 +46,9 @@ struct SmoothingRule {
   double tolerance = 0.0;
   int patience = 0;
   int max_iterations = 10000;  ///< against methods that would never stop
+  /// The step visits nodes one after the other, so that its result depends on their order: the mesh
+  /// keeps the order it has.
+  bool needs_node_order = false;
 };
 
 /// What one step tells the loop.
@@ -52,10 +57,18 @@ struct StepReport {
   double max_displacement = 0.0;  ///< longest movement of a node; needed by that criterion only
   bool converged = false;
   std::size_t n_reset = 0;  ///< nodes (or elements) put back because a cell became invalid
+  /// From steps that keep the quality up to date themselves: the quality of the mesh, or just its
+  /// q*_min where the rest would take a look at every cell.
+  std::optional<MeshQuality> quality = {};
+  std::optional<double> q_star_min = {};
+  /// The nodes that the step has moved, where these are few; otherwise null. Valid until the next
+  /// step.
+  const std::vector<NodeIndex>* moved = nullptr;
 };
 
-/// One way to move the free nodes of a mesh. A new method is one file that derives from this class
-/// and registers itself (catalogue.h); the loop (smooth.h) does everything that methods share.
+/// One way to move the free nodes of a mesh. A new method is one file with a class template over
+/// the dimension that derives from this one and registers itself (catalogue.h); the loop (smooth.h)
+/// does everything that methods share. Steps may use several threads (parallel.h).
 template <int dim, int spacedim = dim>
 class Smoother {
  public:

@@ -3,93 +3,137 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "smoothing/mesh/lanes.h"
 
 namespace smoothfem {
 
-/// A cell's corners, gathered: spans of fixed extent for triangles and quadrilaterals (so that
-/// loops over them unroll), of dynamic extent for polygons. Calls visit(corners). x: of all nodes.
-template <class Visit>
-SMOOTHFEM_INLINE void with_corners(std::span<const NodeIndex> nodes, const std::vector<Point<2>>& x,
-                                   const Visit& visit) {
-  if (nodes.size() == 3) {
-    const std::array corners{vector_of(x[nodes[0]]), vector_of(x[nodes[1]]),
-                             vector_of(x[nodes[2]])};
-    visit(std::span<const Vector2<double>, 3>(corners));
-  } else if (nodes.size() == 4) {
-    const std::array corners{vector_of(x[nodes[0]]), vector_of(x[nodes[1]]), vector_of(x[nodes[2]]),
-                             vector_of(x[nodes[3]])};
-    visit(std::span<const Vector2<double>, 4>(corners));
-  } else {
-    std::vector<Vector2<double>> corners;
-    corners.reserve(nodes.size());
-    for (const NodeIndex node : nodes) corners.push_back(vector_of(x[node]));
-    visit(std::span<const Vector2<double>>(corners));
+/// The corners of n_lanes cells with n nodes each, given by their rows of nodes. place_of(node):
+/// its coordinates, by reference.
+template <std::size_t n, int dim, class PlaceOf>
+SMOOTHFEM_INLINE std::array<Vector<dim, Lanes>, n> gather_cells(
+    const PlaceOf& place_of, const std::array<const NodeIndex*, n_lanes>& rows) {
+  return [&]<std::size_t... k>(std::index_sequence<k...>) SMOOTHFEM_INLINE_LAMBDA {
+    return std::array<Vector<dim, Lanes>, n>{gather_corner<dim>(place_of, rows, k)...};
   }
+  (std::make_index_sequence<n>{});
+}
+
+/// The corners of n_lanes neighbouring cells with n nodes each. x: of all nodes.
+template <std::size_t n, int dim>
+SMOOTHFEM_INLINE std::array<Vector<dim, Lanes>, n> gather_block(const Point<dim>* x,
+                                                                const NodeIndex* nodes) {
+  const auto place_of = [x](NodeIndex node)
+                            SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return x[node]; };
+  return gather_cells<n, dim>(place_of, {nodes, nodes + n, nodes + 2 * n, nodes + 3 * n});
+}
+
+/// Calls visit with std::integral_constant<std::size_t, n> for the number of nodes of a cell where
+/// it is one of a fixed type, so that loops over them unroll; with 0 for polygons.
+template <int dim, class Visit>
+SMOOTHFEM_INLINE void with_cell_size(std::size_t n_nodes, const Visit& visit) {
+  if constexpr (dim == 2) {
+    if (n_nodes == 3)
+      visit(std::integral_constant<std::size_t, 3>{});
+    else if (n_nodes == 4)
+      visit(std::integral_constant<std::size_t, 4>{});
+    else
+      visit(std::integral_constant<std::size_t, 0>{});
+  } else {
+    if (n_nodes == 4)
+      visit(std::integral_constant<std::size_t, 4>{});
+    else if (n_nodes == 8)
+      visit(std::integral_constant<std::size_t, 8>{});
+    else if (n_nodes == 5)
+      visit(std::integral_constant<std::size_t, 5>{});
+    else
+      visit(std::integral_constant<std::size_t, 6>{});
+  }
+}
+
+/// A cell's corners, gathered: spans of fixed extent for cells of a fixed type, of dynamic extent
+/// for polygons. Calls visit(corners). place_of(node): its coordinates, by reference.
+template <int dim, class PlaceOf, class Visit>
+SMOOTHFEM_INLINE void with_corners_at(std::span<const NodeIndex> nodes, const PlaceOf& place_of,
+                                      const Visit& visit) {
+  with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
+    constexpr std::size_t n = decltype(size)::value;
+    if constexpr (n == 0) {
+      std::vector<Vector<dim, double>> corners;
+      corners.reserve(nodes.size());
+      for (const NodeIndex node : nodes) corners.push_back(vector_of(place_of(node)));
+      visit(std::span<const Vector<dim, double>>(corners));
+    } else {
+      std::array<Vector<dim, double>, n> corners;
+      for (std::size_t k = 0; k < n; ++k) corners[k] = vector_of(place_of(nodes[k]));
+      visit(std::span<const Vector<dim, double>, n>(corners));
+    }
+  });
+}
+
+/// The same with x: the coordinates of all nodes.
+template <int dim, class Visit>
+SMOOTHFEM_INLINE void with_corners(std::span<const NodeIndex> nodes,
+                                   const std::vector<Point<dim>>& x, const Visit& visit) {
+  with_corners_at<dim>(
+      nodes, [&](NodeIndex node) SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return x[node]; },
+      visit);
 }
 
 /// Room for as many points as `corners` has; calls visit(result).
-template <std::size_t extent, class Visit>
-SMOOTHFEM_INLINE void with_room_for_result(std::span<const Vector2<double>, extent> corners,
+template <class Point, std::size_t extent, class Visit>
+SMOOTHFEM_INLINE void with_room_for_result(std::span<const Point, extent> corners,
                                            const Visit& visit) {
   if constexpr (extent == std::dynamic_extent) {
-    std::vector<Vector2<double>> result(corners.size());
-    visit(std::span<Vector2<double>>(result));
+    std::vector<Point> result(corners.size());
+    visit(std::span<Point>(result));
   } else {
-    std::array<Vector2<double>, extent> result;
-    visit(std::span<Vector2<double>, extent>(result));
+    std::array<Point, extent> result;
+    visit(std::span<Point, extent>(result));
   }
 }
 
-/// The corners of n_lanes cells with n nodes each, given by their rows of nodes.
-template <std::size_t n>
-SMOOTHFEM_INLINE std::array<Vector2<Lanes>, n> gather_cells(
-    const Point<2>* x, const std::array<const NodeIndex*, n_lanes>& rows) {
-  if constexpr (n == 3)
-    return {gather_corner(x, rows, 0), gather_corner(x, rows, 1), gather_corner(x, rows, 2)};
-  else
-    return {gather_corner(x, rows, 0), gather_corner(x, rows, 1), gather_corner(x, rows, 2),
-            gather_corner(x, rows, 3)};
-}
-
-/// The corners of n_lanes neighbouring cells with n nodes each.
-template <std::size_t n>
-SMOOTHFEM_INLINE std::array<Vector2<Lanes>, n> gather_block(const Point<2>* x,
-                                                            const NodeIndex* nodes) {
-  return gather_cells<n>(x, {nodes, nodes + n, nodes + 2 * n, nodes + 3 * n});
-}
-
-/// Visits all cells in order: visit_block(cell, corners) with the corners of the n_lanes cells from
-/// `cell` on where these are all triangles or all quadrilaterals, visit_cell(cell, corners) for the
-/// rest. Fast for meshes whose types come in long runs.
-template <class VisitBlock, class VisitCell>
+/// Visits the cells first .. last-1 in order: visit_block(cell, corners) with the corners of the
+/// n_lanes cells from `cell` on where these are all of one fixed type, visit_cell(cell, corners)
+/// for the rest. Fast for meshes whose types come in long runs.
+template <int dim, class VisitBlock, class VisitCell>
 SMOOTHFEM_INLINE void for_each_block(const Topology& topology,
-                                     const std::vector<Point<2>>& coordinates,
-                                     const VisitBlock& visit_block, const VisitCell& visit_cell) {
+                                     const std::vector<Point<dim>>& coordinates, CellIndex first,
+                                     CellIndex last, const VisitBlock& visit_block,
+                                     const VisitCell& visit_cell) {
   const auto& cells = topology.cells();
-  const auto* x = coordinates.data();
-  const auto same_size = [&](std::size_t first, std::size_t n) {
-    if (first + n_lanes > cells.size()) return false;
-    for (std::size_t l = 1; l < n_lanes; ++l)
-      if (cells[first + l].size() != n) return false;
-    return true;
-  };
-  for (CellIndex c = 0; c < cells.size();) {
+  const Point<dim>* const x = coordinates.data();
+  for (CellIndex c = first; c < last;) {
     const auto nodes = cells[c];
-    if (nodes.size() == 3 && same_size(c, 3)) {
-      visit_block(c, gather_block<3>(x, nodes.data()));
-      c += n_lanes;
-    } else if (nodes.size() == 4 && same_size(c, 4)) {
-      visit_block(c, gather_block<4>(x, nodes.data()));
-      c += n_lanes;
-    } else {
-      with_corners(nodes, coordinates,
-                   [&](auto corners) SMOOTHFEM_INLINE_LAMBDA { visit_cell(c, corners); });
-      ++c;
-    }
+    bool same_size = c + n_lanes <= last;
+    for (std::size_t l = 1; l < n_lanes && same_size; ++l)
+      same_size = cells[c + l].size() == nodes.size();
+    bool done = false;
+    if (same_size)
+      with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
+        constexpr std::size_t n = decltype(size)::value;
+        if constexpr (n != 0) {
+          visit_block(c, gather_block<n, dim>(x, nodes.data()));
+          done = true;
+        }
+      });
+    if (!done)
+      with_corners<dim>(nodes, coordinates,
+                        [&](auto corners) SMOOTHFEM_INLINE_LAMBDA { visit_cell(c, corners); });
+    c += done ? n_lanes : 1;
   }
+}
+
+/// The same for all cells of a mesh.
+template <int dim, class VisitBlock, class VisitCell>
+SMOOTHFEM_INLINE void for_each_block(const Topology& topology,
+                                     const std::vector<Point<dim>>& coordinates,
+                                     const VisitBlock& visit_block, const VisitCell& visit_cell) {
+  for_each_block<dim>(topology, coordinates, 0, static_cast<CellIndex>(topology.n_cells()),
+                      visit_block, visit_cell);
 }
 
 }  // namespace smoothfem

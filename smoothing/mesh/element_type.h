@@ -1,13 +1,23 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace smoothfem {
 
-/// Shape of a cell. A polygon is any planar cell with five or more nodes; its number of nodes is
-/// the length of its row in the topology. Nodes of planar cells run counterclockwise.
-enum class ElementType : std::uint8_t { triangle, quadrilateral, polygon };
+/// Shape of a cell. A polygon is any planar cell with five or more nodes. Dimension and number of
+/// nodes tell the types apart. Nodes of planar cells run counterclockwise; the order of those of
+/// volume cells is drawn in volume_elements.h.
+enum class ElementType : std::uint8_t {
+  triangle,
+  quadrilateral,
+  polygon,
+  tetrahedron,
+  pyramid,
+  prism,
+  hexahedron
+};
 
 constexpr std::string_view name_of(ElementType type) {
   switch (type) {
@@ -17,15 +27,33 @@ constexpr std::string_view name_of(ElementType type) {
       return "quadrilateral";
     case ElementType::polygon:
       return "polygon";
+    case ElementType::tetrahedron:
+      return "tetrahedron";
+    case ElementType::pyramid:
+      return "pyramid";
+    case ElementType::prism:
+      return "prism";
+    case ElementType::hexahedron:
+      return "hexahedron";
   }
   return "unknown";
 }
 
-/// Type of the planar cell with n_nodes >= 3 nodes.
-constexpr ElementType planar_element_type(std::size_t n_nodes) {
-  return n_nodes == 3   ? ElementType::triangle
-         : n_nodes == 4 ? ElementType::quadrilateral
-                        : ElementType::polygon;
+/// True if a cell of a mesh of this dimension (2 or 3) can have n_nodes nodes.
+constexpr bool is_cell_size(int dim, std::size_t n_nodes) {
+  return dim == 2 ? n_nodes >= 3 : (n_nodes >= 4 && n_nodes <= 6) || n_nodes == 8;
+}
+
+/// Type of the cell with n_nodes nodes; is_cell_size(dim, n_nodes) must hold.
+constexpr ElementType element_type(int dim, std::size_t n_nodes) {
+  if (dim == 2)
+    return n_nodes == 3   ? ElementType::triangle
+           : n_nodes == 4 ? ElementType::quadrilateral
+                          : ElementType::polygon;
+  return n_nodes == 4   ? ElementType::tetrahedron
+         : n_nodes == 5 ? ElementType::pyramid
+         : n_nodes == 6 ? ElementType::prism
+                        : ElementType::hexahedron;
 }
 
 }  // namespace smoothfem

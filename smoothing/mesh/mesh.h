@@ -19,9 +19,13 @@ class Mesh {
  public:
   using PointType = Point<spacedim>;
 
-  /// coordinates: topology->n_nodes() finite points. Throws InputError otherwise, naming the node.
+  /// topology: of dimension dim. coordinates: topology->n_nodes() finite points. Throws InputError
+  /// otherwise, naming the node.
   Mesh(std::shared_ptr<const Topology> topology, std::vector<PointType> coordinates)
       : topology_(std::move(topology)), coordinates_(std::move(coordinates)) {
+    if (topology_->dimension() != dim)
+      throw InputError("a mesh of dimension " + std::to_string(dim) +
+                       " cannot have cells of dimension " + std::to_string(topology_->dimension()));
     if (coordinates_.size() != topology_->n_nodes())
       throw InputError("the mesh has " + std::to_string(topology_->n_nodes()) + " nodes but " +
                        std::to_string(coordinates_.size()) + " coordinates");
@@ -46,5 +50,6 @@ class Mesh {
 };
 
 using PlanarMesh = Mesh<2>;
+using VolumeMesh = Mesh<3>;
 
 }  // namespace smoothfem

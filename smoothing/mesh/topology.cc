@@ -1,65 +1,114 @@
 #include "smoothing/mesh/topology.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
 #include <tuple>
 
 #include "smoothing/mesh/input_error.h"
+#include "smoothing/mesh/parallel.h"
+#include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// A cell's edge seen from its smaller node, so that the two cells of an edge meet when sorted.
-struct CellEdge {
-  NodeIndex lower, upper;
-  CellIndex cell;
-  std::uint32_t position;  ///< the edge leaves the cell's node at this position
+/// Nodes or cells that one thread takes at a time.
+constexpr std::size_t grain = 4096;
 
-  bool same_nodes(const CellEdge& other) const {
-    return lower == other.lower && upper == other.upper;
-  }
-};
-
-std::vector<CellEdge> sorted_edges(const CompressedRows<NodeIndex>& cells) {
-  std::vector<CellEdge> edges;
-  edges.reserve(cells.n_entries());
-  for (CellIndex c = 0; c < cells.size(); ++c) {
-    const auto nodes = cells[c];
-    for (std::uint32_t k = 0; k < nodes.size(); ++k) {
-      const auto [lower, upper] = std::minmax(nodes[k], nodes[(k + 1) % nodes.size()]);
-      edges.push_back({lower, upper, c, k});
+/// Rows made one after the other, but in parallel: make_row(i, row) fills an empty row.
+template <class T, class MakeRow>
+CompressedRows<T> make_rows(std::size_t n_rows, const MakeRow& make_row) {
+  std::vector<std::vector<T>> parts((n_rows + grain - 1) / grain);
+  std::vector<std::size_t> offsets(n_rows + 1, 0);
+  parallel_for(parts.size(), [&](std::size_t part) {
+    std::vector<T> row;
+    for (std::size_t i = part * grain; i < std::min(n_rows, (part + 1) * grain); ++i) {
+      row.clear();
+      make_row(i, row);
+      parts[part].insert(parts[part].end(), row.begin(), row.end());
+      offsets[i + 1] = row.size();
     }
-  }
-  std::sort(edges.begin(), edges.end(), [](const CellEdge& a, const CellEdge& b) {
-    return std::tie(a.lower, a.upper, a.cell) < std::tie(b.lower, b.upper, b.cell);
   });
-  return edges;
+  for (std::size_t i = 0; i < n_rows; ++i) offsets[i + 1] += offsets[i];
+  std::vector<T> entries(offsets.back());
+  parallel_for(parts.size(), [&](std::size_t part) {
+    std::copy(parts[part].begin(), parts[part].end(), entries.begin() + offsets[part * grain]);
+    std::vector<T>().swap(parts[part]);
+  });
+  return {std::move(offsets), std::move(entries)};
 }
 
-/// Rows of values by key: row k holds the values of all pairs (k, value), in the order of the
-/// pairs.
-template <class T>
-CompressedRows<T> group_by_key(std::size_t n_rows,
-                               const std::vector<std::pair<NodeIndex, T>>& pairs) {
-  std::vector<std::size_t> offsets(n_rows + 1, 0);
-  for (const auto& [key, value] : pairs) ++offsets[key + 1];
-  for (std::size_t i = 0; i < n_rows; ++i) offsets[i + 1] += offsets[i];
-  std::vector<T> entries(pairs.size());
+/// For each node the cells that use it, ascending.
+CompressedRows<CellIndex> cells_by_node(std::size_t n_nodes,
+                                        const CompressedRows<NodeIndex>& cells) {
+  std::vector<std::size_t> offsets(n_nodes + 1, 0);
+  for (const NodeIndex node : cells.entries()) ++offsets[node + 1];
+  for (std::size_t i = 0; i < n_nodes; ++i) offsets[i + 1] += offsets[i];
+  std::vector<CellIndex> entries(cells.n_entries());
   auto next = offsets;
-  for (const auto& [key, value] : pairs) entries[next[key]++] = value;
+  for (CellIndex c = 0; c < cells.size(); ++c)
+    for (const NodeIndex node : cells[c]) entries[next[node]++] = c;
   return {std::move(offsets), std::move(entries)};
+}
+
+/// A cell's facet: its nodes, sorted, behind the smallest one (which tells where it is looked for).
+struct FacetKey {
+  std::array<NodeIndex, 3> others;
+  CellIndex cell;
+  std::uint32_t position;
+
+  auto order() const { return std::tie(others[0], others[1], others[2], cell); }
+  bool same_nodes(const FacetKey& other) const { return others == other.others; }
+};
+
+/// Facets whose smallest node is `node`, sorted so that those with the same nodes meet.
+void facets_of(NodeIndex node, int dim, std::span<const CellIndex> cells,
+               const CompressedRows<NodeIndex>& all_cells, std::vector<FacetKey>& facets) {
+  constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
+  facets.clear();
+  for (const CellIndex c : cells) {
+    const auto nodes = all_cells[c];
+    std::uint32_t position = 0;
+    for_each_facet(dim, nodes.size(), [&](std::span<const std::size_t> at) {
+      std::array<NodeIndex, 4> sorted{none, none, none, none};
+      for (std::size_t k = 0; k < at.size(); ++k) sorted[k] = nodes[at[k]];
+      if (*std::min_element(sorted.begin(), sorted.end()) == node) {
+        std::sort(sorted.begin(), sorted.end());
+        facets.push_back({{sorted[1], sorted[2], sorted[3]}, c, position});
+      }
+      ++position;
+    });
+  }
+  std::sort(facets.begin(), facets.end(),
+            [](const FacetKey& a, const FacetKey& b) { return a.order() < b.order(); });
+}
+
+[[noreturn]] void refuse_facet(int dim, NodeIndex node, const FacetKey& facet, std::size_t count) {
+  std::string nodes = std::to_string(node);
+  std::vector<NodeIndex> others;
+  for (const NodeIndex other : facet.others)
+    if (other != std::numeric_limits<NodeIndex>::max()) others.push_back(other);
+  for (std::size_t k = 0; k < others.size(); ++k)
+    nodes += (k + 1 < others.size() ? ", " : " and ") + std::to_string(others[k]);
+  throw CellError(facet.cell, "is cell number " + std::to_string(count) + " at the " +
+                                  (dim == 2 ? "edge" : "face") + " between nodes " + nodes +
+                                  (dim == 2 ? "; at most two planar cells share an edge"
+                                            : "; at most two volume cells share a face"));
 }
 
 }  // namespace
 
-Topology::Topology(std::size_t n_nodes, CompressedRows<NodeIndex> cells,
+Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
                    std::optional<std::vector<bool>> fixed, MeshLabels labels)
-    : cells_(std::move(cells)), labels_(std::move(labels)) {
+    : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
   check_cells(n_nodes);
-  build_node_cells(n_nodes);
-  build_edges(n_nodes);
+  node_cells_ = cells_by_node(n_nodes, cells_);
+  build_neighbours();
+  build_boundary();
   build_fixed(fixed);
+  build_blocks();
 }
 
 void Topology::check_cells(std::size_t n_nodes) const {
@@ -67,9 +116,10 @@ void Topology::check_cells(std::size_t n_nodes) const {
   std::vector<NodeIndex> sorted;
   for (CellIndex c = 0; c < cells_.size(); ++c) {
     const auto nodes = cells_[c];
-    if (nodes.size() < 3)
-      throw CellError(
-          c, "has " + std::to_string(nodes.size()) + " nodes; a planar cell needs at least three");
+    if (!is_cell_size(dim_, nodes.size()))
+      throw CellError(c, "has " + std::to_string(nodes.size()) + " nodes; " +
+                             (dim_ == 2 ? "a planar cell needs at least three"
+                                        : "a volume cell has 4, 5, 6 or 8"));
     sorted.assign(nodes.begin(), nodes.end());
     std::sort(sorted.begin(), sorted.end());
     if (sorted.back() >= n_nodes)
@@ -82,46 +132,71 @@ void Topology::check_cells(std::size_t n_nodes) const {
   }
 }
 
-void Topology::build_node_cells(std::size_t n_nodes) {
-  std::vector<std::pair<NodeIndex, CellIndex>> pairs;
-  pairs.reserve(cells_.n_entries());
-  for (CellIndex c = 0; c < cells_.size(); ++c)
-    for (const NodeIndex node : cells_[c]) pairs.emplace_back(node, c);
-  node_cells_ = group_by_key(n_nodes, pairs);
+void Topology::build_neighbours() {
+  node_neighbours_ =
+      make_rows<NodeIndex>(n_nodes(), [&](std::size_t node, std::vector<NodeIndex>& row) {
+        for (const CellIndex c : node_cells_[node]) {
+          const auto nodes = cells_[c];
+          for_each_edge(dim_, nodes.size(), [&](std::size_t a, std::size_t b) {
+            if (nodes[a] == node) row.push_back(nodes[b]);
+            if (nodes[b] == node) row.push_back(nodes[a]);
+          });
+        }
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+      });
 }
 
-void Topology::build_edges(std::size_t n_nodes) {
-  const auto edges = sorted_edges(cells_);
-  std::vector<std::pair<NodeIndex, NodeIndex>> neighbours;
-  std::vector<CellEdge> boundary;
-  for (std::size_t first = 0; first < edges.size();) {
-    std::size_t last = first + 1;
-    while (last < edges.size() && edges[last].same_nodes(edges[first])) ++last;
-    const auto& edge = edges[first];
-    if (last - first > 2)
-      throw CellError(edges[last - 1].cell,
-                      "is cell number " + std::to_string(last - first) +
-                          " at the edge between nodes " + std::to_string(edge.lower) + " and " +
-                          std::to_string(edge.upper) + "; at most two planar cells share an edge");
-    if (last - first == 1) boundary.push_back(edge);
-    neighbours.emplace_back(edge.lower, edge.upper);
-    ++n_edges_;
-    first = last;
-  }
-  const std::size_t n_half = neighbours.size();
-  for (std::size_t e = 0; e < n_half; ++e)
-    neighbours.emplace_back(neighbours[e].second, neighbours[e].first);
-  std::sort(neighbours.begin(), neighbours.end());
-  node_neighbours_ = group_by_key(n_nodes, neighbours);
-
-  std::sort(boundary.begin(), boundary.end(), [](const CellEdge& a, const CellEdge& b) {
-    return std::tie(a.cell, a.position) < std::tie(b.cell, b.position);
+void Topology::build_boundary() {
+  struct Part {
+    std::vector<std::pair<CellIndex, std::uint32_t>> boundary;
+    std::size_t n_facets = 0;
+    bool bad = false;
+  };
+  // Each facet is looked at by the part of its smallest node.
+  std::vector<Part> parts((n_nodes() + grain - 1) / grain);
+  const auto visit = [&](Part& part, NodeIndex node, std::vector<FacetKey>& facets, bool refuse) {
+    facets_of(node, dim_, node_cells_[node], cells_, facets);
+    for (std::size_t first = 0; first < facets.size();) {
+      std::size_t last = first + 1;
+      while (last < facets.size() && facets[last].same_nodes(facets[first])) ++last;
+      if (last - first > 2) {
+        part.bad = true;
+        if (refuse) refuse_facet(dim_, node, facets[last - 1], last - first);
+      }
+      if (last - first == 1) part.boundary.emplace_back(facets[first].cell, facets[first].position);
+      ++part.n_facets;
+      first = last;
+    }
+  };
+  parallel_for(parts.size(), [&](std::size_t p) {
+    std::vector<FacetKey> facets;
+    for (std::size_t i = p * grain; i < std::min(n_nodes(), (p + 1) * grain); ++i)
+      visit(parts[p], static_cast<NodeIndex>(i), facets, false);
   });
-  on_boundary_.assign(n_nodes, false);
-  for (const auto& edge : boundary) {
-    const auto nodes = cells_[edge.cell];
-    boundary_edges_.emplace_back(nodes[edge.position], nodes[(edge.position + 1) % nodes.size()]);
-    on_boundary_[edge.lower] = on_boundary_[edge.upper] = true;
+  std::vector<std::pair<CellIndex, std::uint32_t>> boundary;
+  std::vector<FacetKey> facets;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].bad)  // once more for the sentence, from where it can be thrown
+      for (std::size_t i = p * grain; i < std::min(n_nodes(), (p + 1) * grain); ++i)
+        visit(parts[p], static_cast<NodeIndex>(i), facets, true);
+    boundary.insert(boundary.end(), parts[p].boundary.begin(), parts[p].boundary.end());
+    n_facets_ += parts[p].n_facets;
+  }
+  std::sort(boundary.begin(), boundary.end());
+
+  on_boundary_.assign(n_nodes(), false);
+  std::vector<NodeIndex> row;
+  for (const auto& [cell, wanted] : boundary) {
+    const auto nodes = cells_[cell];
+    std::uint32_t position = 0;
+    for_each_facet(dim_, nodes.size(), [&](std::span<const std::size_t> at) {
+      if (position++ != wanted) return;
+      row.clear();
+      for (const std::size_t k : at) row.push_back(nodes[k]);
+    });
+    boundary_facets_.append(row);
+    for (const NodeIndex node : row) on_boundary_[node] = true;
   }
 }
 
@@ -142,6 +217,60 @@ void Topology::build_fixed(const std::optional<std::vector<bool>>& fixed) {
     cell_has_free_node_[c] =
         std::any_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return !fixed_[i]; });
   }
+}
+
+void Topology::build_blocks() {
+  constexpr std::size_t nodes_a_block = 8192;  // their sums fit the cache of one core
+  const std::size_t n_blocks =
+      std::min(std::max<std::size_t>(1, n_nodes() / nodes_a_block), n_cells());
+  for (std::size_t b = 0; b < n_blocks; ++b) {
+    CellBlock block{static_cast<CellIndex>(n_cells() * b / n_blocks),
+                    static_cast<CellIndex>(n_cells() * (b + 1) / n_blocks),
+                    static_cast<NodeIndex>(n_nodes()), 0};
+    for (CellIndex c = block.first; c < block.last; ++c)
+      for (const NodeIndex node : cells_[c]) {
+        block.first_node = std::min(block.first_node, node);
+        block.last_node = std::max(block.last_node, node + 1);
+      }
+    blocks_.push_back(block);
+  }
+}
+
+std::shared_ptr<const Topology> Topology::reordered(
+    const std::vector<NodeIndex>& node_order, const std::vector<CellIndex>& cell_order) const {
+  std::vector<NodeIndex> new_node(n_nodes());
+  for (NodeIndex i = 0; i < n_nodes(); ++i) new_node[node_order[i]] = i;
+  std::vector<CellIndex> new_cell(n_cells());
+  for (CellIndex c = 0; c < n_cells(); ++c) new_cell[cell_order[c]] = c;
+
+  std::shared_ptr<Topology> result(new Topology);
+  result->dim_ = dim_;
+  const auto mapped = [](const auto& rows, const auto& order, const auto& new_index, bool sorted) {
+    using Index = typename std::decay_t<decltype(new_index)>::value_type;
+    return make_rows<Index>(order.size(), [&](std::size_t i, std::vector<Index>& row) {
+      for (const Index old : rows[order[i]]) row.push_back(new_index[old]);
+      if (sorted) std::sort(row.begin(), row.end());
+    });
+  };
+  result->cells_ = mapped(cells_, cell_order, new_node, false);
+  result->node_cells_ = mapped(node_cells_, node_order, new_cell, true);
+  result->node_neighbours_ = mapped(node_neighbours_, node_order, new_node, true);
+  result->n_facets_ = n_facets_;
+  result->on_boundary_.resize(n_nodes());
+  std::vector<bool> fixed(n_nodes());
+  for (NodeIndex i = 0; i < n_nodes(); ++i) {
+    result->on_boundary_[i] = on_boundary_[node_order[i]];
+    fixed[i] = is_fixed(node_order[i]);
+  }
+  std::vector<NodeIndex> row;
+  for (std::size_t f = 0; f < boundary_facets_.size(); ++f) {
+    row.clear();
+    for (const NodeIndex node : boundary_facets_[f]) row.push_back(new_node[node]);
+    result->boundary_facets_.append(row);
+  }
+  result->build_fixed(fixed);
+  result->build_blocks();
+  return result;
 }
 
 }  // namespace smoothfem

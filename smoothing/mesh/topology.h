@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,34 +17,47 @@ namespace smoothfem {
 using NodeIndex = std::uint32_t;
 using CellIndex = std::uint32_t;
 
-/// What a file says about cells besides their nodes; carried from input to output unchanged.
+/// What a file says about nodes and cells besides their places; carried from input to output
+/// unchanged.
 struct MeshLabels {
   std::vector<int> cell_tags;        ///< physical tag of each cell; empty if the file has none
-  CompressedRows<NodeIndex> facets;  ///< labelled boundary entities (edges of planar meshes)
+  CompressedRows<NodeIndex> facets;  ///< labelled edges of planar meshes, faces of volume meshes
   std::vector<int> facet_tags;       ///< physical tag of each facet
   std::map<std::pair<int, int>, std::string> names;  ///< (dimension, tag) -> physical name
+  std::vector<std::size_t> node_ids;  ///< the file's number of each node; empty if it has none
+  std::vector<std::size_t> cell_ids;  ///< the file's number of each cell; empty if it has none
 
   bool operator==(const MeshLabels&) const = default;
 };
 
-/// The connectivity of a planar mesh: which nodes make which cell, and everything that follows
-/// from it alone. Immutable. All adjacency rows are sorted ascending, so sums over them have one
-/// order.
+/// Cells that follow each other, and the nodes they use: parallel loops over cells take a block a
+/// time. How many there are depends on the mesh alone, never on the number of threads.
+struct CellBlock {
+  CellIndex first, last;            ///< cells first .. last - 1
+  NodeIndex first_node, last_node;  ///< all their nodes are in first_node .. last_node - 1
+};
+
+/// The connectivity of a planar or a volume mesh: which nodes make which cell, and everything that
+/// follows from it alone. Immutable. All adjacency rows are sorted ascending, so sums over them
+/// have one order.
 class Topology {
  public:
-  /// cells: one row of node indices a cell, counterclockwise, at least three, all different and
-  /// below n_nodes. fixed: n_nodes flags of nodes that smoothing must not move; without it the
-  /// boundary nodes are fixed. Nodes that no cell uses are always fixed. Throws InputError naming
-  /// the first cell that breaks this, or an edge with more than two cells.
-  Topology(std::size_t n_nodes, CompressedRows<NodeIndex> cells,
+  /// dim: 2 (cells with three and more nodes, counterclockwise) or 3 (4, 5, 6 or 8 nodes in the
+  /// order of volume_elements.h). cells: one row of node indices a cell, all different and below
+  /// n_nodes. fixed: n_nodes flags of nodes that smoothing must not move; without it the boundary
+  /// nodes are fixed. Nodes that no cell uses are always fixed. Throws InputError naming the first
+  /// cell that breaks this, or a facet with more than two cells.
+  Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
            std::optional<std::vector<bool>> fixed = std::nullopt, MeshLabels labels = {});
 
+  int dimension() const { return dim_; }
   std::size_t n_nodes() const { return node_cells_.size(); }
   std::size_t n_cells() const { return cells_.size(); }
 
   const CompressedRows<NodeIndex>& cells() const { return cells_; }
   std::span<const NodeIndex> cell_nodes(CellIndex cell) const { return cells_[cell]; }
-  ElementType cell_type(CellIndex cell) const { return planar_element_type(cells_[cell].size()); }
+  ElementType cell_type(CellIndex cell) const { return element_type(dim_, cells_[cell].size()); }
+  const std::vector<CellBlock>& blocks() const { return blocks_; }
 
   /// Cells that use a node.
   std::span<const CellIndex> node_cells(NodeIndex node) const { return node_cells_[node]; }
@@ -51,14 +65,14 @@ class Topology {
   std::span<const NodeIndex> node_neighbours(NodeIndex node) const {
     return node_neighbours_[node];
   }
+  std::size_t n_edges() const { return node_neighbours_.n_entries() / 2; }
 
-  /// Edges with one cell, as (from, to) in that cell's direction, ordered by cell and position in
-  /// it.
-  const std::vector<std::pair<NodeIndex, NodeIndex>>& boundary_edges() const {
-    return boundary_edges_;
-  }
-  std::size_t n_edges() const { return n_edges_; }
-  /// True for nodes of boundary edges.
+  /// Facets (sides of planar cells, faces of volume cells) with one cell, as that cell's nodes in
+  /// its direction, ordered by cell and position in it.
+  const CompressedRows<NodeIndex>& boundary_facets() const { return boundary_facets_; }
+  /// Number of facets, inner and boundary ones.
+  std::size_t n_facets() const { return n_facets_; }
+  /// True for nodes of boundary facets.
   const std::vector<bool>& on_boundary() const { return on_boundary_; }
 
   bool is_fixed(NodeIndex node) const { return fixed_[node] != 0; }
@@ -68,22 +82,32 @@ class Topology {
 
   const MeshLabels& labels() const { return labels_; }
 
+  /// The same mesh in another order: node i and cell c of the result are the nodes node_order[i]
+  /// and the cell cell_order[c] of this one. Nodes keep their place in their cell. Without labels.
+  std::shared_ptr<const Topology> reordered(const std::vector<NodeIndex>& node_order,
+                                            const std::vector<CellIndex>& cell_order) const;
+
  private:
+  Topology() = default;
   void check_cells(std::size_t n_nodes) const;
   void build_node_cells(std::size_t n_nodes);
-  void build_edges(std::size_t n_nodes);
+  void build_neighbours();
+  void build_boundary();
   void build_fixed(const std::optional<std::vector<bool>>& fixed);
+  void build_blocks();
 
+  int dim_ = 2;
   CompressedRows<NodeIndex> cells_;
   MeshLabels labels_;
   CompressedRows<CellIndex> node_cells_;
   CompressedRows<NodeIndex> node_neighbours_;
-  std::vector<std::pair<NodeIndex, NodeIndex>> boundary_edges_;
-  std::size_t n_edges_ = 0;
+  CompressedRows<NodeIndex> boundary_facets_;
+  std::size_t n_facets_ = 0;
   std::vector<bool> on_boundary_;
   std::vector<std::uint8_t> fixed_;
   std::vector<NodeIndex> free_nodes_;
   std::vector<std::uint8_t> cell_has_free_node_;
+  std::vector<CellBlock> blocks_;
 };
 
 }  // namespace smoothfem

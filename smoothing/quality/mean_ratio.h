@@ -4,8 +4,10 @@
 #include <numbers>
 #include <span>
 
+#include "smoothing/mesh/inverse_root.h"
 #include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
@@ -58,7 +60,52 @@ SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector2<Real>, extent> corners)
   return all_positive > 0.0 ? sum / static_cast<double>(n) : Real{};
 }
 
+/// det(S) and |S|^2 of one corner of a volume cell, S = D W^-1: D has the columns a, b, c (edges
+/// from the corner to its neighbours), W the same of the regular element.
+template <class Real>
+struct CornerShape {
+  Real determinant, squared_norm;
+
+  SMOOTHFEM_INLINE CornerShape(const RegularSimplex& regular, Vector3<Real> a, Vector3<Real> b,
+                               Vector3<Real> c) {
+    const auto& g = regular.inverse_gram;
+    determinant = (1.0 / regular.determinant) * smoothfem::determinant(a, b, c);
+    squared_norm =
+        g[0][0] * squared_length(a) + g[1][1] * squared_length(b) + g[2][2] * squared_length(c);
+    if (g[0][1] != 0.0) squared_norm += (2.0 * g[0][1]) * dot(a, b);
+    if (g[0][2] != 0.0) squared_norm += (2.0 * g[0][2]) * dot(a, c);
+    if (g[1][2] != 0.0) squared_norm += (2.0 * g[1][2]) * dot(b, c);
+  }
+};
+
+/// The shape of corner k of the volume cell with these nodes.
+template <class Real, std::size_t n>
+SMOOTHFEM_INLINE CornerShape<Real> corner_shape(std::span<const Vector3<Real>, n> nodes,
+                                                std::size_t k) {
+  const LocalSimplex& corner = VolumeElement<n>::corners[k];
+  const auto here = nodes[corner[0]];
+  return {VolumeElement<n>::regular, nodes[corner[1]] - here, nodes[corner[2]] - here,
+          nodes[corner[3]] - here};
+}
+
+/// Mean ratio quality number of a volume cell (thesis, Definition 3.2): the mean of 3 det(S)^(2/3)
+/// / |S|^2 over its corners, of which a tetrahedron counts as one and a pyramid has the four of its
+/// base. In (0, 1], 1 exactly (to rounding) for regular cells, invariant under similarity. 0 for an
+/// invalid cell: one where a corner has det(D) <= 0 (or is not a number). n = 4, 5, 6 or 8 nodes.
+template <class Real, std::size_t n>
+SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {
+  constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
+  Real sum{}, all_positive = Real{} + 1.0;
+  for (std::size_t k = 0; k < n_corners; ++k) {
+    const CornerShape<Real> shape = corner_shape(nodes, k);
+    all_positive = shape.determinant > 0.0 ? all_positive : Real{};
+    sum += shape.determinant * inverse_root<3>(shape.determinant) / shape.squared_norm;
+  }
+  return all_positive > 0.0 ? sum * (3.0 / static_cast<double>(n_corners)) : Real{};
+}
+
 /// The same for a cell of a mesh.
 double cell_mean_ratio(const PlanarMesh& mesh, CellIndex cell);
+double cell_mean_ratio(const VolumeMesh& mesh, CellIndex cell);
 
 }  // namespace smoothfem

@@ -5,49 +5,106 @@
 #include <sstream>
 
 #include "smoothing/mesh/cell_blocks.h"
+#include "smoothing/mesh/cell_size.h"
+#include "smoothing/mesh/parallel.h"
 #include "smoothing/quality/mean_ratio.h"
 
 namespace smoothfem {
 
-std::vector<double> cell_mean_ratios(const PlanarMesh& mesh) {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+/// Quality of some cells: what MeshQuality is made of.
+struct PartialQuality {
+  double q_min = none, q_star_min = none, sum = 0.0;
+  std::size_t n_invalid = 0;
+
+  void add(const PartialQuality& other) {
+    q_min = std::min(q_min, other.q_min);
+    q_star_min = std::min(q_star_min, other.q_star_min);
+    sum += other.sum;
+    n_invalid += other.n_invalid;
+  }
+};
+
+PartialQuality quality_of(const Topology& topology, std::span<const double> cell_quality,
+                          const CellBlock& block) {
+  PartialQuality result;
+  for (CellIndex c = block.first; c < block.last; ++c) {
+    const double q = cell_quality[c];
+    result.q_min = q < result.q_min ? q : result.q_min;
+    const double free_q = topology.has_free_node(c) ? q : none;
+    result.q_star_min = free_q < result.q_star_min ? free_q : result.q_star_min;
+    result.sum += q;
+    result.n_invalid += q > 0.0 ? 0 : 1;
+  }
+  return result;
+}
+
+/// Block by block, so that the sum has one order.
+MeshQuality quality_of_all(const std::vector<PartialQuality>& blocks, std::size_t n_cells) {
+  PartialQuality all;
+  for (const PartialQuality& block : blocks) all.add(block);
+  return {.q_min = all.q_min,
+          .q_star_min = all.q_star_min == none ? all.q_min : all.q_star_min,
+          .q_mean = all.sum / static_cast<double>(n_cells),
+          .n_invalid = all.n_invalid};
+}
+
+template <int dim>
+SMOOTHFEM_INLINE void compute_block(const Mesh<dim>& mesh, const CellBlock& block,
+                                    double* cell_quality) {
+  for_each_block<dim>(
+      mesh.topology(), mesh.coordinates(), block.first, block.last,
+      [&]<std::size_t n>(CellIndex c,
+                         const std::array<Vector<dim, Lanes>, n>& corners) SMOOTHFEM_INLINE_LAMBDA {
+        store_lanes(mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners)), cell_quality + c);
+      },
+      [&](CellIndex c, auto corners)
+          SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = mean_ratio(corners); });
+}
+// Templates cannot be compiled for several kinds of registers; these can.
+SMOOTHFEM_VECTOR_CLONES
+void compute_cells(const PlanarMesh& mesh, const CellBlock& block, double* cell_quality) {
+  compute_block<2>(mesh, block, cell_quality);
+}
+SMOOTHFEM_VECTOR_CLONES
+void compute_cells(const VolumeMesh& mesh, const CellBlock& block, double* cell_quality) {
+  compute_block<3>(mesh, block, cell_quality);
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<double> cell_mean_ratios(const Mesh<dim>& mesh) {
   std::vector<double> quality;
   compute_cell_mean_ratios(mesh, quality);
   return quality;
 }
 
-SMOOTHFEM_VECTOR_CLONES
-void compute_cell_mean_ratios(const PlanarMesh& mesh, std::vector<double>& cell_quality) {
+template <int dim>
+MeshQuality compute_cell_mean_ratios(const Mesh<dim>& mesh, std::vector<double>& cell_quality) {
+  const Topology& topology = mesh.topology();
   cell_quality.resize(mesh.n_cells());
-  for_each_block(
-      mesh.topology(), mesh.coordinates(),
-      [&]<std::size_t n>(CellIndex c, const std::array<Vector2<Lanes>, n>& corners)
-          SMOOTHFEM_INLINE_LAMBDA {
-            const Lanes q = mean_ratio(std::span(corners));
-            for (std::size_t l = 0; l < n_lanes; ++l) cell_quality[c + l] = q[l];
-          },
-      [&](CellIndex c, auto corners)
-          SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = mean_ratio(corners); });
+  std::vector<PartialQuality> parts(topology.blocks().size());
+  parallel_for(parts.size(), [&](std::size_t b) {
+    compute_cells(mesh, topology.blocks()[b], cell_quality.data());
+    parts[b] = quality_of(topology, cell_quality, topology.blocks()[b]);
+  });
+  return quality_of_all(parts, mesh.n_cells());
 }
 
 MeshQuality mesh_quality(const Topology& topology, std::span<const double> cell_quality) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  double q_min = none, q_star_min = none, sum = 0.0;
-  std::size_t n_invalid = 0;
-  for (CellIndex c = 0; c < cell_quality.size(); ++c) {
-    const double q = cell_quality[c];
-    q_min = q < q_min ? q : q_min;
-    const double free_q = topology.has_free_node(c) ? q : none;
-    q_star_min = free_q < q_star_min ? free_q : q_star_min;
-    sum += q;
-    n_invalid += q > 0.0 ? 0 : 1;
-  }
-  return {.q_min = q_min,
-          .q_star_min = q_star_min == none ? q_min : q_star_min,
-          .q_mean = sum / static_cast<double>(cell_quality.size()),
-          .n_invalid = n_invalid};
+  std::vector<PartialQuality> parts(topology.blocks().size());
+  parallel_for(parts.size(), [&](std::size_t b) {
+    parts[b] = quality_of(topology, cell_quality, topology.blocks()[b]);
+  });
+  return quality_of_all(parts, cell_quality.size());
 }
 
-MeshQuality mesh_quality(const PlanarMesh& mesh) {
+template <int dim>
+MeshQuality mesh_quality(const Mesh<dim>& mesh) {
   return mesh_quality(mesh.topology(), cell_mean_ratios(mesh));
 }
 
@@ -63,35 +120,56 @@ std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
 
 namespace {
 
-double signed_area(const PlanarMesh& mesh, CellIndex cell) {
-  const auto nodes = mesh.topology().cell_nodes(cell);
-  const auto& x = mesh.coordinates();
-  double twice = 0.0;
-  for (std::size_t k = 1; k + 1 < nodes.size(); ++k)
-    twice += cross(x[nodes[k]] - x[nodes[0]], x[nodes[k + 1]] - x[nodes[0]]);
-  return 0.5 * twice;
-}
+/// What users call a cell that is turned inside out, and what makes up for it.
+template <int dim>
+struct Words;
+template <>
+struct Words<2> {
+  static constexpr const char* inverted = "clockwise";
+  static constexpr const char* all = "all cells run clockwise";
+  static constexpr const char* mend = "list the nodes of every cell counterclockwise";
+  static constexpr const char* mend_some = "reverse the clockwise cells' nodes";
+  static constexpr const char* invalid = "not convex or degenerate";
+};
+template <>
+struct Words<3> {
+  static constexpr const char* inverted = "inverted";
+  static constexpr const char* all = "all cells are inverted";
+  static constexpr const char* mend = "mirror the node order of every cell";
+  static constexpr const char* mend_some = "mirror the inverted cells' node order";
+  static constexpr const char* invalid = "tangled or degenerate";
+};
 
 /// A whole mesh seen from behind is one mistake, not n_cells of them.
-std::string advice(std::size_t n_clockwise, std::size_t n_cells) {
-  if (n_clockwise == n_cells)
-    return "all cells run clockwise; list the nodes of every cell counterclockwise";
-  if (n_clockwise > 0)
-    return "reverse the clockwise cells' nodes, or untangle the mesh first if they are inverted";
+template <int dim>
+std::string advice(std::size_t n_inverted, std::size_t n_cells) {
+  using W = Words<dim>;
+  if (n_inverted == n_cells) return std::string(W::all) + "; " + W::mend;
+  if (n_inverted > 0)
+    return std::string(W::mend_some) + ", or untangle the mesh first if they are inverted";
   return "untangle the mesh first";
+}
+
+template <int dim>
+void print_place(std::ostream& out, const Point<dim>& place) {
+  for (int d = 0; d < dim; ++d)
+    out << (d == 0 ? '(' : ' ') << place[d] << (d + 1 < dim ? "," : ")");
 }
 
 }  // namespace
 
-void require_valid(const PlanarMesh& mesh, const std::string& path,
+template <int dim>
+void require_valid(const Mesh<dim>& mesh, const std::string& path,
                    std::span<const std::size_t> cell_lines) {
   constexpr std::size_t n_named = 3;
+  const auto& topology = mesh.topology();
+  const auto quality = cell_mean_ratios(mesh);
   std::vector<CellIndex> invalid;
-  std::size_t n_clockwise = 0;
+  std::size_t n_inverted = 0;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    if (!(cell_mean_ratio(mesh, c) > 0.0)) {
+    if (!(quality[c] > 0.0)) {
       invalid.push_back(c);
-      if (signed_area(mesh, c) < 0.0) ++n_clockwise;
+      if (signed_cell_size(mesh, c) < 0.0) ++n_inverted;
     }
   if (invalid.empty()) return;
 
@@ -103,16 +181,26 @@ void require_valid(const PlanarMesh& mesh, const std::string& path,
   }
   message << invalid.size() << " of " << mesh.n_cells()
           << (invalid.size() == 1 ? " cells is invalid: " : " cells are invalid: ");
+  const auto& ids = topology.labels().cell_ids;
   for (std::size_t i = 0; i < std::min(n_named, invalid.size()); ++i) {
     const CellIndex c = invalid[i];
-    const auto& corner = mesh.coordinates()[mesh.topology().cell_nodes(c)[0]];
-    message << (i > 0 ? ", " : "") << "cell " << c << " at (" << corner.x() << ", " << corner.y()
-            << ')'
-            << (signed_area(mesh, c) < 0.0 ? " is clockwise" : " is not convex or degenerate");
+    message << (i > 0 ? ", " : "") << "cell " << (ids.empty() ? c : ids[c]) << " at ";
+    print_place<dim>(message, mesh.coordinates()[topology.cell_nodes(c)[0]]);
+    message << " is "
+            << (signed_cell_size(mesh, c) < 0.0 ? Words<dim>::inverted : Words<dim>::invalid);
   }
   if (invalid.size() > n_named) message << ", ...";
-  message << "; " << advice(n_clockwise, mesh.n_cells());
+  message << "; " << advice<dim>(n_inverted, mesh.n_cells());
   throw InputError(message.str());
 }
+
+template std::vector<double> cell_mean_ratios(const Mesh<2>&);
+template std::vector<double> cell_mean_ratios(const Mesh<3>&);
+template MeshQuality compute_cell_mean_ratios(const Mesh<2>&, std::vector<double>&);
+template MeshQuality compute_cell_mean_ratios(const Mesh<3>&, std::vector<double>&);
+template MeshQuality mesh_quality(const Mesh<2>&);
+template MeshQuality mesh_quality(const Mesh<3>&);
+template void require_valid(const Mesh<2>&, const std::string&, std::span<const std::size_t>);
+template void require_valid(const Mesh<3>&, const std::string&, std::span<const std::size_t>);
 
 }  // namespace smoothfem

@@ -18,24 +18,29 @@ struct MeshQuality {
   std::size_t n_invalid = 0;  ///< cells with quality <= 0
 };
 
-/// Mean ratio of every cell, in the order of the cells; 0 for invalid ones.
-std::vector<double> cell_mean_ratios(const PlanarMesh& mesh);
-/// The same into a vector of n_cells numbers.
-void compute_cell_mean_ratios(const PlanarMesh& mesh, std::vector<double>& cell_quality);
+/// Mean ratio of every cell, in the order of the cells; 0 for invalid ones. dim = 2 or 3.
+template <int dim>
+std::vector<double> cell_mean_ratios(const Mesh<dim>& mesh);
+/// The same into a vector of n_cells numbers; returns the quality of the mesh.
+template <int dim>
+MeshQuality compute_cell_mean_ratios(const Mesh<dim>& mesh, std::vector<double>& cell_quality);
 
 /// cell_quality: one number a cell of the topology. Where no cell has a free node, q_star_min =
 /// q_min.
 MeshQuality mesh_quality(const Topology& topology, std::span<const double> cell_quality);
-MeshQuality mesh_quality(const PlanarMesh& mesh);
+template <int dim>
+MeshQuality mesh_quality(const Mesh<dim>& mesh);
 
 /// Number of cells in each of the n_bins equal parts of [0, 1]; quality 1 counts in the last.
 std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
                                            std::size_t n_bins);
 
 /// Throws InputError if the mesh has invalid cells; the sentence counts them and names the first
-/// ones with their place, and says when cells are clockwise. cell_lines, if not empty: the line of
-/// each cell in the file at `path`.
-void require_valid(const PlanarMesh& mesh, const std::string& path = {},
+/// ones with their place, and says when all cells are turned inside out (clockwise in the plane).
+/// cell_lines, if not empty: the line of each cell in the file at `path`. Cells go by the file's
+/// numbers where the mesh has them.
+template <int dim>
+void require_valid(const Mesh<dim>& mesh, const std::string& path = {},
                    std::span<const std::size_t> cell_lines = {});
 
 }  // namespace smoothfem

@@ -57,18 +57,18 @@ double feasible_fractions(const Topology& topology, const std::vector<Point<2>>&
     smallest = std::min(smallest, limit);
     for (const NodeIndex i : topology.cell_nodes(c)) limits[i] = std::min(limits[i], limit);
   };
-  for_each_block(
+  for_each_block<2>(
       topology, from,
       [&]<std::size_t n>(CellIndex c, const std::array<Vector2<Lanes>, n>& x)
           SMOOTHFEM_INLINE_LAMBDA {
-            const auto y = gather_block<n>(to.data(), topology.cell_nodes(c).data());
+            const auto y = gather_block<n, 2>(to.data(), topology.cell_nodes(c).data());
             const Lanes limit = cell_limit(std::span<const Vector2<Lanes>, n>(x),
                                            std::span<const Vector2<Lanes>, n>(y), share);
             for (std::size_t l = 0; l < n_lanes; ++l) lower(c + l, limit[l]);
           },
       [&]<std::size_t n>(CellIndex c, std::span<const Vector2<double>, n> x)
           SMOOTHFEM_INLINE_LAMBDA {
-            with_corners(topology.cell_nodes(c), to, [&](auto y) SMOOTHFEM_INLINE_LAMBDA {
+            with_corners<2>(topology.cell_nodes(c), to, [&](auto y) SMOOTHFEM_INLINE_LAMBDA {
               if constexpr (decltype(y)::extent == n) lower(c, cell_limit(x, y, share));
             });
           });

@@ -7,13 +7,21 @@
 
 namespace smoothfem {
 
+template <int dim>
+Point<dim> mean_of_neighbours(const Mesh<dim>& mesh, NodeIndex node) {
+  const auto neighbours = mesh.topology().node_neighbours(node);
+  Point<dim> sum = Point<dim>::Zero();
+  for (const NodeIndex j : neighbours) sum += mesh.coordinates()[j];
+  return sum / static_cast<double>(neighbours.size());
+}
+
 /// One sweep over the free nodes in node order, each moved at once by movement(node), so that later
 /// nodes see the new places of earlier ones. Reports the longest movement.
-template <class Movement>
-StepReport gauss_seidel_sweep(PlanarMesh& mesh, const Movement& movement) {
+template <int dim, class Movement>
+StepReport gauss_seidel_sweep(Mesh<dim>& mesh, const Movement& movement) {
   double longest = 0.0;
   for (const NodeIndex i : mesh.topology().free_nodes()) {
-    const Point<2> move = movement(i);
+    const Point<dim> move = movement(i);
     mesh.coordinates()[i] += move;
     longest = std::max(longest, move.squaredNorm());
   }
@@ -40,7 +48,8 @@ struct DisplacementStopping {
             .result = ResultMesh::last,
             .criterion = StoppingCriterion::max_displacement,
             .tolerance = tolerance,
-            .max_iterations = max_iterations};
+            .max_iterations = max_iterations,
+            .needs_node_order = true};
   }
 };
 

@@ -4,9 +4,10 @@ namespace smoothfem {
 namespace {
 
 /// The simultaneous method for the mean quality, then the sequential one for the lowest.
-Stages make_stages() {
-  Stages stages = stages_of("getme-simultaneous");
-  for (auto& stage : stages_of("getme-sequential")) stages.push_back(std::move(stage));
+template <int dim>
+Stages<dim> make_stages() {
+  Stages<dim> stages = stages_of<dim>("getme-simultaneous");
+  for (auto& stage : stages_of<dim>("getme-sequential")) stages.push_back(std::move(stage));
   return stages;
 }
 
@@ -14,8 +15,8 @@ const RegisteredMethod registered({.name = "getme",
                                    .title = "GETMe",
                                    .description = "GETMe simultaneous, then GETMe sequential from "
                                                   "its best mesh",
-                                   .source = "Section 4.4; parameters of Section 6.2"},
-                                  make_stages);
+                                   .source = "Section 4.4; parameters of Chapter 6"},
+                                  {make_stages<2>, make_stages<3>});
 
 }  // namespace
 }  // namespace smoothfem

@@ -1,18 +1,35 @@
 #include <algorithm>
 
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/loop/indexed_min_heap.h"
-#include "smoothing/mesh/cell_blocks.h"
-#include "smoothing/quality/mean_ratio.h"
-#include "smoothing/smoothers/polygon_regularization.h"
+#include "smoothing/loop/min_tree.h"
+#include "smoothing/smoothers/element_regularization.h"
+#include "smoothing/smoothers/local_quality.h"
 
 namespace smoothfem {
 namespace {
 
+ElementRegularization<2> default_element(std::integral_constant<int, 2>) {
+  ElementRegularization<2> element;
+  element.lambda = 9.0 / 20.0;
+  element.theta_degrees = 25.0;
+  element.rho = 0.01;
+  return element;
+}
+/// Tetrahedra and hexahedra as in Section 6.3, pyramids and prisms as in Section 5.4.
+ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
+  ElementRegularization<3> element;
+  element.tetrahedron = element.hexahedron = {17.0, 17.0};
+  element.pyramid = {1.82, 1.82};
+  element.prism = {0.85, 0.85};
+  element.rho = 0.01;
+  return element;
+}
+
 /// Transforms the element with the lowest corrected quality, alone, again and again (thesis,
 /// Section 4.3, Fig. 4.3). A step is a cycle of such transformations, after which q*_min is looked
 /// at.
-class GetmeSequential final : public Smoother<2> {
+template <int dim>
+class GetmeSequential final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "sequential"; }
 
@@ -40,32 +57,41 @@ class GetmeSequential final : public Smoother<2> {
             .max_iterations = max_cycles_};
   }
 
-  /// Fills the heap with the elements that can be changed.
-  void initialize(const SmoothingState<2>& state) override {
+  /// Only elements that can be changed take part.
+  void initialize(const SmoothingState<dim>& state) override {
+    element_.prepare();
     const auto& topology = state.mesh.topology();
-    std::vector<CellIndex> changeable;
+    std::vector<double> keys = state.cell_quality;
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
-      if (topology.has_free_node(c)) changeable.push_back(c);
-    heap_.build(state.cell_quality, std::move(changeable));
+      if (!topology.has_free_node(c)) keys[c] = MinTree::never;
+    by_quality_.build(keys);
+    by_corrected_quality_.build(std::move(keys));
     penalties_.assign(topology.n_cells(), 0.0);
+    touched_in_.assign(topology.n_cells(), 0);
+    n_transformations_ = 0;
     last_picked_ = no_cell;
   }
 
-  StepReport step(SmoothingState<2>& state) override {
+  StepReport step(SmoothingState<dim>& state) override {
     StepReport report{.n_counted = 0};
-    const PolygonTransformation transformation = element_.transformation();
-    for (int i = 0; i < cycle_ && !heap_.empty(); ++i) {
-      const CellIndex worst = heap_.top();
-      transform(state.mesh, worst, transformation);
+    moved_in_cycle_.clear();
+    for (int i = 0; i < cycle_ && !by_corrected_quality_.empty(); ++i) {
+      const CellIndex worst = by_corrected_quality_.top();
+      transform(state, worst);
       const bool kept = accept_or_undo(state);
-      if (!kept) ++report.n_reset;
       update_penalty(worst, kept);
       if (kept)
-        for (const CellIndex c : touched_)
-          if (heap_.contains(c)) heap_.update(c, state.cell_quality[c] + penalties_[c]);
-      heap_.update(worst, state.cell_quality[worst] + penalties_[worst]);
+        for (const CellIndex c : touched_) {
+          by_quality_.update(c, state.cell_quality[c]);
+          by_corrected_quality_.update(c, state.cell_quality[c] + penalties_[c]);
+        }
+      else
+        ++report.n_reset;
+      by_corrected_quality_.update(worst, state.cell_quality[worst] + penalties_[worst]);
       ++report.n_counted;
     }
+    if (!by_quality_.empty()) report.q_star_min = by_quality_.key(by_quality_.top());
+    report.moved = &moved_in_cycle_;
     return report;
   }
 
@@ -73,38 +99,40 @@ class GetmeSequential final : public Smoother<2> {
   static constexpr CellIndex no_cell = static_cast<CellIndex>(-1);
 
   /// Sets the free nodes of a cell to their transformed places; remembers the old ones.
-  void transform(PlanarMesh& mesh, CellIndex cell, const PolygonTransformation& transformation) {
+  void transform(SmoothingState<dim>& state, CellIndex cell) {
+    auto& mesh = state.mesh;
     const auto& topology = mesh.topology();
     const auto nodes = topology.cell_nodes(cell);
     moved_.clear();
     touched_.clear();
-    with_corners(nodes, mesh.coordinates(), [&](auto corners) {
+    ++n_transformations_;
+    with_corners<dim>(nodes, mesh.coordinates(), [&](auto corners) {
       with_room_for_result(corners, [&](auto result) {
-        regularize(transformation, element_.rho, corners, result);
+        element_.regularize(state.cell_quality[cell], corners, result);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (topology.is_fixed(nodes[k])) continue;
           moved_.emplace_back(nodes[k], point_of(corners[k]));
           mesh.coordinates()[nodes[k]] = point_of(result[k]);
-          const auto cells = topology.node_cells(nodes[k]);
-          touched_.insert(touched_.end(), cells.begin(), cells.end());
+          for (const CellIndex c : topology.node_cells(nodes[k])) {
+            if (touched_in_[c] == n_transformations_) continue;
+            touched_in_[c] = n_transformations_;
+            touched_.push_back(c);
+          }
         }
       });
     });
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   }
 
   /// Evaluates the cells around the moved nodes; puts the nodes back if one of them is invalid.
-  bool accept_or_undo(SmoothingState<2>& state) {
-    new_quality_.clear();
-    for (const CellIndex c : touched_) {
-      new_quality_.push_back(cell_mean_ratio(state.mesh, c));
-      if (new_quality_.back() > 0.0) continue;
+  bool accept_or_undo(SmoothingState<dim>& state) {
+    new_quality_.resize(touched_.size());
+    if (!evaluate(state.mesh, touched_, new_quality_)) {
       for (const auto& [node, position] : moved_) state.mesh.coordinates()[node] = position;
       return false;
     }
     for (std::size_t i = 0; i < touched_.size(); ++i)
       state.cell_quality[touched_[i]] = new_quality_[i];
+    for (const auto& [node, position] : moved_) moved_in_cycle_.push_back(node);
     return true;
   }
 
@@ -116,7 +144,10 @@ class GetmeSequential final : public Smoother<2> {
     last_picked_ = cell;
   }
 
-  PolygonRegularization element_{.lambda = 9.0 / 20.0, .theta_degrees = 25.0, .rho = 0.01};
+  static bool evaluate(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
+                       std::vector<double>& quality);
+
+  ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
   double penalty_invalid_ = 1e-4;
   double penalty_repeated_ = 1e-5;
   double penalty_success_ = -1e-3;
@@ -124,20 +155,50 @@ class GetmeSequential final : public Smoother<2> {
   int patience_ = 10;
   int max_cycles_ = 100000;
 
-  IndexedMinHeap heap_;
+  MinTree by_quality_, by_corrected_quality_;
   std::vector<double> penalties_;
   CellIndex last_picked_ = no_cell;
-  std::vector<std::pair<NodeIndex, Point<2>>> moved_;
+  std::vector<std::pair<NodeIndex, Point<dim>>> moved_;
+  std::vector<NodeIndex> moved_in_cycle_;
   std::vector<CellIndex> touched_;  ///< cells with a moved node
+  std::vector<std::uint32_t>
+      touched_in_;  ///< number of the transformation that last touched a cell
+  std::uint32_t n_transformations_ = 0;
   std::vector<double> new_quality_;
 };
+
+/// False as soon as a cell is invalid.
+template <int dim>
+SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
+                                           std::vector<double>& quality) {
+  return for_each_mean_ratio<dim>(
+      mesh.topology(), cells,
+      [&](NodeIndex i)
+          SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return mesh.coordinates()[i]; },
+      [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {
+        quality[position] = q;
+        return q > 0.0;
+      });
+}
+template <>
+SMOOTHFEM_VECTOR_CLONES bool GetmeSequential<2>::evaluate(const PlanarMesh& mesh,
+                                                          std::span<const CellIndex> cells,
+                                                          std::vector<double>& quality) {
+  return mean_ratios_if_valid<2>(mesh, cells, quality);
+}
+template <>
+SMOOTHFEM_VECTOR_CLONES bool GetmeSequential<3>::evaluate(const VolumeMesh& mesh,
+                                                          std::span<const CellIndex> cells,
+                                                          std::vector<double>& quality) {
+  return mean_ratios_if_valid<3>(mesh, cells, quality);
+}
 
 const RegisteredMethod registered({.name = "getme-sequential",
                                    .title = "GETMe sequential",
                                    .description = "transforms the worst element, one at a time; "
                                                   "second stage of GETMe",
-                                   .source = "Section 4.3, Fig. 4.3; parameters of Section 6.2"},
-                                  single_stage<GetmeSequential>);
+                                   .source = "Section 4.3, Fig. 4.3; parameters of Chapter 6"},
+                                  single_stage<GetmeSequential>());
 
 }  // namespace
 }  // namespace smoothfem

@@ -167,7 +167,12 @@ const RegisteredMethod registered(
      .description = "minimizes the sum of squared mean inverse corner mean ratios by a feasible "
                     "Newton method",
      .source = "Section 1.3.3; Munson (2007)"},
-    single_stage<GlobalOptimization>);
+    {[] {
+       Stages<2> stages;
+       stages.push_back(std::make_unique<GlobalOptimization>());
+       return stages;
+     },
+     [] { return Stages<3>{}; }});
 
 }  // namespace
 }  // namespace smoothfem

@@ -5,20 +5,16 @@ namespace smoothfem {
 namespace {
 
 /// Each free node moves to the mean of its edge neighbours (thesis, Eq. 1.1).
-class Laplace final : public Smoother<2> {
+template <int dim>
+class Laplace final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
   SmoothingRule rule() const override { return stopping_.rule(); }
 
-  StepReport step(SmoothingState<2>& state) override {
-    const auto& topology = state.mesh.topology();
-    const auto& x = state.mesh.coordinates();
-    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<2> {
-      const auto neighbours = topology.node_neighbours(i);
-      Point<2> sum = Point<2>::Zero();
-      for (const NodeIndex j : neighbours) sum += x[j];
-      return sum / static_cast<double>(neighbours.size()) - x[i];
+  StepReport step(SmoothingState<dim>& state) override {
+    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<dim> {
+      return mean_of_neighbours(state.mesh, i) - state.mesh.coordinates()[i];
     });
   }
 
@@ -31,7 +27,7 @@ const RegisteredMethod registered({.name = "laplace",
                                    .description = "each node moves to the mean of its edge "
                                                   "neighbours; no quality control",
                                    .source = "Section 1.3.2, Eq. (1.1)"},
-                                  single_stage<Laplace>);
+                                  single_stage<Laplace>());
 
 }  // namespace
 }  // namespace smoothfem

@@ -91,7 +91,7 @@ BlockMatrix ShapeObjective::make_hessian() const {
 SMOOTHFEM_VECTOR_CLONES
 double ShapeObjective::value(const std::vector<Point<2>>& coordinates) const {
   Lanes sums{};
-  for_each_block(
+  for_each_block<2>(
       *topology_, coordinates,
       [&]<std::size_t n>(CellIndex, const std::array<Vector2<Lanes>, n>& corners)
           SMOOTHFEM_INLINE_LAMBDA {
@@ -137,7 +137,7 @@ void ShapeObjective::derivatives(const std::vector<Point<2>>& coordinates, Hessi
   std::fill(gradient.begin(), gradient.end(), Point<2>(0.0, 0.0));
   hessian.set_zero();
   const std::array known_weights{corner_weights(3), corner_weights(4)};
-  for_each_block(
+  for_each_block<2>(
       *topology_, coordinates,
       [&]<std::size_t n>(CellIndex c,
                          const std::array<Vector2<Lanes>, n>& corners) SMOOTHFEM_INLINE_LAMBDA {

@@ -1,40 +1,35 @@
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/quality/mean_ratio.h"
+#include "smoothing/mesh/cell_size.h"
 #include "smoothing/smoothers/gauss_seidel_sweep.h"
 
 namespace smoothfem {
 namespace {
 
-/// Each free node moves to the mean of the centroids of its cells, weighted by their areas (thesis,
-/// Eq. 1.2). The areas are absolute: signed ones let a tangled mesh explode.
-class WeightedLaplace final : public Smoother<2> {
+/// Each free node moves to the mean of the centroids of its cells, weighted by their areas or
+/// volumes (thesis, Eq. 1.2). These are absolute: signed ones let a tangled mesh explode.
+template <int dim>
+class WeightedLaplace final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "weighted-laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
   SmoothingRule rule() const override { return stopping_.rule(); }
 
-  StepReport step(SmoothingState<2>& state) override {
+  StepReport step(SmoothingState<dim>& state) override {
     const auto& topology = state.mesh.topology();
     const auto& x = state.mesh.coordinates();
-    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<2> {
-      Point<2> movement = Point<2>::Zero();
-      double total_area = 0.0;
+    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<dim> {
+      Point<dim> movement = Point<dim>::Zero();
+      double total_size = 0.0;
       for (const CellIndex c : topology.node_cells(i)) {
         const auto nodes = topology.cell_nodes(c);
-        Point<2> centroid = Point<2>::Zero();
-        double twice_area = 0.0;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-          const auto& here = x[nodes[k]];
-          centroid += here;
-          twice_area +=
-              cross(vector_of(here), vector_of(x[nodes[k + 1 < nodes.size() ? k + 1 : 0]]));
-        }
+        Point<dim> centroid = Point<dim>::Zero();
+        for (const NodeIndex node : nodes) centroid += x[node];
         centroid /= static_cast<double>(nodes.size());
-        const double area = 0.5 * std::abs(twice_area);
-        movement += area * (centroid - x[i]);
-        total_area += area;
+        const double size = std::abs(signed_cell_size(state.mesh, c));
+        movement += size * (centroid - x[i]);
+        total_size += size;
       }
-      return total_area > 0.0 ? Point<2>(movement / total_area) : Point<2>::Zero();
+      return total_size > 0.0 ? Point<dim>(movement / total_size) : Point<dim>::Zero();
     });
   }
 
@@ -44,11 +39,11 @@ class WeightedLaplace final : public Smoother<2> {
 
 const RegisteredMethod registered(
     {.name = "weighted-laplace",
-     .title = "Area-weighted Laplace",
+     .title = "Weighted Laplace",
      .description = "each node moves to the mean of its cells' centroids, "
-                    "weighted by their areas; no quality control",
+                    "weighted by their areas or volumes; no quality control",
      .source = "Section 1.3.2, Eq. (1.2)"},
-    single_stage<WeightedLaplace>);
+    single_stage<WeightedLaplace>());
 
 }  // namespace
 }  // namespace smoothfem

@@ -18,7 +18,7 @@ inline CompressedRows<NodeIndex> rows_of(const Cells& cells) {
 
 inline PlanarMesh make_mesh(const std::vector<Point<2>>& coordinates, const Cells& cells,
                             std::optional<std::vector<bool>> fixed = std::nullopt) {
-  return {std::make_shared<const Topology>(coordinates.size(), rows_of(cells), std::move(fixed)),
+  return {std::make_shared<const Topology>(2, coordinates.size(), rows_of(cells), std::move(fixed)),
           coordinates};
 }
 

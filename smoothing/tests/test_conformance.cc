@@ -26,15 +26,15 @@ std::vector<std::pair<std::string, PlanarMesh>> distorted_meshes() {
 class EveryMethod : public testing::TestWithParam<std::string> {
  protected:
   /// The method with so few iterations that differences in rounding cannot grow.
-  static Method short_method() {
-    Method method = make_method(GetParam());
+  static Method<2> short_method() {
+    Method<2> method = make_method<2>(GetParam());
     for (const auto& parameter : method.parameters())
       if (parameter.name.ends_with("max_iterations") || parameter.name.ends_with("max_cycles"))
         method.set(parameter.name, "5");
     return method;
   }
   static bool claims_validity() {
-    for (const auto& stage : make_method(GetParam()).stages)
+    for (const auto& stage : make_method<2>(GetParam()).stages)
       if (!stage->rule().needs_valid_mesh) return false;
     return true;
   }
@@ -50,7 +50,7 @@ double farthest(const PlanarMesh& a, const PlanarMesh& b) {
 TEST_P(EveryMethod, ImprovesDistortedMeshesOfEveryTypeAndMovesOnlyFreeNodes) {
   for (const auto& [name, mesh] : distorted_meshes()) {
     PlanarMesh result = mesh;
-    Method method = make_method(GetParam());
+    Method<2> method = make_method<2>(GetParam());
     smooth(result, method);
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
       if (mesh.topology().is_fixed(i)) {
@@ -66,7 +66,7 @@ TEST_P(EveryMethod, LeavesRegularPatchesWhereTheyAre) {
   for (const auto& mesh : {grid_mesh(6, GridCells::quadrilaterals),
                            grid_mesh(6, GridCells::triangles, true), test::honeycomb_mesh()}) {
     PlanarMesh result = mesh;
-    Method method = short_method();
+    Method<2> method = short_method();
     smooth(result, method);
     EXPECT_LT(farthest(result, mesh), 1e-11);
   }
@@ -82,7 +82,7 @@ TEST_P(EveryMethod, CommutesWithSimilarities) {
         return m;
       };
       PlanarMesh here = mesh, there = similar(mesh);
-      Method first = short_method(), second = short_method();
+      Method<2> first = short_method(), second = short_method();
       const auto a = smooth(here, first), b = smooth(there, second);
       EXPECT_EQ(a.iterations_text(), b.iterations_text()) << name;
       EXPECT_LT(farthest(similar(here), there), 1e-9 * scale) << name;
@@ -92,7 +92,7 @@ TEST_P(EveryMethod, CommutesWithSimilarities) {
 TEST_P(EveryMethod, GivesTheSameBitsTwice) {
   for (const auto& [name, mesh] : distorted_meshes()) {
     PlanarMesh first = mesh, second = mesh;
-    Method method = make_method(GetParam()), other = make_method(GetParam());
+    Method<2> method = make_method<2>(GetParam()), other = make_method<2>(GetParam());
     smooth(first, method);
     smooth(second, other);
     EXPECT_EQ(first.coordinates(), second.coordinates()) << name;
@@ -105,7 +105,7 @@ TEST_P(EveryMethod, GivesTheSameBitsTwice) {
 TEST_P(EveryMethod, TellsTheObserverEveryIteration) {
   for (const auto& [name, mesh] : distorted_meshes()) {
     PlanarMesh result = mesh;
-    Method method = make_method(GetParam());
+    Method<2> method = make_method<2>(GetParam());
     std::vector<IterationRecord> records;
     const auto summary = smooth(result, method, [&](const auto& record, const auto& seen) {
       const MeshQuality quality = mesh_quality(seen);
@@ -135,7 +135,7 @@ TEST_P(EveryMethod, KeepsTheMeshValidIfItClaimsSo) {
   if (!claims_validity()) GTEST_SKIP() << "does not claim it";
   for (auto& [name, mesh] : distorted_meshes()) {
     test::distort(mesh, 0.9, 11);
-    Method method = make_method(GetParam());
+    Method<2> method = make_method<2>(GetParam());
     smooth(mesh, method, [&](const IterationRecord& record, const PlanarMesh& seen) {
       EXPECT_EQ(mesh_quality(seen).n_invalid, 0u) << name << ' ' << record.record;
     });
@@ -146,7 +146,7 @@ TEST_P(EveryMethod, RefusesTangledMeshesIfItNeedsValidOnes) {
   auto mesh = grid_mesh(4, GridCells::triangles);
   mesh.coordinates()[6] = {3.0, 3.5};
   const auto tangled = mesh.coordinates();
-  Method method = make_method(GetParam());
+  Method<2> method = make_method<2>(GetParam());
   if (claims_validity()) {
     EXPECT_THROW(smooth(mesh, method), InputError);
     EXPECT_EQ(mesh.coordinates(), tangled);
@@ -168,7 +168,7 @@ TEST_P(EveryMethod, TakesUnusedNodes) {
   auto with_unused = test::make_mesh(coordinates, cells), without = grid;
   test::distort(with_unused, 0.3, 2);
   test::distort(without, 0.3, 2);
-  Method method = make_method(GetParam()), other = make_method(GetParam());
+  Method<2> method = make_method<2>(GetParam()), other = make_method<2>(GetParam());
   smooth(with_unused, method);
   smooth(without, other);
   EXPECT_EQ(with_unused.coordinates().back(), Point<2>(2.2, 2.2));
@@ -179,7 +179,7 @@ TEST_P(EveryMethod, TakesUnusedNodes) {
 TEST_P(EveryMethod, TakesMeshesWithNothingToMove) {
   auto mesh = test::make_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}});
   const auto before = mesh.coordinates();
-  Method method = make_method(GetParam());
+  Method<2> method = make_method<2>(GetParam());
   smooth(mesh, method);
   EXPECT_EQ(mesh.coordinates(), before);
 }

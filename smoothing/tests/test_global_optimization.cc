@@ -154,7 +154,7 @@ TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
           const NodeIndex i = nodes[l % n];
           return (1.0 - s) * mesh.coordinates()[i] + s * to[i];
         };
-        return cross(vector_of(place(k + 1) - place(k)), vector_of(place(k + n - 1) - place(k)));
+        return cross(Point<2>(place(k + 1) - place(k)), Point<2>(place(k + n - 1) - place(k)));
       };
       double least = 1e300;
       for (std::size_t k = 0; k < n; ++k)
@@ -179,7 +179,7 @@ TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
 TEST(GlobalOptimization, LowersTheObjectiveInEveryIterationToAStationaryPoint) {
   for (auto& mesh : distorted_meshes(0.9)) {
     const ShapeObjective objective(mesh.shared_topology());
-    Method method = make_method("global-optimization");
+    Method<2> method = make_method<2>("global-optimization");
     method.set("tolerance", "1e-13");
     double last = objective.value(mesh.coordinates());
     smooth(mesh, method, [&](const IterationRecord&, const PlanarMesh& seen) {
@@ -202,7 +202,7 @@ TEST(GlobalOptimization, ReachesTheSameMinimumFromDifferentStarts) {
       const ShapeObjective objective(mesh.shared_topology());
       for (std::uint64_t sweep = 0; sweep < 4; ++sweep) test::distort(mesh, 1.0, 10 * seed + sweep);
       ASSERT_GT(objective.value(mesh.coordinates()), 3.0 * static_cast<double>(mesh.n_cells()));
-      Method method = make_method("global-optimization");
+      Method<2> method = make_method<2>("global-optimization");
       smooth(mesh, method);
       const double value = objective.value(mesh.coordinates());
       if (seed == 1) lowest = value;

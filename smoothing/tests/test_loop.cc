@@ -4,8 +4,8 @@
 #include <set>
 
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/loop/indexed_min_heap.h"
 #include "smoothing/loop/invalid_node_reset.h"
+#include "smoothing/loop/min_tree.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/planar_meshes.h"
 
@@ -56,14 +56,14 @@ TEST(Catalogue, HasTheBuiltInMethodsAndNamesThemInErrors) {
   for (const std::string name :
        {"getme", "getme-sequential", "getme-simultaneous", "global-optimization", "laplace",
         "smart-laplace", "weighted-laplace"})
-    EXPECT_FALSE(make_method(name).stages.empty()) << name;
-  EXPECT_THAT(message_of([] { make_method("getmee"); }),
+    EXPECT_FALSE(make_method<2>(name).stages.empty()) << name;
+  EXPECT_THAT(message_of([] { make_method<2>("getmee"); }),
               HasSubstr("there is no method 'getmee'; choose one of getme, "));
 }
 
 TEST(Catalogue, DefaultsLieInTheirRangesAndAreDocumented) {
   for (const auto& info : method_catalogue()) {
-    Method method = make_method(info.name);
+    Method<2> method = make_method<2>(info.name);
     for (const auto& parameter : method.parameters()) {
       EXPECT_FALSE(parameter.description.empty()) << info.name << ' ' << parameter.name;
       EXPECT_NO_THROW(method.set(parameter.name, value_text(parameter)))
@@ -73,42 +73,43 @@ TEST(Catalogue, DefaultsLieInTheirRangesAndAreDocumented) {
 }
 
 TEST(Catalogue, StagesNameTheirParameters) {
-  Method getme = make_method("getme");
+  Method<2> getme = make_method<2>("getme");
   EXPECT_NO_THROW(getme.set("sequential.rho", "0.02"));
   EXPECT_THAT(message_of([&] { getme.set("rho", "0.02"); }), HasSubstr("simultaneous.rho"));
 }
 
-TEST(IndexedMinHeap, PicksLikeASortedSet) {
-  constexpr std::uint32_t n = 200;
-  test::Random random(1);
-  std::vector<double> keys(n);
-  std::vector<std::uint32_t> members;
-  std::set<std::pair<double, std::uint32_t>> oracle;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    keys[i] = std::floor(8.0 * random());  // many ties
-    if (i % 3 == 0) continue;
-    members.push_back(i);
-    oracle.emplace(keys[i], i);
-  }
-  IndexedMinHeap heap;
-  heap.build(keys, members);
-  EXPECT_FALSE(heap.contains(0));
-  for (int step = 0; step < 5000; ++step) {
-    ASSERT_EQ(heap.top(), oracle.begin()->second) << step;
-    // Now and then the top itself, as the sequential method does.
-    const auto random_member = static_cast<std::size_t>(0.5 * (random() + 1.0) * members.size());
-    const std::uint32_t number = step % 2 ? heap.top() : members[random_member];
-    oracle.erase({keys[number], number});
-    keys[number] = std::floor(8.0 * random());
-    oracle.emplace(keys[number], number);
-    heap.update(number, keys[number]);
+TEST(MinTree, PicksLikeASortedSet) {
+  for (const std::uint32_t n : {1u, 7u, 8u, 9u, 200u, 5000u}) {
+    test::Random random(n);
+    std::vector<double> keys(n);
+    std::set<std::pair<double, std::uint32_t>> oracle;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      keys[i] = i % 3 == 1 ? MinTree::never : std::floor(8.0 * random());  // many ties
+      oracle.emplace(keys[i], i);
+    }
+    MinTree tree;
+    tree.build(keys);
+    for (int step = 0; step < 5000; ++step) {
+      ASSERT_EQ(tree.top(), oracle.begin()->second) << n << ' ' << step;
+      // Now and then the top itself, as the sequential method does.
+      const auto at_random = static_cast<std::uint32_t>(0.5 * (random() + 1.0) * n);
+      const std::uint32_t number = step % 2 ? tree.top() : at_random;
+      oracle.erase({keys[number], number});
+      keys[number] = std::floor(8.0 * random());
+      oracle.emplace(keys[number], number);
+      tree.update(number, keys[number]);
+      ASSERT_EQ(tree.key(number), keys[number]);
+    }
   }
 }
 
-TEST(IndexedMinHeap, CanBeEmpty) {
-  IndexedMinHeap heap;
-  heap.build({1.0, 2.0}, {});
-  EXPECT_TRUE(heap.empty());
+TEST(MinTree, IsEmptyWithoutFiniteKeys) {
+  MinTree tree;
+  EXPECT_TRUE(tree.empty());
+  tree.build({MinTree::never, MinTree::never});
+  EXPECT_TRUE(tree.empty());
+  tree.update(1, 3.0);
+  EXPECT_FALSE(tree.empty());
 }
 
 TEST(InvalidNodeReset, PutsBackUntilAllIsValid) {

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 //   |  0   | 1 /        node 6 belongs to no cell
 //   0 ---- 1 ---- 2     cell 1: 1 2 4, cell 2: 2 5 4
 Topology small_topology() {
-  return Topology(7, rows_of({{0, 1, 4, 3}, {1, 2, 4}, {2, 5, 4}}));
+  return Topology(2, 7, rows_of({{0, 1, 4, 3}, {1, 2, 4}, {2, 5, 4}}));
 }
 
 template <class T>
@@ -40,13 +40,13 @@ TEST(Topology, Adjacency) {
 }
 
 TEST(Topology, BoundaryEdgesRunWithTheirCells) {
-  using Edge = std::pair<NodeIndex, NodeIndex>;
-  EXPECT_THAT(small_topology().boundary_edges(),
-              ElementsAre(Edge{0, 1}, Edge{4, 3}, Edge{3, 0}, Edge{1, 2}, Edge{2, 5}, Edge{5, 4}));
+  EXPECT_EQ(small_topology().boundary_facets(),
+            rows_of({{0, 1}, {4, 3}, {3, 0}, {1, 2}, {2, 5}, {5, 4}}));
+  EXPECT_EQ(small_topology().n_facets(), 8u);
 }
 
 TEST(Topology, FixesBoundaryAndUnusedNodes) {
-  const Topology topology(6, rows_of({{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
+  const Topology topology(2, 6, rows_of({{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
   EXPECT_THAT(topology.free_nodes(), ElementsAre(4));
   EXPECT_TRUE(topology.is_fixed(5));
   EXPECT_FALSE(topology.on_boundary()[5]);
@@ -54,14 +54,14 @@ TEST(Topology, FixesBoundaryAndUnusedNodes) {
 }
 
 TEST(Topology, TakesFixedFlagsAsGiven) {
-  const Topology topology(4, rows_of({{0, 1, 2}}), std::vector<bool>{true, false, true, false});
+  const Topology topology(2, 4, rows_of({{0, 1, 2}}), std::vector<bool>{true, false, true, false});
   EXPECT_THAT(topology.free_nodes(), ElementsAre(1));
 }
 
 void expect_error(std::size_t n_nodes, const test::Cells& cells, const std::string& text,
                   std::optional<std::vector<bool>> fixed = std::nullopt) {
   try {
-    Topology(n_nodes, rows_of(cells), fixed);
+    Topology(2, n_nodes, rows_of(cells), fixed);
     FAIL() << "nothing thrown; expected: " << text;
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr(text));
@@ -80,7 +80,7 @@ TEST(Topology, NamesTheCellThatIsWrong) {
 
 TEST(Topology, CellErrorsKnowTheirCell) {
   try {
-    Topology(3, rows_of({{0, 1, 2}, {0, 1, 7}}));
+    Topology(2, 3, rows_of({{0, 1, 2}, {0, 1, 7}}));
     FAIL();
   } catch (const CellError& error) {
     EXPECT_EQ(error.cell(), 1u);
@@ -88,7 +88,7 @@ TEST(Topology, CellErrorsKnowTheirCell) {
 }
 
 TEST(Mesh, RefusesCoordinatesThatDoNotFit) {
-  const auto topology = std::make_shared<const Topology>(3, rows_of({{0, 1, 2}}));
+  const auto topology = std::make_shared<const Topology>(2, 3, rows_of({{0, 1, 2}}));
   EXPECT_THROW(PlanarMesh(topology, {{0, 0}, {1, 0}}), InputError);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THROW(PlanarMesh(topology, {{0, 0}, {1, 0}, {0, infinity}}), InputError);

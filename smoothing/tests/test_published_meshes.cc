@@ -30,7 +30,7 @@ TEST_P(Table61, IsReproduced) {
   const auto path = published(row.mesh);
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
   PlanarMesh mesh = read_mesh(path).mesh;
-  Method method = make_method(row.method);
+  Method<2> method = make_method<2>(row.method);
   const auto result = smooth(mesh, method);
   if (!row.iterations.empty()) {
     EXPECT_EQ(result.iterations_text(), row.iterations);
@@ -67,7 +67,7 @@ TEST(GlobalOptimization, ReachesTheKnownMinimaAtEveryScale) {
     for (const double scale : {1.0, 1e-6, 1e6}) {
       PlanarMesh mesh = initial;
       for (auto& p : mesh.coordinates()) p *= scale;
-      Method method = make_method("global-optimization");
+      Method<2> method = make_method<2>("global-optimization");
       const auto result = smooth(mesh, method);
       EXPECT_NEAR(objective.value(mesh.coordinates()), minimum, 5e-4) << name << ' ' << scale;
       if (iterations.empty()) iterations = result.iterations_text();

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "smoothing/quality/mean_ratio.h"
-#include "smoothing/smoothers/polygon_regularization.h"
+#include "smoothing/smoothers/element_regularization.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {
@@ -110,8 +110,12 @@ TEST(PolygonTransformation, TwiceNapoleonMakesTrianglesRegularAtOnce) {
 
 std::vector<Vector2<double>> regularized(const std::vector<Vector2<double>>& in, double rho) {
   std::vector<Vector2<double>> out(in.size());
-  regularize(PolygonTransformation(lambda, theta), rho, std::span<const Vector2<double>>(in),
-             std::span<Vector2<double>>(out));
+  ElementRegularization<2> element;
+  element.lambda = lambda;
+  element.theta_degrees = theta * 180.0 / std::numbers::pi;
+  element.rho = rho;
+  element.prepare();
+  element.regularize(1.0, std::span<const Vector2<double>>(in), std::span<Vector2<double>>(out));
   return out;
 }
 

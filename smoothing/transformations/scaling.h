@@ -2,13 +2,15 @@
 
 #include <span>
 
+#include "smoothing/mesh/inverse_root.h"
 #include "smoothing/mesh/lanes.h"
+#include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
 /// Mean of a cell's nodes: the centre that scaling keeps.
-template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE Vector2<Real> centroid(std::span<const Vector2<Real>, extent> nodes) {
+template <class Vector, std::size_t extent>
+SMOOTHFEM_INLINE Vector centroid(std::span<const Vector, extent> nodes) {
   auto sum = nodes[0];
   for (std::size_t k = 1; k < nodes.size(); ++k) sum = sum + nodes[k];
   return (1.0 / static_cast<double>(nodes.size())) * sum;
@@ -34,10 +36,51 @@ SMOOTHFEM_INLINE void keep_mean_edge_length(std::span<const Vector2<Real>, exten
   for (auto& node : transformed) node = centre + factor * (node - centre);
 }
 
+/// Sum of the lengths of a volume cell's edges.
+template <class Real, std::size_t n>
+SMOOTHFEM_INLINE Real edge_length_sum(std::span<const Vector3<Real>, n> nodes) {
+  Real sum{};
+  for (const auto& [a, b] : VolumeElement<n>::edges) {
+    const Real square = squared_length(nodes[b] - nodes[a]);
+    sum += square * inverse_root<2>(square);
+  }
+  return sum;
+}
+
+/// Sum of six times the volumes of a cell's node simplices (thesis, Section 3.3).
+template <class Real, std::size_t n>
+SMOOTHFEM_INLINE Real node_simplex_volume_sum(std::span<const Vector3<Real>, n> nodes) {
+  Real sum{};
+  for (const auto& [here, a, b, c] : VolumeElement<n>::corners)
+    sum += determinant(nodes[a] - nodes[here], nodes[b] - nodes[here], nodes[c] - nodes[here]);
+  return sum;
+}
+
+/// What scaling a transformed volume cell keeps.
+enum class ScalingRule { mean_edge_length, mean_volume };
+
+/// Moves a transformed cell to the original's centroid and scales it there so that it has the
+/// original's mean edge length or mean volume of the node simplices (thesis, Eq. 3.11). The latter
+/// needs both to be positive, as those of valid cells and their transformed ones are.
+template <class Real, std::size_t n>
+SMOOTHFEM_INLINE void keep_centroid_and_size(ScalingRule rule,
+                                             std::span<const Vector3<Real>, n> original,
+                                             std::span<Vector3<Real>, n> transformed) {
+  const std::span<const Vector3<Real>, n> present(transformed);
+  const auto centre = centroid(original), present_centre = centroid(present);
+  Real factor;
+  if (rule == ScalingRule::mean_edge_length) {
+    factor = edge_length_sum(original) / edge_length_sum(present);
+  } else {
+    factor = inverse_root<3>(node_simplex_volume_sum(present) / node_simplex_volume_sum(original));
+  }
+  for (auto& node : transformed) node = centre + factor * (node - present_centre);
+}
+
 /// Relaxation (1 - rho) original + rho transformed (thesis, Eq. 3.12), rho in (0, 1].
-template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE void relax(std::span<const Vector2<Real>, extent> original,
-                            std::span<Vector2<Real>, extent> transformed, double rho) {
+template <class Vector, std::size_t extent>
+SMOOTHFEM_INLINE void relax(std::span<const Vector, extent> original,
+                            std::span<Vector, extent> transformed, double rho) {
   for (std::size_t k = 0; k < original.size(); ++k)
     transformed[k] = (1.0 - rho) * original[k] + rho * transformed[k];
 }

@@ -24,7 +24,7 @@ void list_methods() {
   for (const auto& info : method_catalogue()) {
     std::printf("\n  %s: %s\n      %s. Source: %s.\n", info.name.c_str(), info.title.c_str(),
                 info.description.c_str(), info.source.c_str());
-    Method method = make_method(info.name);
+    Method<2> method = make_method<2>(info.name);
     for (const auto& parameter : method.parameters())
       std::printf("      %-32s %-8s %s\n", parameter.name.c_str(), value_text(parameter).c_str(),
                   parameter.description.c_str());

@@ -19,7 +19,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-void apply_settings(Method& method, const std::vector<std::string>& settings) {
+void apply_settings(Method<2>& method, const std::vector<std::string>& settings) {
   for (const auto& setting : settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos)
@@ -62,7 +62,7 @@ class Recorder {
 };
 
 void smooth_file(const Arguments& arguments) {
-  Method method = make_method(arguments.method);
+  Method<2> method = make_method<2>(arguments.method);
   apply_settings(method, arguments.settings);
   MeshFile file = read_mesh(arguments.in);
   for (const auto& stage : method.stages)

@@ -91,13 +91,20 @@ Json describe_meshes(const RunFacts& facts) {
   return meshes;
 }
 
+/// Numbers as numbers, everything else as its text.
+Json json_value(const Parameter& parameter) {
+  if (const auto* number = std::get_if<double*>(&parameter.value)) return **number;
+  if (const auto* number = std::get_if<int*>(&parameter.value)) return **number;
+  return value_text(parameter);
+}
+
 Json describe_methods(const Study& study) {
   Json methods = Json::array();
   for (const auto& entry : study.methods) {
-    Method method = entry.make();
+    Method<2> method = entry.make();
     Json parameters;
     for (const auto& parameter : method.parameters())
-      std::visit([&](const auto* value) { parameters[parameter.name] = *value; }, parameter.value);
+      parameters[parameter.name] = json_value(parameter);
     methods.push_back({{"name", entry.name},
                        {"title", entry.title},
                        {"type", entry.type},

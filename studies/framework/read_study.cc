@@ -111,7 +111,7 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 StudyMethod read_method_section(ParameterHandler& p, const std::string& name) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name, .type = p.get("type"), .title = p.get("title"), .settings = {}};
-  Method defaults = make_method(method.type);
+  Method<2> defaults = make_method<2>(method.type);
   for (const auto& parameter : defaults.parameters())
     if (p.get(parameter.name) != value_text(parameter))
       method.settings.emplace_back(parameter.name, p.get(parameter.name));
@@ -214,8 +214,8 @@ std::vector<std::pair<std::string, std::string>> effective_parameters(ParameterH
 
 }  // namespace
 
-Method StudyMethod::make() const {
-  Method method = make_method(type);
+Method<2> StudyMethod::make() const {
+  Method<2> method = make_method<2>(type);
   for (const auto& [parameter, value] : settings) method.set(parameter, value);
   return method;
 }

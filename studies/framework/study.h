@@ -32,7 +32,7 @@ struct StudyMethod {
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
 
   /// The method with its settings.
-  Method make() const;
+  Method<2> make() const;
 };
 
 /// Where the manufactured solution comes from: a name, or three expressions.

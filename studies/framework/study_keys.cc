@@ -16,6 +16,13 @@ namespace Patterns = dealii::Patterns;
 
 /// The range of a parameter as deal.II checks it, which knows the line of a bad value.
 std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
+  if (const auto* choice = std::get_if<Choice>(&parameter.value)) {
+    std::string names;
+    for (const auto& name : choice->names) names += (names.empty() ? "" : "|") + name;
+    return std::make_unique<Patterns::Selection>(names);
+  }
+  if (std::holds_alternative<std::vector<double>*>(parameter.value))
+    return std::make_unique<Patterns::List>(Patterns::Double(parameter.lower, parameter.upper), 1);
   if (!std::holds_alternative<int*>(parameter.value))
     return std::make_unique<Patterns::Double>(parameter.lower, parameter.upper);
   constexpr double most = std::numeric_limits<int>::max();
@@ -55,7 +62,7 @@ void declare_method(ParameterHandler& p, const std::string& name, const std::str
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
   if (type.empty()) return;
-  Method method = make_method(type);
+  Method<2> method = make_method<2>(type);
   p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
                   "Title in tables and figures.");
   for (const auto& parameter : method.parameters())

@@ -27,7 +27,7 @@ Trajectory record_trajectory(const PlanarMesh& mesh, const StudyMethod& method, 
     times.push_back({record.smoothing_seconds});
   };
   PlanarMesh smoothed = mesh;
-  Method first = method.make();
+  Method<2> first = method.make();
   const auto result = smooth(smoothed, first, keep_all);
   totals.push_back(result.smoothing_seconds);
   trajectory.iterations_text = result.iterations_text();
@@ -35,7 +35,7 @@ Trajectory record_trajectory(const PlanarMesh& mesh, const StudyMethod& method, 
 
   for (int run = 1; run < timing_runs; ++run) {
     PlanarMesh again = mesh;
-    Method made = method.make();
+    Method<2> made = method.make();
     totals.push_back(smooth(again, made, [&](const IterationRecord& record, const PlanarMesh&) {
                        times[record.record].push_back(record.smoothing_seconds);
                      }).smoothing_seconds);

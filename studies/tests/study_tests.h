@@ -85,7 +85,8 @@ inline PlanarMesh shaken_grid(std::size_t n, double shift) {
       cells.append(
           std::vector<NodeIndex>{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
   return PlanarMesh(
-      std::make_shared<const Topology>(x.size(), std::move(cells), std::nullopt, MeshLabels{}), x);
+      std::make_shared<const Topology>(2, x.size(), std::move(cells), std::nullopt, MeshLabels{}),
+      x);
 }
 
 /// An arrow head with one free node, between its tip and its notch. The mean of the node's
@@ -96,7 +97,8 @@ inline PlanarMesh arrow_head() {
   for (NodeIndex k = 0; k < 4; ++k)
     cells.append(std::vector<NodeIndex>{k, static_cast<NodeIndex>((k + 1) % 4), 4});
   return PlanarMesh(
-      std::make_shared<const Topology>(x.size(), std::move(cells), std::nullopt, MeshLabels{}), x);
+      std::make_shared<const Topology>(2, x.size(), std::move(cells), std::nullopt, MeshLabels{}),
+      x);
 }
 
 }  // namespace smoothfem

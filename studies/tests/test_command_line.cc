@@ -35,7 +35,7 @@ TEST_F(CommandLine, FormatsAreConvertedWithoutALossOfDigits) {
   // No iteration moves anything when no node is free.
   const PlanarMesh grid = shaken_grid(3, 0.2);
   const PlanarMesh mesh(
-      std::make_shared<const Topology>(grid.n_nodes(), grid.topology().cells(),
+      std::make_shared<const Topology>(2, grid.n_nodes(), grid.topology().cells(),
                                        std::vector<bool>(grid.n_nodes(), true), MeshLabels{}),
       grid.coordinates());
   write_mesh(file("a.mesh"), mesh);
@@ -114,7 +114,7 @@ TEST_F(CommandLine, ListNamesEverythingThereIs) {
   };
   for (const auto& info : method_catalogue()) {
     expect_listed(info.name);
-    Method method = make_method(info.name);
+    Method<2> method = make_method<2>(info.name);
     for (const auto& parameter : method.parameters()) expect_listed(parameter.name);
   }
   for (const auto& format : mesh_formats()) expect_listed(format.extension);

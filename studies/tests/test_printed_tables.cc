@@ -16,7 +16,7 @@ class PrintedRows : public PrintedTables, public ::testing::WithParamInterface<C
 TEST_P(PrintedRows, ComeOut) {
   const auto [mesh_name, method_name] = GetParam();
   PlanarMesh mesh = published(mesh_name);
-  Method method = make_method(method_name);
+  Method<2> method = make_method<2>(method_name);
   const SmoothingResult result = smooth(mesh, method);
   expect_printed_quality(mesh_name, method_name, result.quality);
   // What an optimizer needs depends on how it is written (deviations.csv); the others are formulas.

@@ -132,8 +132,8 @@ end
   using Setting = std::pair<std::string, std::string>;
   EXPECT_EQ(study.methods[1].settings, (std::vector<Setting>{{"simultaneous.lambda", "0.4"}}));
   EXPECT_NE(study.methods[0].title, study.methods[1].title);
-  Method standard = study.methods[0].make(), own = study.methods[1].make();
-  const auto lambda = [](Method& method) {
+  Method<2> standard = study.methods[0].make(), own = study.methods[1].make();
+  const auto lambda = [](Method<2>& method) {
     return value_text(find_parameter(method.parameters(), "simultaneous.lambda", "getme"));
   };
   EXPECT_EQ(lambda(own), "0.4");

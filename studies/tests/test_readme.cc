@@ -92,7 +92,7 @@ TEST_F(Readme, OptionsInItsTextExist) {
 }
 
 TEST_F(Readme, ItsSmootherIsAMethod) {
-  Method method = make_method("half-laplace");
+  Method<2> method = make_method<2>("half-laplace");
   PlanarMesh mesh = shaken_grid(8, 0.2);
   const double before = mesh_quality(mesh).q_mean;
   const SmoothingResult result = smooth(mesh, method);

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "smoothing/mesh/lanes.h"
+#include "smoothing/mesh/volume_elements.h"
+
+namespace smoothfem {
+
+/// Area of a planar cell; negative if its nodes run clockwise.
+inline double signed_cell_size(const PlanarMesh& mesh, CellIndex cell) {
+  const auto nodes = mesh.topology().cell_nodes(cell);
+  const auto& x = mesh.coordinates();
+  double twice_area = 0.0;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    twice_area += cross(x[nodes[k]], x[nodes[k + 1 < nodes.size() ? k + 1 : 0]]);
+  return 0.5 * twice_area;
+}
+
+/// Volume of a volume cell whose quadrilateral faces are bilinear (each holds as much as the mean
+/// of its two divisions into triangles); negative for cells turned inside out.
+inline double signed_cell_size(const VolumeMesh& mesh, CellIndex cell) {
+  const auto nodes = mesh.topology().cell_nodes(cell);
+  const auto& x = mesh.coordinates();
+  const Point<3>& origin = x[nodes[0]];
+  double six_volumes = 0.0;
+  for (const LocalFace& face : volume_element(nodes.size()).faces) {
+    std::array<Point<3>, 4> p;
+    for (std::size_t k = 0; k < face.size; ++k) p[k] = x[nodes[face.nodes[k]]] - origin;
+    const auto triangle = [&](int a, int b, int c) { return p[a].dot(p[b].cross(p[c])); };
+    six_volumes +=
+        face.size == 3
+            ? triangle(0, 1, 2)
+            : 0.5 * (triangle(0, 1, 2) + triangle(0, 2, 3) + triangle(0, 1, 3) + triangle(1, 2, 3));
+  }
+  return six_volumes / 6.0;
+}
+
+}  // namespace smoothfem

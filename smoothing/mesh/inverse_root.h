@@ -1,0 +1,48 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "smoothing/mesh/lanes.h"
+
+namespace smoothfem {
+
+/// Inverse p-th root x^(-1/p), p = 2, 3 or 4, for positive normal numbers; relative error below
+/// 4e-16 times p. Additions and multiplications only: the same bits on every machine, and faster
+/// than square roots and divisions where several are needed. Zero gives a large finite number, so
+/// that 0 * inverse_root(0) is 0; negative numbers give anything.
+///
+/// The logarithm of a number is nearly linear in the integer that its bits make: dividing that by
+/// -p gives a start with three percent of error, which each of the three steps takes to its third
+/// power (Householder's method for 1 / y^p - x).
+template <int p, class Real>
+SMOOTHFEM_INLINE Real inverse_root(Real x) {
+  static_assert(p >= 2 && p <= 4);
+  // The upper 52 of the 63 bits behind the sign, as a number: they are made the mantissa of 2^52.
+  constexpr double two_52 = 0x1p52;
+  constexpr std::uint64_t bits_of_two_52 = std::bit_cast<std::uint64_t>(two_52);
+  constexpr double one = static_cast<double>(std::bit_cast<std::uint64_t>(1.0) >> 12);
+  constexpr double middle = 0.0450466 * 0x1p40;  // halves the largest error of the linear logarithm
+  constexpr double offset = (1.0 + 1.0 / p) * (one - middle);
+  Real y;
+  if constexpr (std::is_same_v<Real, double>) {
+    const auto mantissa = (std::bit_cast<std::uint64_t>(x) >> 12) | bits_of_two_52;
+    const double logarithm = std::bit_cast<double>(mantissa) - two_52;
+    const double start = two_52 + (offset - (1.0 / p) * logarithm);
+    y = std::bit_cast<double>(std::bit_cast<std::uint64_t>(start) << 12);
+  } else {
+    const LaneBits mantissa = (reinterpret_cast<LaneBits>(x) >> 12) | bits_of_two_52;
+    const Real logarithm = reinterpret_cast<Real>(mantissa) - two_52;
+    const Real start = two_52 + (offset - (1.0 / p) * logarithm);
+    y = reinterpret_cast<Real>(reinterpret_cast<LaneBits>(start) << 12);
+  }
+  for (int step = 0; step < 3; ++step) {
+    const Real square = y * y;
+    const Real power = p == 2 ? square : p == 3 ? square * y : square * square;
+    const Real error = 1.0 - x * power;
+    y += y * error * (1.0 / p + (p + 1.0) / (2.0 * p * p) * error);
+  }
+  return y;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,106 @@
+#include "smoothing/mesh/reordering.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "smoothing/mesh/parallel.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// Nodes in the order of a breadth-first search from `start` over nodes that are not in `visited`
+/// yet, neighbours with few neighbours of their own first; appended to `order`.
+void append_breadth_first(const Topology& topology, NodeIndex start, std::vector<bool>& visited,
+                          std::vector<NodeIndex>& order) {
+  std::vector<NodeIndex> next;
+  std::size_t head = order.size();
+  order.push_back(start);
+  visited[start] = true;
+  for (; head < order.size(); ++head) {
+    next.clear();
+    for (const NodeIndex j : topology.node_neighbours(order[head]))
+      if (!visited[j]) {
+        visited[j] = true;
+        next.push_back(j);
+      }
+    std::sort(next.begin(), next.end(), [&](NodeIndex a, NodeIndex b) {
+      return std::make_pair(topology.node_neighbours(a).size(), a) <
+             std::make_pair(topology.node_neighbours(b).size(), b);
+    });
+    order.insert(order.end(), next.begin(), next.end());
+  }
+}
+
+/// Each part of the mesh starts at a node that a search from its lowest node finds last: far out,
+/// so that levels are small.
+std::vector<NodeIndex> reverse_cuthill_mckee(const Topology& topology) {
+  std::vector<bool> visited(topology.n_nodes(), false), searched(topology.n_nodes(), false);
+  std::vector<NodeIndex> order, search;
+  order.reserve(topology.n_nodes());
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
+    if (visited[i]) continue;
+    search.clear();
+    append_breadth_first(topology, i, searched, search);
+    append_breadth_first(topology, search.back(), visited, order);
+  }
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+/// Cells by their first node in the new order, cells of one size together within some hundred
+/// nodes: whole vectors of cells of one type are cheaper than single ones.
+std::vector<CellIndex> cells_by_first_node(const Topology& topology,
+                                           const std::vector<NodeIndex>& node_order) {
+  constexpr NodeIndex group = 1024;
+  std::vector<NodeIndex> new_node(topology.n_nodes());
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) new_node[node_order[i]] = i;
+  std::vector<NodeIndex> first(topology.n_cells(), std::numeric_limits<NodeIndex>::max());
+  for (CellIndex c = 0; c < topology.n_cells(); ++c)
+    for (const NodeIndex node : topology.cell_nodes(c))
+      first[c] = std::min(first[c], new_node[node]);
+  std::vector<CellIndex> order(topology.n_cells());
+  std::iota(order.begin(), order.end(), CellIndex{0});
+  const auto key = [&](CellIndex c) {
+    return std::make_tuple(first[c] / group, topology.cell_nodes(c).size(), first[c], c);
+  };
+  // Sorted by groups of nodes first, which is cheap, then each group on its own.
+  std::vector<std::size_t> offsets(topology.n_nodes() / group + 2, 0);
+  for (const NodeIndex node : first) ++offsets[node / group + 1];
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  auto next = offsets;
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) order[next[first[c] / group]++] = c;
+  parallel_for(offsets.size() - 1, [&](std::size_t g) {
+    std::sort(order.begin() + offsets[g], order.begin() + offsets[g + 1],
+              [&](CellIndex a, CellIndex b) { return key(a) < key(b); });
+  });
+  return order;
+}
+
+}  // namespace
+
+template <int dim>
+Reordering<dim>::Reordering(const Topology& topology)
+    : node_order_(reverse_cuthill_mckee(topology)),
+      topology_(topology.reordered(node_order_, cells_by_first_node(topology, node_order_))) {}
+
+template <int dim>
+Mesh<dim> Reordering<dim>::apply(const Mesh<dim>& mesh) const {
+  std::vector<Point<dim>> coordinates(mesh.n_nodes());
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    coordinates[i] = mesh.coordinates()[node_order_[i]];
+  return {topology_, std::move(coordinates)};
+}
+
+template <int dim>
+void Reordering<dim>::restore(const std::vector<Point<dim>>& reordered,
+                              std::vector<Point<dim>>& result) const {
+  for (std::size_t i = 0; i < reordered.size(); ++i) result[node_order_[i]] = reordered[i];
+}
+
+template class Reordering<2>;
+template class Reordering<3>;
+
+}  // namespace smoothfem

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <numbers>
+
+#include "smoothing/loop/parameter.h"
+#include "smoothing/mesh/volume_elements.h"
+#include "smoothing/transformations/dual_element.h"
+#include "smoothing/transformations/opposite_face_normals.h"
+#include "smoothing/transformations/polygon_transformation.h"
+#include "smoothing/transformations/scaling.h"
+
+namespace smoothfem {
+
+/// The element step of GETMe: transform, keep centroid and size, relax. Parameters of a method, and
+/// the step itself for cells of any type.
+template <int dim>
+class ElementRegularization;
+
+template <>
+class ElementRegularization<2> {
+ public:
+  double lambda;
+  double theta_degrees;
+  double rho;
+
+  Parameters parameters() {
+    constexpr double above_zero = 1e-9;
+    return {{"lambda", "subdivision ratio of the polygon sides, in (0, 1) (Section 2.3)", &lambda,
+             above_zero, 1.0 - above_zero},
+            {"theta", "base angle of the similar triangles in degrees, in (0, 90) (Section 2.3)",
+             &theta_degrees, above_zero, 90.0 - above_zero},
+            {"rho", "relaxation, in (0, 1]; 1 takes the transformed element as it is (Eq. 3.12)",
+             &rho, above_zero, 1.0}};
+  }
+
+  /// Call before regularize, after parameters have changed.
+  void prepare() { transformation_ = {lambda, theta_degrees * std::numbers::pi / 180.0}; }
+
+  /// quality: of the cell, which planar transformations do not look at.
+  template <class Real, std::size_t extent>
+  SMOOTHFEM_INLINE void regularize(Real /*quality*/, std::span<const Vector2<Real>, extent> polygon,
+                                   std::span<Vector2<Real>, extent> result) const {
+    transformation_.apply(polygon, result);
+    keep_mean_edge_length(polygon, result);
+    if (rho != 1.0) relax(polygon, result, rho);
+  }
+
+ private:
+  PolygonTransformation transformation_{0.5, 0.5};
+};
+
+/// The scaling factor sigma of the normals, from `low` for regular elements to `high` for those of
+/// quality zero (thesis, Section 4.2).
+struct SigmaRange {
+  double low, high;
+};
+
+template <>
+class ElementRegularization<3> {
+ public:
+  enum TetrahedronTransformation { opposite_face_normals, dual_element };
+
+  SigmaRange tetrahedron, pyramid, prism, hexahedron;
+  double rho;
+  int tetrahedron_transformation = opposite_face_normals;
+  int scaling = static_cast<int>(ScalingRule::mean_edge_length);
+
+  Parameters parameters() {
+    Parameters all;
+    const auto add_sigma = [&all](const std::string& type, SigmaRange& sigma) {
+      constexpr double largest = 1e4;
+      all.push_back({"sigma_" + type + "_min",
+                     "scaling factor of the normals for a " + type + " of quality 1 (Section 4.2)",
+                     &sigma.low, 0.0, largest});
+      all.push_back({"sigma_" + type + "_max", "the same for quality 0, linear between them",
+                     &sigma.high, 0.0, largest});
+    };
+    add_sigma("tetrahedron", tetrahedron);
+    add_sigma("pyramid", pyramid);
+    add_sigma("prism", prism);
+    add_sigma("hexahedron", hexahedron);
+    all.push_back({"rho",
+                   "relaxation, in (0, 1]; 1 takes the transformed element as it is (Eq. "
+                   "3.12)",
+                   &rho, 1e-9, 1.0});
+    all.push_back({"tetrahedron_transformation",
+                   "how tetrahedra are transformed (Sections 3.2, 3.3)",
+                   Choice{&tetrahedron_transformation, {"opposite-face-normals", "dual-element"}}});
+    all.push_back({"scaling", "what an element keeps (Section 3.3)",
+                   Choice{&scaling, {"mean-edge-length", "mean-volume"}}});
+    return all;
+  }
+
+  void prepare() {}
+
+  /// quality: of the cell, in [0, 1].
+  template <class Real, std::size_t n>
+  SMOOTHFEM_INLINE void regularize(Real quality, std::span<const Vector3<Real>, n> nodes,
+                                   std::span<Vector3<Real>, n> result) const {
+    const SigmaRange& range = n == 4 ? tetrahedron : n == 5 ? pyramid : n == 6 ? prism : hexahedron;
+    const Real sigma = range.low + (range.high - range.low) * (1.0 - quality);
+    if constexpr (n == 4) {
+      if (tetrahedron_transformation == opposite_face_normals)
+        OppositeFaceNormals::apply(sigma, nodes, result);
+      else
+        DualElement::apply(sigma, nodes, result);
+    } else {
+      DualElement::apply(sigma, nodes, result);
+    }
+    keep_centroid_and_size(static_cast<ScalingRule>(scaling), nodes, result);
+    if (rho != 1.0) relax(nodes, result, rho);
+  }
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "smoothing/tests/planar_meshes.h"
+
+namespace smoothfem::test {
+
+inline VolumeMesh make_volume_mesh(const std::vector<Point<3>>& coordinates,
+                                   const CompressedRows<NodeIndex>& cells,
+                                   std::optional<std::vector<bool>> fixed = std::nullopt) {
+  return {std::make_shared<const Topology>(3, coordinates.size(), cells, std::move(fixed)),
+          coordinates};
+}
+
+enum class BoxCells { tetrahedra, pyramids, prisms, hexahedra, mixed };
+
+/// nx x ny x nz unit cubes: as hexahedra, or each cut into six tetrahedra along a diagonal (all the
+/// same way, so that they fit), six pyramids over its middle, or two prisms. mixed: prisms in the
+/// lower layers, above them hexahedra, then a layer of pyramids, and tetrahedra on top (in the
+/// cubes above the pyramids, whose top face is cut so that the tetrahedra fit).
+inline VolumeMesh box_mesh(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz, BoxCells kind) {
+  std::vector<Point<3>> x;
+  for (std::uint32_t k = 0; k <= nz; ++k)
+    for (std::uint32_t j = 0; j <= ny; ++j)
+      for (std::uint32_t i = 0; i <= nx; ++i) x.emplace_back(i, j, k);
+  CompressedRows<NodeIndex> cells;
+  using Row = std::vector<NodeIndex>;
+  for (std::uint32_t k = 0; k < nz; ++k)
+    for (std::uint32_t j = 0; j < ny; ++j)
+      for (std::uint32_t i = 0; i < nx; ++i) {
+        const NodeIndex a = (k * (ny + 1) + j) * (nx + 1) + i, up = (nx + 1) * (ny + 1);
+        const NodeIndex b = a + 1, c = a + nx + 2, d = a + nx + 1;
+        const std::array<NodeIndex, 8> h{a, b, c, d, a + up, b + up, c + up, d + up};
+        BoxCells here = kind;
+        if (kind == BoxCells::mixed)
+          here = 4 * k < nz       ? BoxCells::prisms
+                 : 2 * k < nz     ? BoxCells::hexahedra
+                 : 2 * k < nz + 2 ? BoxCells::pyramids
+                                  : BoxCells::tetrahedra;
+        if (here == BoxCells::hexahedra) {
+          cells.append(h);
+        } else if (here == BoxCells::prisms) {
+          cells.append(Row{h[0], h[1], h[2], h[4], h[5], h[6]});
+          cells.append(Row{h[0], h[2], h[3], h[4], h[6], h[7]});
+        } else if (here == BoxCells::pyramids) {
+          const auto middle = static_cast<NodeIndex>(x.size());
+          x.emplace_back(i + 0.5, j + 0.5, k + 0.5);
+          const bool tetrahedra_above = kind == BoxCells::mixed && k + 1 < nz;
+          const auto& faces = VolumeElement<8>::faces;
+          for (std::size_t f = 0; f < faces.size(); ++f) {
+            const auto& n = faces[f].nodes;  // outwards; seen from the middle the other way round
+            if (tetrahedra_above && f + 1 == faces.size()) {
+              cells.append(Row{h[4], h[6], h[5], middle});
+              cells.append(Row{h[4], h[7], h[6], middle});
+            } else {
+              cells.append(Row{h[n[3]], h[n[2]], h[n[1]], h[n[0]], middle});
+            }
+          }
+        } else {
+          for (const auto& [p, q] : {std::pair{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}})
+            cells.append(Row{h[0], h[p], h[q], h[6]});
+        }
+      }
+  return make_volume_mesh(x, cells);
+}
+
+/// Moves each free node by up to `radius` in each direction where its cells stay valid.
+inline void distort(VolumeMesh& mesh, double radius, std::uint64_t seed) {
+  Random random(seed);
+  for (const NodeIndex i : mesh.topology().free_nodes()) {
+    auto& here = mesh.coordinates()[i];
+    const Point<3> old = here;
+    const double dx = radius * random(), dy = radius * random(), dz = radius * random();
+    here += Point<3>(dx, dy, dz);
+    for (const CellIndex c : mesh.topology().node_cells(i))
+      if (!(cell_mean_ratio(mesh, c) > 0.0)) here = old;
+  }
+}
+
+}  // namespace smoothfem::test

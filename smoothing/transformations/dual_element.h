@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "smoothing/mesh/volume_elements.h"
+#include "smoothing/transformations/opposite_face_normals.h"
+
+namespace smoothfem {
+
+/// The regularizing transformation of tetrahedra, hexahedra, pyramids and prisms by their dual
+/// elements (thesis, Definition 3.4): the means of the faces are the nodes of the dual element; on
+/// a base point b_k of its face k stands the face's normal n_k, and p'_k = b_k + sigma n_k /
+/// sqrt(|n_k|). Commutes with similarities; regular elements stay regular; keeps the centroid of
+/// hexahedra only (Lemma 3.2). Iterating it makes any element regular, also an invalid one: any
+/// sigma > 0 for tetrahedra and hexahedra, sigma <= 2 for pyramids and prisms, which do not settle
+/// for large ones.
+class DualElement {
+ public:
+  /// nodes, result: n = 4, 5, 6 or 8 points each, not overlapping. sigma > 0, one a lane.
+  template <class Real, std::size_t n>
+  static SMOOTHFEM_INLINE void apply(Real sigma, std::span<const Vector3<Real>, n> nodes,
+                                     std::span<Vector3<Real>, n> result) {
+    using Element = VolumeElement<n>;
+    std::array<Vector3<Real>, Element::faces.size()> dual;
+    for (std::size_t f = 0; f < dual.size(); ++f) {
+      const LocalFace& face = Element::faces[f];
+      auto sum = nodes[face.nodes[0]] + nodes[face.nodes[1]] + nodes[face.nodes[2]];
+      if (face.size == 4) sum = sum + nodes[face.nodes[3]];
+      dual[f] = (face.size == 4 ? 0.25 : 1.0 / 3.0) * sum;
+    }
+    const Real tau = base_position<n>(sigma);
+    for (std::size_t k = 0; k < n; ++k) {
+      const LocalFace& face = Element::dual_faces[k];
+      const auto &a = dual[face.nodes[0]], &b = dual[face.nodes[1]], &c = dual[face.nodes[2]];
+      if (face.size == 4) {  // the base of the dual pyramid
+        const auto& d = dual[face.nodes[3]];
+        const auto normal = 0.5 * cross(c - a, d - b);
+        result[k] = 0.25 * (a + b + c + d) + OppositeFaceNormals::scaled(sigma, normal);
+      } else {
+        const auto base =
+            n == 4 || n == 8 ? (1.0 / 3.0) * (a + b + c) : (1.0 - tau) * a + (0.5 * tau) * (b + c);
+        result[k] = base + OppositeFaceNormals::scaled(sigma, cross(b - a, c - a));
+      }
+    }
+  }
+
+ private:
+  /// Where base points of triangles lie on the line from the first node of the dual face to the
+  /// middle of the other two (Eq. 3.8); chosen so that regular elements stay regular.
+  template <std::size_t n, class Real>
+  static SMOOTHFEM_INLINE Real base_position(Real sigma) {
+    if constexpr (n == 5) return 0.5 + sigma;
+    if constexpr (n == 6) {
+      const double factor = std::numbers::sqrt2 / std::sqrt(std::sqrt(39.0));
+      return 0.8 * (1.0 - factor * sigma);
+    }
+    return sigma;  // not used
+  }
+};
+
+}  // namespace smoothfem
