@@ -9,16 +9,88 @@
 
 namespace smoothfem {
 
-MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
+namespace {
+
+/// The file's numbers where they say more than the order does; otherwise nothing.
+std::vector<std::size_t> worth_keeping(std::vector<std::size_t> ids) {
+  bool plain = true, ascending = true;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] == 0) return {};
+    plain = plain && ids[i] == i + 1;
+    ascending = ascending && (i == 0 || ids[i] > ids[i - 1]);
+  }
+  if (plain) return {};
+  if (ascending) return ids;
+  auto sorted = ids;
+  std::sort(sorted.begin(), sorted.end());
+  const bool unique = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  return unique ? ids : std::vector<std::size_t>();
+}
+
+MeshLabels labels_of(MeshParts& parts, int dim) {
+  MeshLabels labels;
+  auto& cells = parts.elements[dim];
+  const auto is_set = [](int tag) { return tag != 0; };
+  if (std::any_of(cells.tags.begin(), cells.tags.end(), is_set))
+    labels.cell_tags = std::move(cells.tags);
+  labels.cell_ids = worth_keeping(std::move(cells.ids));
+  labels.node_ids = worth_keeping(std::move(parts.node_ids));
+  const auto& facets = parts.elements[dim - 1];
+  for (std::size_t f = 0; f < facets.tags.size(); ++f) {
+    if (facets.tags[f] == 0) continue;
+    labels.facets.append(facets.nodes[f]);
+    labels.facet_tags.push_back(facets.tags[f]);
+  }
+  for (const auto& [key, name] : parts.names)
+    if (key.first == dim || key.first == dim - 1) labels.names[key] = name;
+  return labels;
+}
+
+std::vector<Point<2>> without_z(const std::vector<Point<3>>& points) {
+  std::vector<Point<2>> result;
+  result.reserve(points.size());
+  for (const auto& point : points) {
+    if (point.z() != points.front().z())
+      throw InputError("node " + std::to_string(result.size()) +
+                       " has z = " + std::to_string(point.z()) +
+                       " and node 0 z = " + std::to_string(points.front().z()) +
+                       "; without volume cells only planar meshes with constant z can be read");
+    result.emplace_back(point.x(), point.y());
+  }
+  return result;
+}
+
+std::shared_ptr<const Topology> make_topology(MeshParts& parts, int dim) {
   const std::size_t n_nodes = parts.coordinates.size();
+  if (n_nodes >= std::numeric_limits<NodeIndex>::max())
+    throw InputError("the mesh has more nodes than 32 bits can count");
+  MeshLabels labels = labels_of(parts, dim);
+  auto& cells = parts.elements[dim].nodes;
+  if (parts.fixed && parts.boundary_is_fixed_too) {
+    const Topology alone(dim, n_nodes, cells);
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      if (alone.on_boundary()[i]) (*parts.fixed)[i] = true;
+  }
+  return std::make_shared<const Topology>(dim, n_nodes, std::move(cells), std::move(parts.fixed),
+                                          std::move(labels));
+}
+
+AnyMesh make_mesh(MeshParts& parts, int dim) {
+  auto topology = make_topology(parts, dim);
+  if (dim == 3) return VolumeMesh(std::move(topology), std::move(parts.coordinates));
+  return PlanarMesh(std::move(topology), without_z(parts.coordinates));
+}
+
+}  // namespace
+
+MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
+  const int dim = parts.elements[3].nodes.empty() ? 2 : 3;
+  const auto lines = std::move(parts.elements[dim].lines);
   try {
-    auto topology = std::make_shared<const Topology>(
-        2, n_nodes, std::move(parts.cells), std::move(parts.fixed), std::move(parts.labels));
-    return {PlanarMesh(std::move(topology), std::move(parts.coordinates)),
-            std::move(parts.cell_lines)};
+    return {make_mesh(parts, dim), lines};
   } catch (const CellError& error) {
     std::string place = path.string() + ":";
-    if (!parts.cell_lines.empty()) place += std::to_string(parts.cell_lines[error.cell()]) + ":";
+    if (!lines.empty()) place += std::to_string(lines[error.cell()]) + ":";
     throw InputError(place + " " + error.what());
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
@@ -44,21 +116,23 @@ CompressedRows<NodeIndex> renumbered(const CompressedRows<NodeIndex>& rows,
 void drop_unused_nodes(MeshParts& parts) {
   constexpr NodeIndex unused = std::numeric_limits<NodeIndex>::max();
   std::vector<NodeIndex> new_index(parts.coordinates.size(), unused);
-  for (const auto* rows : {&parts.cells, &parts.labels.facets})
-    for (const NodeIndex node : rows->entries()) new_index[node] = 0;
+  for (int dim = 1; dim <= 3; ++dim)
+    for (const NodeIndex node : parts.elements[dim].nodes.entries()) new_index[node] = 0;
   NodeIndex n_used = 0;
   for (std::size_t i = 0; i < new_index.size(); ++i) {
     if (new_index[i] == unused) continue;
     new_index[i] = n_used;
     parts.coordinates[n_used] = parts.coordinates[i];
     if (parts.fixed) (*parts.fixed)[n_used] = (*parts.fixed)[i];
+    if (!parts.node_ids.empty()) parts.node_ids[n_used] = parts.node_ids[i];
     ++n_used;
   }
   if (n_used == parts.coordinates.size()) return;
   parts.coordinates.resize(n_used);
   if (parts.fixed) parts.fixed->resize(n_used);
-  parts.cells = renumbered(parts.cells, new_index);
-  parts.labels.facets = renumbered(parts.labels.facets, new_index);
+  if (!parts.node_ids.empty()) parts.node_ids.resize(n_used);
+  for (int dim = 1; dim <= 3; ++dim)
+    parts.elements[dim].nodes = renumbered(parts.elements[dim].nodes, new_index);
 }
 
 }  // namespace smoothfem

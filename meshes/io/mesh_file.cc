@@ -11,33 +11,71 @@
 
 namespace smoothfem {
 
+namespace {
+
+MeshFormat vtk_format(const std::string& name, const std::string& description,
+                      decltype(MeshFormat::read) read, decltype(MeshFormat::write) write) {
+  return {.name = name,
+          .extension = "." + name,
+          .description = description,
+          .holds_planar_meshes = true,
+          .holds_volume_meshes = true,
+          .holds_polygons = true,
+          .holds_fixed_nodes = true,
+          .holds_fields = true,
+          .holds_physical_names = true,
+          .holds_numbers = true,
+          .read = read,
+          .write = write};
+}
+
+}  // namespace
+
 const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> formats = {
-      {"polygonal", ".mesh", "planar polygonal mesh, text", true, true, false, false,
-       read_polygonal_text, write_polygonal_text},
-      {"gmsh", ".msh", "Gmsh 4.1 and 2.2, text or binary", false, false, false, true, read_msh,
-       write_msh},
-      {"vtk", ".vtk", "legacy VTK, text or binary", true, true, true, false, read_legacy_vtk,
-       write_legacy_vtk},
-      {"vtu", ".vtu", "VTK XML unstructured grid", true, true, true, false, read_vtu, write_vtu},
+      {.name = "polygonal",
+       .extension = ".mesh",
+       .description = "planar polygonal mesh, text",
+       .holds_planar_meshes = true,
+       .holds_polygons = true,
+       .holds_fixed_nodes = true,
+       .read = read_polygonal_text,
+       .write = write_polygonal_text},
+      {.name = "gmsh",
+       .extension = ".msh",
+       .description = "Gmsh 4.1 and 2.2, text or binary",
+       .holds_planar_meshes = true,
+       .holds_volume_meshes = true,
+       .holds_physical_names = true,
+       .holds_numbers = true,
+       .read = read_msh,
+       .write = write_msh},
+      vtk_format("vtk", "legacy VTK, text or binary", read_legacy_vtk, write_legacy_vtk),
+      vtk_format("vtu", "VTK XML unstructured grid", read_vtu, write_vtu),
   };
   return formats;
 }
 
 namespace {
 
-const MeshFormat& format_of(const std::filesystem::path& path, const std::string& prefix) {
+/// Formats of the path's extension: one or more.
+std::vector<const MeshFormat*> formats_of(const std::filesystem::path& path,
+                                          const std::string& prefix) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::string known;
+  std::vector<const MeshFormat*> found;
   for (const auto& format : mesh_formats()) {
-    if (format.extension == extension) return format;
-    known += (known.empty() ? "" : ", ") + format.extension;
+    if (format.extension == extension) found.push_back(&format);
+    if (known.find(format.extension) == std::string::npos)
+      known += (known.empty() ? "" : ", ") + format.extension;
   }
-  throw InputError(prefix + ": " +
-                   (extension.empty() ? "the file name has no extension"
-                                      : "the extension " + extension + " is not known") +
-                   "; use one of " + known);
+  if (found.empty())
+    throw InputError(prefix + ": " +
+                     (extension.empty() ? "the file name has no extension"
+                                        : "the extension " + extension + " is not known") +
+                     "; use one of " + known);
+  return found;
 }
 
 void require_sizes(const std::string& path, const std::string& kind,
@@ -53,7 +91,7 @@ void require_sizes(const std::string& path, const std::string& kind,
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   try {
-    return format_of(path, path.string()).read(path);
+    return formats_of(path, path.string()).front()->read(path);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {  // a damaged count can ask for more memory than there is
@@ -61,12 +99,24 @@ MeshFile read_mesh(const std::filesystem::path& path) {
   }
 }
 
-void write_mesh(const std::filesystem::path& path, const PlanarMesh& mesh, const MeshFields& fields,
+const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path) {
+  if (const auto* mesh = std::get_if<PlanarMesh>(&file.mesh)) return *mesh;
+  throw InputError(path.string() +
+                   ": the file holds a volume mesh, but a planar one is needed here; give another "
+                   "file");
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                 const MeshWriteOptions& options) {
-  const MeshFormat& format = format_of(path, "cannot write " + path.string());
+  const std::string prefix = "cannot write " + path.string();
   require_sizes(path.string(), "cell", fields.cell, mesh.n_cells());
   require_sizes(path.string(), "point", fields.point, mesh.n_nodes());
-  format.write(path, mesh, fields, options);
+  for (const MeshFormat* format : formats_of(path, prefix))
+    if (mesh.dimension() == 2 ? format->holds_planar_meshes : format->holds_volume_meshes)
+      return format->write(path, mesh, fields, options);
+  throw InputError(prefix + ": the format holds no " +
+                   (mesh.dimension() == 2 ? "planar" : "volume") +
+                   " meshes; use .vtu or another extension");
 }
 
 }  // namespace smoothfem

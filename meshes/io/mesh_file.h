@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "meshes/io/mesh_view.h"
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
@@ -12,13 +13,18 @@ namespace smoothfem {
 /// A mesh as read. Cells may be invalid (the quality command has to be able to look at them): who
 /// needs valid ones calls require_valid(mesh, path, cell_lines) of smoothing/quality.
 struct MeshFile {
-  PlanarMesh mesh;
+  AnyMesh mesh;  ///< a volume mesh if the file has volume cells, otherwise a planar one
   std::vector<std::size_t> cell_lines;  ///< line of each cell in the file; empty if it has none
 };
 
-/// Reads a planar mesh. The format follows from the extension (mesh_formats()), where two formats
-/// share one from the content. Throws InputError, "path:line: what is wrong" where there is a line.
+/// Reads a mesh. The format follows from the extension (mesh_formats()), where two formats share
+/// one from the content. Surface cells of volume meshes become labelled facets if they have a tag;
+/// planar meshes need a constant z. Throws InputError, "path:line: what is wrong" where there is a
+/// line.
 MeshFile read_mesh(const std::filesystem::path& path);
+
+/// The planar mesh of a file. Throws InputError if it is a volume mesh; `path` names it.
+const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path);
 
 /// Named numbers to write along with a mesh: one a cell, one a node.
 struct MeshFields {
@@ -34,11 +40,12 @@ struct MeshWriteOptions {
   bool msh_binary = true;
 };
 
-/// Writes a mesh in the format of the extension; the file appears in one piece or not at all, and
+/// Writes a mesh in the format of the extension (of two formats with one extension in the first
+/// that holds its dimension); the file appears in one piece or not at all, and
 /// missing parent folders are created. Fields that the format cannot hold are left out. Throws
 /// InputError for an extension or a cell the format cannot hold, fields of the wrong length, and
 /// files that cannot be written.
-void write_mesh(const std::filesystem::path& path, const PlanarMesh& mesh,
+void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
                 const MeshFields& fields = {}, const MeshWriteOptions& options = {});
 
 /// What `smoothfem list` says about a format, and how it is read and written.
@@ -46,13 +53,15 @@ struct MeshFormat {
   std::string name;
   std::string extension;  ///< with the dot
   std::string description;
-  bool holds_polygons;        ///< cells with five and more nodes
-  bool holds_fixed_nodes;     ///< otherwise boundary nodes are fixed after reading
-  bool holds_fields;          ///< MeshFields are written
-  bool holds_physical_names;  ///< labels of cells and boundary edges with names (all but polygonal
-                              ///< text keep the cells' tags)
+  bool holds_planar_meshes = false, holds_volume_meshes = false;
+  bool holds_polygons = false;        ///< cells with five and more nodes
+  bool holds_fixed_nodes = false;     ///< otherwise boundary nodes are fixed after reading
+  bool holds_fields = false;          ///< MeshFields are written
+  bool holds_physical_names = false;  ///< labelled facets, and names of tags (all but polygonal
+                                      ///< text hold the cells' tags)
+  bool holds_numbers = false;         ///< numbers of nodes and cells
   MeshFile (*read)(const std::filesystem::path&);
-  void (*write)(const std::filesystem::path&, const PlanarMesh&, const MeshFields&,
+  void (*write)(const std::filesystem::path&, const MeshView&, const MeshFields&,
                 const MeshWriteOptions&);
 };
 

@@ -9,17 +9,17 @@
 
 namespace smoothfem {
 
-/// Reads a Gmsh file, version 2.2 or 4.1, text or binary, through the Gmsh library. Cells come in
-/// the order of their element tags; nodes that no cell uses are dropped. Physical groups of cells
-/// and of edges are kept with their names (of several groups of one entity the first); points and
-/// edges without a group are ignored, parametric coordinates and other sections too. Refused: files
-/// that are not complete, other versions, a z coordinate that is not constant, elements with
-/// mid-nodes, volumes.
+/// Reads a Gmsh file, version 2.2 or 4.1, text or binary, through the Gmsh library. Nodes and cells
+/// come in the order of their tags; nodes that no element uses are dropped. Physical groups of
+/// cells and facets are kept with their names (of several groups of one entity the first), node and
+/// element tags too; points and facets without a group are ignored, parametric coordinates and
+/// other sections too. Refused: files that are not complete, other versions, surfaces that are not
+/// planar, elements with mid-nodes.
 MeshFile read_msh(const std::filesystem::path& path);
 
 /// Version and encoding follow the options. Refused: polygons with five and more nodes; in version
 /// 2.2 also meshes where only some cells have a tag, which it cannot tell from meshes without tags.
-void write_msh(const std::filesystem::path& path, const PlanarMesh& mesh, const MeshFields& fields,
+void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
 
 /// What a .msh file says about itself. Gmsh accepts several kinds of damaged files silently.

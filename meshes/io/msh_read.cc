@@ -1,10 +1,8 @@
 #include <gmsh.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <string>
-#include <unordered_map>
 
 #include "meshes/io/gmsh_session.h"
 #include "meshes/io/line_reader.h"
@@ -15,8 +13,6 @@
 namespace smoothfem {
 
 namespace {
-
-using NodeNumbers = std::unordered_map<std::size_t, NodeIndex>;
 
 /// Elements of one dimension of the current Gmsh model, with what the model says about them.
 struct GmshElements {
@@ -31,35 +27,23 @@ int first_physical_tag(int dimension, int entity) {
   return tags.empty() ? 0 : tags.front();
 }
 
-void refuse_volumes() {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> tags, nodes;
-  gmsh::model::mesh::getElements(types, tags, nodes, 3);
-  if (!types.empty())
-    throw InputError("the mesh has volume elements; only planar meshes can be read");
-}
-
-/// Nodes in the order of their tags, so that the numbering does not depend on Gmsh's entities.
-std::vector<Point<2>> planar_nodes(NodeNumbers& numbers) {
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz, parameters;
-  gmsh::model::mesh::getNodes(tags, xyz, parameters);
-  if (tags.size() >= std::numeric_limits<NodeIndex>::max())
-    throw InputError("the mesh has more nodes than 32 bits can count");
+std::vector<std::size_t> ascending(const std::vector<std::size_t>& tags) {
   std::vector<std::size_t> order(tags.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  std::vector<Point<2>> coordinates;
-  for (const std::size_t i : order) {
-    numbers.emplace(tags[i], static_cast<NodeIndex>(coordinates.size()));
-    coordinates.emplace_back(xyz[3 * i], xyz[3 * i + 1]);
-    if (xyz[3 * i + 2] != xyz[2])
-      throw InputError("node " + std::to_string(tags[i]) +
-                       " has z = " + std::to_string(xyz[3 * i + 2]) + " and another node z = " +
-                       std::to_string(xyz[2]) + "; only planar meshes with constant z can be read");
+  return order;
+}
+
+/// Nodes in the order of their tags, so that the numbering does not depend on Gmsh's entities.
+void add_nodes(MeshParts& parts) {
+  std::vector<std::size_t> tags;
+  std::vector<double> xyz, parameters;
+  gmsh::model::mesh::getNodes(tags, xyz, parameters);
+  for (const std::size_t i : ascending(tags)) {
+    parts.node_ids.push_back(tags[i]);
+    parts.coordinates.emplace_back(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
   }
-  return coordinates;
 }
 
 /// Number of nodes of a straight-sided element type with corners only.
@@ -74,18 +58,23 @@ std::size_t n_corners(int type) {
   return static_cast<std::size_t>(n_nodes);
 }
 
-NodeIndex number_of(std::size_t node, std::size_t element, const NodeNumbers& numbers) {
-  const auto found = numbers.find(node);
-  if (found == numbers.end())
+/// node_tags: ascending.
+NodeIndex number_of(std::size_t node, std::size_t element,
+                    const std::vector<std::size_t>& node_tags) {
+  const auto found = node - 1 < node_tags.size() && node_tags[node - 1] == node
+                         ? node_tags.begin() + static_cast<std::ptrdiff_t>(node - 1)
+                         : std::lower_bound(node_tags.begin(), node_tags.end(), node);
+  if (found == node_tags.end() || *found != node)
     throw InputError("element " + std::to_string(element) + " names node " + std::to_string(node) +
                      ", which the file does not have");
-  return found->second;
+  return static_cast<NodeIndex>(found - node_tags.begin());
 }
 
-GmshElements elements_of_dimension(int dimension, const NodeNumbers& numbers) {
+GmshElements elements_of_dimension(int dimension, const std::vector<std::size_t>& node_tags) {
   GmshElements result;
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
+  std::vector<NodeIndex> row;
   for (const auto& [_, entity] : entities) {
     const int physical_tag = first_physical_tag(dimension, entity);
     std::vector<int> types;
@@ -93,10 +82,10 @@ GmshElements elements_of_dimension(int dimension, const NodeNumbers& numbers) {
     gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
     for (std::size_t t = 0; t < types.size(); ++t) {
       const std::size_t n = n_corners(types[t]);
-      std::vector<NodeIndex> row(n);
+      row.resize(n);
       for (std::size_t e = 0; e < tags[t].size(); ++e) {
         for (std::size_t k = 0; k < n; ++k)
-          row[k] = number_of(nodes[t][e * n + k], tags[t][e], numbers);
+          row[k] = number_of(nodes[t][e * n + k], tags[t][e], node_tags);
         result.nodes.append(row);
         result.tags.push_back(tags[t][e]);
         result.physical_tags.push_back(physical_tag);
@@ -106,39 +95,24 @@ GmshElements elements_of_dimension(int dimension, const NodeNumbers& numbers) {
   return result;
 }
 
-std::vector<std::size_t> order_by_tag(const GmshElements& elements) {
-  std::vector<std::size_t> order(elements.tags.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return elements.tags[a] < elements.tags[b]; });
-  return order;
+void add_elements(const GmshElements& found, const MshStructure& structure, ElementList& elements) {
+  for (const std::size_t e : ascending(found.tags)) {
+    elements.nodes.append(found.nodes[e]);
+    elements.tags.push_back(found.physical_tags[e]);
+    elements.ids.push_back(found.tags[e]);
+    const auto line = structure.element_lines.find(found.tags[e]);
+    if (line != structure.element_lines.end()) elements.lines.push_back(line->second);
+  }
+  if (elements.lines.size() != elements.nodes.size()) elements.lines.clear();
 }
 
-void add_cells(const GmshElements& cells, const MshStructure& structure, MeshParts& parts) {
-  const auto& tags = cells.physical_tags;
-  const bool any_tag = std::any_of(tags.begin(), tags.end(), [](int tag) { return tag != 0; });
-  for (const std::size_t c : order_by_tag(cells)) {
-    parts.cells.append(cells.nodes[c]);
-    if (any_tag) parts.labels.cell_tags.push_back(tags[c]);
-    const auto line = structure.element_lines.find(cells.tags[c]);
-    if (line != structure.element_lines.end()) parts.cell_lines.push_back(line->second);
-  }
-  if (parts.cell_lines.size() != parts.cells.size()) parts.cell_lines.clear();
-}
-
-void add_labels(const GmshElements& edges, MeshLabels& labels) {
-  for (const std::size_t e : order_by_tag(edges)) {
-    if (edges.physical_tags[e] == 0) continue;
-    labels.facets.append(edges.nodes[e]);
-    labels.facet_tags.push_back(edges.physical_tags[e]);
-  }
+void add_names(MeshParts& parts) {
   gmsh::vectorpair groups;
   gmsh::model::getPhysicalGroups(groups);
   for (const auto& [dimension, tag] : groups) {
-    if (dimension != 1 && dimension != 2) continue;
     std::string name;
     gmsh::model::getPhysicalName(dimension, tag, name);
-    if (!name.empty()) labels.names[{dimension, tag}] = name;
+    if (!name.empty()) parts.names[{dimension, tag}] = name;
   }
 }
 
@@ -164,11 +138,11 @@ MeshFile read_msh(const std::filesystem::path& path) {
   try {
     session.run(path.string(), [&] {
       require_complete(structure);
-      refuse_volumes();
-      NodeNumbers numbers;
-      parts.coordinates = planar_nodes(numbers);
-      add_cells(elements_of_dimension(2, numbers), structure, parts);
-      add_labels(elements_of_dimension(1, numbers), parts.labels);
+      add_nodes(parts);
+      for (int dimension = 1; dimension <= 3; ++dimension)
+        add_elements(elements_of_dimension(dimension, parts.node_ids), structure,
+                     parts.elements[dimension]);
+      add_names(parts);
     });
   } catch (const InputError& error) {
     const std::string message = error.what();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -15,7 +16,27 @@ namespace smoothfem {
 
 namespace {
 
-constexpr int line_type = 1, triangle_type = 2, quadrilateral_type = 3;  // Gmsh's numbers
+/// Gmsh's number of the element type with these nodes; its nodes have our order.
+int gmsh_type(int dim, std::size_t n_nodes) {
+  if (dim == 1) return 1;
+  switch (element_type(dim, n_nodes)) {
+    case ElementType::triangle:
+      return 2;
+    case ElementType::quadrilateral:
+      return 3;
+    case ElementType::tetrahedron:
+      return 4;
+    case ElementType::hexahedron:
+      return 5;
+    case ElementType::prism:
+      return 6;
+    case ElementType::pyramid:
+      return 7;
+    case ElementType::polygon:
+      break;  // refused before
+  }
+  return 0;
+}
 
 void require_writable(const std::filesystem::path& path, const Topology& topology,
                       const MeshWriteOptions& options) {
@@ -38,60 +59,72 @@ void require_writable(const std::filesystem::path& path, const Topology& topolog
                      ": some cells have no physical tag, which version 2.2 cannot hold; use 4.1");
 }
 
-void add_nodes(const PlanarMesh& mesh, int surface) {
-  std::vector<std::size_t> tags(mesh.n_nodes());
-  std::vector<double> xyz;
-  xyz.reserve(3 * mesh.n_nodes());
-  for (std::size_t i = 0; i < mesh.n_nodes(); ++i) {
-    tags[i] = i + 1;
-    xyz.insert(xyz.end(), {mesh.coordinates()[i].x(), mesh.coordinates()[i].y(), 0.0});
-  }
-  gmsh::model::mesh::addNodes(2, surface, tags, xyz);
+/// The numbers that nodes or cells get: those of the labels, or 1, 2, ...
+std::vector<std::size_t> numbers(const std::vector<std::size_t>& ids, std::size_t n) {
+  if (!ids.empty()) return ids;
+  std::vector<std::size_t> plain(n);
+  std::iota(plain.begin(), plain.end(), std::size_t{1});
+  return plain;
 }
 
-/// Elements of one entity by Gmsh type: tags and 1-based node tags.
+void add_nodes(const MeshView& mesh, const std::vector<std::size_t>& tags) {
+  std::vector<double> xyz;
+  xyz.reserve(3 * mesh.n_nodes());
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    const Point<3> point = mesh.point(i);
+    xyz.insert(xyz.end(), {point.x(), point.y(), point.z()});
+  }
+  gmsh::model::mesh::addNodes(mesh.dimension(), 1, tags, xyz);
+}
+
+/// Elements of one physical tag by Gmsh type: their tags and their node tags.
 struct TypedElements {
   std::map<int, std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> by_type;
 
-  void add(int type, std::size_t tag, std::span<const NodeIndex> nodes) {
-    auto& [tags, node_tags] = by_type[type];
+  void add(int dim, std::size_t tag, std::span<const NodeIndex> nodes,
+           const std::vector<std::size_t>& node_tags) {
+    auto& [tags, nodes_of_all] = by_type[gmsh_type(dim, nodes.size())];
     tags.push_back(tag);
-    for (const NodeIndex node : nodes) node_tags.push_back(std::size_t{node} + 1);
+    for (const NodeIndex node : nodes) nodes_of_all.push_back(node_tags[node]);
   }
 };
 
-/// One discrete entity for each physical tag; 0 stands for no group.
-void add_entities(int dimension, const std::map<int, TypedElements>& by_tag,
+/// One discrete entity for each physical tag; 0 stands for no group. first_exists: entity 1 is
+/// there already.
+void add_entities(int dim, bool first_exists, const std::map<int, TypedElements>& by_tag,
                   const std::map<std::pair<int, int>, std::string>& names) {
   int entity = 0;
   for (const auto& [tag, elements] : by_tag) {
     ++entity;
-    if (dimension != 2 || entity != 1) gmsh::model::addDiscreteEntity(dimension, entity);
+    if (!first_exists || entity != 1) gmsh::model::addDiscreteEntity(dim, entity);
     for (const auto& [type, lists] : elements.by_type)
       gmsh::model::mesh::addElementsByType(entity, type, lists.first, lists.second);
     if (tag == 0) continue;
-    gmsh::model::addPhysicalGroup(dimension, {entity}, tag);
-    const auto name = names.find({dimension, tag});
-    if (name != names.end()) gmsh::model::setPhysicalName(dimension, tag, name->second);
+    gmsh::model::addPhysicalGroup(dim, {entity}, tag);
+    const auto name = names.find({dim, tag});
+    if (name != names.end()) gmsh::model::setPhysicalName(dim, tag, name->second);
   }
 }
 
-/// Cells keep their order as element tags 1, 2, ...; edges follow them.
-void build_model(const PlanarMesh& mesh) {
+/// Facets are numbered behind the cells.
+void build_model(const MeshView& mesh) {
   const Topology& topology = mesh.topology();
   const MeshLabels& labels = topology.labels();
+  const int dim = mesh.dimension();
+  const auto node_tags = numbers(labels.node_ids, mesh.n_nodes());
+  const auto cell_tags = numbers(labels.cell_ids, mesh.n_cells());
   std::map<int, TypedElements> cells, facets;
   for (CellIndex c = 0; c < topology.n_cells(); ++c)
     cells[labels.cell_tags.empty() ? 0 : labels.cell_tags[c]].add(
-        topology.cell_type(c) == ElementType::triangle ? triangle_type : quadrilateral_type,
-        std::size_t{c} + 1, topology.cell_nodes(c));
+        dim, cell_tags[c], topology.cell_nodes(c), node_tags);
+  std::size_t last = *std::max_element(cell_tags.begin(), cell_tags.end());
   for (std::size_t f = 0; f < labels.facets.size(); ++f)
-    facets[labels.facet_tags[f]].add(line_type, topology.n_cells() + f + 1, labels.facets[f]);
-  // All nodes stand in the first surface, in their order, whichever entities use them.
-  gmsh::model::addDiscreteEntity(2, 1);
-  add_nodes(mesh, 1);
-  add_entities(2, cells, labels.names);
-  add_entities(1, facets, labels.names);
+    facets[labels.facet_tags[f]].add(dim - 1, ++last, labels.facets[f], node_tags);
+  // All nodes stand in the first entity of the cells, in their order, whichever entities use them.
+  gmsh::model::addDiscreteEntity(dim, 1);
+  add_nodes(mesh, node_tags);
+  add_entities(dim, true, cells, labels.names);
+  add_entities(dim - 1, false, facets, labels.names);
 }
 
 /// Gmsh does not look whether its writes succeed: a full disk shows as a missing end.
@@ -106,7 +139,7 @@ void require_complete_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_msh(const std::filesystem::path& path, const PlanarMesh& mesh, const MeshFields&,
+void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                const MeshWriteOptions& options) {
   require_writable(path, mesh.topology(), options);
   GmshSession session;

@@ -36,9 +36,9 @@ std::size_t section_count(LineReader& reader, const std::string& keyword) {
   return count;
 }
 
-std::vector<Point<2>> read_nodes(LineReader& reader) {
+std::vector<Point<3>> read_nodes(LineReader& reader) {
   reader.require_line("the section 'nodes'");
-  std::vector<Point<2>> coordinates(section_count(reader, "nodes"));
+  std::vector<Point<3>> coordinates(section_count(reader, "nodes"), Point<3>::Zero());
   if (coordinates.size() > std::numeric_limits<NodeIndex>::max())
     reader.fail("the mesh has more nodes than 32 bits can count");
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -53,6 +53,7 @@ std::vector<Point<2>> read_nodes(LineReader& reader) {
 void read_polygons(LineReader& reader, MeshParts& parts) {
   reader.require_line("the section 'polygons'");
   const std::size_t n_cells = section_count(reader, "polygons");
+  ElementList& polygons = parts.elements[2];
   std::vector<NodeIndex> nodes;
   for (std::size_t c = 0; c < n_cells; ++c) {
     reader.require_line(nth("polygon", c, n_cells));
@@ -63,8 +64,8 @@ void read_polygons(LineReader& reader, MeshParts& parts) {
       nodes.push_back(static_cast<NodeIndex>(
           reader.integer(nth("node index", k, n), parts.coordinates.size())));
     reader.require_end_of_line();
-    parts.cells.append(nodes);
-    parts.cell_lines.push_back(reader.line());
+    polygons.nodes.append(nodes);
+    polygons.lines.push_back(reader.line());
   }
 }
 
@@ -112,7 +113,7 @@ MeshFile read_polygonal_text(const std::filesystem::path& path) {
   parts.coordinates = read_nodes(reader);
   read_polygons(reader, parts);
   parts.fixed = read_fixed(reader, parts.coordinates.size());
-  if (reader.next_line()) skip_quality_numbers(reader, parts.cells.size());
+  if (reader.next_line()) skip_quality_numbers(reader, parts.elements[2].nodes.size());
   return assemble_mesh(path, std::move(parts));
 }
 
@@ -126,8 +127,9 @@ void append_number(std::string& text, double value, char end) {
 
 }  // namespace
 
-void write_polygonal_text(const std::filesystem::path& path, const PlanarMesh& mesh,
+void write_polygonal_text(const std::filesystem::path& path, const MeshView& view,
                           const MeshFields&, const MeshWriteOptions&) {
+  const PlanarMesh& mesh = *view.planar();
   const Topology& topology = mesh.topology();
   std::string text(title);
   text += "\nnodes " + std::to_string(mesh.n_nodes()) + "\n";

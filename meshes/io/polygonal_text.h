@@ -18,7 +18,7 @@ bool is_polygonal_text(std::string_view content);
 
 /// Coordinates have 17 significant digits, so reading gives back the same bits. Fixed nodes and
 /// mean ratios of the cells are always written; labels and fields are not.
-void write_polygonal_text(const std::filesystem::path& path, const PlanarMesh& mesh,
+void write_polygonal_text(const std::filesystem::path& path, const MeshView& mesh,
                           const MeshFields& fields, const MeshWriteOptions& options);
 
 }  // namespace smoothfem

@@ -8,21 +8,25 @@
 namespace smoothfem {
 
 /// Read a legacy .vtk file (unstructured grid or polygonal data, text or binary) or a .vtu file
-/// (every encoding VTK knows). Cells are triangles, quadrilaterals, pixels and polygons. Lines
-/// whose entry of the cell array `physical_tag` is not zero become labelled edges; other lines and
-/// vertices are ignored. The point array `fixed` (not zero = fixed) and the cell array
-/// `physical_tag` are honoured. All nodes are kept. Refused: incomplete files, a z coordinate that
-/// is not constant, other cells.
+/// (every encoding VTK knows). Cells are tetrahedra, pyramids, wedges, hexahedra and voxels, or in
+/// a plane triangles, quadrilaterals, pixels and polygons. Cells of one dimension less whose entry
+/// of the cell array `physical_tag` is not zero become labelled facets; other cells of lower
+/// dimension are ignored. Honoured are also the point array `fixed` (not zero = fixed), the arrays
+/// `node_id` and `cell_id`, and the field `physical_name`, strings "dimension tag name". All nodes
+/// are kept. Many programs write wedges in Gmsh's order (node_order.h): if more of a file's wedges
+/// have a positive volume in that order than in VTK's, it is taken for all of them. Refused:
+/// incomplete files, surfaces that are not planar, cells with mid-edge nodes, other cells.
 MeshFile read_legacy_vtk(const std::filesystem::path& path);
 MeshFile read_vtu(const std::filesystem::path& path);
 
-/// Write cells, the point array `fixed`, `physical_tag` if the mesh has tags, and the fields.
-/// Both keep every bit of coordinates and fields: .vtk is written binary (format version 4.2, which
-/// other programs still read better than 5.1; VTK's text files have 11 digits), .vtu with inline
-/// base64 data, 64-bit headers and no compression.
-void write_legacy_vtk(const std::filesystem::path& path, const PlanarMesh& mesh,
+/// Write cells, behind them the labelled facets, what the readers honour (tags, names and numbers
+/// if the mesh has them), and the fields, in which a facet has the value of its cell. Both keep
+/// every bit of coordinates and fields: .vtk is written binary (format version 4.2, which other
+/// programs still read better than 5.1; VTK's text files have 11 digits), .vtu with inline base64
+/// data, 64-bit headers and no compression.
+void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options);
-void write_vtu(const std::filesystem::path& path, const PlanarMesh& mesh, const MeshFields& fields,
+void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
 
 /// Checks that the rows of the cell sections of a legacy file (versions below 5) fill exactly the

@@ -32,7 +32,7 @@ VtuSeries::VtuSeries(std::filesystem::path collection) : collection_(std::move(c
     throw InputError("the series " + collection_.string() + " must have the extension .pvd");
 }
 
-void VtuSeries::add(double time, const PlanarMesh& mesh, const MeshFields& fields) {
+void VtuSeries::add(double time, const MeshView& mesh, const MeshFields& fields) {
   if (!std::isfinite(time))
     throw InputError("the series " + collection_.string() + " got a time that is not finite");
   const std::string stem = collection_.stem().string();

@@ -19,7 +19,7 @@ class VtuSeries {
   explicit VtuSeries(std::filesystem::path collection);
 
   /// time: any finite number, for example the iteration. Throws InputError as write_mesh does.
-  void add(double time, const PlanarMesh& mesh, const MeshFields& fields = {});
+  void add(double time, const MeshView& mesh, const MeshFields& fields = {});
 
   std::size_t size() const { return entries_.size(); }
 

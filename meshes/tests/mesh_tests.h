@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "meshes/io/mesh_file.h"
 #include "smoothing/mesh/input_error.h"
 #include "smoothing/mesh/mesh.h"
 
@@ -76,7 +77,18 @@ inline PlanarMesh mixed_mesh(bool with_pentagon, MeshLabels labels = {},
                     x);
 }
 
-inline void expect_same_mesh(const PlanarMesh& a, const PlanarMesh& b) {
+struct PlanarFile {
+  PlanarMesh mesh;
+  std::vector<std::size_t> cell_lines;
+};
+
+inline PlanarFile read_planar(const std::filesystem::path& path) {
+  const MeshFile file = read_mesh(path);
+  return {planar_mesh(file, path), file.cell_lines};
+}
+
+template <int dim>
+void expect_same_mesh(const Mesh<dim>& a, const Mesh<dim>& b) {
   EXPECT_EQ(a.coordinates(), b.coordinates());  // bit by bit
   EXPECT_EQ(a.topology().cells(), b.topology().cells());
   EXPECT_EQ(a.topology().free_nodes(), b.topology().free_nodes());

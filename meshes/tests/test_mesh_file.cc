@@ -10,13 +10,19 @@ using MeshFiles = FileTest;
 
 TEST_F(MeshFiles, PathsThatCannotBeReadAreNamed) {
   const std::string missing = file("missing.vtu").string();
-  EXPECT_EQ(input_error_of([&] { read_mesh(missing); }),
+  EXPECT_EQ(input_error_of([&] { read_planar(missing); }),
             missing + ": there is no such file; check the path");
   std::filesystem::create_directory(file("folder.msh"));
-  EXPECT_THAT(input_error_of([&] { read_mesh(file("folder.msh")); }), HasSubstr("is a folder"));
-  EXPECT_THAT(input_error_of([&] { read_mesh(file_with("a.stl", "solid")); }),
+  EXPECT_THAT(input_error_of([&] { read_planar(file("folder.msh")); }), HasSubstr("is a folder"));
+  EXPECT_THAT(input_error_of([&] { read_planar(file_with("a.stl", "solid")); }),
               HasSubstr("the extension .stl is not known; use one of .mesh, .msh, .vtk, .vtu"));
-  EXPECT_THAT(input_error_of([&] { read_mesh(file("mesh")); }), HasSubstr("has no extension"));
+  EXPECT_THAT(input_error_of([&] { read_planar(file("mesh")); }), HasSubstr("has no extension"));
+}
+
+std::vector<MeshFormat> planar_formats() {
+  std::vector<MeshFormat> formats = mesh_formats();
+  std::erase_if(formats, [](const MeshFormat& format) { return !format.holds_planar_meshes; });
+  return formats;
 }
 
 class EveryFormat : public FileTest, public ::testing::WithParamInterface<MeshFormat> {
@@ -27,10 +33,10 @@ class EveryFormat : public FileTest, public ::testing::WithParamInterface<MeshFo
 };
 
 TEST_P(EveryFormat, RefusesEmptyAndBlankFilesAndJunk) {
-  EXPECT_THAT(input_error_of([&] { read_mesh(file_with(target("a").filename(), "")); }),
+  EXPECT_THAT(input_error_of([&] { read_planar(file_with(target("a").filename(), "")); }),
               HasSubstr("the file is empty"));
   for (const std::string content : {"\n\n\n", "junk", "\xff\xfe\x01\x02\n\n"})
-    EXPECT_THAT(input_error_of([&] { read_mesh(file_with(target("b").filename(), content)); }),
+    EXPECT_THAT(input_error_of([&] { read_planar(file_with(target("b").filename(), content)); }),
                 ::testing::StartsWith(target("b").string() + ":"));
 }
 
@@ -40,7 +46,7 @@ TEST_P(EveryFormat, RoundTripKeepsCoordinatesCellsAndFixedNodes) {
   const bool holds_all = GetParam().holds_polygons && GetParam().holds_fixed_nodes;
   const PlanarMesh mesh = holds_all ? mixed_mesh(true, {}, fixed) : mixed_mesh(false);
   write_mesh(target("deeper/folder/a"), mesh);
-  expect_same_mesh(read_mesh(target("deeper/folder/a")).mesh, mesh);
+  expect_same_mesh(read_planar(target("deeper/folder/a")).mesh, mesh);
 }
 
 TEST_P(EveryFormat, PolygonsAreHeldOrRefused) {
@@ -79,7 +85,7 @@ TEST_P(EveryFormat, TruncatedFilesAreNoticed) {
   for (std::size_t n = 1; n < whole.size(); n += 1 + whole.size() / 200, ++n_tried) {
     const auto path = file_with(target("cut").filename(), whole.substr(0, n));
     try {
-      const MeshFile read = read_mesh(path);
+      const PlanarFile read = read_planar(path);
       EXPECT_EQ(read.mesh.coordinates(), mesh.coordinates()) << n << " of " << whole.size();
       EXPECT_EQ(read.mesh.topology().cells(), mesh.topology().cells()) << n;
     } catch (const InputError& error) {
@@ -99,12 +105,12 @@ TEST_P(EveryFormat, DamagedFilesAreSurvived) {
     std::string damaged = whole;
     damaged[n] = static_cast<char>(damaged[n] ^ 0x41);
     const auto path = file_with(target("damaged").filename(), damaged);
-    n_refused += !input_error_of([&] { read_mesh(path); }).empty();
+    n_refused += !input_error_of([&] { read_planar(path); }).empty();
   }
   EXPECT_GT(n_refused, 50u);
 }
 
-INSTANTIATE_TEST_SUITE_P(MeshFiles, EveryFormat, ::testing::ValuesIn(mesh_formats()),
+INSTANTIATE_TEST_SUITE_P(MeshFiles, EveryFormat, ::testing::ValuesIn(planar_formats()),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -29,7 +29,7 @@ MeshLabels labels_of_mixed_mesh() {
 TEST_P(MshVariants, RoundTripKeepsCellsAndPhysicalNames) {
   const PlanarMesh mesh = mixed_mesh(false, labels_of_mixed_mesh());
   write_mesh(file("a.msh"), mesh, {}, GetParam().options);
-  const MeshFile read = read_mesh(file("a.msh"));
+  const PlanarFile read = read_planar(file("a.msh"));
   EXPECT_EQ(read.mesh.topology().cells(), mesh.topology().cells());
   EXPECT_EQ(read.mesh.topology().labels(), mesh.topology().labels());
   EXPECT_EQ(read.cell_lines.empty(), GetParam().options.msh_binary);
@@ -41,7 +41,7 @@ TEST_P(MshVariants, RoundTripKeepsCellsAndPhysicalNames) {
 
 TEST_P(MshVariants, RoundTripWithoutLabels) {
   write_mesh(file("a.msh"), mixed_mesh(false), {}, GetParam().options);
-  const MeshFile read = read_mesh(file("a.msh"));
+  const PlanarFile read = read_planar(file("a.msh"));
   EXPECT_EQ(read.mesh.topology().cells(), mixed_mesh(false).topology().cells());
   EXPECT_EQ(read.mesh.topology().labels(), MeshLabels());
 }
@@ -56,7 +56,7 @@ TEST_P(MshVariants, CellsInPartWithoutTag) {
     return;
   }
   write();
-  EXPECT_EQ(read_mesh(file("a.msh")).mesh.topology().labels(), labels);
+  EXPECT_EQ(read_planar(file("a.msh")).mesh.topology().labels(), labels);
 }
 
 INSTANTIATE_TEST_SUITE_P(Msh, MshVariants,
@@ -79,7 +79,7 @@ std::string square(const std::string& last_node = "9 0 1 0",
 }
 
 TEST_F(Msh, NodesAreNumberedFromZeroWithoutUnusedOnes) {
-  const MeshFile read = read_mesh(file_with("a.msh", square()));
+  const PlanarFile read = read_planar(file_with("a.msh", square()));
   const std::vector<Point<2>> expected = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   EXPECT_EQ(read.mesh.coordinates(), expected);
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
@@ -90,19 +90,19 @@ TEST_F(Msh, NodesAreNumberedFromZeroWithoutUnusedOnes) {
 TEST_F(Msh, NodesThatNothingUsesAreAllowed) {
   std::string content = square();
   content.replace(content.find("15 2 0 1 5"), 10, "15 2 0 1 3");
-  EXPECT_EQ(read_mesh(file_with("a.msh", content)).mesh.n_nodes(), 4u);
+  EXPECT_EQ(read_planar(file_with("a.msh", content)).mesh.n_nodes(), 4u);
 }
 
 TEST_F(Msh, ConstantZIsPlanarWhateverItsValue) {
   std::string content = square();
   for (const std::string node : {"0 0 0\n", "1 0 0\n", "5 5 0\n", "1 1 0\n", "0 1 0\n"})
     content.replace(content.find(node) + 4, 1, "2.5");
-  EXPECT_EQ(read_mesh(file_with("a.msh", content)).mesh.n_cells(), 2u);
+  EXPECT_EQ(read_planar(file_with("a.msh", content)).mesh.n_cells(), 2u);
 }
 
 TEST_F(Msh, ClockwiseCellsAreReadAndNamedByRequireValid) {
   const auto path = file_with("a.msh", square("9 0 1 0", "12 2 2 1 1 2 9 7"));
-  const MeshFile read = read_mesh(path);
+  const PlanarFile read = read_planar(path);
   EXPECT_THAT(input_error_of([&] { require_valid(read.mesh, path.string(), read.cell_lines); }),
               ::testing::AllOf(StartsWith(path.string() + ":16: "), HasSubstr("clockwise")));
 }
@@ -117,7 +117,7 @@ TEST_P(BadMshFile, IsRefusedWithReasonAndNothingOnTheTerminal) {
   const auto path = file_with("bad.msh", GetParam().content);
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  const std::string message = input_error_of([&] { read_mesh(path); });
+  const std::string message = input_error_of([&] { read_planar(path); });
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_THAT(message, StartsWith(path.string() + ":"));
@@ -126,10 +126,6 @@ TEST_P(BadMshFile, IsRefusedWithReasonAndNothingOnTheTerminal) {
 
 const std::string head_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
 const std::string nodes_4 = "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
-const std::string tetrahedron =
-    head_2 +
-    "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n"
-    "$EndElements\n";
 const std::string second_order =
     head_2 +
     "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 0 0\n5 .5 .5 0\n6 0 .5 0\n$EndNodes\n$Elements\n"
@@ -157,7 +153,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadMsh{"same_node_tag_twice", square("7 0 1 0"), ":10: the node tag 7 appears twice"},
         BadMsh{"not_flat", square("9 0 1 .5"), "only planar meshes with constant z"},
         BadMsh{"second_order", second_order, "save it with element order 1"},
-        BadMsh{"volume", tetrahedron, "volume elements"},
         BadMsh{"only_points",
                head_2 + "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 2 0 1 1\n$EndElements\n",
                "the mesh has no cells"},
@@ -174,7 +169,7 @@ TEST_F(Msh, SessionsMayBeNestedAndKeepOptionsApart) {
   outer.set_option("Mesh.SaveAll", 1);
   write_mesh(file("a.msh"), mixed_mesh(false, labels_of_mixed_mesh()), {},
              {MshVersion::v2_2, false});
-  const MeshFile read = read_mesh(file("a.msh"));
+  const PlanarFile read = read_planar(file("a.msh"));
   EXPECT_EQ(read.mesh.topology().labels(), labels_of_mixed_mesh());
   EXPECT_THAT(input_error_of([&] { outer.run("here", [] { throw std::string("words"); }); }),
               "here: Gmsh: words");

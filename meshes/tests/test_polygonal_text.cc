@@ -16,7 +16,7 @@ const std::string polygons = "polygons 2\n3 0 1 2\n3 0 2 3\n";
 const std::string fixed = "fixed_node_indices 1\n2\n";
 
 TEST_F(PolygonalText, ReadsNodesPolygonsFixedNodesAndLines) {
-  const MeshFile read = read_mesh(file_with("a.mesh", title + "\n" + nodes + polygons + fixed));
+  const PlanarFile read = read_planar(file_with("a.mesh", title + "\n" + nodes + polygons + fixed));
   EXPECT_EQ(read.mesh.coordinates()[2], Point<2>(1, 1));
   EXPECT_EQ(read.mesh.topology().free_nodes(), (std::vector<NodeIndex>{0, 1, 3}));
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{9, 10}));
@@ -27,13 +27,14 @@ TEST_F(PolygonalText, RoundTripKeepsEveryBit) {
   fixed_flags[3] = fixed_flags[8] = true;
   const PlanarMesh mesh = mixed_mesh(true, {}, fixed_flags);
   write_mesh(file("a.mesh"), mesh);
-  expect_same_mesh(read_mesh(file("a.mesh")).mesh, mesh);
-  write_mesh(file("b.mesh"), read_mesh(file("a.mesh")).mesh);
+  expect_same_mesh(read_planar(file("a.mesh")).mesh, mesh);
+  write_mesh(file("b.mesh"), read_planar(file("a.mesh")).mesh);
   EXPECT_EQ(content_of(file("a.mesh")), content_of(file("b.mesh")));
 }
 
 TEST_F(PolygonalText, WritesTheLayoutOfThePublishedFiles) {
-  write_mesh(file("b.mesh"), read_mesh(file_with("a.mesh", title + nodes + polygons + fixed)).mesh);
+  write_mesh(file("b.mesh"),
+             read_planar(file_with("a.mesh", title + nodes + polygons + fixed)).mesh);
   const std::string text = content_of(file("b.mesh"));
   EXPECT_THAT(text, StartsWith("planar_polygonal_mesh\nnodes 4\n"
                                "+0.00000000000000000e+00 +0.00000000000000000e+00\n"));
@@ -43,7 +44,7 @@ TEST_F(PolygonalText, WritesTheLayoutOfThePublishedFiles) {
 
 TEST_F(PolygonalText, InvalidCellsAreReadAndNamedWithTheirLine) {
   const auto path = file_with("a.mesh", title + nodes + "polygons 2\n3 0 1 2\n3 0 3 2\n" + fixed);
-  const MeshFile read = read_mesh(path);
+  const PlanarFile read = read_planar(path);
   EXPECT_THAT(input_error_of([&] { require_valid(read.mesh, path.string(), read.cell_lines); }),
               testing::AllOf(StartsWith(path.string() + ":9: "), HasSubstr("clockwise")));
 }
@@ -58,7 +59,7 @@ class BadPolygonalText : public FileTest, public ::testing::WithParamInterface<B
 
 TEST_P(BadPolygonalText, IsRefusedWithPlaceAndReason) {
   const auto path = file_with("bad.mesh", GetParam().content);
-  const std::string message = input_error_of([&] { read_mesh(path); });
+  const std::string message = input_error_of([&] { read_planar(path); });
   EXPECT_THAT(message, StartsWith(path.string() + ":" + std::to_string(GetParam().line) + ": "));
   EXPECT_THAT(message, HasSubstr(GetParam().message));
 }
@@ -117,15 +118,16 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(PolygonalText, EveryTruncationOfAWholeFileIsNoticedOrAtALineEnd) {
   const std::string whole = title + nodes + polygons + "fixed_node_indices 2\n1\n2\n";
   for (std::size_t n = 1; n + 2 < whole.size(); ++n)
-    EXPECT_NE(input_error_of([&] { read_mesh(file_with("cut.mesh", whole.substr(0, n))); }), "")
+    EXPECT_NE(input_error_of([&] { read_planar(file_with("cut.mesh", whole.substr(0, n))); }), "")
         << n << " bytes";
 }
 
 TEST_F(PolygonalText, AMeshWithoutCellsIsRefused) {
-  EXPECT_THAT(input_error_of([&] {
-                read_mesh(file_with("a.mesh", title + nodes + "polygons 0\nfixed_node_indices 0"));
-              }),
-              HasSubstr("a.mesh: the mesh has no cells"));
+  EXPECT_THAT(
+      input_error_of([&] {
+        read_planar(file_with("a.mesh", title + nodes + "polygons 0\nfixed_node_indices 0"));
+      }),
+      HasSubstr("a.mesh: the mesh has no cells"));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class SharedMeshes : public FileTest {
 TEST_F(SharedMeshes, PrintedMeanRatiosComeOut) {
   for (const std::string name :
        {"simple_mixed_planar_polygonal.mesh", "gear_tri_initial.mesh", "gear_quad_initial.mesh"}) {
-    const PlanarMesh mesh = read_mesh(shared(name)).mesh;
+    const PlanarMesh mesh = read_planar(shared(name)).mesh;
     const std::string content = content_of(shared(name));
     std::istringstream printed(content.substr(content.find("polygon_mean_ratio")));
     std::string keyword;
@@ -43,18 +43,18 @@ TEST_F(SharedMeshes, PrintedMeanRatiosComeOut) {
 }
 
 TEST_F(SharedMeshes, ThePublishedGearsHaveTheirCountsAndQuality) {
-  const MeshFile triangles = read_mesh(shared("gear_tri_initial.mesh"));
+  const PlanarFile triangles = read_planar(shared("gear_tri_initial.mesh"));
   EXPECT_EQ(triangles.mesh.n_nodes(), 7660u);
   EXPECT_EQ(triangles.mesh.n_cells(), 14346u);
   EXPECT_EQ(triangles.mesh.topology().free_nodes().size(), 7660u - 982u);
   EXPECT_NEAR(mesh_quality(triangles.mesh).q_mean, 0.36992, 5e-6);
-  const MeshFile quads = read_mesh(shared("gear_quad_initial.mesh"));
+  const PlanarFile quads = read_planar(shared("gear_quad_initial.mesh"));
   EXPECT_NEAR(mesh_quality(quads.mesh).q_mean, 0.41796, 5e-6);
   EXPECT_NO_THROW(require_valid(quads.mesh));
 }
 
 TEST_F(SharedMeshes, CoordinatesAreWrittenDigitByDigit) {
-  write_mesh(file("again.mesh"), read_mesh(shared("gear_tri_initial.mesh")).mesh);
+  write_mesh(file("again.mesh"), read_planar(shared("gear_tri_initial.mesh")).mesh);
   const std::string published = content_of(shared("gear_tri_initial.mesh"));
   const std::size_t end = published.find("polygon_mean_ratio_quality_numbers");
   EXPECT_EQ(content_of(file("again.mesh")).substr(0, end), published.substr(0, end));
@@ -63,16 +63,16 @@ TEST_F(SharedMeshes, CoordinatesAreWrittenDigitByDigit) {
 TEST_F(SharedMeshes, EveryFormatGivesTheGearBack) {
   for (const std::string name : {"gear_tri_initial.mesh", "gear_quad_initial.mesh",
                                  "mixed2d_overture_tri382_quad4831.vtk"}) {
-    const PlanarMesh mesh = read_mesh(shared(name)).mesh;
+    const PlanarMesh mesh = read_planar(shared(name)).mesh;
     for (const auto& format : mesh_formats()) {
       write_mesh(file("copy" + format.extension), mesh);
-      expect_same_mesh(read_mesh(file("copy" + format.extension)).mesh, mesh);
+      expect_same_mesh(read_planar(file("copy" + format.extension)).mesh, mesh);
     }
   }
 }
 
 TEST_F(SharedMeshes, MesquitesMixedMeshIsRead) {
-  const MeshFile read = read_mesh(shared("mixed2d_overture_tri382_quad4831.vtk"));
+  const PlanarFile read = read_planar(shared("mixed2d_overture_tri382_quad4831.vtk"));
   std::size_t n_triangles = 0;
   for (CellIndex c = 0; c < read.mesh.n_cells(); ++c)
     n_triangles += read.mesh.topology().cell_type(c) == ElementType::triangle;
@@ -81,11 +81,17 @@ TEST_F(SharedMeshes, MesquitesMixedMeshIsRead) {
   EXPECT_EQ(mesh_quality(read.mesh).n_invalid, 0u);
 }
 
-TEST_F(SharedMeshes, VolumesAreRefusedForNow) {
-  EXPECT_THAT(input_error_of([] { read_mesh(shared("mixed_hex_tet_pri_pyr_1622.vtk")); }),
-              ::testing::HasSubstr("only planar"));
-  EXPECT_THAT(input_error_of([] { read_mesh(shared("tet_sphere_24013.mesh")); }),
-              ::testing::HasSubstr("only planar"));
+TEST_F(SharedMeshes, TheMixedVolumeMeshHasItsCountsAndQuality) {
+  const MeshFile file = read_mesh(shared("mixed_hex_tet_pri_pyr_1622.vtk"));
+  const auto& mesh = std::get<VolumeMesh>(file.mesh);
+  std::map<ElementType, int> counts;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) ++counts[mesh.topology().cell_type(c)];
+  EXPECT_EQ(counts, (std::map<ElementType, int>{{ElementType::hexahedron, 560},
+                                                {ElementType::tetrahedron, 703},
+                                                {ElementType::prism, 323},
+                                                {ElementType::pyramid, 36}}));
+  EXPECT_NO_THROW(require_valid(mesh));
+  EXPECT_NEAR(mesh_quality(mesh).q_min, 0.328, 5e-4);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ TEST_P(VtkFormats, KeepsTagsOfCells) {
   MeshLabels labels;
   labels.cell_tags = {1, 2, 3, 4, 5};
   write_mesh(file("a" + GetParam()), mixed_mesh(true, labels));
-  EXPECT_EQ(read_mesh(file("a" + GetParam())).mesh.topology().labels(), labels);
+  EXPECT_EQ(read_planar(file("a" + GetParam())).mesh.topology().labels(), labels);
 }
 
 TEST_P(VtkFormats, FieldsAreWrittenWithTheirNames) {
@@ -27,7 +27,7 @@ TEST_P(VtkFormats, FieldsAreWrittenWithTheirNames) {
   const std::string content = content_of(file("a" + GetParam()));
   EXPECT_THAT(content, HasSubstr("mean_ratio"));
   EXPECT_THAT(content, HasSubstr("solution"));
-  expect_same_mesh(read_mesh(file("a" + GetParam())).mesh, mixed_mesh(true));
+  expect_same_mesh(read_planar(file("a" + GetParam())).mesh, mixed_mesh(true));
 }
 
 INSTANTIATE_TEST_SUITE_P(Vtk, VtkFormats, ::testing::Values(".vtk", ".vtu"),
@@ -39,7 +39,7 @@ const std::string head = "# vtk DataFile Version 3.0\nsquare\nASCII\nDATASET UNS
 const std::string points = "POINTS 4 double\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 TEST_F(Vtk, ReadsFixedTagsLinesAndPixels) {
-  const MeshFile read = read_mesh(file_with(
+  const PlanarFile read = read_planar(file_with(
       "a.vtk",
       head + "POINTS 6 double\n0 0 3\n1 0 3\n0 1 3\n1 1 3\n2 0 3\n2 1 3\n"
              "CELLS 5 18\n2 0 1\n4 0 1 2 3\n1 4\n4 1 4 5 3\n2 1 4\nCELL_TYPES 5\n3\n8\n1\n9\n3\n"
@@ -56,9 +56,9 @@ TEST_F(Vtk, ReadsFixedTagsLinesAndPixels) {
 }
 
 TEST_F(Vtk, ReadsPolygonalData) {
-  const MeshFile read =
-      read_mesh(file_with("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n" +
-                                       points + "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\n"));
+  const PlanarFile read =
+      read_planar(file_with("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n" +
+                                         points + "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\n"));
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(mesh_quality(read.mesh).n_invalid, 0u);
 }
@@ -76,7 +76,7 @@ std::string vtu(const std::string& connectivity, const std::string& types) {
 }
 
 TEST_F(Vtk, ReadsVtuAsText) {
-  const MeshFile read = read_mesh(file_with("a.vtu", vtu("0 1 2 0 2 3", "5 7")));
+  const PlanarFile read = read_planar(file_with("a.vtu", vtu("0 1 2 0 2 3", "5 7")));
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
 }
 
@@ -100,7 +100,7 @@ TEST_P(BadVtkFile, IsRefusedWithReasonAndNothingOnTheTerminal) {
   const auto path = file_with("bad" + GetParam().extension, GetParam().content);
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  const std::string message = input_error_of([&] { read_mesh(path); });
+  const std::string message = input_error_of([&] { read_planar(path); });
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_THAT(message, StartsWith(path.string() + ":"));
@@ -142,8 +142,10 @@ INSTANTIATE_TEST_SUITE_P(
                head + "POINTS 3 double\n0 0 0\n1 0 0\n1 1 .5\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n"
                       "5\n",
                "only planar meshes with constant z"},
-        BadVtk{"tetrahedron", ".vtk", head + points + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n",
-               "vtkTetra"},
+        BadVtk{"quadratic", ".vtk",
+               head + "POINTS 6 double\n0 0 0\n1 0 0\n0 1 0\n.5 0 0\n.5 .5 0\n0 .5 0\n"
+                      "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n",
+               "vtkQuadraticTriangle); cells with nodes besides their corners"},
         BadVtk{"image", ".vtk",
                "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\n"
                "ORIGIN 0 0 0\nSPACING 1 1 1\n",
@@ -169,7 +171,7 @@ TEST_F(Series, IsReadableAfterEveryStep) {
     EXPECT_THAT(collection, HasSubstr("</VTKFile>"));
   }
   EXPECT_EQ(series.size(), 3u);
-  expect_same_mesh(read_mesh(file("run/smoothing/smoothing_000002.vtu")).mesh, mixed_mesh(true));
+  expect_same_mesh(read_planar(file("run/smoothing/smoothing_000002.vtu")).mesh, mixed_mesh(true));
 }
 
 TEST_F(Series, RefusesOtherExtensionsAndTimes) {

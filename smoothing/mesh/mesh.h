@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "smoothing/mesh/input_error.h"
@@ -51,5 +52,6 @@ class Mesh {
 
 using PlanarMesh = Mesh<2>;
 using VolumeMesh = Mesh<3>;
+using AnyMesh = std::variant<PlanarMesh, VolumeMesh>;
 
 }  // namespace smoothfem

@@ -22,13 +22,15 @@ struct Arguments {
 std::map<std::string, std::size_t> count_types(const Topology& topology) {
   std::map<std::string, std::size_t> counts;
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
-    const std::size_t n = topology.cell_nodes(c).size();
-    ++counts[n <= 4 ? std::string(name_of(topology.cell_type(c))) : std::to_string(n) + "-gon"];
+    const ElementType type = topology.cell_type(c);
+    ++counts[type == ElementType::polygon ? std::to_string(topology.cell_nodes(c).size()) + "-gon"
+                                          : std::string(name_of(type))];
   }
   return counts;
 }
 
-void print_text(const PlanarMesh& mesh, const MeshQuality& q,
+template <int dim>
+void print_text(const Mesh<dim>& mesh, const MeshQuality& q,
                 const std::vector<std::size_t>& histogram) {
   const Topology& topology = mesh.topology();
   std::printf("nodes      %zu (%zu fixed)\n", mesh.n_nodes(),
@@ -49,7 +51,8 @@ void print_text(const PlanarMesh& mesh, const MeshQuality& q,
                 std::string((histogram[b] * width + most - 1) / most, '#').c_str());
 }
 
-void print_json(const PlanarMesh& mesh, const MeshQuality& q,
+template <int dim>
+void print_json(const Mesh<dim>& mesh, const MeshQuality& q,
                 const std::vector<std::size_t>& histogram) {
   nlohmann::ordered_json json;
   json["n_nodes"] = mesh.n_nodes();
@@ -64,14 +67,20 @@ void print_json(const PlanarMesh& mesh, const MeshQuality& q,
   std::printf("%s\n", json.dump(2).c_str());
 }
 
+template <int dim>
+void report(const Arguments& arguments, const Mesh<dim>& mesh,
+            const std::vector<std::size_t>& cell_lines) {
+  const auto cell_quality = cell_mean_ratios(mesh);
+  const MeshQuality quality = mesh_quality(mesh.topology(), cell_quality);
+  const auto histogram = quality_histogram(cell_quality, n_bins);
+  (arguments.json ? print_json<dim> : print_text<dim>)(mesh, quality, histogram);
+  std::fflush(stdout);
+  require_valid(mesh, arguments.in, cell_lines);
+}
+
 void report_quality(const Arguments& arguments) {
   const MeshFile file = read_mesh(arguments.in);
-  const auto cell_quality = cell_mean_ratios(file.mesh);
-  const MeshQuality quality = mesh_quality(file.mesh.topology(), cell_quality);
-  const auto histogram = quality_histogram(cell_quality, n_bins);
-  (arguments.json ? print_json : print_text)(file.mesh, quality, histogram);
-  std::fflush(stdout);
-  require_valid(file.mesh, arguments.in, file.cell_lines);
+  std::visit([&](const auto& mesh) { report(arguments, mesh, file.cell_lines); }, file.mesh);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct Arguments {
   bool quiet = false;
 };
 
-void apply_settings(Method<2>& method, const std::vector<std::string>& settings) {
+template <int dim>
+void apply_settings(Method<dim>& method, const std::vector<std::string>& settings) {
   for (const auto& setting : settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos)
@@ -39,7 +40,8 @@ class Recorder {
     if (!arguments.series.empty()) series_.emplace(arguments.series);
   }
 
-  void observe(const IterationRecord& record, const PlanarMesh& mesh) {
+  template <int dim>
+  void observe(const IterationRecord& record, const Mesh<dim>& mesh) {
     rows_.push_back({.mesh = std::filesystem::path(arguments_.in).stem().string(),
                      .method = arguments_.method,
                      .iteration = record,
@@ -61,21 +63,21 @@ class Recorder {
   std::vector<IterationRow> rows_;
 };
 
-void smooth_file(const Arguments& arguments) {
-  Method<2> method = make_method<2>(arguments.method);
+template <int dim>
+void smooth_mesh(const Arguments& arguments, Mesh<dim>& mesh,
+                 const std::vector<std::size_t>& cell_lines) {
+  Method<dim> method = make_method<dim>(arguments.method);
   apply_settings(method, arguments.settings);
-  MeshFile file = read_mesh(arguments.in);
   for (const auto& stage : method.stages)
-    if (stage->rule().needs_valid_mesh) require_valid(file.mesh, arguments.in, file.cell_lines);
+    if (stage->rule().needs_valid_mesh) require_valid(mesh, arguments.in, cell_lines);
 
-  const MeshQuality before = mesh_quality(file.mesh);
+  const MeshQuality before = mesh_quality(mesh);
   Recorder recorder(arguments);
-  const auto result = smooth(file.mesh, method, [&](const auto& record, const auto& mesh) {
-    recorder.observe(record, mesh);
-  });
+  const auto result = smooth(
+      mesh, method, [&](const auto& record, const auto& now) { recorder.observe(record, now); });
   MeshFields fields;
-  fields.cell["mean_ratio"] = cell_mean_ratios(file.mesh);
-  write_mesh(arguments.out, file.mesh, fields);
+  fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
+  write_mesh(arguments.out, mesh, fields);
   recorder.write_log();
   if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
@@ -83,6 +85,11 @@ void smooth_file(const Arguments& arguments) {
   print_row("after", result.quality);
   std::printf("%s: %s iterations in %.4g s; written to %s\n", method.info.title.c_str(),
               result.iterations_text().c_str(), result.smoothing_seconds, arguments.out.c_str());
+}
+
+void smooth_file(const Arguments& arguments) {
+  MeshFile file = read_mesh(arguments.in);
+  std::visit([&](auto& mesh) { smooth_mesh(arguments, mesh, file.cell_lines); }, file.mesh);
 }
 
 }  // namespace

@@ -11,9 +11,10 @@ namespace smoothfem {
 namespace {
 
 PlanarMesh read_valid_mesh(const std::filesystem::path& path) {
-  MeshFile file = read_mesh(path);
-  require_valid(file.mesh, path.string(), file.cell_lines);
-  return std::move(file.mesh);
+  const MeshFile file = read_mesh(path);
+  const PlanarMesh& mesh = planar_mesh(file, path);
+  require_valid(mesh, path.string(), file.cell_lines);
+  return mesh;
 }
 
 PlanarMesh distorted(PlanarMesh mesh, const StudyMesh& description, std::string& origin) {
