@@ -12,8 +12,6 @@ namespace smoothfem {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
-
 /// Foreign bytes in a message could garble the terminal, and a binary file has no short words.
 std::string quoted(std::string_view word) {
   constexpr std::size_t longest = 40;
@@ -50,7 +48,7 @@ bool LineReader::next_line() {
     text_ = rest_.substr(0, end);
     rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
     ++line_;
-    if (text_.find_first_not_of(blanks) != std::string_view::npos) {
+    if (text_.find_first_not_of(separators_) != std::string_view::npos) {
       unread_ = text_;
       return true;
     }
@@ -59,47 +57,57 @@ bool LineReader::next_line() {
   return false;
 }
 
-void LineReader::require_line(const std::string& what) {
-  if (!next_line()) fail("the file ends before " + what + "; it is truncated");
+void LineReader::require_line(std::string_view what) {
+  if (!next_line()) fail("the file ends before " + std::string(what) + "; it is truncated");
+}
+
+void LineReader::require_word(std::string_view what, char comment) {
+  for (;;) {
+    const std::size_t begin = unread_.find_first_not_of(separators_);
+    if (begin != std::string_view::npos && unread_[begin] != comment) return;
+    require_line(what);
+  }
 }
 
 std::string_view LineReader::word() {
-  const std::size_t begin = unread_.find_first_not_of(blanks);
+  const std::size_t begin = unread_.find_first_not_of(separators_);
   if (begin == std::string_view::npos) {
     unread_ = {};
     return {};
   }
   unread_ = unread_.substr(begin);
-  const std::string_view found = unread_.substr(0, unread_.find_first_of(blanks));
+  const std::string_view found = unread_.substr(0, unread_.find_first_of(separators_));
   unread_ = unread_.substr(found.size());
   return found;
 }
 
-double LineReader::number(const std::string& what) {
+double LineReader::number(std::string_view what) {
   std::string_view found = word();
-  if (found.empty()) fail(what + " is missing at the end of the line");
+  if (found.empty()) fail(std::string(what) + " is missing at the end of the line");
   const std::string_view as_written = found;
   if (found.front() == '+') found.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error == std::errc::invalid_argument || end != found.data() + found.size())
-    fail(what + " is " + quoted(as_written) + ", which is not a number");
+    fail(std::string(what) + " is " + quoted(as_written) + ", which is not a number");
   // Numbers too small for a double are zero for every purpose here.
   if (error == std::errc::result_out_of_range)
     value = std::strtod(std::string(found).c_str(), nullptr);
-  if (!std::isfinite(value)) fail(what + " is " + quoted(as_written) + ", which is not finite");
+  if (!std::isfinite(value))
+    fail(std::string(what) + " is " + quoted(as_written) + ", which is not finite");
   return value;
 }
 
-std::uint64_t LineReader::integer(const std::string& what, std::uint64_t limit) {
+std::uint64_t LineReader::integer(std::string_view what, std::uint64_t limit) {
   const std::string_view found = word();
-  if (found.empty()) fail(what + " is missing at the end of the line");
+  if (found.empty()) fail(std::string(what) + " is missing at the end of the line");
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error != std::errc() || end != found.data() + found.size())
-    fail(what + " is " + quoted(found) + ", which is not an integer from 0 on");
+    fail(std::string(what) + " is " + quoted(found) + ", which is not an integer from 0 on");
   if (value >= limit)
-    fail(what + " is " + std::to_string(value) + ", but must be below " + std::to_string(limit));
+    fail(std::string(what) + " is " + std::to_string(value) + ", but must be below " +
+         std::to_string(limit));
   return value;
 }
 
@@ -108,8 +116,8 @@ void LineReader::require_end_of_line() {
   if (!found.empty()) fail("unexpected " + quoted(found) + " at the end of the line; remove it");
 }
 
-void LineReader::fail(const std::string& message) const {
-  throw InputError(path_ + ":" + std::to_string(line_) + ": " + message);
+void LineReader::fail_at(std::size_t line, const std::string& message) const {
+  throw InputError(path_ + ":" + std::to_string(line) + ": " + message);
 }
 
 }  // namespace smoothfem

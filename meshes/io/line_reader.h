@@ -16,13 +16,19 @@ std::string read_whole_file(const std::filesystem::path& path);
 /// The content must outlive the reader.
 class LineReader {
  public:
-  LineReader(const std::filesystem::path& path, std::string_view content)
-      : path_(path.string()), rest_(content) {}
+  /// separators: what stands between words.
+  LineReader(const std::filesystem::path& path, std::string_view content,
+             std::string_view separators = " \t\r\v\f")
+      : path_(path.string()), separators_(separators), rest_(content) {}
 
   /// Goes to the next line that is not blank; false at the end of the text.
   bool next_line();
   /// The same where another line has to come; `what` says which ("node 5 of 11").
-  void require_line(const std::string& what);
+  void require_line(std::string_view what);
+
+  /// Goes on to the next line that has a word where none is left on this one, for formats that do
+  /// not care for line ends; `comment` begins a comment up to the end of its line.
+  void require_word(std::string_view what, char comment);
 
   /// Number of the current line, from 1.
   std::size_t line() const { return line_; }
@@ -30,20 +36,24 @@ class LineReader {
   /// Bytes that follow the current line.
   std::string_view rest() const { return rest_; }
 
+  /// True if the line has another word.
+  bool has_word() const { return unread_.find_first_not_of(separators_) != unread_.npos; }
   /// The next word of the line; empty at its end.
   std::string_view word();
   /// The next word as a finite number; `what` is its name in the error message.
-  double number(const std::string& what);
+  double number(std::string_view what);
   /// The next word as an integer in [0, limit).
-  std::uint64_t integer(const std::string& what, std::uint64_t limit = UINT64_MAX);
+  std::uint64_t integer(std::string_view what, std::uint64_t limit = UINT64_MAX);
   /// The line must have no further word.
   void require_end_of_line();
 
-  /// Throws InputError "path:line: message".
-  [[noreturn]] void fail(const std::string& message) const;
+  /// Throws InputError "path:line: message", for the current line or another one.
+  [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
+  [[noreturn]] void fail_at(std::size_t line, const std::string& message) const;
 
  private:
   std::string path_;
+  std::string_view separators_;
   std::string_view rest_, text_, unread_;
   std::size_t line_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "smoothing/mesh/input_error.h"
@@ -94,6 +95,35 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
     throw InputError(place + " " + error.what());
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
+  }
+}
+
+std::string physical_name_line(const std::pair<int, int>& dimension_and_tag,
+                               const std::string& name) {
+  return std::to_string(dimension_and_tag.first) + " " + std::to_string(dimension_and_tag.second) +
+         " " + name;
+}
+
+bool add_physical_name(const std::string& line, MeshParts& parts) {
+  std::istringstream words(line);
+  int dimension = 0, tag = 0;
+  std::string name;
+  if (!(words >> dimension >> tag) || !std::getline(words.ignore(1), name)) return false;
+  parts.names[{dimension, tag}] = name;
+  return true;
+}
+
+void require_no_polygons(const std::filesystem::path& path, const MeshView& mesh) {
+  const Topology& topology = mesh.topology();
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+    if (topology.cell_type(c) != ElementType::polygon) continue;
+    std::string others;
+    for (const auto& format : mesh_formats())
+      if (format.holds_polygons) others += (others.empty() ? "" : ", ") + format.extension;
+    throw InputError("cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
+                     std::to_string(topology.cell_nodes(c).size()) + " nodes, and " +
+                     path.extension().string() +
+                     " files hold only triangles and quadrilaterals; use one of " + others);
   }
 }
 

@@ -36,6 +36,15 @@ struct MeshParts {
 /// InputErrors that start with "path:line: " or "path: ".
 MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts);
 
+/// A physical name as one line "dimension tag name", for formats that have no place of their own.
+std::string physical_name_line(const std::pair<int, int>& dimension_and_tag,
+                               const std::string& name);
+/// Adds the name of such a line; false if it is none.
+bool add_physical_name(const std::string& line, MeshParts& parts);
+
+/// For writers of formats without polygons: throws InputError if the mesh has one.
+void require_no_polygons(const std::filesystem::path& path, const MeshView& mesh);
+
 /// Removes nodes that no element of dimension 1 and more uses (points of a CAD model), keeping the
 /// order.
 void drop_unused_nodes(MeshParts& parts);

@@ -4,6 +4,9 @@
 #include <cctype>
 #include <exception>
 
+#include "meshes/io/abaqus_file.h"
+#include "meshes/io/line_reader.h"
+#include "meshes/io/medit_text.h"
 #include "meshes/io/msh_file.h"
 #include "meshes/io/polygonal_text.h"
 #include "meshes/io/vtk_files.h"
@@ -12,6 +15,12 @@
 namespace smoothfem {
 
 namespace {
+
+/// Two formats share this extension.
+MeshFile read_dot_mesh(const std::filesystem::path& path) {
+  const std::string content = read_whole_file(path);
+  return is_medit_text(content) ? read_medit_text(path) : read_polygonal_text(path);
+}
 
 MeshFormat vtk_format(const std::string& name, const std::string& description,
                       decltype(MeshFormat::read) read, decltype(MeshFormat::write) write) {
@@ -39,8 +48,14 @@ const std::vector<MeshFormat>& mesh_formats() {
        .holds_planar_meshes = true,
        .holds_polygons = true,
        .holds_fixed_nodes = true,
-       .read = read_polygonal_text,
+       .read = read_dot_mesh,
        .write = write_polygonal_text},
+      {.name = "medit",
+       .extension = ".mesh",
+       .description = "Medit, text; written for volume meshes",
+       .holds_volume_meshes = true,
+       .read = read_dot_mesh,
+       .write = write_medit_text},
       {.name = "gmsh",
        .extension = ".msh",
        .description = "Gmsh 4.1 and 2.2, text or binary",
@@ -52,6 +67,16 @@ const std::vector<MeshFormat>& mesh_formats() {
        .write = write_msh},
       vtk_format("vtk", "legacy VTK, text or binary", read_legacy_vtk, write_legacy_vtk),
       vtk_format("vtu", "VTK XML unstructured grid", read_vtu, write_vtu),
+      {.name = "abaqus",
+       .extension = ".inp",
+       .description = "Abaqus and CalculiX input",
+       .holds_planar_meshes = true,
+       .holds_volume_meshes = true,
+       .holds_fixed_nodes = true,
+       .holds_physical_names = true,
+       .holds_numbers = true,
+       .read = read_abaqus,
+       .write = write_abaqus},
   };
   return formats;
 }

@@ -9,6 +9,7 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/gmsh_session.h"
+#include "meshes/io/mesh_assembly.h"
 #include "meshes/io/msh_file.h"
 #include "smoothing/mesh/input_error.h"
 
@@ -38,18 +39,8 @@ int gmsh_type(int dim, std::size_t n_nodes) {
   return 0;
 }
 
-void require_writable(const std::filesystem::path& path, const Topology& topology,
+void require_tags_fit(const std::filesystem::path& path, const Topology& topology,
                       const MeshWriteOptions& options) {
-  for (CellIndex c = 0; c < topology.n_cells(); ++c)
-    if (topology.cell_type(c) == ElementType::polygon) {
-      std::string others;
-      for (const auto& format : mesh_formats())
-        if (format.holds_polygons) others += (others.empty() ? "" : ", ") + format.extension;
-      throw InputError(
-          "cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
-          std::to_string(topology.cell_nodes(c).size()) +
-          " nodes, and .msh files hold only triangles and quadrilaterals; use one of " + others);
-    }
   const auto& tags = topology.labels().cell_tags;
   const auto n_untagged = static_cast<std::size_t>(std::count(tags.begin(), tags.end(), 0));
   const bool tagged_in_part = n_untagged > 0 && n_untagged < tags.size();
@@ -141,7 +132,8 @@ void require_complete_file(const std::filesystem::path& path) {
 
 void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                const MeshWriteOptions& options) {
-  require_writable(path, mesh.topology(), options);
+  require_no_polygons(path, mesh);
+  require_tags_fit(path, mesh.topology(), options);
   GmshSession session;
   const bool version_4 = options.msh_version == MshVersion::v4_1;
   session.set_option("Mesh.MshFileVersion", version_4 ? 4.1 : 2.2);

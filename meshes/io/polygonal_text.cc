@@ -107,7 +107,8 @@ MeshFile read_polygonal_text(const std::filesystem::path& path) {
   reader.require_line("the first line");
   if (reader.word() != title)
     reader.fail("the first line is not '" + std::string(title) +
-                "'; only planar polygonal meshes are read from .mesh files");
+                "' (planar polygonal mesh) and not 'MeshVersionFormatted' (Medit); this is no mesh "
+                "file of a known kind");
   reader.require_end_of_line();
   MeshParts parts;
   parts.coordinates = read_nodes(reader);

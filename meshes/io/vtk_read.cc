@@ -16,7 +16,6 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <string>
 
 #include "meshes/io/line_reader.h"
@@ -124,15 +123,10 @@ class DataSetReader {
   void read_names() {
     auto* names =
         vtkStringArray::SafeDownCast(data_.GetFieldData()->GetAbstractArray("physical_name"));
-    for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i) {
-      std::istringstream entry(names->GetValue(i));
-      int dimension = 0, tag = 0;
-      std::string name;
-      if (!(entry >> dimension >> tag) || !std::getline(entry.ignore(1), name))
-        fail("the field 'physical_name' has the entry '" + entry.str() +
+    for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+      if (!add_physical_name(names->GetValue(i), parts_))
+        fail("the field 'physical_name' has the entry '" + names->GetValue(i) +
              "', which is not 'dimension tag name'");
-      parts_.names[{dimension, tag}] = name;
-    }
   }
 
   vtkDataArray* cell_array(const char* name) const {

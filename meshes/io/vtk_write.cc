@@ -18,6 +18,7 @@
 #include <string>
 
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/mesh_assembly.h"
 #include "meshes/io/node_order.h"
 #include "meshes/io/vtk_files.h"
 #include "meshes/io/vtk_messages.h"
@@ -134,8 +135,7 @@ void add_labels(const MeshLabels& labels, std::size_t n_cells, vtkUnstructuredGr
   vtkNew<vtkStringArray> names;
   names->SetName("physical_name");
   for (const auto& [key, name] : labels.names)
-    names->InsertNextValue(std::to_string(key.first) + " " + std::to_string(key.second) + " " +
-                           name);
+    names->InsertNextValue(physical_name_line(key, name));
   grid.GetFieldData()->AddArray(names);
 }
 

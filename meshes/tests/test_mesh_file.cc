@@ -14,8 +14,9 @@ TEST_F(MeshFiles, PathsThatCannotBeReadAreNamed) {
             missing + ": there is no such file; check the path");
   std::filesystem::create_directory(file("folder.msh"));
   EXPECT_THAT(input_error_of([&] { read_planar(file("folder.msh")); }), HasSubstr("is a folder"));
-  EXPECT_THAT(input_error_of([&] { read_planar(file_with("a.stl", "solid")); }),
-              HasSubstr("the extension .stl is not known; use one of .mesh, .msh, .vtk, .vtu"));
+  EXPECT_THAT(
+      input_error_of([&] { read_planar(file_with("a.stl", "solid")); }),
+      HasSubstr("the extension .stl is not known; use one of .mesh, .msh, .vtk, .vtu, .inp"));
   EXPECT_THAT(input_error_of([&] { read_planar(file("mesh")); }), HasSubstr("has no extension"));
 }
 
@@ -54,8 +55,9 @@ TEST_P(EveryFormat, PolygonsAreHeldOrRefused) {
   if (GetParam().holds_polygons)
     EXPECT_EQ(message, "");
   else
-    EXPECT_THAT(message, HasSubstr("cell 3 has 5 nodes, and .msh files hold only triangles and "
-                                   "quadrilaterals; use one of .mesh, .vtk, .vtu"));
+    EXPECT_THAT(message, HasSubstr("cell 3 has 5 nodes, and " + GetParam().extension +
+                                   " files hold only triangles and quadrilaterals; use one of "
+                                   ".mesh, .vtk, .vtu"));
 }
 
 TEST_P(EveryFormat, TargetsThatCannotBeWrittenAreNamed) {

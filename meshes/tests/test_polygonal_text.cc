@@ -67,8 +67,8 @@ TEST_P(BadPolygonalText, IsRefusedWithPlaceAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     PolygonalText, BadPolygonalText,
     ::testing::Values(
-        BadText{"medit", "MeshVersionFormatted 1\n", 1, "only planar polygonal meshes"},
-        BadText{"binary", std::string("\x7f\0ELF\1\n", 7), 1, "only planar polygonal meshes"},
+        BadText{"medit", "MeshVersionFormatted 1\n", 1, "the file ends before the last word"},
+        BadText{"binary", std::string("\x7f\0ELF\1\n", 7), 1, "no mesh file of a known kind"},
         BadText{"title_only", title, 1, "ends before the section 'nodes'"},
         BadText{"junk_after_title", "planar_polygonal_mesh 2\n", 1, "unexpected '2'"},
         BadText{"cut_in_nodes", title + "nodes 4\n0 0\n1 0\n", 4, "before node 3 of 4"},

@@ -37,11 +37,12 @@ VolumeMesh labelled_box(BoxCells kind) {
           mesh.coordinates()};
 }
 
-/// (facet's nodes, tag), in whatever order the file keeps them.
-std::vector<std::pair<std::vector<NodeIndex>, int>> sorted_facets(const MeshLabels& labels) {
+/// (nodes, tag) of cells or facets, in an order that does not depend on the file.
+std::vector<std::pair<std::vector<NodeIndex>, int>> sorted_rows(
+    const CompressedRows<NodeIndex>& rows, const std::vector<int>& tags) {
   std::vector<std::pair<std::vector<NodeIndex>, int>> result;
-  for (std::size_t f = 0; f < labels.facets.size(); ++f)
-    result.push_back({{labels.facets[f].begin(), labels.facets[f].end()}, labels.facet_tags[f]});
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    result.push_back({{rows[i].begin(), rows[i].end()}, tags.empty() ? 0 : tags[i]});
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -67,17 +68,19 @@ TEST_P(VolumeFormats, RoundTripKeepsEverything) {
   write_mesh(target(), mesh);
   const VolumeMesh read = read_volume(target());
   EXPECT_EQ(read.coordinates(), mesh.coordinates());
-  EXPECT_EQ(read.topology().cells(), mesh.topology().cells());
-  if (format().holds_fixed_nodes) {
+  if (format().name != "gmsh") {  // the only one that keeps no fixed nodes
     EXPECT_EQ(read.topology().free_nodes(), mesh.topology().free_nodes());
   }
   const MeshLabels &found = read.topology().labels(), &expected = mesh.topology().labels();
-  EXPECT_EQ(found.cell_tags, expected.cell_tags);
-  EXPECT_EQ(sorted_facets(found), sorted_facets(expected));
+  EXPECT_EQ(sorted_rows(read.topology().cells(), found.cell_tags),
+            sorted_rows(mesh.topology().cells(), expected.cell_tags));
+  EXPECT_EQ(sorted_rows(found.facets, found.facet_tags),
+            sorted_rows(expected.facets, expected.facet_tags));
   if (format().holds_physical_names) {
     EXPECT_EQ(found.names, expected.names);
   }
   if (format().holds_numbers) {
+    EXPECT_EQ(read.topology().cells(), mesh.topology().cells());
     EXPECT_EQ(found.cell_ids, expected.cell_ids);
     EXPECT_EQ(found.node_ids, expected.node_ids);
   }
@@ -87,7 +90,9 @@ TEST_P(VolumeFormats, RoundTripWithoutLabels) {
   const VolumeMesh mesh = test::box_mesh(2, 1, 4, std::get<1>(GetParam()));
   write_mesh(target(), mesh);
   const VolumeMesh read = read_volume(target());
-  expect_same_mesh(read, mesh);
+  EXPECT_EQ(read.coordinates(), mesh.coordinates());
+  EXPECT_EQ(sorted_rows(read.topology().cells(), {}), sorted_rows(mesh.topology().cells(), {}));
+  EXPECT_EQ(read.topology().free_nodes(), mesh.topology().free_nodes());
   EXPECT_EQ(read.topology().labels(), MeshLabels());
 }
 

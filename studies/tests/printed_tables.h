@@ -25,7 +25,7 @@ class PrintedTables : public ::testing::Test {
   }
 
   static PlanarMesh published(const std::string& mesh) {
-    return read_mesh(std::filesystem::path(SMOOTHFEM_SHARED_MESHES) /
+    return read_planar(std::filesystem::path(SMOOTHFEM_SHARED_MESHES) /
                      ("gear_" + mesh + "_initial.mesh"))
         .mesh;
   }

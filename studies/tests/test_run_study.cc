@@ -104,7 +104,7 @@ TEST_F(RunStudy, TheSummaryHasTheRowOfTheResultingMesh) {
   const CsvTable iterations = table(out, "iterations.csv"), summary = table(out, "summary.csv");
   ASSERT_EQ(summary.rows.size(), 2u * 3u);
   for (const std::string method : {"laplace", "getme"}) {
-    const PlanarMesh result = read_mesh(out / "meshes" / ("grid_" + method + ".vtu")).mesh;
+    const PlanarMesh result = read_planar(out / "meshes" / ("grid_" + method + ".vtu")).mesh;
     for (const std::string degree : {"1", "2"}) {
       const auto row = summary.select({{"method", method}, {"degree", degree}}).at(0);
       EXPECT_EQ(std::stod(row.at("q_mean")), mesh_quality(result).q_mean);
@@ -304,7 +304,7 @@ TEST_F(RunStudy, ProvenanceSaysWhereEverythingComesFrom) {
   EXPECT_EQ(std::fread(digits, 1, 64, pipe), 64u);
   ::pclose(pipe);
   EXPECT_EQ(mesh.at("sha256"), std::string(digits));
-  EXPECT_EQ(read_mesh(initial).mesh.coordinates(), shaken_grid(5, 0.2).coordinates());
+  EXPECT_EQ(read_planar(initial).mesh.coordinates(), shaken_grid(5, 0.2).coordinates());
 }
 
 TEST_F(RunStudy, PublishedMeshesAreTakenAsTheyAre) {

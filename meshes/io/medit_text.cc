@@ -1,0 +1,222 @@
+#include "meshes/io/medit_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "meshes/io/atomic_file.h"
+#include "meshes/io/line_reader.h"
+#include "meshes/io/mesh_assembly.h"
+#include "meshes/io/number_text.h"
+#include "smoothing/mesh/input_error.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr std::string_view title = "MeshVersionFormatted";
+
+/// The sections with elements, in the order in which they are written.
+struct Section {
+  std::string_view keyword;
+  int dimension;
+  std::size_t n_nodes;
+};
+constexpr std::array sections{Section{"Tetrahedra", 3, 4}, Section{"Hexahedra", 3, 8},
+                              Section{"Prisms", 3, 6},     Section{"Pyramids", 3, 5},
+                              Section{"Triangles", 2, 3},  Section{"Quadrilaterals", 2, 4},
+                              Section{"Edges", 1, 2}};
+
+class MeditReader {
+ public:
+  MeditReader(const std::filesystem::path& path, std::string_view content)
+      : reader_(path, content) {}
+
+  MeshParts parts() {
+    if (word("the first word") != title)
+      reader_.fail("the first word is not '" + std::string(title) + "'");
+    integer("the version");
+    std::string_view keyword = next_keyword();
+    while (keyword != "End") {
+      read_section(keyword);
+      keyword = next_keyword();
+    }
+    return std::move(parts_);
+  }
+
+ private:
+  std::string_view word(std::string_view what) {
+    reader_.require_word(what, '#');
+    return reader_.word();
+  }
+  std::uint64_t integer(std::string_view what, std::uint64_t limit = UINT64_MAX) {
+    reader_.require_word(what, '#');
+    return reader_.integer(what, limit);
+  }
+  double number(std::string_view what) {
+    reader_.require_word(what, '#');
+    return reader_.number(what);
+  }
+
+  void read_section(std::string_view keyword) {
+    const auto* section = std::find_if(sections.begin(), sections.end(),
+                                       [&](const Section& s) { return s.keyword == keyword; });
+    if (section != sections.end()) {
+      read_elements(*section);
+    } else if (keyword == "Dimension") {
+      dimension_ = integer("the dimension", 4);
+      if (dimension_ < 2) reader_.fail("the dimension must be 2 or 3");
+    } else if (keyword == "Vertices") {
+      read_vertices();
+    } else if (keyword == "RequiredVertices") {
+      read_required();
+    } else if (keyword.ends_with("P2") || keyword.ends_with("Q2")) {
+      reader_.fail("the section " + std::string(keyword) +
+                   " has elements with nodes besides their corners; save the mesh with linear "
+                   "elements");
+    } else {
+      skipping_ = true;
+    }
+  }
+
+  /// Entries of sections that are not read are no keywords: they do not begin with a letter.
+  std::string_view next_keyword() {
+    constexpr std::string_view what = "the last word, 'End'";
+    std::string_view found = word(what);
+    while (skipping_ && !std::isalpha(static_cast<unsigned char>(found.front())))
+      found = word(what);
+    if (!std::isalpha(static_cast<unsigned char>(found.front())))
+      reader_.fail("expected the name of a section, but found '" +
+                   std::string(found.substr(0, 40)) +
+                   "'; the section before has more entries than announced");
+    skipping_ = false;
+    return found;
+  }
+
+  /// A count cannot exceed the bytes that are left, so a wrong one is found before memory is asked
+  /// for.
+  std::size_t count(std::string_view keyword) {
+    const std::uint64_t n = integer("the number of " + std::string(keyword));
+    if (n > reader_.rest().size())
+      reader_.fail("the section " + std::string(keyword) + " announces " + std::to_string(n) +
+                   " entries, more than the file has; it is truncated or the count is wrong");
+    return n;
+  }
+
+  void read_vertices() {
+    if (dimension_ == 0) reader_.fail("the section Vertices stands before the dimension");
+    if (!parts_.coordinates.empty()) reader_.fail("there is a second section Vertices");
+    const std::size_t n = count("Vertices");
+    parts_.coordinates.assign(n, Point<3>::Zero());
+    for (auto& point : parts_.coordinates) {
+      for (std::uint64_t d = 0; d < dimension_; ++d)
+        point[static_cast<Eigen::Index>(d)] = number("a coordinate");
+      word("the vertex's reference");
+    }
+  }
+
+  NodeIndex node() {
+    const std::uint64_t number = integer("the node", parts_.coordinates.size() + 1);
+    if (number == 0) reader_.fail("the node is 0, but nodes are counted from 1");
+    return static_cast<NodeIndex>(number - 1);
+  }
+
+  void read_elements(const Section& section) {
+    const std::size_t n = count(section.keyword);
+    if (parts_.coordinates.empty())
+      reader_.fail("the section " + std::string(section.keyword) + " stands before Vertices");
+    ElementList& elements = parts_.elements[section.dimension];
+    std::array<NodeIndex, 8> nodes{};
+    for (std::size_t e = 0; e < n; ++e) {
+      for (std::size_t k = 0; k < section.n_nodes; ++k) {
+        nodes[k] = node();
+        if (k == 0) elements.lines.push_back(reader_.line());
+      }
+      elements.nodes.append(std::span(nodes).first(section.n_nodes));
+      elements.tags.push_back(reference());
+    }
+  }
+
+  /// Some programs use references beyond the integers for "none".
+  int reference() {
+    const double value = number("the reference");
+    return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
+  }
+
+  void read_required() {
+    parts_.fixed.emplace(parts_.coordinates.size(), false);
+    parts_.boundary_is_fixed_too = true;
+    for (std::size_t n = count("RequiredVertices"); n > 0; --n) (*parts_.fixed)[node()] = true;
+  }
+
+  LineReader reader_;
+  std::uint64_t dimension_ = 0;
+  bool skipping_ = false;
+  MeshParts parts_;
+};
+
+}  // namespace
+
+bool is_medit_text(std::string_view content) {
+  LineReader reader({}, content);
+  return reader.next_line() && reader.word() == title;
+}
+
+MeshFile read_medit_text(const std::filesystem::path& path) {
+  const std::string content = read_whole_file(path);
+  return assemble_mesh(path, MeditReader(path, content).parts());
+}
+
+namespace {
+
+void append_row(std::string& text, std::span<const NodeIndex> nodes, int reference) {
+  for (const NodeIndex node : nodes) {
+    append_number(text, std::size_t{node} + 1);
+    text += ' ';
+  }
+  append_number(text, reference);
+  text += '\n';
+}
+
+void append_section(std::string& text, const Section& section,
+                    const CompressedRows<NodeIndex>& rows, const std::vector<int>& tags) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) n += rows[i].size() == section.n_nodes;
+  if (n == 0) return;
+  text.append(section.keyword).append("\n").append(std::to_string(n)).append("\n");
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].size() == section.n_nodes) append_row(text, rows[i], tags.empty() ? 0 : tags[i]);
+}
+
+}  // namespace
+
+void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
+                      const MeshWriteOptions&) {
+  const Topology& topology = mesh.topology();
+  const MeshLabels& labels = topology.labels();
+  std::string text(title);
+  text += " 2\nDimension 3\nVertices\n" + std::to_string(mesh.n_nodes()) + "\n";
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    for (const double x : mesh.point(i)) {
+      append_number(text, x);
+      text += ' ';
+    }
+    text += "0\n";
+  }
+  for (const Section& section : sections) {
+    if (section.dimension == 3)
+      append_section(text, section, topology.cells(), labels.cell_tags);
+    else if (section.dimension == 2)
+      append_section(text, section, labels.facets, labels.facet_tags);
+  }
+  text += "RequiredVertices\n" + std::to_string(mesh.n_nodes() - topology.free_nodes().size());
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    if (topology.is_fixed(i)) text += "\n" + std::to_string(i + 1);
+  text += "\nEnd\n";
+  write_atomically(path, text);
+}
+
+}  // namespace smoothfem

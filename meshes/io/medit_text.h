@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "meshes/io/mesh_file.h"
+
+namespace smoothfem {
+
+/// Reads Medit's text format (MeshVersionFormatted, Dimension 2 or 3; Frey, Medit: an interactive
+/// mesh visualization software, 2001). Tetrahedra, Hexahedra, Prisms and Pyramids make a volume
+/// mesh, in this order; without them Triangles and Quadrilaterals a planar one. References are the
+/// physical tags (0: none) of cells and facets; those of vertices are ignored, as are sections that
+/// are not named here. RequiredVertices are fixed besides the boundary nodes. All nodes are kept.
+/// Refused: a file without its last word, End; elements with mid-nodes.
+MeshFile read_medit_text(const std::filesystem::path& path);
+
+/// True if the first word of the content announces this format.
+bool is_medit_text(std::string_view content);
+
+/// Volume meshes only. Coordinates are read back bit by bit. Cells are written type by type, which
+/// changes the order of mixed meshes; names, numbers and fields are not written, nor that a
+/// boundary node is free.
+void write_medit_text(const std::filesystem::path& path, const MeshView& mesh,
+                      const MeshFields& fields, const MeshWriteOptions& options);
+
+}  // namespace smoothfem
