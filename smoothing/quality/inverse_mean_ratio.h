@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "smoothing/quality/mean_ratio.h"
 
@@ -80,5 +81,91 @@ struct InverseMeanRatio {
     bb = 4.0 * four * inverse * big;
   }
 };
+
+/// Mean inverse mean ratio of a planar cell's corners; infinite if a corner's determinant is not
+/// positive.
+template <class Real, std::size_t extent>
+SMOOTHFEM_INLINE Real mean_inverse_mean_ratio(std::span<const Vector2<Real>, extent> x) {
+  const std::size_t n = x.size(), n_corners = n == 3 ? 1 : n;
+  const RegularAngle regular = regular_interior_angle(n);
+  const Real infinite = Real{} + std::numeric_limits<double>::infinity();
+  Real sum{};
+  for (std::size_t k = 0; k < n_corners; ++k) {
+    const auto next = x[k + 1 == n ? 0 : k + 1] - x[k];
+    const auto previous = x[k == 0 ? n - 1 : k - 1] - x[k];
+    const Real determinant = cross(next, previous);
+    const Real ratio = (squared_length(next) + squared_length(previous) -
+                        2.0 * regular.cosine * dot(next, previous)) /
+                       (2.0 * regular.sine * determinant);
+    sum += determinant > 0.0 ? ratio : infinite;
+  }
+  return sum / static_cast<double>(n_corners);
+}
+
+/// The same of a volume cell: |S|^2 / (3 det(S)^(2/3)), S = D W^-1, of the corners that the mean
+/// ratio counts.
+template <class Real, std::size_t n>
+SMOOTHFEM_INLINE Real mean_inverse_mean_ratio(std::span<const Vector3<Real>, n> x) {
+  constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
+  const Real infinite = Real{} + std::numeric_limits<double>::infinity();
+  const CellEdges<Real, n> edges(x);
+  Real sum{};
+  unrolled<n_corners>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+    const CornerShape<Real> shape = corner_shape<k>(edges);
+    const Real root = inverse_root<3>(shape.determinant);
+    sum += shape.determinant > 0.0 ? shape.squared_norm * (root * root) : infinite;
+  });
+  return sum * (1.0 / (3.0 * static_cast<double>(n_corners)));
+}
+
+/// |S|^2 = sum_ij corner_gram[i][j] x_i x_j with the four nodes of a corner, itself first: from the
+/// inverse Gram matrix of W, as moving all nodes changes nothing.
+template <std::size_t n>
+inline constexpr auto corner_gram = [] {
+  std::array<std::array<double, 4>, 4> gram{};
+  for (std::size_t i = 1; i < 4; ++i)
+    for (std::size_t j = 1; j < 4; ++j) {
+      const double g = VolumeElement<n>::regular.inverse_gram[i - 1][j - 1];
+      gram[i][j] = g;
+      gram[i][0] -= g;
+      gram[0][j] -= g;
+      gram[0][0] += g;
+    }
+  return gram;
+}();
+
+/// Inverse mean ratio f of a volume corner, and what its derivatives are made of: the gradients of
+/// |S|^2 / 2 and of log det(S) with respect to its four nodes. grad(f) = f (2 / |S|^2 times the
+/// first - 2/3 of the second). Requires a positive determinant.
+template <class Real>
+struct CornerGradients {
+  Real value;
+  Real inverse_squared_norm;
+  std::array<Vector3<Real>, 4> of_half_squared_norm, of_log_determinant;
+};
+
+template <std::size_t k, class Real, std::size_t n>
+SMOOTHFEM_INLINE CornerGradients<Real> corner_gradients(std::span<const Vector3<Real>, n> x) {
+  constexpr LocalSimplex corner = VolumeElement<n>::corners[k];
+  constexpr auto& gram = corner_gram<n>;
+  const std::array edges{x[corner[1]] - x[corner[0]], x[corner[2]] - x[corner[0]],
+                         x[corner[3]] - x[corner[0]]};
+  CornerGradients<Real> result;
+  auto& u = result.of_half_squared_norm;
+  auto& c = result.of_log_determinant;
+  for (std::size_t i = 0; i < 4; ++i)
+    u[i] = gram[i][1] * edges[0] + gram[i][2] * edges[1] + gram[i][3] * edges[2];
+  for (std::size_t i = 0; i < 3; ++i) c[i + 1] = cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
+  const Real determinant = dot(edges[0], c[1]);
+  const Real squared_norm = dot(edges[0], u[1]) + dot(edges[1], u[2]) + dot(edges[2], u[3]);
+  const Real root =
+      inverse_root<3>((1.0 / VolumeElement<n>::regular.determinant) * determinant);
+  const Real inverse = 1.0 / determinant;
+  for (std::size_t i = 1; i < 4; ++i) c[i] = inverse * c[i];
+  c[0] = -1.0 * (c[1] + c[2] + c[3]);
+  result.value = (1.0 / 3.0) * squared_norm * (root * root);
+  result.inverse_squared_norm = 1.0 / squared_norm;
+  return result;
+}
 
 }  // namespace smoothfem

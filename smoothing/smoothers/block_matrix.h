@@ -3,97 +3,100 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "smoothing/mesh/compressed_rows.h"
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/mesh/mesh.h"
+#include "smoothing/mesh/parallel.h"
 
 namespace smoothfem {
 
-/// A vector of the plane for each row of a block matrix, padded (make_vector) so that it can be
-/// read two at a time; what lies behind the rows stays zero.
-using BlockVector = std::vector<Point<2>>;
+/// A vector with an entry for each row of a block matrix.
+template <int dim>
+using BlockVector = std::vector<Point<dim>>;
 
-/// Two neighbouring entries of a block vector at once: (x0, y0, x1, y1). Not aligned to 32 bytes.
-SMOOTHFEM_INLINE Lanes load_pair(const Point<2>* entries) {
-  static_assert(2 * sizeof(Point<2>) == sizeof(Lanes));
-  return load_lanes(entries->data());
-}
-SMOOTHFEM_INLINE void store_pair(Lanes lanes, Point<2>* entries) {
-  store_lanes(lanes, entries->data());
-}
-/// (x, x, y, y) of one entry.
-SMOOTHFEM_INLINE Lanes load_each_twice(const Point<2>* entry) {
-  using Pair = double __attribute__((vector_size(2 * sizeof(double))));
-  Pair pair;
-  std::memcpy(&pair, entry, sizeof(pair));
-  return __builtin_shufflevector(pair, pair, 0, 0, 1, 1);
-}
-SMOOTHFEM_INLINE double sum_of(Lanes lanes) {
-  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+/// Rows that one thread takes at a time: what fixes the order of sums over them.
+inline constexpr std::size_t row_grain = 1024;
+
+/// Sum of part(first, last) over ranges of rows, the same for every number of threads.
+template <class Part>
+double sum_over_ranges(std::size_t n_rows, const Part& part) {
+  std::vector<double> parts((n_rows + row_grain - 1) / row_grain);
+  parallel_for_ranges(n_rows, row_grain, [&](std::size_t first, std::size_t last) {
+    parts[first / row_grain] = part(first, last);
+  });
+  double sum = 0.0;
+  for (const double value : parts) sum += value;
+  return sum;
 }
 
-/// A square sparse matrix of 2 x 2 blocks, one for each pair of nodes, on a fixed pattern (block
-/// CSR). One more block behind the last and one more entry of its vectors take what belongs to
-/// fixed nodes, so that scattering into them needs no branches.
+template <int dim>
+double dot(const BlockVector<dim>& a, const BlockVector<dim>& b) {
+  return sum_over_ranges(a.size(), [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < last; ++i) sum += a[i].dot(b[i]);
+    return sum;
+  });
+}
+
+/// A symmetric sparse matrix of dim x dim blocks, one for each pair of nodes, on a fixed pattern.
+/// Only the diagonal blocks and those right of them are stored, row by row.
+template <int dim>
 class BlockMatrix {
  public:
-  /// Entries (0,0), (1,0), (0,1), (1,1).
-  struct Block {
-    double entries[n_lanes];
+  using Block = Eigen::Matrix<double, dim, dim>;  ///< columns first
 
-    SMOOTHFEM_INLINE Lanes load() const { return load_lanes(entries); }
-    SMOOTHFEM_INLINE void add(Lanes other) { store_lanes(load() + other, entries); }
-  };
-
-  /// pattern: the block columns of each row, sorted ascending, the diagonal among them.
-  void set_pattern(CompressedRows<std::uint32_t> pattern) {
-    pattern_ = std::move(pattern);
-    blocks_.assign(pattern_.n_entries() + 1, Block{});
-    diagonal_.clear();
-    for (std::uint32_t row = 0; row < n_rows(); ++row) diagonal_.push_back(position(row, row));
-  }
-  std::size_t n_rows() const { return pattern_.size(); }
-  /// A zero vector for this matrix: one entry a row, one unused, and one more if that is odd.
-  BlockVector make_vector() const {
-    return BlockVector((n_rows() + 2) / 2 * 2, Point<2>(0.0, 0.0));
-  }
-
-  /// Where a block is stored; it must be in the pattern.
-  std::uint32_t position(std::uint32_t row, std::uint32_t column) const {
-    const auto columns = pattern_[row];
-    const auto found = std::lower_bound(columns.begin(), columns.end(), column);
-    assert(found != columns.end() && *found == column);
-    return static_cast<std::uint32_t>(pattern_.offset(row) + (found - columns.begin()));
-  }
-  /// Position of the block that belongs to no row.
-  std::uint32_t unused_position() const { return static_cast<std::uint32_t>(pattern_.n_entries()); }
-
-  Block* blocks() { return blocks_.data(); }
-  const Block& block(std::uint32_t position) const { return blocks_[position]; }
-  const Block& diagonal_block(std::size_t row) const { return blocks_[diagonal_[row]]; }
-  void set_zero() { std::fill(blocks_.begin(), blocks_.end(), Block{}); }
-
-  /// y = A x, rows in order; returns x' y.
-  SMOOTHFEM_INLINE double multiply(const BlockVector& x, BlockVector& y) const {
-    const Block* block = blocks_.data();
-    double product = 0.0;
-    for (std::size_t row = 0; row < n_rows(); ++row) {
-      Lanes sum{};
-      for (const std::uint32_t column : pattern_[row]) {
-        sum += (block++)->load() * load_each_twice(&x[column]);
-      }
-      y[row] = {sum[0] + sum[2], sum[1] + sum[3]};
-      product += x[row].x() * y[row].x() + x[row].y() * y[row].y();
+  BlockMatrix() = default;
+  /// columns: those of each row, sorted ascending, the diagonal among them; a symmetric pattern.
+  explicit BlockMatrix(CompressedRows<std::uint32_t> columns) : columns_(std::move(columns)) {
+    std::uint32_t n_stored = 0;
+    for (std::uint32_t row = 0; row < n_rows(); ++row) {
+      diagonal_.push_back(n_stored);
+      for (const std::uint32_t column : columns_[row]) n_stored += column >= row;
     }
-    return product;
+    blocks_.resize(n_stored);
+    // Row after row meets the blocks of the rows above it in their order.
+    std::vector<std::uint32_t> next;
+    for (std::uint32_t row = 0; row < n_rows(); ++row) {
+      std::uint32_t own = diagonal_[row];
+      for (const std::uint32_t column : columns_[row])
+        positions_.push_back(column < row ? next[column]++ : own++);
+      next.push_back(diagonal_[row] + 1);
+    }
+  }
+
+  std::size_t n_rows() const { return columns_.size(); }
+  BlockVector<dim> make_vector() const { return BlockVector<dim>(n_rows(), Point<dim>::Zero()); }
+
+  /// Where the block of row <= column is stored; it must be in the pattern.
+  std::uint32_t position(std::uint32_t row, std::uint32_t column) const {
+    const auto all = columns_[row];
+    const auto diagonal = std::lower_bound(all.begin(), all.end(), row);
+    const auto found = std::lower_bound(diagonal, all.end(), column);
+    assert(row <= column && found != all.end() && *found == column);
+    return diagonal_[row] + static_cast<std::uint32_t>(found - diagonal);
+  }
+
+  Block& block(std::uint32_t position) { return blocks_[position]; }
+  const Block& diagonal_block(std::size_t row) const { return blocks_[diagonal_[row]]; }
+  void set_zero() {
+    parallel_for_ranges(blocks_.size(), row_grain, [&](std::size_t first, std::size_t last) {
+      std::fill(blocks_.begin() + first, blocks_.begin() + last, Block::Zero());
+    });
+  }
+
+  const CompressedRows<std::uint32_t>& columns() const { return columns_; }
+  /// Block number k of columns().entries(), in the row given.
+  Block entry(std::uint32_t row, std::size_t k) const {
+    const Block& stored = blocks_[positions_[k]];
+    return columns_.entries()[k] < row ? Block(stored.transpose()) : stored;
   }
 
  private:
-  CompressedRows<std::uint32_t> pattern_;
+  CompressedRows<std::uint32_t> columns_;
+  std::vector<std::uint32_t> positions_;  ///< of the block (or its transpose) of each column
+  std::vector<std::uint32_t> diagonal_;   ///< position of each row's diagonal block
   std::vector<Block> blocks_;
-  std::vector<std::uint32_t> diagonal_;
 };
 
 }  // namespace smoothfem

@@ -8,20 +8,30 @@
 
 namespace smoothfem {
 
-/// A 2 x 2 matrix, columns first.
-template <class Real>
-struct Block2 {
-  Real m00, m10, m01, m11;
+/// A dim x dim matrix, columns first: how two nodes of a cell act on each other.
+template <int dim, class Real>
+struct Block {
+  std::array<Real, static_cast<std::size_t>(dim * dim)> entries{};
 
+  /// Adds u v'.
   SMOOTHFEM_INLINE void add_product(Vector2<Real> u, Vector2<Real> v) {
-    m00 += u.x * v.x;
-    m10 += u.y * v.x;
-    m01 += u.x * v.y;
-    m11 += u.y * v.y;
+    entries[0] += u.x * v.x;
+    entries[1] += u.y * v.x;
+    entries[2] += u.x * v.y;
+    entries[3] += u.y * v.y;
+  }
+  SMOOTHFEM_INLINE void add_product(Vector3<Real> u, Vector3<Real> v) {
+    const std::array a{u.x, u.y, u.z}, b{v.x, v.y, v.z};
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 3; ++i) entries[3 * j + i] += a[i] * b[j];
+  }
+  /// Adds a multiple of the unit matrix.
+  SMOOTHFEM_INLINE void add_unit(Real scale) {
+    for (std::size_t i = 0; i < dim; ++i) entries[(dim + 1) * i] += scale;
   }
 };
 
-/// Arrays for the n (or n x n) entries of a cell: on the stack where n is known.
+/// Arrays for the n nodes (or pairs of nodes) of a cell: on the stack where n is known.
 template <class T, std::size_t extent>
 struct CellArray : std::array<T, extent> {
   explicit CellArray(std::size_t) { this->fill(T{}); }
@@ -30,31 +40,40 @@ template <class T>
 struct CellArray<T, std::dynamic_extent> : std::vector<T> {
   explicit CellArray(std::size_t n) : std::vector<T>(n) {}
 };
-constexpr std::size_t square_extent(std::size_t n) {
-  return n == std::dynamic_extent ? n : n * n;
+
+/// Pairs p <= q of the n nodes of a cell, and the number of one of them.
+constexpr std::size_t n_node_pairs(std::size_t n) {
+  return n == std::dynamic_extent ? n : n * (n + 1) / 2;
+}
+constexpr std::size_t node_pair(std::size_t n, std::size_t p, std::size_t q) {
+  return p * n - p * (p + 1) / 2 + q;
 }
 
 /// What stands for the Hessian of an element's h = m^2, m its mean inverse mean ratio.
 enum class HessianModel {
   exact,
-  /// h times the Hessian of log h without its concave part. Positive semidefinite, and the same as
-  /// the exact one at a regular element. Where an element has almost collapsed h grows like 1 /
-  /// det^2: a Newton step lets the determinant grow by a third there, this model doubles it.
+  /// Positive semidefinite; what it leaves out is said at the CellDerivatives of each dimension.
   convex
 };
 
 /// Gradient and Hessian of one cell's h: an entry for each node, and a block for each pair of nodes
-/// p <= q at p n + q (the others are their transposes).
+/// p <= q (the others are their transposes).
+template <int dim, class Real, std::size_t extent>
+class CellDerivatives;
+
+/// The convex model of planar cells is h times the Hessian of log h without its concave part. It is
+/// the same as the exact one at a regular element. Where an element has almost collapsed h grows
+/// like 1 / det^2: a Newton step lets the determinant grow by a third there, this model doubles it.
 template <class Real, std::size_t extent>
-class CellDerivatives {
+class CellDerivatives<2, Real, extent> {
  public:
   CellArray<Vector2<Real>, extent> gradient;
-  CellArray<Block2<Real>, square_extent(extent)> hessian;
+  CellArray<Block<2, Real>, n_node_pairs(extent)> hessian;
 
   /// x: the n corners of a valid cell.
-  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector2<Real>, extent> x,
-                                   const CornerWeights& weights, HessianModel model)
-      : gradient(x.size()), hessian(x.size() * x.size()), n_(x.size()) {
+  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector2<Real>, extent> x, HessianModel model)
+      : gradient(x.size()), hessian(n_node_pairs(x.size())), n_(x.size()) {
+    const CornerWeights weights = corner_weights(n_);
     const std::size_t n_corners = n_ == 3 ? 1 : n_;  // a triangle's corners are all alike
     const double share = 1.0 / static_cast<double>(n_corners);
     const double concave_share = model == HessianModel::exact ? 1.0 : 0.0;
@@ -67,7 +86,7 @@ class CellDerivatives {
     const Real factor = (model == HessianModel::exact ? 0.5 : -0.5) / (mean * mean);
     for (std::size_t p = 0; p < n_; ++p)
       for (std::size_t q = p; q < n_; ++q)
-        hessian[p * n_ + q].add_product(factor * gradient[p], gradient[q]);
+        hessian[node_pair(n_, p, q)].add_product(factor * gradient[p], gradient[q]);
   }
 
  private:
@@ -102,15 +121,15 @@ class CellDerivatives {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
         if (places[i] > places[j]) continue;
-        auto& block = hessian[places[i] * n_ + places[j]];
+        auto& block = hessian[node_pair(n_, places[i], places[j])];
         block.add_product(u[i], hu[j]);
         block.add_product(v[i], hv[j]);
         const Real real = even * weights.products[i][j].x;
         const Real imaginary = odd * weights.products[i][j].y;
-        block.m00 += real;
-        block.m10 += imaginary;
-        block.m01 -= imaginary;
-        block.m11 += real;
+        block.entries[0] += real;
+        block.entries[1] += imaginary;
+        block.entries[2] -= imaginary;
+        block.entries[3] += real;
       }
   }
 

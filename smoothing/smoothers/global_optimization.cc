@@ -9,12 +9,6 @@
 namespace smoothfem {
 namespace {
 
-double dot(const BlockVector& a, const BlockVector& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
 /// Feasible Newton method for the shape objective. An iteration is one Newton step: the linear
 /// system by block-preconditioned conjugate gradients, no more exactly than the progress deserves;
 /// each node's movement shortened so that its own elements stay valid, which lets all others go on
@@ -23,7 +17,8 @@ double dot(const BlockVector& a, const BlockVector& b) {
 /// little for elements that have almost collapsed, the convex model stands for it. Source: thesis,
 /// Section 1.3.3; Munson, Mesh shape-quality optimization using the inverse mean-ratio metric,
 /// Math. Program. 110 (2007); forcing terms: Eisenstat and Walker, SIAM J. Sci. Comput. 17 (1996).
-class GlobalOptimization final : public Smoother<2> {
+template <int dim>
+class GlobalOptimization final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "global-optimization"; }
 
@@ -53,7 +48,7 @@ class GlobalOptimization final : public Smoother<2> {
             .max_iterations = max_iterations_};
   }
 
-  void initialize(const SmoothingState<2>& state) override {
+  void initialize(const SmoothingState<dim>& state) override {
     objective_.emplace(state.mesh.shared_topology());
     hessian_ = objective_->make_hessian();
     gradient_ = right_ = step_ = hessian_.make_vector();
@@ -63,7 +58,7 @@ class GlobalOptimization final : public Smoother<2> {
     gradient_norm_ = 0.0;
   }
 
-  StepReport step(SmoothingState<2>& state) override {
+  StepReport step(SmoothingState<dim>& state) override {
     const double value_before = value_;
     const bool exact = find_newton_step(state.mesh);
     double slope = limit_step(state.mesh);
@@ -81,7 +76,7 @@ class GlobalOptimization final : public Smoother<2> {
  private:
   /// Solves with the present model, with the convex one where the exact Hessian is indefinite.
   /// Returns whether the Hessian was the exact one, or had to be given up.
-  bool find_newton_step(const PlanarMesh& mesh) {
+  bool find_newton_step(const Mesh<dim>& mesh) {
     if (model_ == HessianModel::convex) {
       solve(mesh);
       return false;
@@ -93,7 +88,7 @@ class GlobalOptimization final : public Smoother<2> {
     return true;
   }
 
-  BlockConjugateGradients::Result solve(const PlanarMesh& mesh) {
+  typename BlockConjugateGradients<dim>::Result solve(const Mesh<dim>& mesh) {
     objective_->derivatives(mesh.coordinates(), model_, gradient_, hessian_);
     for (std::size_t i = 0; i < gradient_.size(); ++i) right_[i] = -gradient_[i];
     solver_.prepare(hessian_);
@@ -102,10 +97,10 @@ class GlobalOptimization final : public Smoother<2> {
     const double fall = gradient_norm_ > 0.0 ? norm / gradient_norm_ : 1.0;
     gradient_norm_ = norm;
     const double tolerance = std::min(forcing_, 0.9 * fall * std::sqrt(fall));
-    return solver_.solve(hessian_, right_, tolerance, max_cg_iterations_, step_);
+    return solver_.solve(right_, tolerance, max_cg_iterations_, step_);
   }
 
-  void set_trial(const PlanarMesh& mesh, double alpha) {
+  void set_trial(const Mesh<dim>& mesh, double alpha) {
     const auto& free_nodes = mesh.topology().free_nodes();
     for (std::size_t i = 0; i < free_nodes.size(); ++i)
       trial_[free_nodes[i]] = mesh.coordinates()[free_nodes[i]] + alpha * step_[i];
@@ -113,7 +108,7 @@ class GlobalOptimization final : public Smoother<2> {
 
   /// Shortens the step of each node so that its elements keep positive determinants (in a few
   /// rounds; what is left over is the line search's). Returns the slope along it.
-  double limit_step(const PlanarMesh& mesh) {
+  double limit_step(const Mesh<dim>& mesh) {
     constexpr int max_rounds = 5;
     const auto& free_nodes = mesh.topology().free_nodes();
     for (int round = 0; round < max_rounds; ++round) {
@@ -123,11 +118,11 @@ class GlobalOptimization final : public Smoother<2> {
         break;
       for (std::size_t i = 0; i < free_nodes.size(); ++i) step_[i] *= limits_[free_nodes[i]];
     }
-    return dot(gradient_, step_);
+    return dot<dim>(gradient_, step_);
   }
 
   /// Halves the step until the objective falls enough (Armijo); false if it never does.
-  bool line_search(PlanarMesh& mesh, double slope) {
+  bool line_search(Mesh<dim>& mesh, double slope) {
     constexpr double sufficient = 1e-4;
     constexpr int max_halvings = 60;
     double alpha = 1.0;
@@ -150,12 +145,12 @@ class GlobalOptimization final : public Smoother<2> {
   int max_cg_iterations_ = 1000;
   int max_iterations_ = 1000;
 
-  std::optional<ShapeObjective> objective_;
+  std::optional<ShapeObjective<dim>> objective_;
   HessianModel model_ = HessianModel::convex;
-  BlockMatrix hessian_;
-  BlockConjugateGradients solver_;
-  BlockVector gradient_, right_, step_;
-  std::vector<Point<2>> trial_;
+  BlockMatrix<dim> hessian_;
+  BlockConjugateGradients<dim> solver_;
+  BlockVector<dim> gradient_, right_, step_;
+  std::vector<Point<dim>> trial_;
   std::vector<double> limits_;
   double value_ = 0.0;
   double gradient_norm_ = 0.0;
@@ -167,12 +162,7 @@ const RegisteredMethod registered(
      .description = "minimizes the sum of squared mean inverse corner mean ratios by a feasible "
                     "Newton method",
      .source = "Section 1.3.3; Munson (2007)"},
-    {[] {
-       Stages<2> stages;
-       stages.push_back(std::make_unique<GlobalOptimization>());
-       return stages;
-     },
-     [] { return Stages<3>{}; }});
+    single_stage<GlobalOptimization>());
 
 }  // namespace
 }  // namespace smoothfem

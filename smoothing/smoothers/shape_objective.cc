@@ -1,156 +1,251 @@
 #include "smoothing/smoothers/shape_objective.h"
 
 #include "smoothing/mesh/cell_blocks.h"
-#include "smoothing/smoothers/cell_derivatives.h"
+#include "smoothing/smoothers/volume_cell_derivatives.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// Mean inverse mean ratio of the corners; infinite if a corner's determinant is not positive.
-template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE Real mean_inverse_mean_ratio(std::span<const Vector2<Real>, extent> x) {
-  const std::size_t n = x.size(), n_corners = n == 3 ? 1 : n;
-  const RegularAngle regular = regular_interior_angle(n);
-  const Real infinite = Real{} + std::numeric_limits<double>::infinity();
-  Real sum{};
-  for (std::size_t k = 0; k < n_corners; ++k) {
-    const auto next = x[k + 1 == n ? 0 : k + 1] - x[k];
-    const auto previous = x[k == 0 ? n - 1 : k - 1] - x[k];
-    const Real determinant = cross(next, previous);
-    const Real ratio = (squared_length(next) + squared_length(previous) -
-                        2.0 * regular.cosine * dot(next, previous)) /
-                       (2.0 * regular.sine * determinant);
-    sum += determinant > 0.0 ? ratio : infinite;
+/// Where a block goes: twice its position in the matrix, and one more if it has to be transposed.
+constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+SMOOTHFEM_INLINE Point<2> lane_of(Vector2<Lanes> v, std::size_t l) {
+  return {v.x[l], v.y[l]};
+}
+SMOOTHFEM_INLINE Point<3> lane_of(Vector3<Lanes> v, std::size_t l) {
+  return {v.x[l], v.y[l], v.z[l]};
+}
+SMOOTHFEM_INLINE Point<2> lane_of(Vector2<double> v, std::size_t) {
+  return point_of(v);
+}
+SMOOTHFEM_INLINE Point<3> lane_of(Vector3<double> v, std::size_t) {
+  return point_of(v);
+}
+
+/// The derivatives of some cells, added up where they belong. Each cell is added to the matrix in
+/// the order of the cells, so sums have one order.
+template <int dim>
+struct Derivatives {
+  const Topology& topology;
+  const std::vector<std::uint32_t>& unknown;
+  const std::uint32_t* places;  ///< of the next cell's blocks
+  BlockVector<dim>& gradient;
+  BlockMatrix<dim>& hessian;
+
+  /// first: the first of as many cells as Real has lanes.
+  template <class Real, std::size_t extent>
+  SMOOTHFEM_INLINE void add(CellIndex first, const CellDerivatives<dim, Real, extent>& cell) {
+    constexpr std::size_t lanes = sizeof(Real) / sizeof(double);
+    const std::size_t n = cell.gradient.size(), n_pairs = n_node_pairs(n);
+    const NodeIndex* const nodes = topology.cell_nodes(first).data();
+    for (std::size_t p = 0; p < n; ++p)
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const std::uint32_t row = unknown[nodes[l * n + p]];
+        if (row < gradient.size()) gradient[row] += lane_of(cell.gradient[p], l);
+      }
+    for (std::size_t k = 0; k < n_pairs; ++k) {
+      const auto of_cell = blocks_by_cell(cell.hessian[k]);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const std::uint32_t place = places[l * n_pairs + k];
+        if (place != nowhere) add_block(of_cell[l], place % 2 != 0, hessian.block(place / 2).data());
+      }
+    }
+    places += lanes * n_pairs;
   }
-  return sum / static_cast<double>(n_corners);
-}
 
-/// One block of several cells, entry by entry, as the blocks of the cells.
-SMOOTHFEM_INLINE std::array<Lanes, n_lanes> blocks_by_cell(const Block2<Lanes>& m) {
-  const Lanes low01 = __builtin_shufflevector(m.m00, m.m10, 0, 4, 2, 6);
-  const Lanes high01 = __builtin_shufflevector(m.m00, m.m10, 1, 5, 3, 7);
-  const Lanes low23 = __builtin_shufflevector(m.m01, m.m11, 0, 4, 2, 6);
-  const Lanes high23 = __builtin_shufflevector(m.m01, m.m11, 1, 5, 3, 7);
-  return {__builtin_shufflevector(low01, low23, 0, 1, 4, 5),
-          __builtin_shufflevector(high01, high23, 0, 1, 4, 5),
-          __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
-          __builtin_shufflevector(high01, high23, 2, 3, 6, 7)};
-}
-SMOOTHFEM_INLINE std::array<Lanes, 1> blocks_by_cell(const Block2<double>& m) {
-  return {Lanes{m.m00, m.m10, m.m01, m.m11}};
-}
+ private:
+  /// The entries of one block, n_lanes at a time, and the last of an odd number.
+  struct Entries {
+    Lanes first, second;
+    double last;
+  };
 
-SMOOTHFEM_INLINE double lane(double value, std::size_t) {
-  return value;
-}
-SMOOTHFEM_INLINE double lane(Lanes value, std::size_t l) {
-  return value[l];
-}
-
-}  // namespace
-
-ShapeObjective::ShapeObjective(std::shared_ptr<const Topology> topology)
-    : topology_(std::move(topology)),
-      unknown_(topology_->n_nodes(), static_cast<std::uint32_t>(topology_->free_nodes().size())) {
-  std::uint32_t next = 0;
-  for (const NodeIndex i : topology_->free_nodes()) unknown_[i] = next++;
-  build_pattern();
-}
-
-void ShapeObjective::build_pattern() {
-  std::vector<std::uint32_t> row;
-  const auto fixed = static_cast<std::uint32_t>(n_unknown_nodes());
-  for (const NodeIndex i : topology_->free_nodes()) {
-    row.clear();
-    for (const CellIndex c : topology_->node_cells(i))
-      for (const NodeIndex j : topology_->cell_nodes(c))
-        if (unknown_[j] != fixed) row.push_back(unknown_[j]);
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    pattern_.append(row);
+  static SMOOTHFEM_INLINE auto blocks_by_cell(const Block<dim, Lanes>& block) {
+    const auto& m = block.entries;
+    const auto first = transposed(m[0], m[1], m[2], m[3]);
+    std::array<Entries, n_lanes> result{};
+    for (std::size_t l = 0; l < n_lanes; ++l) result[l].first = first[l];
+    if constexpr (dim == 3) {
+      const auto second = transposed(m[4], m[5], m[6], m[7]);
+      for (std::size_t l = 0; l < n_lanes; ++l) {
+        result[l].second = second[l];
+        result[l].last = m[8][l];
+      }
+    }
+    return result;
   }
-  const BlockMatrix matrix = make_hessian();
-  for (CellIndex c = 0; c < topology_->n_cells(); ++c) {
-    row.clear();
-    for (const NodeIndex i : topology_->cell_nodes(c))
-      for (const NodeIndex j : topology_->cell_nodes(c))
-        row.push_back(unknown_[i] == fixed || unknown_[j] == fixed
-                          ? matrix.unused_position()
-                          : matrix.position(unknown_[i], unknown_[j]));
-    block_positions_.append(row);
+  static SMOOTHFEM_INLINE std::array<Entries, 1> blocks_by_cell(const Block<dim, double>& block) {
+    const auto& m = block.entries;
+    Entries result{load_lanes(m.data()), {}, 0.0};
+    if constexpr (dim == 3) {
+      result.second = load_lanes(m.data() + n_lanes);
+      result.last = m[8];
+    }
+    return {result};
   }
-}
 
-BlockMatrix ShapeObjective::make_hessian() const {
-  BlockMatrix matrix;
-  matrix.set_pattern(pattern_);
-  return matrix;
-}
+  static SMOOTHFEM_INLINE void add_block(const Entries& e, bool transpose, double* sum) {
+    Lanes first = e.first, second = e.second;
+    if constexpr (dim == 2) {
+      if (transpose) first = __builtin_shufflevector(first, first, 0, 2, 1, 3);
+    } else {
+      if (transpose) {
+        first = __builtin_shufflevector(e.first, e.second, 0, 3, 6, 1);
+        second = __builtin_shufflevector(e.first, e.second, 4, 7, 2, 5);
+      }
+      store_lanes(load_lanes(sum + n_lanes) + second, sum + n_lanes);
+      sum[2 * n_lanes] += e.last;
+    }
+    store_lanes(load_lanes(sum) + first, sum);
+  }
+};
 
-SMOOTHFEM_VECTOR_CLONES
-double ShapeObjective::value(const std::vector<Point<2>>& coordinates) const {
+template <int dim>
+SMOOTHFEM_INLINE double sum_of_block(const Topology& topology, const std::vector<Point<dim>>& x,
+                                     const CellBlock& block) {
   Lanes sums{};
-  for_each_block<2>(
-      *topology_, coordinates,
-      [&]<std::size_t n>(CellIndex, const std::array<Vector2<Lanes>, n>& corners)
+  for_each_block<dim>(
+      topology, x, block.first, block.last,
+      [&]<std::size_t n>(CellIndex, const std::array<Vector<dim, Lanes>, n>& corners)
           SMOOTHFEM_INLINE_LAMBDA {
-            const Lanes mean = mean_inverse_mean_ratio(std::span(corners));
+            const Lanes mean =
+                mean_inverse_mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners));
             sums += mean * mean;
           },
       [&](CellIndex, auto corners) SMOOTHFEM_INLINE_LAMBDA {
         const double mean = mean_inverse_mean_ratio(corners);
         sums[0] += mean * mean;
       });
-  return sum_of(sums);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// Adds the derivatives of as many cells as Real has lanes. Each is added to the matrix in the
-/// order of the cells, so sums have one order.
-template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE void ShapeObjective::scatter(CellIndex first,
-                                              const CellDerivatives<Real, extent>& cell,
-                                              BlockVector& gradient, BlockMatrix& hessian) const {
-  const std::size_t n = cell.gradient.size(), lanes = sizeof(Real) / sizeof(double);
-  const std::uint32_t* const positions = block_positions_[first].data();
-  const NodeIndex* const nodes = topology_->cell_nodes(first).data();
-  BlockMatrix::Block* const blocks = hessian.blocks();
-  for (std::size_t p = 0; p < n; ++p) {
-    for (std::size_t l = 0; l < lanes; ++l)
-      gradient[unknown_[nodes[l * n + p]]] +=
-          Point<2>(lane(cell.gradient[p].x, l), lane(cell.gradient[p].y, l));
-    for (std::size_t q = p; q < n; ++q) {
-      const auto of_cell = blocks_by_cell(cell.hessian[p * n + q]);
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const Lanes block = of_cell[l];
-        const std::uint32_t* const at = positions + l * n * n;
-        blocks[at[p * n + q]].add(block);
-        if (p != q) blocks[at[q * n + p]].add(__builtin_shufflevector(block, block, 0, 2, 1, 3));
-      }
-    }
-  }
-}
-
-SMOOTHFEM_VECTOR_CLONES
-void ShapeObjective::derivatives(const std::vector<Point<2>>& coordinates, HessianModel model,
-                                 BlockVector& gradient, BlockMatrix& hessian) const {
-  std::fill(gradient.begin(), gradient.end(), Point<2>(0.0, 0.0));
-  hessian.set_zero();
-  const std::array known_weights{corner_weights(3), corner_weights(4)};
-  for_each_block<2>(
-      *topology_, coordinates,
-      [&]<std::size_t n>(CellIndex c,
-                         const std::array<Vector2<Lanes>, n>& corners) SMOOTHFEM_INLINE_LAMBDA {
-        const std::span<const Vector2<Lanes>, n> x(corners);
-        scatter(c, CellDerivatives<Lanes, n>(x, known_weights[n - 3], model), gradient, hessian);
-      },
-      [&]<std::size_t n>(CellIndex c, std::span<const Vector2<double>, n> x)
+template <int dim>
+SMOOTHFEM_INLINE void add_block_derivatives(const std::vector<Point<dim>>& x,
+                                            const CellBlock& block, HessianModel model,
+                                            Derivatives<dim> sums) {
+  for_each_block<dim>(
+      sums.topology, x, block.first, block.last,
+      [&]<std::size_t n>(CellIndex c, const std::array<Vector<dim, Lanes>, n>& corners)
           SMOOTHFEM_INLINE_LAMBDA {
-            const CornerWeights& weights =
-                x.size() <= 4 ? known_weights[x.size() - 3] : corner_weights(x.size());
-            scatter(c, CellDerivatives<double, n>(x, weights, model), gradient, hessian);
+            const std::span<const Vector<dim, Lanes>, n> nodes(corners);
+            sums.add(c, CellDerivatives<dim, Lanes, n>(nodes, model));
+          },
+      [&]<std::size_t n>(CellIndex c, std::span<const Vector<dim, double>, n> nodes)
+          SMOOTHFEM_INLINE_LAMBDA {
+            sums.add(c, CellDerivatives<dim, double, n>(nodes, model));
           });
-  gradient[n_unknown_nodes()].setZero();
 }
+
+// Templates cannot be compiled for several kinds of registers; these can.
+SMOOTHFEM_VECTOR_CLONES
+double value_of(const Topology& topology, const std::vector<Point<2>>& x, const CellBlock& block) {
+  return sum_of_block<2>(topology, x, block);
+}
+SMOOTHFEM_VECTOR_CLONES
+double value_of(const Topology& topology, const std::vector<Point<3>>& x, const CellBlock& block) {
+  return sum_of_block<3>(topology, x, block);
+}
+SMOOTHFEM_VECTOR_CLONES
+void add_derivatives(const std::vector<Point<2>>& x, const CellBlock& block, HessianModel model,
+                     const Derivatives<2>& sums) {
+  add_block_derivatives<2>(x, block, model, sums);
+}
+SMOOTHFEM_VECTOR_CLONES
+void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, HessianModel model,
+                     const Derivatives<3>& sums) {
+  add_block_derivatives<3>(x, block, model, sums);
+}
+
+/// For each unknown those it shares a cell with.
+CompressedRows<std::uint32_t> coupled_unknowns(const Topology& topology,
+                                               const std::vector<std::uint32_t>& unknown) {
+  const auto& free_nodes = topology.free_nodes();
+  std::vector<std::vector<std::uint32_t>> parts((free_nodes.size() + row_grain - 1) / row_grain);
+  std::vector<std::size_t> offsets(free_nodes.size() + 1, 0);
+  parallel_for_ranges(free_nodes.size(), row_grain, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> row;
+    auto& part = parts[first / row_grain];
+    for (std::size_t i = first; i < last; ++i) {
+      row.clear();
+      for (const CellIndex c : topology.node_cells(free_nodes[i]))
+        for (const NodeIndex j : topology.cell_nodes(c))
+          if (unknown[j] < free_nodes.size()) row.push_back(unknown[j]);
+      std::sort(row.begin(), row.end());
+      const auto end = std::unique(row.begin(), row.end());
+      part.insert(part.end(), row.begin(), end);
+      offsets[i + 1] = static_cast<std::size_t>(end - row.begin());
+    }
+  });
+  std::vector<std::uint32_t> columns;
+  for (const auto& part : parts) columns.insert(columns.end(), part.begin(), part.end());
+  for (std::size_t i = 0; i < free_nodes.size(); ++i) offsets[i + 1] += offsets[i];
+  return {std::move(offsets), std::move(columns)};
+}
+
+}  // namespace
+
+template <int dim>
+ShapeObjective<dim>::ShapeObjective(std::shared_ptr<const Topology> topology)
+    : topology_(std::move(topology)),
+      unknown_(topology_->n_nodes(), static_cast<std::uint32_t>(n_unknown_nodes())) {
+  std::uint32_t next = 0;
+  for (const NodeIndex i : topology_->free_nodes()) unknown_[i] = next++;
+  const auto& blocks = topology_->blocks();
+  const auto nodes = [&](std::size_t b) {
+    return IndexRange{blocks[b].first_node, blocks[b].last_node};
+  };
+  groups_ = disjoint_groups(blocks.size(), nodes, nodes);
+}
+
+template <int dim>
+BlockMatrix<dim> ShapeObjective<dim>::make_hessian() {
+  BlockMatrix<dim> matrix(coupled_unknowns(*topology_, unknown_));
+  const auto fixed = static_cast<std::uint32_t>(n_unknown_nodes());
+  places_.resize(topology_->blocks().size());
+  parallel_for(places_.size(), [&](std::size_t b) {
+    const CellBlock& block = topology_->blocks()[b];
+    places_[b].clear();
+    for (CellIndex c = block.first; c < block.last; ++c) {
+      const auto nodes = topology_->cell_nodes(c);
+      for (std::size_t p = 0; p < nodes.size(); ++p)
+        for (std::size_t q = p; q < nodes.size(); ++q) {
+          const std::uint32_t i = unknown_[nodes[p]], j = unknown_[nodes[q]];
+          places_[b].push_back(i == fixed || j == fixed
+                                   ? nowhere
+                                   : 2 * matrix.position(std::min(i, j), std::max(i, j)) + (i > j));
+        }
+    }
+  });
+  return matrix;
+}
+
+template <int dim>
+double ShapeObjective<dim>::value(const std::vector<Point<dim>>& coordinates) const {
+  std::vector<double> parts(topology_->blocks().size());
+  parallel_for(parts.size(), [&](std::size_t b) {
+    parts[b] = value_of(*topology_, coordinates, topology_->blocks()[b]);
+  });
+  double sum = 0.0;
+  for (const double part : parts) sum += part;
+  return sum;
+}
+
+template <int dim>
+void ShapeObjective<dim>::derivatives(const std::vector<Point<dim>>& coordinates,
+                                      HessianModel model, BlockVector<dim>& gradient,
+                                      BlockMatrix<dim>& hessian) const {
+  std::fill(gradient.begin(), gradient.end(), Point<dim>::Zero());
+  hessian.set_zero();
+  for (const auto& group : groups_)
+    parallel_for(group.size(), [&](std::size_t i) {
+      const std::size_t b = group[i];
+      add_derivatives(coordinates, topology_->blocks()[b], model,
+                      {*topology_, unknown_, places_[b].data(), gradient, hessian});
+    });
+}
+
+template class ShapeObjective<2>;
+template class ShapeObjective<3>;
 
 }  // namespace smoothfem

@@ -1,16 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-
 #include "smoothing/loop/smooth.h"
 #include "smoothing/smoothers/block_conjugate_gradients.h"
 #include "smoothing/smoothers/feasible_movement.h"
 #include "smoothing/smoothers/shape_objective.h"
+#include "smoothing/tests/dense_derivatives.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {
 namespace {
 
+using test::dense_derivatives;
 using test::grid_mesh;
 using test::GridCells;
 
@@ -22,59 +22,36 @@ std::vector<PlanarMesh> distorted_meshes(double radius) {
   return all;
 }
 
-struct Derivatives {
-  Eigen::VectorXd gradient;
-  Eigen::MatrixXd hessian;
-};
-
-/// Dense, by multiplying the block matrix with unit vectors.
-Derivatives dense_derivatives(const ShapeObjective& objective, const PlanarMesh& mesh,
-                              HessianModel model) {
-  BlockMatrix matrix = objective.make_hessian();
-  BlockVector gradient = matrix.make_vector(), unit = gradient, column = gradient;
-  objective.derivatives(mesh.coordinates(), model, gradient, matrix);
-  const auto n = static_cast<Eigen::Index>(2 * matrix.n_rows());
-  Derivatives result{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
-  for (Eigen::Index j = 0; j < n; ++j) {
-    unit[j / 2][j % 2] = 1.0;
-    matrix.multiply(unit, column);
-    unit[j / 2][j % 2] = 0.0;
-    for (Eigen::Index i = 0; i < n; ++i) result.hessian(i, j) = column[i / 2][i % 2];
-    result.gradient[j] = gradient[j / 2][j % 2];
-  }
-  return result;
-}
-
 TEST(ShapeObjective, CountsRegularElements) {
   const auto squares = grid_mesh(4, GridCells::quadrilaterals);
-  EXPECT_NEAR(ShapeObjective(squares.shared_topology()).value(squares.coordinates()), 16.0, 1e-13);
+  EXPECT_NEAR(ShapeObjective<2>(squares.shared_topology()).value(squares.coordinates()), 16.0, 1e-13);
   const auto triangles = grid_mesh(3, GridCells::triangles, true);
-  EXPECT_NEAR(ShapeObjective(triangles.shared_topology()).value(triangles.coordinates()), 18.0,
+  EXPECT_NEAR(ShapeObjective<2>(triangles.shared_topology()).value(triangles.coordinates()), 18.0,
               1e-13);
   const auto hexagons = test::honeycomb_mesh();
-  EXPECT_NEAR(ShapeObjective(hexagons.shared_topology()).value(hexagons.coordinates()), 37.0,
+  EXPECT_NEAR(ShapeObjective<2>(hexagons.shared_topology()).value(hexagons.coordinates()), 37.0,
               1e-12);
 }
 
 TEST(ShapeObjective, OfARightTriangleAndARectangle) {
   const auto triangle = test::make_mesh({{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}});
-  EXPECT_NEAR(ShapeObjective(triangle.shared_topology()).value(triangle.coordinates()), 4.0 / 3.0,
+  EXPECT_NEAR(ShapeObjective<2>(triangle.shared_topology()).value(triangle.coordinates()), 4.0 / 3.0,
               1e-14);
   const auto rectangle = test::make_mesh({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {{0, 1, 2, 3}});
-  EXPECT_NEAR(ShapeObjective(rectangle.shared_topology()).value(rectangle.coordinates()),
+  EXPECT_NEAR(ShapeObjective<2>(rectangle.shared_topology()).value(rectangle.coordinates()),
               1.25 * 1.25, 1e-14);
 }
 
 TEST(ShapeObjective, IsInfiniteForInvalidCells) {
   auto mesh = grid_mesh(3, GridCells::mixed);
   mesh.coordinates()[5] = {2.5, 2.5};
-  EXPECT_TRUE(std::isinf(ShapeObjective(mesh.shared_topology()).value(mesh.coordinates())));
+  EXPECT_TRUE(std::isinf(ShapeObjective<2>(mesh.shared_topology()).value(mesh.coordinates())));
 }
 
 TEST(ShapeObjective, DerivativesAgreeWithCentralDifferences) {
   constexpr double h = 1e-6;
   for (auto& mesh : distorted_meshes(0.25)) {
-    const ShapeObjective objective(mesh.shared_topology());
+    ShapeObjective<2> objective(mesh.shared_topology());
     const auto exact = dense_derivatives(objective, mesh, HessianModel::exact);
     const auto n = exact.gradient.size();
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -97,7 +74,7 @@ TEST(ShapeObjective, DerivativesAgreeWithCentralDifferences) {
 
 TEST(ShapeObjective, ConvexModelHasTheGradientAndNoNegativeCurvature) {
   for (const auto& mesh : distorted_meshes(0.9)) {
-    const ShapeObjective objective(mesh.shared_topology());
+    ShapeObjective<2> objective(mesh.shared_topology());
     const auto exact = dense_derivatives(objective, mesh, HessianModel::exact);
     const auto convex = dense_derivatives(objective, mesh, HessianModel::convex);
     EXPECT_EQ(exact.gradient, convex.gradient);
@@ -109,7 +86,7 @@ TEST(ShapeObjective, ConvexModelHasTheGradientAndNoNegativeCurvature) {
 
 TEST(ShapeObjective, ConvexModelIsExactForRegularElements) {
   const auto mesh = grid_mesh(5, GridCells::triangles, true);
-  const ShapeObjective objective(mesh.shared_topology());
+  ShapeObjective<2> objective(mesh.shared_topology());
   const auto exact = dense_derivatives(objective, mesh, HessianModel::exact);
   const auto convex = dense_derivatives(objective, mesh, HessianModel::convex);
   EXPECT_LT((exact.hessian - convex.hessian).norm(), 1e-12 * exact.hessian.norm());
@@ -117,13 +94,13 @@ TEST(ShapeObjective, ConvexModelIsExactForRegularElements) {
 
 TEST(BlockConjugateGradients, SolvesLikeADenseFactorization) {
   for (const auto& mesh : distorted_meshes(0.2)) {
-    const ShapeObjective objective(mesh.shared_topology());
-    BlockMatrix matrix = objective.make_hessian();
-    BlockVector right = matrix.make_vector(), solution = right;
+    ShapeObjective<2> objective(mesh.shared_topology());
+    BlockMatrix<2> matrix = objective.make_hessian();
+    BlockVector<2> right = matrix.make_vector(), solution = right;
     objective.derivatives(mesh.coordinates(), HessianModel::convex, right, matrix);
-    BlockConjugateGradients solver;
+    BlockConjugateGradients<2> solver;
     solver.prepare(matrix);
-    const auto report = solver.solve(matrix, right, 1e-12, 1000, solution);
+    const auto report = solver.solve(right, 1e-12, 1000, solution);
     EXPECT_FALSE(report.negative_curvature);
     EXPECT_GT(report.n_iterations, 0);
     const auto dense = dense_derivatives(objective, mesh, HessianModel::convex);
@@ -178,7 +155,7 @@ TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
 
 TEST(GlobalOptimization, LowersTheObjectiveInEveryIterationToAStationaryPoint) {
   for (auto& mesh : distorted_meshes(0.9)) {
-    const ShapeObjective objective(mesh.shared_topology());
+    ShapeObjective<2> objective(mesh.shared_topology());
     Method<2> method = make_method<2>("global-optimization");
     method.set("tolerance", "1e-13");
     double last = objective.value(mesh.coordinates());
@@ -199,7 +176,7 @@ TEST(GlobalOptimization, ReachesTheSameMinimumFromDifferentStarts) {
     double lowest = 0.0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       auto mesh = grid_mesh(16, kind);
-      const ShapeObjective objective(mesh.shared_topology());
+      ShapeObjective<2> objective(mesh.shared_topology());
       for (std::uint64_t sweep = 0; sweep < 4; ++sweep) test::distort(mesh, 1.0, 10 * seed + sweep);
       ASSERT_GT(objective.value(mesh.coordinates()), 3.0 * static_cast<double>(mesh.n_cells()));
       Method<2> method = make_method<2>("global-optimization");

@@ -29,7 +29,7 @@ TEST_P(Table61, IsReproduced) {
   const auto& row = GetParam();
   const auto path = published(row.mesh);
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
-  PlanarMesh mesh = read_mesh(path).mesh;
+  PlanarMesh mesh = planar_mesh(read_mesh(path), path);
   Method<2> method = make_method<2>(row.method);
   const auto result = smooth(mesh, method);
   if (!row.iterations.empty()) {
@@ -61,8 +61,8 @@ TEST(GlobalOptimization, ReachesTheKnownMinimaAtEveryScale) {
   for (const auto& [name, minimum] :
        {std::pair{"gear_tri_initial", 18706.636}, {"gear_quad_initial", 6659.553}}) {
     if (!std::filesystem::exists(published(name))) GTEST_SKIP() << "there is no " << name;
-    const PlanarMesh initial = read_mesh(published(name)).mesh;
-    const ShapeObjective objective(initial.shared_topology());
+    const PlanarMesh initial = planar_mesh(read_mesh(published(name)), name);
+    const ShapeObjective<2> objective(initial.shared_topology());
     std::string iterations;
     for (const double scale : {1.0, 1e-6, 1e6}) {
       PlanarMesh mesh = initial;

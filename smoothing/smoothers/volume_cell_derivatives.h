@@ -1,0 +1,78 @@
+#pragma once
+
+#include "smoothing/smoothers/cell_derivatives.h"
+
+namespace smoothfem {
+
+/// Gradient and Hessian of one volume cell. With S = D W^-1 of a corner, its inverse mean ratio is
+/// f = |S|^2 / (3 det(S)^(2/3)): a convex function of S and det(S), so that all of f's Hessian is
+/// convex but the part with the second derivative of det(S). That part couples different nodes only
+/// (a determinant is linear in the place of each node) and says little of the shape: added up over
+/// equally large elements it vanishes. The convex model leaves it out, and half of the square of
+/// grad(h) / (2 m), which makes up for part of the overestimate in elements that have almost
+/// collapsed: h grows like det^(-4/3), a Newton step lets the determinant grow by 3/7, this model
+/// by 2/3. (A quarter of grad(f) grad(f)' / f is what f's Hessian can spare and stay positive
+/// semidefinite; by the inequality of Cauchy and Schwarz that holds for means of corners.)
+template <class Real, std::size_t n>
+class CellDerivatives<3, Real, n> {
+ public:
+  std::array<Vector3<Real>, n> gradient{};
+  std::array<Block<3, Real>, n_node_pairs(n)> hessian{};
+
+  /// x: the nodes of a valid cell.
+  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector3<Real>, n> x, HessianModel model) {
+    constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
+    const Real mean = mean_inverse_mean_ratio(x);
+    const Real scale = (2.0 / static_cast<double>(n_corners)) * mean;
+    unrolled<n_corners>([&](auto k) SMOOTHFEM_INLINE_LAMBDA { add_corner<k>(x, scale, model); });
+    // 2 m Hess(m) stands there now; grad(h) = 2 m grad(m), and h adds 2 grad(m) grad(m)'.
+    const Real factor = (model == HessianModel::exact ? 0.5 : -0.125) / (mean * mean);
+    for (std::size_t p = 0; p < n; ++p)
+      for (std::size_t q = p; q < n; ++q)
+        hessian[node_pair(n, p, q)].add_product(factor * gradient[p], gradient[q]);
+  }
+
+ private:
+  /// Adds `scale` times the derivatives of the inverse mean ratio of corner k.
+  template <std::size_t k>
+  SMOOTHFEM_INLINE void add_corner(std::span<const Vector3<Real>, n> x, Real scale,
+                                   HessianModel model) {
+    const CornerGradients<Real> corner = corner_gradients<k>(x);
+    const auto& u = corner.of_half_squared_norm;
+    const auto& c = corner.of_log_determinant;
+    const Real value = scale * corner.value;
+    const Real unit = 2.0 * value * corner.inverse_squared_norm, mixed = (-2.0 / 3.0) * unit;
+    const Real slope = (-2.0 / 3.0) * value, square = (10.0 / 9.0) * value;
+    const Real twist = model == HessianModel::exact ? (2.0 / 3.0) * value : Real{};
+    constexpr LocalSimplex places = VolumeElement<n>::corners[k];
+    std::array<Vector3<Real>, 4> a, b;
+    for (std::size_t i = 0; i < 4; ++i) {
+      a[i] = mixed * u[i];
+      b[i] = a[i] + square * c[i];
+      gradient[places[i]] = gradient[places[i]] + (unit * u[i] + slope * c[i]);
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (places[i] > places[j]) continue;
+        auto& block = hessian[node_pair(n, places[i], places[j])];
+        block.add_product(a[i], c[j]);
+        block.add_product(c[i], b[j]);
+        if (corner_gram<n>[i][j] != 0.0) block.add_unit(corner_gram<n>[i][j] * unit);
+        if (i != j && model == HessianModel::exact)
+          add_cross_product(twist * cross(c[i], c[j]), block);
+      }
+  }
+
+  /// Adds the matrix of the map v -> w x v.
+  static SMOOTHFEM_INLINE void add_cross_product(Vector3<Real> w, Block<3, Real>& block) {
+    auto& m = block.entries;
+    m[1] += w.z;
+    m[2] -= w.y;
+    m[3] -= w.z;
+    m[5] += w.x;
+    m[6] += w.y;
+    m[7] -= w.x;
+  }
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "smoothing/smoothers/shape_objective.h"
+
+namespace smoothfem::test {
+
+struct DenseDerivatives {
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+};
+
+template <int dim>
+Eigen::MatrixXd dense_matrix(const BlockMatrix<dim>& matrix) {
+  const auto n = static_cast<Eigen::Index>(dim * matrix.n_rows());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  for (std::uint32_t row = 0; row < matrix.n_rows(); ++row)
+    for (std::size_t k = matrix.columns().offset(row); k < matrix.columns().offset(row + 1); ++k)
+      dense.template block<dim, dim>(dim * row, dim * matrix.columns().entries()[k]) =
+          matrix.entry(row, k);
+  return dense;
+}
+
+template <int dim>
+DenseDerivatives dense_derivatives(ShapeObjective<dim>& objective, const Mesh<dim>& mesh,
+                                   HessianModel model) {
+  BlockMatrix<dim> matrix = objective.make_hessian();
+  BlockVector<dim> gradient = matrix.make_vector();
+  objective.derivatives(mesh.coordinates(), model, gradient, matrix);
+  DenseDerivatives result{Eigen::VectorXd(dim * gradient.size()), dense_matrix(matrix)};
+  for (std::size_t i = 0; i < gradient.size(); ++i)
+    result.gradient.template segment<dim>(static_cast<Eigen::Index>(dim * i)) = gradient[i];
+  return result;
+}
+
+}  // namespace smoothfem::test
