@@ -54,7 +54,7 @@ std::vector<NamedMesh> meshes() {
   for (const std::string name : {"gear_tri_initial", "gear_quad_initial"}) {
     const auto path = folder / (name + ".mesh");
     if (std::filesystem::exists(path))
-      all.push_back({name, read_mesh(path).mesh});
+      all.push_back({name, planar_mesh(read_mesh(path), path)});
     else
       std::cerr << "skipping " << name << ": there is no " << path << '\n';
   }

@@ -36,29 +36,30 @@ std::vector<CellIndex> cells_of(const Topology& topology, const std::vector<Node
 }  // namespace
 
 template <int dim>
-std::size_t reset_nodes_of_invalid_cells(Mesh<dim>& mesh, const std::vector<Point<dim>>& previous,
-                                         std::vector<double>& cell_quality) {
+std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim>& mesh,
+                                                    const std::vector<Point<dim>>& previous,
+                                                    std::vector<double>& cell_quality) {
   std::vector<CellIndex> invalid;
   for (CellIndex c = 0; c < cell_quality.size(); ++c)
     if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
 
-  std::size_t n_reset = 0;
+  std::vector<NodeIndex> all_moved;
   while (!invalid.empty()) {
     const auto moved = put_back(mesh, previous, invalid);
     if (moved.empty()) break;  // the cells were invalid before
-    n_reset += moved.size();
+    all_moved.insert(all_moved.end(), moved.begin(), moved.end());
     invalid.clear();
     for (const CellIndex c : cells_of(mesh.topology(), moved)) {
       cell_quality[c] = cell_mean_ratio(mesh, c);
       if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
     }
   }
-  return n_reset;
+  return all_moved;
 }
 
-template std::size_t reset_nodes_of_invalid_cells(Mesh<2>&, const std::vector<Point<2>>&,
-                                                  std::vector<double>&);
-template std::size_t reset_nodes_of_invalid_cells(Mesh<3>&, const std::vector<Point<3>>&,
-                                                  std::vector<double>&);
+template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2>&, const std::vector<Point<2>>&,
+                                                             std::vector<double>&);
+template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<3>&, const std::vector<Point<3>>&,
+                                                             std::vector<double>&);
 
 }  // namespace smoothfem

@@ -31,11 +31,21 @@ class NodeSums {
     const CellBlock& block = topology_->blocks()[b];
     double* const begin = sums_.data() + offsets_[b];
     std::fill(begin, begin + n_lanes * (block.last_node - block.first_node), 0.0);
-    return begin - n_lanes * static_cast<std::ptrdiff_t>(block.first_node);
+    return of_block(b);
+  }
+  double* of_block(std::size_t b) {
+    const std::ptrdiff_t first_node = topology_->blocks()[b].first_node;
+    return sums_.data() + (static_cast<std::ptrdiff_t>(offsets_[b]) - n_lanes_signed * first_node);
+  }
+  /// Sets the sums of one node in a block to zero, if it has any there.
+  void clear(std::size_t b, NodeIndex node) {
+    const CellBlock& block = topology_->blocks()[b];
+    if (node < block.first_node || node >= block.last_node) return;
+    store_lanes(Lanes{}, of_block(b) + n_lanes_signed * static_cast<std::ptrdiff_t>(node));
   }
   /// Adds to the sums of a node, in a block's sums.
   static SMOOTHFEM_INLINE void add(double* block_sums, NodeIndex node, Lanes values) {
-    double* const at = block_sums + n_lanes * static_cast<std::ptrdiff_t>(node);
+    double* const at = block_sums + n_lanes_signed * static_cast<std::ptrdiff_t>(node);
     store_lanes(load_lanes(at) + values, at);
   }
 
@@ -60,6 +70,7 @@ class NodeSums {
   }
 
  private:
+  static constexpr std::ptrdiff_t n_lanes_signed = n_lanes;
   static constexpr std::size_t grain_ = 512;  ///< nodes whose sums one thread adds at a time
 
   const Topology* topology_ = nullptr;

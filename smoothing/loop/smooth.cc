@@ -180,7 +180,8 @@ class SmoothingRun {
     if (rule.quality_use == QualityUse::loop) {
       evaluate_quality();
       if (quality_.n_invalid > 0) {
-        report.n_reset += reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality);
+        report.n_reset +=
+            reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality).size();
         quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
       }
     }

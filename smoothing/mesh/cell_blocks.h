@@ -96,16 +96,14 @@ SMOOTHFEM_INLINE void with_room_for_result(std::span<const Point, extent> corner
   }
 }
 
-/// Visits the cells first .. last-1 in order: visit_block(cell, corners) with the corners of the
-/// n_lanes cells from `cell` on where these are all of one fixed type, visit_cell(cell, corners)
-/// for the rest. Fast for meshes whose types come in long runs.
-template <int dim, class VisitBlock, class VisitCell>
-SMOOTHFEM_INLINE void for_each_block(const Topology& topology,
-                                     const std::vector<Point<dim>>& coordinates, CellIndex first,
-                                     CellIndex last, const VisitBlock& visit_block,
-                                     const VisitCell& visit_cell) {
+/// Visits the cells first .. last-1 in order: visit_run(size, cell, nodes) for n_lanes cells from
+/// `cell` on where these are all of one fixed type (size: std::integral_constant of its number of
+/// nodes; nodes: of all of them, cell by cell), visit_cell(cell) for the rest. Fast for meshes
+/// whose types come in long runs.
+template <int dim, class VisitRun, class VisitCell>
+SMOOTHFEM_INLINE void for_each_run(const Topology& topology, CellIndex first, CellIndex last,
+                                   const VisitRun& visit_run, const VisitCell& visit_cell) {
   const auto& cells = topology.cells();
-  const Point<dim>* const x = coordinates.data();
   for (CellIndex c = first; c < last;) {
     const auto nodes = cells[c];
     bool same_size = c + n_lanes <= last;
@@ -114,17 +112,33 @@ SMOOTHFEM_INLINE void for_each_block(const Topology& topology,
     bool done = false;
     if (same_size)
       with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
-        constexpr std::size_t n = decltype(size)::value;
-        if constexpr (n != 0) {
-          visit_block(c, gather_block<n, dim>(x, nodes.data()));
+        if constexpr (decltype(size)::value != 0) {
+          visit_run(size, c, nodes.data());
           done = true;
         }
       });
-    if (!done)
-      with_corners<dim>(nodes, coordinates,
-                        [&](auto corners) SMOOTHFEM_INLINE_LAMBDA { visit_cell(c, corners); });
+    if (!done) visit_cell(c);
     c += done ? n_lanes : 1;
   }
+}
+
+/// The same with the corners gathered: visit_block(cell, corners) with those of n_lanes cells,
+/// visit_cell(cell, corners) with those of one.
+template <int dim, class VisitBlock, class VisitCell>
+SMOOTHFEM_INLINE void for_each_block(const Topology& topology,
+                                     const std::vector<Point<dim>>& coordinates, CellIndex first,
+                                     CellIndex last, const VisitBlock& visit_block,
+                                     const VisitCell& visit_cell) {
+  for_each_run<dim>(
+      topology, first, last,
+      [&]<std::size_t n>(std::integral_constant<std::size_t, n>, CellIndex c,
+                         const NodeIndex* nodes) SMOOTHFEM_INLINE_LAMBDA {
+        visit_block(c, gather_block<n, dim>(coordinates.data(), nodes));
+      },
+      [&](CellIndex c) SMOOTHFEM_INLINE_LAMBDA {
+        with_corners<dim>(topology.cell_nodes(c), coordinates,
+                          [&](auto corners) SMOOTHFEM_INLINE_LAMBDA { visit_cell(c, corners); });
+      });
 }
 
 /// The same for all cells of a mesh.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include "smoothing/mesh/mesh.h"
 
@@ -15,7 +16,8 @@
 /// SMOOTHFEM_VECTOR_CLONES before a function compiles it for wider registers too; which one runs is
 /// chosen when the program is loaded. What it calls must be inlined to profit: SMOOTHFEM_INLINE.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
-#define SMOOTHFEM_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+#define SMOOTHFEM_VECTOR_CLONES \
+  __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
 #else
 #define SMOOTHFEM_VECTOR_CLONES
 #endif
@@ -29,6 +31,16 @@ constexpr std::size_t n_lanes = 4;
 /// std::vector<Lanes> has. Arrays are kept as double (load_lanes).
 using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double))));
 using LaneBits = std::uint64_t __attribute__((vector_size(n_lanes * sizeof(std::uint64_t))));
+
+/// Calls visit(std::integral_constant<std::size_t, i>{}) for i = 0 .. n-1: a loop that is unrolled
+/// in any case, in which i can choose from constant tables at compile time.
+template <std::size_t n, class Visit>
+SMOOTHFEM_INLINE void unrolled(const Visit& visit) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) SMOOTHFEM_INLINE_LAMBDA {
+    (visit(std::integral_constant<std::size_t, i>{}), ...);
+  }
+  (std::make_index_sequence<n>{});
+}
 
 /// n_lanes numbers from and to an array of double, on any address. (With std::memcpy GCC goes by
 /// way of the stack.)
@@ -117,7 +129,7 @@ SMOOTHFEM_INLINE Vector3<Real> cross(Vector3<Real> a, Vector3<Real> b) {
 }
 template <class Real>
 SMOOTHFEM_INLINE Real determinant(Vector3<Real> a, Vector3<Real> b, Vector3<Real> c) {
-  return dot(a, cross(b, c));
+  return dot(cross(a, b), c);
 }
 template <template <class> class V, class Real>
 SMOOTHFEM_INLINE Real squared_length(V<Real> a) {

@@ -236,6 +236,13 @@ void Topology::build_blocks() {
   }
 }
 
+std::size_t Topology::block_of(CellIndex cell) const {
+  const auto next =
+      std::upper_bound(blocks_.begin(), blocks_.end(), cell,
+                       [](CellIndex c, const CellBlock& block) { return c < block.first; });
+  return static_cast<std::size_t>(next - blocks_.begin()) - 1;
+}
+
 std::shared_ptr<const Topology> Topology::reordered(
     const std::vector<NodeIndex>& node_order, const std::vector<CellIndex>& cell_order) const {
   std::vector<NodeIndex> new_node(n_nodes());

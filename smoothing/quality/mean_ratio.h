@@ -4,10 +4,10 @@
 #include <numbers>
 #include <span>
 
+#include "smoothing/mesh/cell_edges.h"
 #include "smoothing/mesh/inverse_root.h"
 #include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/mesh.h"
-#include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
@@ -60,32 +60,41 @@ SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector2<Real>, extent> corners)
   return all_positive > 0.0 ? sum / static_cast<double>(n) : Real{};
 }
 
-/// det(S) and |S|^2 of one corner of a volume cell, S = D W^-1: D has the columns a, b, c (edges
-/// from the corner to its neighbours), W the same of the regular element.
+/// det(S) and |S|^2 of one corner of a volume cell, S = D W^-1: D has the edges from the corner to
+/// its neighbours as columns, W those of the regular element (thesis, Definition 3.2).
 template <class Real>
 struct CornerShape {
   Real determinant, squared_norm;
-
-  SMOOTHFEM_INLINE CornerShape(const RegularSimplex& regular, Vector3<Real> a, Vector3<Real> b,
-                               Vector3<Real> c) {
-    const auto& g = regular.inverse_gram;
-    determinant = (1.0 / regular.determinant) * smoothfem::determinant(a, b, c);
-    squared_norm =
-        g[0][0] * squared_length(a) + g[1][1] * squared_length(b) + g[2][2] * squared_length(c);
-    if (g[0][1] != 0.0) squared_norm += (2.0 * g[0][1]) * dot(a, b);
-    if (g[0][2] != 0.0) squared_norm += (2.0 * g[0][2]) * dot(a, c);
-    if (g[1][2] != 0.0) squared_norm += (2.0 * g[1][2]) * dot(b, c);
-  }
 };
 
-/// The shape of corner k of the volume cell with these nodes.
-template <class Real, std::size_t n>
-SMOOTHFEM_INLINE CornerShape<Real> corner_shape(std::span<const Vector3<Real>, n> nodes,
-                                                std::size_t k) {
-  const LocalSimplex& corner = VolumeElement<n>::corners[k];
-  const auto here = nodes[corner[0]];
-  return {VolumeElement<n>::regular, nodes[corner[1]] - here, nodes[corner[2]] - here,
-          nodes[corner[3]] - here};
+/// The shape of corner k of the volume cell with these edges.
+template <std::size_t k, class Real, std::size_t n>
+SMOOTHFEM_INLINE CornerShape<Real> corner_shape(const CellEdges<Real, n>& edges) {
+  using Element = VolumeElement<n>;
+  constexpr LocalSimplex corner = Element::corners[k];
+  constexpr DirectedEdge a = edge_between<n>(corner[0], corner[1]),
+                         b = edge_between<n>(corner[0], corner[2]),
+                         c = edge_between<n>(corner[0], corner[3]);
+  constexpr auto& g = Element::regular.inverse_gram;
+  constexpr double sign = (a.reversed != b.reversed) != c.reversed ? -1.0 : 1.0;
+  const auto &u = edges.vectors[a.index], &v = edges.vectors[b.index], &w = edges.vectors[c.index];
+  CornerShape<Real> shape;
+  shape.determinant = (sign / Element::regular.determinant) * determinant(u, v, w);
+  const auto& squares = edges.squared_lengths;
+  if constexpr (n == 4) {  // the inverse Gram matrix makes it symmetric in all six edges
+    shape.squared_norm =
+        0.5 * ((squares[0] + squares[1] + squares[2]) + (squares[3] + squares[4] + squares[5]));
+  } else {
+    shape.squared_norm =
+        g[0][0] * squares[a.index] + g[1][1] * squares[b.index] + g[2][2] * squares[c.index];
+    if constexpr (g[0][1] != 0.0)
+      shape.squared_norm += (a.reversed != b.reversed ? -2.0 : 2.0) * g[0][1] * dot(u, v);
+    if constexpr (g[0][2] != 0.0)
+      shape.squared_norm += (a.reversed != c.reversed ? -2.0 : 2.0) * g[0][2] * dot(u, w);
+    if constexpr (g[1][2] != 0.0)
+      shape.squared_norm += (b.reversed != c.reversed ? -2.0 : 2.0) * g[1][2] * dot(v, w);
+  }
+  return shape;
 }
 
 /// Mean ratio quality number of a volume cell (thesis, Definition 3.2): the mean of 3 det(S)^(2/3)
@@ -93,15 +102,19 @@ SMOOTHFEM_INLINE CornerShape<Real> corner_shape(std::span<const Vector3<Real>, n
 /// base. In (0, 1], 1 exactly (to rounding) for regular cells, invariant under similarity. 0 for an
 /// invalid cell: one where a corner has det(D) <= 0 (or is not a number). n = 4, 5, 6 or 8 nodes.
 template <class Real, std::size_t n>
-SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {
+SMOOTHFEM_INLINE Real mean_ratio(const CellEdges<Real, n>& edges) {
   constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
   Real sum{}, all_positive = Real{} + 1.0;
-  for (std::size_t k = 0; k < n_corners; ++k) {
-    const CornerShape<Real> shape = corner_shape(nodes, k);
+  unrolled<n_corners>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+    const CornerShape<Real> shape = corner_shape<k>(edges);
     all_positive = shape.determinant > 0.0 ? all_positive : Real{};
     sum += shape.determinant * inverse_root<3>(shape.determinant) / shape.squared_norm;
-  }
+  });
   return all_positive > 0.0 ? sum * (3.0 / static_cast<double>(n_corners)) : Real{};
+}
+template <class Real, std::size_t n>
+SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {
+  return mean_ratio(CellEdges<Real, n>(nodes));
 }
 
 /// The same for a cell of a mesh.

@@ -15,43 +15,6 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// Quality of some cells: what MeshQuality is made of.
-struct PartialQuality {
-  double q_min = none, q_star_min = none, sum = 0.0;
-  std::size_t n_invalid = 0;
-
-  void add(const PartialQuality& other) {
-    q_min = std::min(q_min, other.q_min);
-    q_star_min = std::min(q_star_min, other.q_star_min);
-    sum += other.sum;
-    n_invalid += other.n_invalid;
-  }
-};
-
-PartialQuality quality_of(const Topology& topology, std::span<const double> cell_quality,
-                          const CellBlock& block) {
-  PartialQuality result;
-  for (CellIndex c = block.first; c < block.last; ++c) {
-    const double q = cell_quality[c];
-    result.q_min = q < result.q_min ? q : result.q_min;
-    const double free_q = topology.has_free_node(c) ? q : none;
-    result.q_star_min = free_q < result.q_star_min ? free_q : result.q_star_min;
-    result.sum += q;
-    result.n_invalid += q > 0.0 ? 0 : 1;
-  }
-  return result;
-}
-
-/// Block by block, so that the sum has one order.
-MeshQuality quality_of_all(const std::vector<PartialQuality>& blocks, std::size_t n_cells) {
-  PartialQuality all;
-  for (const PartialQuality& block : blocks) all.add(block);
-  return {.q_min = all.q_min,
-          .q_star_min = all.q_star_min == none ? all.q_min : all.q_star_min,
-          .q_mean = all.sum / static_cast<double>(n_cells),
-          .n_invalid = all.n_invalid};
-}
-
 template <int dim>
 SMOOTHFEM_INLINE void compute_block(const Mesh<dim>& mesh, const CellBlock& block,
                                     double* cell_quality) {
@@ -76,6 +39,34 @@ void compute_cells(const VolumeMesh& mesh, const CellBlock& block, double* cell_
 
 }  // namespace
 
+PartialQuality::PartialQuality(const Topology& topology, const std::vector<double>& cell_quality,
+                               const CellBlock& block)
+    : q_min(none), q_star_min(none) {
+  for (CellIndex c = block.first; c < block.last; ++c) {
+    const double q = cell_quality[c];
+    q_min = q < q_min ? q : q_min;
+    const double free_q = topology.has_free_node(c) ? q : none;
+    q_star_min = free_q < q_star_min ? free_q : q_star_min;
+    sum += q;
+    n_invalid += q > 0.0 ? 0 : 1;
+  }
+}
+
+MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t n_cells) {
+  double q_min = none, q_star_min = none, sum = 0.0;
+  std::size_t n_invalid = 0;
+  for (const PartialQuality& block : blocks) {
+    q_min = std::min(q_min, block.q_min);
+    q_star_min = std::min(q_star_min, block.q_star_min);
+    sum += block.sum;
+    n_invalid += block.n_invalid;
+  }
+  return {.q_min = q_min,
+          .q_star_min = q_star_min == none ? q_min : q_star_min,
+          .q_mean = sum / static_cast<double>(n_cells),
+          .n_invalid = n_invalid};
+}
+
 template <int dim>
 std::vector<double> cell_mean_ratios(const Mesh<dim>& mesh) {
   std::vector<double> quality;
@@ -90,17 +81,17 @@ MeshQuality compute_cell_mean_ratios(const Mesh<dim>& mesh, std::vector<double>&
   std::vector<PartialQuality> parts(topology.blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {
     compute_cells(mesh, topology.blocks()[b], cell_quality.data());
-    parts[b] = quality_of(topology, cell_quality, topology.blocks()[b]);
+    parts[b] = PartialQuality(topology, cell_quality, topology.blocks()[b]);
   });
-  return quality_of_all(parts, mesh.n_cells());
+  return mesh_quality(parts, mesh.n_cells());
 }
 
-MeshQuality mesh_quality(const Topology& topology, std::span<const double> cell_quality) {
+MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& cell_quality) {
   std::vector<PartialQuality> parts(topology.blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {
-    parts[b] = quality_of(topology, cell_quality, topology.blocks()[b]);
+    parts[b] = PartialQuality(topology, cell_quality, topology.blocks()[b]);
   });
-  return quality_of_all(parts, cell_quality.size());
+  return mesh_quality(parts, cell_quality.size());
 }
 
 template <int dim>

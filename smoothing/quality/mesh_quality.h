@@ -27,9 +27,21 @@ MeshQuality compute_cell_mean_ratios(const Mesh<dim>& mesh, std::vector<double>&
 
 /// cell_quality: one number a cell of the topology. Where no cell has a free node, q_star_min =
 /// q_min.
-MeshQuality mesh_quality(const Topology& topology, std::span<const double> cell_quality);
+MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& cell_quality);
 template <int dim>
 MeshQuality mesh_quality(const Mesh<dim>& mesh);
+
+/// What one block of cells (topology.blocks()) adds to the quality of a mesh.
+struct PartialQuality {
+  double q_min = 0.0, q_star_min = 0.0, sum = 0.0;
+  std::size_t n_invalid = 0;
+
+  PartialQuality() = default;
+  PartialQuality(const Topology& topology, const std::vector<double>& cell_quality,
+                 const CellBlock& block);
+};
+/// From all blocks, added in their order.
+MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t n_cells);
 
 /// Number of cells in each of the n_bins equal parts of [0, 1]; quality 1 counts in the last.
 std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "smoothing/loop/parameter.h"
-#include "smoothing/mesh/volume_elements.h"
+#include "smoothing/quality/mean_ratio.h"
 #include "smoothing/transformations/dual_element.h"
 #include "smoothing/transformations/opposite_face_normals.h"
 #include "smoothing/transformations/polygon_transformation.h"
@@ -37,13 +37,14 @@ class ElementRegularization<2> {
   /// Call before regularize, after parameters have changed.
   void prepare() { transformation_ = {lambda, theta_degrees * std::numbers::pi / 180.0}; }
 
-  /// quality: of the cell, which planar transformations do not look at.
+  /// Returns the mean ratio of the polygon, which planar transformations do not depend on.
   template <class Real, std::size_t extent>
-  SMOOTHFEM_INLINE void regularize(Real /*quality*/, std::span<const Vector2<Real>, extent> polygon,
+  SMOOTHFEM_INLINE Real regularize(std::span<const Vector2<Real>, extent> polygon,
                                    std::span<Vector2<Real>, extent> result) const {
     transformation_.apply(polygon, result);
     keep_mean_edge_length(polygon, result);
     if (rho != 1.0) relax(polygon, result, rho);
+    return mean_ratio(polygon);
   }
 
  private:
@@ -94,10 +95,12 @@ class ElementRegularization<3> {
 
   void prepare() {}
 
-  /// quality: of the cell, in [0, 1].
+  /// Returns the mean ratio of the cell, which the normals' factor depends on.
   template <class Real, std::size_t n>
-  SMOOTHFEM_INLINE void regularize(Real quality, std::span<const Vector3<Real>, n> nodes,
+  SMOOTHFEM_INLINE Real regularize(std::span<const Vector3<Real>, n> nodes,
                                    std::span<Vector3<Real>, n> result) const {
+    const CellEdges<Real, n> edges(nodes);
+    const Real quality = mean_ratio(edges);
     const SigmaRange& range = n == 4 ? tetrahedron : n == 5 ? pyramid : n == 6 ? prism : hexahedron;
     const Real sigma = range.low + (range.high - range.low) * (1.0 - quality);
     if constexpr (n == 4) {
@@ -108,8 +111,9 @@ class ElementRegularization<3> {
     } else {
       DualElement::apply(sigma, nodes, result);
     }
-    keep_centroid_and_size(static_cast<ScalingRule>(scaling), nodes, result);
+    keep_centroid_and_size(static_cast<ScalingRule>(scaling), nodes, edges, result);
     if (rho != 1.0) relax(nodes, result, rho);
+    return quality;
   }
 };
 

@@ -108,7 +108,7 @@ class GetmeSequential final : public Smoother<dim> {
     ++n_transformations_;
     with_corners<dim>(nodes, mesh.coordinates(), [&](auto corners) {
       with_room_for_result(corners, [&](auto result) {
-        element_.regularize(state.cell_quality[cell], corners, result);
+        element_.regularize(corners, result);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (topology.is_fixed(nodes[k])) continue;
           moved_.emplace_back(nodes[k], point_of(corners[k]));

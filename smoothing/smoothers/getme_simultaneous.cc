@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/loop/node_sums.h"
 #include "smoothing/mesh/cell_blocks.h"
 #include "smoothing/smoothers/element_regularization.h"
@@ -26,47 +29,115 @@ SMOOTHFEM_INLINE Lanes quality_weight(Lanes quality, double eta) {
   return weight;
 }
 
-/// Adds each element's transformed nodes, in the order of the elements.
+/// What adding transformed elements needs to know.
 template <int dim>
-SMOOTHFEM_INLINE void add_transformed_elements(const SmoothingState<dim>& state,
-                                               const ElementRegularization<dim>& element,
-                                               double eta, const CellBlock& block, double* sums) {
-  const auto& cells = state.mesh.topology().cells();
-  for_each_block<dim>(
-      state.mesh.topology(), state.mesh.coordinates(), block.first, block.last,
-      [&]<std::size_t n>(CellIndex c, const std::array<Vector<dim, Lanes>, n>& corners)
-          SMOOTHFEM_INLINE_LAMBDA {
-            std::array<Vector<dim, Lanes>, n> result;
-            const Lanes quality = load_lanes(&state.cell_quality[c]);
-            element.regularize(quality, std::span<const Vector<dim, Lanes>, n>(corners),
-                               std::span<Vector<dim, Lanes>, n>(result));
-            const Lanes weight = quality_weight(quality, eta);
-            const NodeIndex* const nodes = cells[c].data();
-            for (std::size_t k = 0; k < n; ++k) {
-              const auto places = weighted_places(result[k], weight);
-              for (std::size_t l = 0; l < n_lanes; ++l)
-                NodeSums::add(sums, nodes[l * n + k], places[l]);
-            }
-          },
-      [&](CellIndex c, auto corners) SMOOTHFEM_INLINE_LAMBDA {
-        with_room_for_result(corners, [&](auto result) SMOOTHFEM_INLINE_LAMBDA {
-          element.regularize(state.cell_quality[c], corners, result);
-          const double weight = quality_weight(state.cell_quality[c], eta);
-          for (std::size_t k = 0; k < result.size(); ++k)
-            NodeSums::add(sums, cells[c][k], weighted_place(result[k], weight));
-        });
-      });
+struct ElementPass {
+  const Mesh<dim>& mesh;
+  const ElementRegularization<dim>& element;
+  double eta;
+};
+
+/// Adds the transformed nodes of n_lanes cells of n nodes each to the sums of a block, those of the
+/// first `count` cells, where wanted(node). Returns the cells' quality.
+template <std::size_t n, int dim, class Wanted>
+SMOOTHFEM_INLINE Lanes add_cells(const ElementPass<dim>& pass,
+                                 const std::array<const NodeIndex*, n_lanes>& rows,
+                                 std::size_t count, const Wanted& wanted, double* sums) {
+  const auto& x = pass.mesh.coordinates();
+  const auto corners = gather_cells<n, dim>(
+      [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return x[i]; }, rows);
+  std::array<Vector<dim, Lanes>, n> result;
+  const Lanes quality = pass.element.regularize(std::span<const Vector<dim, Lanes>, n>(corners),
+                                                std::span<Vector<dim, Lanes>, n>(result));
+  const Lanes weight = quality_weight(quality, pass.eta);
+  unrolled<n>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+    const auto places = weighted_places(result[k], weight);
+    for (std::size_t l = 0; l < count; ++l)
+      if (wanted(rows[l][k])) NodeSums::add(sums, rows[l][k], places[l]);
+  });
+  return quality;
 }
+
+/// The same for one cell of any type.
+template <int dim, class Wanted>
+SMOOTHFEM_INLINE double add_cell(const ElementPass<dim>& pass, CellIndex cell, const Wanted& wanted,
+                                 double* sums) {
+  const auto nodes = pass.mesh.topology().cell_nodes(cell);
+  double quality = 0.0;
+  with_corners<dim>(nodes, pass.mesh.coordinates(), [&](auto corners) SMOOTHFEM_INLINE_LAMBDA {
+    with_room_for_result(corners, [&](auto result) SMOOTHFEM_INLINE_LAMBDA {
+      quality = pass.element.regularize(corners, result);
+      const double weight = quality_weight(quality, pass.eta);
+      for (std::size_t k = 0; k < result.size(); ++k)
+        if (wanted(nodes[k])) NodeSums::add(sums, nodes[k], weighted_place(result[k], weight));
+    });
+  });
+  return quality;
+}
+
+/// Adds all cells of a block in their order and writes their quality.
+template <int dim>
+SMOOTHFEM_INLINE void add_whole_block(const ElementPass<dim>& pass, const CellBlock& block,
+                                      double* cell_quality, double* sums) {
+  const auto all = [](NodeIndex) SMOOTHFEM_INLINE_LAMBDA { return true; };
+  for_each_run<dim>(
+      pass.mesh.topology(), block.first, block.last,
+      [&]<std::size_t n>(std::integral_constant<std::size_t, n>, CellIndex c,
+                         const NodeIndex* nodes) SMOOTHFEM_INLINE_LAMBDA {
+        const Lanes quality = add_cells<n, dim>(
+            pass, {nodes, nodes + n, nodes + 2 * n, nodes + 3 * n}, n_lanes, all, sums);
+        store_lanes(quality, cell_quality + c);
+      },
+      [&](CellIndex c) SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = add_cell(pass, c, all, sums); });
+}
+
+/// Adds some cells of a block, ascending, to the sums of marked nodes only.
+template <int dim>
+SMOOTHFEM_INLINE void add_to_marked(const ElementPass<dim>& pass, std::span<const CellIndex> cells,
+                                    const std::vector<std::uint8_t>& marked, double* sums) {
+  const auto& topology = pass.mesh.topology();
+  const auto wanted = [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA { return marked[i] != 0; };
+  for (std::size_t first = 0; first < cells.size();) {
+    const std::size_t size = topology.cell_nodes(cells[first]).size();
+    std::size_t count = 1;
+    while (count < n_lanes && first + count < cells.size() &&
+           topology.cell_nodes(cells[first + count]).size() == size)
+      ++count;
+    with_cell_size<dim>(size, [&](auto constant) SMOOTHFEM_INLINE_LAMBDA {
+      constexpr std::size_t n = decltype(constant)::value;
+      if constexpr (n == 0) {
+        count = 1;
+        add_cell(pass, cells[first], wanted, sums);
+      } else {
+        std::array<const NodeIndex*, n_lanes> rows;
+        for (std::size_t l = 0; l < n_lanes; ++l)
+          rows[l] = topology.cell_nodes(cells[first + std::min(l, count - 1)]).data();
+        // One cell after the other to a node: the sums keep the order of the cells.
+        add_cells<n, dim>(pass, rows, count, wanted, sums);
+      }
+    });
+    first += count;
+  }
+}
+
 // Templates cannot be compiled for several kinds of registers; these can.
 SMOOTHFEM_VECTOR_CLONES
-void add_elements(const SmoothingState<2>& state, const ElementRegularization<2>& element,
-                  double eta, const CellBlock& block, double* sums) {
-  add_transformed_elements<2>(state, element, eta, block, sums);
+void add_block(const ElementPass<2>& pass, const CellBlock& block, double* quality, double* sums) {
+  add_whole_block<2>(pass, block, quality, sums);
 }
 SMOOTHFEM_VECTOR_CLONES
-void add_elements(const SmoothingState<3>& state, const ElementRegularization<3>& element,
-                  double eta, const CellBlock& block, double* sums) {
-  add_transformed_elements<3>(state, element, eta, block, sums);
+void add_block(const ElementPass<3>& pass, const CellBlock& block, double* quality, double* sums) {
+  add_whole_block<3>(pass, block, quality, sums);
+}
+SMOOTHFEM_VECTOR_CLONES
+void add_some(const ElementPass<2>& pass, std::span<const CellIndex> cells,
+              const std::vector<std::uint8_t>& marked, double* sums) {
+  add_to_marked<2>(pass, cells, marked, sums);
+}
+SMOOTHFEM_VECTOR_CLONES
+void add_some(const ElementPass<3>& pass, std::span<const CellIndex> cells,
+              const std::vector<std::uint8_t>& marked, double* sums) {
+  add_to_marked<3>(pass, cells, marked, sums);
 }
 
 ElementRegularization<2> default_element(std::integral_constant<int, 2>) {
@@ -88,7 +159,9 @@ ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
 }
 
 /// Transforms every element; each free node moves to the weighted mean of its places in its
-/// transformed elements (thesis, Section 4.2, Eq. 4.2 and Fig. 4.2).
+/// transformed elements (thesis, Section 4.2, Eq. 4.2 and Fig. 4.2). One pass over the elements
+/// gives their quality and the sums for the next iteration, so that each is fetched and looked at
+/// once: the pass after an iteration's movements starts the next one.
 template <int dim>
 class GetmeSimultaneous final : public Smoother<dim> {
  public:
@@ -102,31 +175,91 @@ class GetmeSimultaneous final : public Smoother<dim> {
     return all;
   }
 
-  SmoothingRule rule() const override { return stopping_.rule(); }
+  SmoothingRule rule() const override {
+    SmoothingRule rule = stopping_.rule();
+    rule.quality_use = QualityUse::smoother;
+    return rule;
+  }
 
   void initialize(const SmoothingState<dim>& state) override {
     element_.prepare();
     sums_.prepare(state.mesh.topology());
+    parts_.resize(state.mesh.topology().blocks().size());
+    ready_ = false;
   }
 
   StepReport step(SmoothingState<dim>& state) override {
     const Topology& topology = state.mesh.topology();
-    parallel_for(topology.blocks().size(), [&](std::size_t b) {
-      add_elements(state, element_, eta_, topology.blocks()[b], sums_.start_block(b));
-    });
+    if (!ready_) pass_over_all(state);
+    ready_ = true;
+    previous_ = state.mesh.coordinates();
     // Where all weights are zero the node's elements are regular already: it stays.
     sums_.for_each_node([&](NodeIndex i, const double* sums) {
       if (!topology.is_fixed(i) && sums[dim] > 0.0)
         state.mesh.coordinates()[i] = mean_place<dim>(sums);
     });
-    return {};
+    StepReport report;
+    report.quality = pass_over_all(state);
+    if (report.quality->n_invalid > 0) {
+      const auto nodes = reset_nodes_of_invalid_cells(state.mesh, previous_, state.cell_quality);
+      report.quality = pass_around(state, nodes);
+      report.n_reset = nodes.size();
+    }
+    return report;
   }
 
  private:
+  MeshQuality pass_over_all(SmoothingState<dim>& state) {
+    const Topology& topology = state.mesh.topology();
+    const ElementPass<dim> pass{state.mesh, element_, eta_};
+    parallel_for(topology.blocks().size(), [&](std::size_t b) {
+      const CellBlock& block = topology.blocks()[b];
+      add_block(pass, block, state.cell_quality.data(), sums_.start_block(b));
+      parts_[b] = PartialQuality(topology, state.cell_quality, block);
+    });
+    return mesh_quality(parts_, topology.n_cells());
+  }
+
+  /// Makes the sums those of the present mesh again after some nodes were put back: the sums of the
+  /// nodes of their cells, from all cells around those. Same bits as a pass over all cells.
+  MeshQuality pass_around(SmoothingState<dim>& state, const std::vector<NodeIndex>& nodes) {
+    const Topology& topology = state.mesh.topology();
+    marked_.assign(topology.n_nodes(), 0);
+    std::vector<NodeIndex> changed_sums;
+    for (const NodeIndex i : nodes)
+      for (const CellIndex c : topology.node_cells(i))
+        for (const NodeIndex j : topology.cell_nodes(c))
+          if (!std::exchange(marked_[j], 1)) changed_sums.push_back(j);
+    std::vector<CellIndex> cells;
+    for (const NodeIndex i : changed_sums) {
+      const auto around = topology.node_cells(i);
+      cells.insert(cells.end(), around.begin(), around.end());
+    }
+    if (cells.size() > topology.n_cells()) return pass_over_all(state);
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+
+    const ElementPass<dim> pass{state.mesh, element_, eta_};
+    const auto& blocks = topology.blocks();
+    parallel_for(blocks.size(), [&](std::size_t b) {
+      const auto first = std::lower_bound(cells.begin(), cells.end(), blocks[b].first);
+      const auto last = std::lower_bound(first, cells.end(), blocks[b].last);
+      if (first == last) return;
+      for (const NodeIndex i : changed_sums) sums_.clear(b, i);
+      add_some(pass, {first, last}, marked_, sums_.of_block(b));
+      parts_[b] = PartialQuality(topology, state.cell_quality, blocks[b]);
+    });
+    return mesh_quality(parts_, topology.n_cells());
+  }
+
   ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
   double eta_ = 0.0;
   QualityGainStopping stopping_;
   NodeSums sums_;
+  std::vector<PartialQuality> parts_;  ///< of each block of cells
+  std::vector<Point<dim>> previous_;
+  std::vector<std::uint8_t> marked_;  ///< nodes whose sums have to be added again
+  bool ready_ = false;                ///< sums_ are those of the present mesh
 };
 
 const RegisteredMethod registered({.name = "getme-simultaneous",

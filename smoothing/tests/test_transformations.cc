@@ -115,7 +115,7 @@ std::vector<Vector2<double>> regularized(const std::vector<Vector2<double>>& in,
   element.theta_degrees = theta * 180.0 / std::numbers::pi;
   element.rho = rho;
   element.prepare();
-  element.regularize(1.0, std::span<const Vector2<double>>(in), std::span<Vector2<double>>(out));
+  element.regularize(std::span<const Vector2<double>>(in), std::span<Vector2<double>>(out));
   return out;
 }
 

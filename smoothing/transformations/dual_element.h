@@ -24,26 +24,33 @@ class DualElement {
                                      std::span<Vector3<Real>, n> result) {
     using Element = VolumeElement<n>;
     std::array<Vector3<Real>, Element::faces.size()> dual;
-    for (std::size_t f = 0; f < dual.size(); ++f) {
-      const LocalFace& face = Element::faces[f];
+    unrolled<Element::faces.size()>([&](auto f) SMOOTHFEM_INLINE_LAMBDA {
+      constexpr LocalFace face = Element::faces[f];
       auto sum = nodes[face.nodes[0]] + nodes[face.nodes[1]] + nodes[face.nodes[2]];
       if (face.size == 4) sum = sum + nodes[face.nodes[3]];
       dual[f] = (face.size == 4 ? 0.25 : 1.0 / 3.0) * sum;
-    }
+    });
     const Real tau = base_position<n>(sigma);
-    for (std::size_t k = 0; k < n; ++k) {
-      const LocalFace& face = Element::dual_faces[k];
+    std::array<Vector3<Real>, 4> normals;  // of the first half of a hexahedron's dual faces
+    unrolled<n>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+      constexpr LocalFace face = Element::dual_faces[k];
       const auto &a = dual[face.nodes[0]], &b = dual[face.nodes[1]], &c = dual[face.nodes[2]];
-      if (face.size == 4) {  // the base of the dual pyramid
+      if constexpr (face.size == 4) {  // the base of the dual pyramid
         const auto& d = dual[face.nodes[3]];
         const auto normal = 0.5 * cross(c - a, d - b);
         result[k] = 0.25 * (a + b + c + d) + OppositeFaceNormals::scaled(sigma, normal);
+      } else if constexpr (n == 8 && k >= 4) {
+        // Opposite faces of the octahedron have opposite normals (thesis, proof of Lemma 3.2).
+        constexpr std::size_t opposite = (k + 2) % 4;
+        result[k] = (1.0 / 3.0) * (a + b + c) - normals[opposite];
       } else {
         const auto base =
             n == 4 || n == 8 ? (1.0 / 3.0) * (a + b + c) : (1.0 - tau) * a + (0.5 * tau) * (b + c);
-        result[k] = base + OppositeFaceNormals::scaled(sigma, cross(b - a, c - a));
+        const auto normal = OppositeFaceNormals::scaled(sigma, cross(b - a, c - a));
+        result[k] = base + normal;
+        if constexpr (n == 8) normals[k] = normal;
       }
-    }
+    });
   }
 
  private:

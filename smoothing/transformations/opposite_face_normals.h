@@ -20,16 +20,19 @@ class OppositeFaceNormals {
   static SMOOTHFEM_INLINE void apply(Real sigma, std::span<const Vector3<Real>, 4> nodes,
                                      std::span<Vector3<Real>, 4> result) {
     const auto &p1 = nodes[0], &p2 = nodes[1], &p3 = nodes[2], &p4 = nodes[3];
+    // With the edges as the cell's table has them, which compilers then compute once.
     result[0] = p1 + scaled(sigma, cross(p4 - p2, p3 - p2));
-    result[1] = p2 + scaled(sigma, cross(p4 - p3, p1 - p3));
-    result[2] = p3 + scaled(sigma, cross(p2 - p4, p1 - p4));
+    result[1] = p2 + scaled(sigma, cross(p3 - p1, p4 - p3));
+    result[2] = p3 + scaled(sigma, cross(p4 - p2, p4 - p1));
     result[3] = p4 + scaled(sigma, cross(p2 - p1, p3 - p1));
   }
 
   /// sigma n / sqrt(|n|).
   template <class Real>
   static SMOOTHFEM_INLINE Vector3<Real> scaled(Real sigma, Vector3<Real> normal) {
-    return sigma * inverse_root<4>(squared_length(normal)) * normal;
+    const Real square = squared_length(normal);
+    const Real root = square_root(square_root(square));
+    return (square > 0.0 ? sigma / root : Real{}) * normal;
   }
 };
 

@@ -2,9 +2,9 @@
 
 #include <span>
 
+#include "smoothing/mesh/cell_edges.h"
 #include "smoothing/mesh/inverse_root.h"
 #include "smoothing/mesh/lanes.h"
-#include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
@@ -38,12 +38,10 @@ SMOOTHFEM_INLINE void keep_mean_edge_length(std::span<const Vector2<Real>, exten
 
 /// Sum of the lengths of a volume cell's edges.
 template <class Real, std::size_t n>
-SMOOTHFEM_INLINE Real edge_length_sum(std::span<const Vector3<Real>, n> nodes) {
+SMOOTHFEM_INLINE Real edge_length_sum(const CellEdges<Real, n>& edges) {
   Real sum{};
-  for (const auto& [a, b] : VolumeElement<n>::edges) {
-    const Real square = squared_length(nodes[b] - nodes[a]);
-    sum += square * inverse_root<2>(square);
-  }
+  unrolled<CellEdges<Real, n>::n_edges>(
+      [&](auto e) SMOOTHFEM_INLINE_LAMBDA { sum += square_root(edges.squared_lengths[e]); });
   return sum;
 }
 
@@ -51,8 +49,11 @@ SMOOTHFEM_INLINE Real edge_length_sum(std::span<const Vector3<Real>, n> nodes) {
 template <class Real, std::size_t n>
 SMOOTHFEM_INLINE Real node_simplex_volume_sum(std::span<const Vector3<Real>, n> nodes) {
   Real sum{};
-  for (const auto& [here, a, b, c] : VolumeElement<n>::corners)
-    sum += determinant(nodes[a] - nodes[here], nodes[b] - nodes[here], nodes[c] - nodes[here]);
+  unrolled<VolumeElement<n>::corners.size()>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+    constexpr LocalSimplex corner = VolumeElement<n>::corners[k];
+    const auto here = nodes[corner[0]];
+    sum += determinant(nodes[corner[1]] - here, nodes[corner[2]] - here, nodes[corner[3]] - here);
+  });
   return sum;
 }
 
@@ -61,16 +62,18 @@ enum class ScalingRule { mean_edge_length, mean_volume };
 
 /// Moves a transformed cell to the original's centroid and scales it there so that it has the
 /// original's mean edge length or mean volume of the node simplices (thesis, Eq. 3.11). The latter
-/// needs both to be positive, as those of valid cells and their transformed ones are.
+/// needs both to be positive, as those of valid cells and their transformed ones are. edges: of
+/// `original`.
 template <class Real, std::size_t n>
 SMOOTHFEM_INLINE void keep_centroid_and_size(ScalingRule rule,
                                              std::span<const Vector3<Real>, n> original,
+                                             const CellEdges<Real, n>& edges,
                                              std::span<Vector3<Real>, n> transformed) {
   const std::span<const Vector3<Real>, n> present(transformed);
   const auto centre = centroid(original), present_centre = centroid(present);
   Real factor;
   if (rule == ScalingRule::mean_edge_length) {
-    factor = edge_length_sum(original) / edge_length_sum(present);
+    factor = edge_length_sum(edges) / edge_length_sum(CellEdges<Real, n>(present));
   } else {
     factor = inverse_root<3>(node_simplex_volume_sum(present) / node_simplex_volume_sum(original));
   }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "smoothing/mesh/lanes.h"
+#include "smoothing/mesh/volume_elements.h"
+
+namespace smoothfem {
+
+/// Which edge of the volume element with n nodes runs between two of its nodes, and whether the
+/// other way round. Throws at compile time if there is none.
+struct DirectedEdge {
+  std::size_t index;
+  bool reversed;
+};
+template <std::size_t n>
+consteval DirectedEdge edge_between(LocalIndex from, LocalIndex to) {
+  const auto& edges = VolumeElement<n>::edges;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges[e][0] == from && edges[e][1] == to) return {e, false};
+    if (edges[e][0] == to && edges[e][1] == from) return {e, true};
+  }
+  throw "no edge between these nodes";
+}
+
+/// The edge vectors of a volume cell and their squared lengths, which the quality of a cell and its
+/// size have in common: computed once.
+template <class Real, std::size_t n>
+struct CellEdges {
+  static constexpr std::size_t n_edges = VolumeElement<n>::edges.size();
+  std::array<Vector3<Real>, n_edges> vectors;
+  std::array<Real, n_edges> squared_lengths;
+
+  SMOOTHFEM_INLINE explicit CellEdges(std::span<const Vector3<Real>, n> nodes) {
+    unrolled<n_edges>([&](auto e) SMOOTHFEM_INLINE_LAMBDA {
+      constexpr LocalEdge edge = VolumeElement<n>::edges[e];
+      vectors[e] = nodes[edge[1]] - nodes[edge[0]];
+      squared_lengths[e] = squared_length(vectors[e]);
+    });
+  }
+};
+
+}  // namespace smoothfem
