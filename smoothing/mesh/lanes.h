@@ -32,6 +32,9 @@ constexpr std::size_t n_lanes = 4;
 using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double))));
 using LaneBits = std::uint64_t __attribute__((vector_size(n_lanes * sizeof(std::uint64_t))));
 
+/// The outcome of comparing Lanes.
+using LaneMask = std::int64_t __attribute__((vector_size(n_lanes * sizeof(std::int64_t))));
+
 /// Calls visit(std::integral_constant<std::size_t, i>{}) for i = 0 .. n-1: a loop that is unrolled
 /// in any case, in which i can choose from constant tables at compile time.
 template <std::size_t n, class Visit>

@@ -4,9 +4,7 @@
 
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
-#include "smoothing/loop/node_sums.h"
-#include "smoothing/mesh/cell_blocks.h"
-#include "smoothing/smoothers/element_regularization.h"
+#include "smoothing/smoothers/element_pass.h"
 #include "smoothing/smoothers/quality_gain_stopping.h"
 
 namespace smoothfem {
@@ -29,115 +27,40 @@ SMOOTHFEM_INLINE Lanes quality_weight(Lanes quality, double eta) {
   return weight;
 }
 
-/// What adding transformed elements needs to know.
-template <int dim>
-struct ElementPass {
-  const Mesh<dim>& mesh;
-  const ElementRegularization<dim>& element;
+/// Weights of Eq. 4.2; every element is transformed.
+struct QualityWeighting {
   double eta;
-};
 
-/// Adds the transformed nodes of n_lanes cells of n nodes each to the sums of a block, those of the
-/// first `count` cells, where wanted(node). Returns the cells' quality.
-template <std::size_t n, int dim, class Wanted>
-SMOOTHFEM_INLINE Lanes add_cells(const ElementPass<dim>& pass,
-                                 const std::array<const NodeIndex*, n_lanes>& rows,
-                                 std::size_t count, const Wanted& wanted, double* sums) {
-  const auto& x = pass.mesh.coordinates();
-  const auto corners = gather_cells<n, dim>(
-      [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return x[i]; }, rows);
-  std::array<Vector<dim, Lanes>, n> result;
-  const Lanes quality = pass.element.regularize(std::span<const Vector<dim, Lanes>, n>(corners),
-                                                std::span<Vector<dim, Lanes>, n>(result));
-  const Lanes weight = quality_weight(quality, pass.eta);
-  unrolled<n>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
-    const auto places = weighted_places(result[k], weight);
-    for (std::size_t l = 0; l < count; ++l)
-      if (wanted(rows[l][k])) NodeSums::add(sums, rows[l][k], places[l]);
-  });
-  return quality;
-}
-
-/// The same for one cell of any type.
-template <int dim, class Wanted>
-SMOOTHFEM_INLINE double add_cell(const ElementPass<dim>& pass, CellIndex cell, const Wanted& wanted,
-                                 double* sums) {
-  const auto nodes = pass.mesh.topology().cell_nodes(cell);
-  double quality = 0.0;
-  with_corners<dim>(nodes, pass.mesh.coordinates(), [&](auto corners) SMOOTHFEM_INLINE_LAMBDA {
-    with_room_for_result(corners, [&](auto result) SMOOTHFEM_INLINE_LAMBDA {
-      quality = pass.element.regularize(corners, result);
-      const double weight = quality_weight(quality, pass.eta);
-      for (std::size_t k = 0; k < result.size(); ++k)
-        if (wanted(nodes[k])) NodeSums::add(sums, nodes[k], weighted_place(result[k], weight));
-    });
-  });
-  return quality;
-}
-
-/// Adds all cells of a block in their order and writes their quality.
-template <int dim>
-SMOOTHFEM_INLINE void add_whole_block(const ElementPass<dim>& pass, const CellBlock& block,
-                                      double* cell_quality, double* sums) {
-  const auto all = [](NodeIndex) SMOOTHFEM_INLINE_LAMBDA { return true; };
-  for_each_run<dim>(
-      pass.mesh.topology(), block.first, block.last,
-      [&]<std::size_t n>(std::integral_constant<std::size_t, n>, CellIndex c,
-                         const NodeIndex* nodes) SMOOTHFEM_INLINE_LAMBDA {
-        const Lanes quality = add_cells<n, dim>(
-            pass, {nodes, nodes + n, nodes + 2 * n, nodes + 3 * n}, n_lanes, all, sums);
-        store_lanes(quality, cell_quality + c);
-      },
-      [&](CellIndex c) SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = add_cell(pass, c, all, sums); });
-}
-
-/// Adds some cells of a block, ascending, to the sums of marked nodes only.
-template <int dim>
-SMOOTHFEM_INLINE void add_to_marked(const ElementPass<dim>& pass, std::span<const CellIndex> cells,
-                                    const std::vector<std::uint8_t>& marked, double* sums) {
-  const auto& topology = pass.mesh.topology();
-  const auto wanted = [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA { return marked[i] != 0; };
-  for (std::size_t first = 0; first < cells.size();) {
-    const std::size_t size = topology.cell_nodes(cells[first]).size();
-    std::size_t count = 1;
-    while (count < n_lanes && first + count < cells.size() &&
-           topology.cell_nodes(cells[first + count]).size() == size)
-      ++count;
-    with_cell_size<dim>(size, [&](auto constant) SMOOTHFEM_INLINE_LAMBDA {
-      constexpr std::size_t n = decltype(constant)::value;
-      if constexpr (n == 0) {
-        count = 1;
-        add_cell(pass, cells[first], wanted, sums);
-      } else {
-        std::array<const NodeIndex*, n_lanes> rows;
-        for (std::size_t l = 0; l < n_lanes; ++l)
-          rows[l] = topology.cell_nodes(cells[first + std::min(l, count - 1)]).data();
-        // One cell after the other to a node: the sums keep the order of the cells.
-        add_cells<n, dim>(pass, rows, count, wanted, sums);
-      }
-    });
-    first += count;
+  template <class Cells, class Real>
+  SMOOTHFEM_INLINE Real weight(const Cells&, Real quality) const {
+    return quality_weight(quality, eta);
   }
-}
+  template <class Real>
+  SMOOTHFEM_INLINE AllTransformed transforms(Real) const {
+    return {};
+  }
+};
+template <int dim>
+using Pass = ElementPass<dim, QualityWeighting>;
 
 // Templates cannot be compiled for several kinds of registers; these can.
 SMOOTHFEM_VECTOR_CLONES
-void add_block(const ElementPass<2>& pass, const CellBlock& block, double* quality, double* sums) {
-  add_whole_block<2>(pass, block, quality, sums);
+void add_block(const Pass<2>& pass, const CellBlock& block, double* quality, double* sums) {
+  add_whole_block(pass, block, quality, sums);
 }
 SMOOTHFEM_VECTOR_CLONES
-void add_block(const ElementPass<3>& pass, const CellBlock& block, double* quality, double* sums) {
-  add_whole_block<3>(pass, block, quality, sums);
+void add_block(const Pass<3>& pass, const CellBlock& block, double* quality, double* sums) {
+  add_whole_block(pass, block, quality, sums);
 }
 SMOOTHFEM_VECTOR_CLONES
-void add_some(const ElementPass<2>& pass, std::span<const CellIndex> cells,
+void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
-  add_to_marked<2>(pass, cells, marked, sums);
+  add_to_marked(pass, cells, marked, sums);
 }
 SMOOTHFEM_VECTOR_CLONES
-void add_some(const ElementPass<3>& pass, std::span<const CellIndex> cells,
+void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
-  add_to_marked<3>(pass, cells, marked, sums);
+  add_to_marked(pass, cells, marked, sums);
 }
 
 ElementRegularization<2> default_element(std::integral_constant<int, 2>) {
@@ -211,7 +134,7 @@ class GetmeSimultaneous final : public Smoother<dim> {
  private:
   MeshQuality pass_over_all(SmoothingState<dim>& state) {
     const Topology& topology = state.mesh.topology();
-    const ElementPass<dim> pass{state.mesh, element_, eta_};
+    const Pass<dim> pass{state.mesh, element_, {eta_}};
     parallel_for(topology.blocks().size(), [&](std::size_t b) {
       const CellBlock& block = topology.blocks()[b];
       add_block(pass, block, state.cell_quality.data(), sums_.start_block(b));
@@ -239,7 +162,7 @@ class GetmeSimultaneous final : public Smoother<dim> {
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 
-    const ElementPass<dim> pass{state.mesh, element_, eta_};
+    const Pass<dim> pass{state.mesh, element_, {eta_}};
     const auto& blocks = topology.blocks();
     parallel_for(blocks.size(), [&](std::size_t b) {
       const auto first = std::lower_bound(cells.begin(), cells.end(), blocks[b].first);

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "smoothing/loop/node_sums.h"
+#include "smoothing/mesh/cell_blocks.h"
+#include "smoothing/smoothers/element_regularization.h"
+
+namespace smoothfem {
+
+/// transformed where `transforms` says so, otherwise original. All: every cell is transformed.
+struct AllTransformed {};
+template <class Point>
+SMOOTHFEM_INLINE Point chosen(AllTransformed, Point transformed, Point /*original*/) {
+  return transformed;
+}
+template <class Point>
+SMOOTHFEM_INLINE Point chosen(bool transforms, Point transformed, Point original) {
+  return transforms ? transformed : original;
+}
+SMOOTHFEM_INLINE Vector2<Lanes> chosen(LaneMask transforms, Vector2<Lanes> transformed,
+                                       Vector2<Lanes> original) {
+  return {transforms ? transformed.x : original.x, transforms ? transformed.y : original.y};
+}
+SMOOTHFEM_INLINE Vector3<Lanes> chosen(LaneMask transforms, Vector3<Lanes> transformed,
+                                       Vector3<Lanes> original) {
+  return {transforms ? transformed.x : original.x, transforms ? transformed.y : original.y,
+          transforms ? transformed.z : original.z};
+}
+
+/// What adding transformed elements to the sums of their nodes needs to know. Weighting says how
+/// much a cell counts: weight(cell, quality), for one cell or for n_lanes of them (an array of
+/// indices, Lanes), and which cells are transformed at all: transforms(quality), likewise; the
+/// others add their nodes as they are.
+template <int dim, class Weighting>
+struct ElementPass {
+  const Mesh<dim>& mesh;
+  const ElementRegularization<dim>& element;
+  Weighting weighting;
+};
+
+/// Adds the transformed nodes of n_lanes cells of n nodes each to the sums of a block, those of the
+/// first `count` cells, where wanted(node). Returns the cells' quality.
+template <std::size_t n, int dim, class Weighting, class Wanted>
+SMOOTHFEM_INLINE Lanes add_cells(const ElementPass<dim, Weighting>& pass,
+                                 const std::array<CellIndex, n_lanes>& cells,
+                                 const std::array<const NodeIndex*, n_lanes>& rows,
+                                 std::size_t count, const Wanted& wanted, double* sums) {
+  const auto& x = pass.mesh.coordinates();
+  const auto corners = gather_cells<n, dim>(
+      [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return x[i]; }, rows);
+  std::array<Vector<dim, Lanes>, n> result;
+  const Lanes quality = pass.element.regularize(std::span<const Vector<dim, Lanes>, n>(corners),
+                                                std::span<Vector<dim, Lanes>, n>(result));
+  const Lanes weight = pass.weighting.weight(cells, quality);
+  const auto transforms = pass.weighting.transforms(quality);
+  unrolled<n>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+    const auto places = weighted_places(chosen(transforms, result[k], corners[k]), weight);
+    for (std::size_t l = 0; l < count; ++l)
+      if (wanted(rows[l][k])) NodeSums::add(sums, rows[l][k], places[l]);
+  });
+  return quality;
+}
+
+/// The same for one cell of any type.
+template <int dim, class Weighting, class Wanted>
+SMOOTHFEM_INLINE double add_cell(const ElementPass<dim, Weighting>& pass, CellIndex cell,
+                                 const Wanted& wanted, double* sums) {
+  const auto nodes = pass.mesh.topology().cell_nodes(cell);
+  double quality = 0.0;
+  with_corners<dim>(nodes, pass.mesh.coordinates(), [&](auto corners) SMOOTHFEM_INLINE_LAMBDA {
+    with_room_for_result(corners, [&](auto result) SMOOTHFEM_INLINE_LAMBDA {
+      quality = pass.element.regularize(corners, result);
+      const double weight = pass.weighting.weight(cell, quality);
+      const auto transforms = pass.weighting.transforms(quality);
+      for (std::size_t k = 0; k < result.size(); ++k)
+        if (wanted(nodes[k]))
+          NodeSums::add(sums, nodes[k],
+                        weighted_place(chosen(transforms, result[k], corners[k]), weight));
+    });
+  });
+  return quality;
+}
+
+/// Adds all cells of a block in their order and writes their quality.
+template <int dim, class Weighting>
+SMOOTHFEM_INLINE void add_whole_block(const ElementPass<dim, Weighting>& pass,
+                                      const CellBlock& block, double* cell_quality, double* sums) {
+  const auto all = [](NodeIndex) SMOOTHFEM_INLINE_LAMBDA { return true; };
+  for_each_run<dim>(
+      pass.mesh.topology(), block.first, block.last,
+      [&]<std::size_t n>(std::integral_constant<std::size_t, n>, CellIndex c,
+                         const NodeIndex* nodes) SMOOTHFEM_INLINE_LAMBDA {
+        const Lanes quality =
+            add_cells<n, dim>(pass, {c, c + 1, c + 2, c + 3},
+                              {nodes, nodes + n, nodes + 2 * n, nodes + 3 * n}, n_lanes, all, sums);
+        store_lanes(quality, cell_quality + c);
+      },
+      [&](CellIndex c) SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = add_cell(pass, c, all, sums); });
+}
+
+/// Adds some cells of a block, ascending, to the sums of marked nodes only. Their qualities are
+/// known.
+template <int dim, class Weighting>
+SMOOTHFEM_INLINE void add_to_marked(const ElementPass<dim, Weighting>& pass,
+                                    std::span<const CellIndex> cells,
+                                    const std::vector<std::uint8_t>& marked, double* sums) {
+  const auto& topology = pass.mesh.topology();
+  const auto wanted = [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA { return marked[i] != 0; };
+  for (std::size_t first = 0; first < cells.size();) {
+    const std::size_t size = topology.cell_nodes(cells[first]).size();
+    std::size_t count = 1;
+    while (count < n_lanes && first + count < cells.size() &&
+           topology.cell_nodes(cells[first + count]).size() == size)
+      ++count;
+    with_cell_size<dim>(size, [&](auto constant) SMOOTHFEM_INLINE_LAMBDA {
+      constexpr std::size_t n = decltype(constant)::value;
+      if constexpr (n == 0) {
+        count = 1;
+        add_cell(pass, cells[first], wanted, sums);
+      } else {
+        std::array<CellIndex, n_lanes> some;
+        std::array<const NodeIndex*, n_lanes> rows;
+        for (std::size_t l = 0; l < n_lanes; ++l) {
+          some[l] = cells[first + std::min(l, count - 1)];
+          rows[l] = topology.cell_nodes(some[l]).data();
+        }
+        // One cell after the other to a node: the sums keep the order of the cells.
+        add_cells<n, dim>(pass, some, rows, count, wanted, sums);
+      }
+    });
+    first += count;
+  }
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,326 @@
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+#include "smoothing/loop/catalogue.h"
+#include "smoothing/smoothers/element_pass.h"
+#include "smoothing/smoothers/local_quality.h"
+#include "smoothing/smoothers/neighbour_weights.h"
+
+namespace smoothfem {
+namespace {
+
+/// Elements of at most this quality are transformed, and count by their neighbours' quality.
+struct ThresholdWeighting {
+  const double* weights;
+  double threshold;
+
+  SMOOTHFEM_INLINE double weight(CellIndex cell, double) const { return weights[cell]; }
+  SMOOTHFEM_INLINE Lanes weight(const std::array<CellIndex, n_lanes>& cells, Lanes) const {
+    return Lanes{weights[cells[0]], weights[cells[1]], weights[cells[2]], weights[cells[3]]};
+  }
+  SMOOTHFEM_INLINE bool transforms(double quality) const { return quality <= threshold; }
+  SMOOTHFEM_INLINE LaneMask transforms(Lanes quality) const { return quality <= threshold; }
+};
+template <int dim>
+using Pass = ElementPass<dim, ThresholdWeighting>;
+
+SMOOTHFEM_VECTOR_CLONES
+void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
+              const std::vector<std::uint8_t>& marked, double* sums) {
+  add_to_marked(pass, cells, marked, sums);
+}
+SMOOTHFEM_VECTOR_CLONES
+void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
+              const std::vector<std::uint8_t>& marked, double* sums) {
+  add_to_marked(pass, cells, marked, sums);
+}
+
+template <int dim>
+SMOOTHFEM_INLINE void write_mean_ratios(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
+                                        std::vector<double>& quality) {
+  for_each_mean_ratio<dim>(
+      mesh.topology(), cells,
+      [&](NodeIndex i)
+          SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return mesh.coordinates()[i]; },
+      [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {
+        quality[cells[position]] = q;
+        return true;
+      });
+}
+SMOOTHFEM_VECTOR_CLONES
+void evaluate(const PlanarMesh& mesh, std::span<const CellIndex> cells,
+              std::vector<double>& quality) {
+  write_mean_ratios<2>(mesh, cells, quality);
+}
+SMOOTHFEM_VECTOR_CLONES
+void evaluate(const VolumeMesh& mesh, std::span<const CellIndex> cells,
+              std::vector<double>& quality) {
+  write_mean_ratios<3>(mesh, cells, quality);
+}
+
+ElementRegularization<2> default_element(std::integral_constant<int, 2>) {
+  ElementRegularization<2> element;
+  element.lambda = 7.0 / 20.0;
+  element.theta_degrees = 15.0;
+  element.rho = 1.0;
+  return element;
+}
+ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
+  ElementRegularization<3> element;
+  element.tetrahedron = element.pyramid = element.prism = element.hexahedron = {1.5, 1.5};
+  element.rho = 1.0;
+  return element;
+}
+
+/// What both stages of GETMe adaptive share (thesis, Section 4.5, Fig. 4.4): nodes move to the
+/// weighted means of their places in the transformed elements of low quality and the untransformed
+/// other ones; where that makes elements invalid, their nodes move less, by a table of relaxation
+/// values that ends with zero.
+template <int dim>
+class AdaptiveStage : public Smoother<dim> {
+ public:
+  Parameters parameters() override {
+    Parameters all = element_.parameters();
+    all.push_back({"relaxation",
+                   "shares of its movement that a node tries in turn while elements around it are "
+                   "invalid; ends with 0 (Eq. 4.4)",
+                   &relaxation_, 0.0, 1.0});
+    return all;
+  }
+
+  void initialize(const SmoothingState<dim>& state) override {
+    if (relaxation_.back() != 0.0)
+      throw InputError("method getme-adaptive: the parameter relaxation has to end with 0");
+    const Topology& topology = state.mesh.topology();
+    element_.prepare();
+    sums_.prepare(topology);
+    weights_.prepare(topology);
+    marked_.assign(topology.n_nodes(), 0);
+    level_.assign(topology.n_nodes(), 0);
+    all_cells_.resize(topology.n_cells());
+    std::iota(all_cells_.begin(), all_cells_.end(), CellIndex{0});
+  }
+
+ protected:
+  explicit AdaptiveStage(std::vector<double> relaxation) : relaxation_(std::move(relaxation)) {}
+
+  /// One iteration that transforms the elements of at most this quality.
+  StepReport smooth_below(SmoothingState<dim>& state, double threshold) {
+    find_active(state, threshold);
+    weights_.compute(active_cells_, state.cell_quality);
+    add_active(state, threshold);
+    previous_ = state.mesh.coordinates();
+    targets_ = previous_;
+    sums_.for_each_node([&](NodeIndex i, const double* sums) {
+      level_[i] = 0;
+      if (!marked_[i] || !(sums[dim] > 0.0)) return;
+      targets_[i] = mean_place<dim>(sums);
+      place(state.mesh, i);
+    });
+    StepReport report;
+    report.n_reset = relax_until_valid(state);
+    report.quality = mesh_quality(state.mesh.topology(), state.cell_quality);
+    return report;
+  }
+
+  ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
+
+ private:
+  /// Marks the free nodes of transformed elements; active are all cells around them.
+  void find_active(const SmoothingState<dim>& state, double threshold) {
+    const Topology& topology = state.mesh.topology();
+    active_cells_.clear();
+    if (threshold >= 1.0) {
+      for (NodeIndex i = 0; i < topology.n_nodes(); ++i) marked_[i] = !topology.is_fixed(i);
+      active_cells_ = all_cells_;
+      return;
+    }
+    std::fill(marked_.begin(), marked_.end(), 0);
+    for (CellIndex c = 0; c < topology.n_cells(); ++c)
+      if (state.cell_quality[c] <= threshold)
+        for (const NodeIndex i : topology.cell_nodes(c))
+          if (!topology.is_fixed(i)) marked_[i] = 1;
+    for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+      const auto nodes = topology.cell_nodes(c);
+      if (std::any_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return marked_[i] != 0; }))
+        active_cells_.push_back(c);
+    }
+  }
+
+  void add_active(const SmoothingState<dim>& state, double threshold) {
+    const auto& blocks = state.mesh.topology().blocks();
+    const Pass<dim> pass{state.mesh, element_, {weights_.weights().data(), threshold}};
+    parallel_for(blocks.size(), [&](std::size_t b) {
+      const auto first =
+          std::lower_bound(active_cells_.begin(), active_cells_.end(), blocks[b].first);
+      const auto last = std::lower_bound(first, active_cells_.end(), blocks[b].last);
+      add_some(pass, {first, last}, marked_, sums_.start_block(b));
+    });
+  }
+
+  void place(Mesh<dim>& mesh, NodeIndex i) const {
+    const double share = relaxation_[level_[i]];
+    mesh.coordinates()[i] = (1.0 - share) * previous_[i] + share * targets_[i];
+    if (share == 0.0) mesh.coordinates()[i] = previous_[i];
+  }
+
+  void evaluate_cells(SmoothingState<dim>& state, std::span<const CellIndex> cells) {
+    constexpr std::size_t grain = 4096;
+    parallel_for_ranges(cells.size(), grain, [&](std::size_t first, std::size_t last) {
+      evaluate(state.mesh, cells.subspan(first, last - first), state.cell_quality);
+    });
+  }
+
+  /// Shortens the movements around invalid cells until there is none; returns how many nodes stay
+  /// where they were.
+  std::size_t relax_until_valid(SmoothingState<dim>& state) {
+    const Topology& topology = state.mesh.topology();
+    std::size_t n_reset = 0;
+    std::vector<CellIndex> cells = active_cells_;
+    while (true) {
+      evaluate_cells(state, cells);
+      std::vector<NodeIndex> shortened;
+      for (const CellIndex c : cells)
+        if (!(state.cell_quality[c] > 0.0))
+          for (const NodeIndex i : topology.cell_nodes(c))
+            if (marked_[i] && level_[i] + 1u < relaxation_.size()) shortened.push_back(i);
+      if (shortened.empty()) return n_reset;
+      std::sort(shortened.begin(), shortened.end());
+      shortened.erase(std::unique(shortened.begin(), shortened.end()), shortened.end());
+      cells.clear();
+      for (const NodeIndex i : shortened) {
+        ++level_[i];
+        place(state.mesh, i);
+        if (relaxation_[level_[i]] == 0.0) ++n_reset;
+        const auto around = topology.node_cells(i);
+        cells.insert(cells.end(), around.begin(), around.end());
+      }
+      std::sort(cells.begin(), cells.end());
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    }
+  }
+
+  std::vector<double> relaxation_;
+  NodeSums sums_;
+  NeighbourWeights weights_;
+  std::vector<std::uint8_t> marked_;  ///< free nodes of transformed elements
+  std::vector<std::uint8_t> level_;   ///< position in relaxation_ of each node
+  std::vector<CellIndex> all_cells_, active_cells_;
+  std::vector<Point<dim>> previous_, targets_;
+};
+
+/// First stage: all elements are transformed until q_mean hardly rises.
+template <int dim>
+class AdaptiveMeanStage final : public AdaptiveStage<dim> {
+ public:
+  AdaptiveMeanStage() : AdaptiveStage<dim>({1.0, 0.25, 0.0625, 0.0}) {}
+  std::string_view name() const override { return "mean"; }
+
+  Parameters parameters() override {
+    Parameters all = AdaptiveStage<dim>::parameters();
+    all.push_back({"tolerance", "stop when q_mean rises by no more than this in an iteration",
+                   &tolerance_, -1.0, 1.0});
+    all.push_back({"max_iterations", "stop after this many iterations at the latest",
+                   &max_iterations_, 1.0, 1e9});
+    return all;
+  }
+  SmoothingRule rule() const override {
+    return {.quality_use = QualityUse::smoother,
+            .result = ResultMesh::best_q_mean,
+            .criterion = StoppingCriterion::q_mean_gain,
+            .tolerance = tolerance_,
+            .max_iterations = max_iterations_};
+  }
+  StepReport step(SmoothingState<dim>& state) override { return this->smooth_below(state, 1.0); }
+
+ private:
+  double tolerance_ = 1e-4;
+  int max_iterations_ = 1000;
+};
+
+/// Second stage: cycles that transform a share of the elements, those of the lowest quality when
+/// the cycle begins. A cycle ends after `patience` iterations that did not raise q*_min, counted as
+/// in Fig. 4.4; the stage ends after a cycle that did not.
+template <int dim>
+class AdaptiveMinStage final : public AdaptiveStage<dim> {
+ public:
+  AdaptiveMinStage() : AdaptiveStage<dim>({0.5, 0.25, 0.1, 0.01, 0.0}) {}
+  std::string_view name() const override { return "min"; }
+
+  Parameters parameters() override {
+    Parameters all = AdaptiveStage<dim>::parameters();
+    all.push_back({"share",
+                   "share of the elements whose quality sets the threshold at the beginning of a "
+                   "cycle; the thesis does not print it, 0.001 to 0.01 is good",
+                   &share_, 0.0, 1.0});
+    all.push_back(
+        {"patience", "iterations without a higher q*_min that end a cycle", &patience_, 1.0, 1e9});
+    all.push_back({"max_iterations", "stop after this many iterations at the latest",
+                   &max_iterations_, 1.0, 1e9});
+    return all;
+  }
+  SmoothingRule rule() const override {
+    return {.quality_use = QualityUse::smoother,
+            .result = ResultMesh::best_q_star_min,
+            .criterion = StoppingCriterion::converged,
+            .max_iterations = max_iterations_};
+  }
+
+  void initialize(const SmoothingState<dim>& state) override {
+    AdaptiveStage<dim>::initialize(state);
+    best_ = mesh_quality(state.mesh.topology(), state.cell_quality).q_star_min;
+    start_cycle(state);
+  }
+
+  StepReport step(SmoothingState<dim>& state) override {
+    StepReport report = this->smooth_below(state, threshold_);
+    if (report.quality->q_star_min > best_)
+      best_ = report.quality->q_star_min;
+    else
+      ++n_without_gain_;
+    if (n_without_gain_ >= patience_) {
+      report.converged = !(best_ > best_at_start_);
+      start_cycle(state);
+    }
+    return report;
+  }
+
+ private:
+  void start_cycle(const SmoothingState<dim>& state) {
+    std::vector<double> sorted = state.cell_quality;
+    const auto position = std::min(
+        static_cast<std::size_t>(share_ * static_cast<double>(sorted.size())), sorted.size() - 1);
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(position),
+                     sorted.end());
+    threshold_ = sorted[position];
+    n_without_gain_ = 0;
+    best_at_start_ = best_;
+  }
+
+  double share_ = 0.005;
+  int patience_ = 5;
+  int max_iterations_ = 1000;
+  double threshold_ = 1.0;
+  double best_ = 0.0, best_at_start_ = 0.0;
+  int n_without_gain_ = 0;
+};
+
+template <int dim>
+Stages<dim> make_stages() {
+  Stages<dim> stages;
+  stages.push_back(std::make_unique<AdaptiveMeanStage<dim>>());
+  stages.push_back(std::make_unique<AdaptiveMinStage<dim>>());
+  return stages;
+}
+
+const RegisteredMethod registered(
+    {.name = "getme-adaptive",
+     .title = "GETMe adaptive",
+     .description = "transforms all elements, then those of low quality; averages by the quality "
+                    "of neighbours and relaxes node by node",
+     .source = "Section 4.5, Fig. 4.4; parameters of Sections 5.1.3 and 5.5"},
+    {make_stages<2>, make_stages<3>});
+
+}  // namespace
+}  // namespace smoothfem
