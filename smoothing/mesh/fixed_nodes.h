@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "smoothing/mesh/mesh.h"
+
+namespace smoothfem {
+
+/// Which nodes smoothing must not move. Nodes that no cell uses are fixed in any case.
+struct FixedNodesRule {
+  enum class Kind {
+    boundary,  ///< nodes of boundary facets
+    file,      ///< as the topology says: the file's flags, or the boundary where it has none
+    groups,    ///< nodes of the labelled facets in `groups`
+    none       ///< every node is free
+  };
+  Kind kind = Kind::boundary;
+  std::vector<std::string> groups;  ///< physical tags or names of facets
+};
+
+/// The rule that a user writes: "boundary", "file", "free" or "group=NAME[,NAME...]". Throws
+/// InputError that lists these for anything else.
+FixedNodesRule parse_fixed_nodes_rule(const std::string& text);
+
+/// One flag a node. Throws InputError for a group that no facet has; it names those there are.
+std::vector<bool> fixed_nodes(const Topology& topology, const FixedNodesRule& rule);
+
+/// The same mesh with other fixed nodes. fixed: one flag a node.
+template <int dim>
+Mesh<dim> with_fixed_nodes(Mesh<dim> mesh, std::vector<bool> fixed) {
+  const Topology& old = mesh.topology();
+  auto topology = std::make_shared<const Topology>(dim, old.n_nodes(), old.cells(),
+                                                   std::move(fixed), old.labels());
+  return {std::move(topology), std::move(mesh.coordinates())};
+}
+
+}  // namespace smoothfem
