@@ -226,11 +226,14 @@ class AbaqusReader {
     }
   }
 
+  /// The first *ELSET with the element; sets are numbered as they come.
   std::size_t set_of(std::size_t element) const {
-    if (const auto found = set_of_.find(element); found != set_of_.end()) return found->second;
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::size_t first = none;
+    if (const auto found = set_of_.find(element); found != set_of_.end()) first = found->second;
     for (const auto& [range, set] : set_ranges_)
-      if (range.contains(element)) return set;
-    return 0;
+      if (set < first && range.contains(element)) first = set;
+    return first == none ? 0 : first;
   }
 
   /// The tag that a comment gave to the set's name, or a new one.

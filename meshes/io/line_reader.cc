@@ -86,6 +86,12 @@ double LineReader::number(std::string_view what) {
   if (found.empty()) fail(std::string(what) + " is missing at the end of the line");
   const std::string_view as_written = found;
   if (found.front() == '+') found.remove_prefix(1);
+  std::string with_e;  // Fortran writes 1.5D0
+  if (const std::size_t d = found.find_first_of("dD"); d != found.npos) {
+    with_e = found;
+    with_e[d] = 'e';
+    found = with_e;
+  }
   double value = 0.0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error == std::errc::invalid_argument || end != found.data() + found.size())
