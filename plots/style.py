@@ -12,6 +12,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot  # noqa: E402  (the backend has to be chosen first)
+import matplotlib.ticker  # noqa: E402,F401
 
 from .read_results import INITIAL  # noqa: E402
 from .write_files import write_atomically  # noqa: E402
@@ -29,6 +30,8 @@ SETTINGS = {
     "legend.frameon": False, "savefig.dpi": DPI,
     # Type 42: text in the PDF stays text and needs no Type 3 fonts, which some journals refuse.
     "pdf.fonttype": 42,
+    # Names inside a svg file are made from this instead of random numbers.
+    "svg.hashsalt": "smoothfem", "svg.fonttype": "none",
 }
 
 QUALITY_MAP = "RdYlBu"  # low quality red, high quality blue; safe for the colour-blind
@@ -82,16 +85,20 @@ def apply_style():
     matplotlib.rcParams.update(SETTINGS)
 
 
-def save_figure(figure, folder, name, title):
-    """Writes `name`.pdf and `name`.png, closes the figure and returns the two paths.
+def figure_bytes(figure, suffix, title):
+    """The figure as the content of a pdf, png or svg file, without a date: the same figure gives the
+    same bytes."""
+    metadata = {"pdf": {"Title": title, "Creator": "smoothfem", "CreationDate": None},
+                "png": {"Title": title, "Software": "smoothfem"},
+                "svg": {"Title": title, "Creator": "smoothfem", "Date": None}}[suffix]
+    stream = io.BytesIO()
+    figure.savefig(stream, format=suffix, dpi=DPI, metadata=metadata)
+    return stream.getvalue()
 
-    Neither file holds a date: the same results give the same bytes.
-    """
-    paths = []
-    for suffix, metadata in (("pdf", {"Title": title, "Creator": "smoothfem", "CreationDate": None}),
-                             ("png", {"Title": title, "Software": "smoothfem"})):
-        stream = io.BytesIO()
-        figure.savefig(stream, format=suffix, dpi=DPI, metadata=metadata)
-        paths.append(write_atomically(folder / f"{name}.{suffix}", stream.getvalue()))
+
+def save_figure(figure, folder, name, title):
+    """Writes `name`.pdf and `name`.png, closes the figure and returns the two paths."""
+    paths = [write_atomically(folder / f"{name}.{suffix}", figure_bytes(figure, suffix, title))
+             for suffix in ("pdf", "png")]
     pyplot.close(figure)
     return paths

@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "meshes/io/mesh_file.h"
+#include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/quality/warpage.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/histogram_figure.h"
 
 namespace smoothfem {
 
@@ -15,9 +19,14 @@ namespace {
 constexpr std::size_t n_bins = 10;
 
 struct Arguments {
-  std::string in;
+  std::string in, figure;
   bool json = false;
 };
+
+std::string plural(const std::string& type) {
+  if (type.ends_with("hedron")) return type.substr(0, type.size() - 2) + "a";
+  return type + "s";
+}
 
 std::map<std::string, std::size_t> count_types(const Topology& topology) {
   std::map<std::string, std::size_t> counts;
@@ -29,56 +38,90 @@ std::map<std::string, std::size_t> count_types(const Topology& topology) {
   return counts;
 }
 
-template <int dim>
-void print_text(const Mesh<dim>& mesh, const MeshQuality& q,
-                const std::vector<std::size_t>& histogram) {
-  const Topology& topology = mesh.topology();
-  std::printf("nodes      %zu (%zu fixed)\n", mesh.n_nodes(),
-              mesh.n_nodes() - topology.free_nodes().size());
+/// Numbers with the names that they have in JSON, and as text.
+struct NamedNumber {
+  const char *key, *text;
+  double value;
+};
+
+std::vector<NamedNumber> geometry_numbers(const PlanarMesh& mesh) {
+  const AngleRange angles = angle_range(mesh);
+  return {{"angle_min", "angle_min", angles.min}, {"angle_max", "angle_max", angles.max}};
+}
+std::vector<NamedNumber> geometry_numbers(const VolumeMesh& mesh) {
+  const MeshWarpage warpage = mesh_warpage(mesh);
+  const AngleRange angles = angle_range(mesh);
+  return {{"warpage_max", "w_max", warpage.max},
+          {"warpage_mean", "w_mean", warpage.mean},
+          {"dihedral_min", "dihedral_min", angles.min},
+          {"dihedral_max", "dihedral_max", angles.max}};
+}
+
+/// All that is said about a mesh.
+struct Report {
+  std::size_t n_nodes, n_fixed_nodes, n_cells;
+  std::map<std::string, std::size_t> cells;
+  MeshQuality quality;
+  std::vector<NamedNumber> geometry;
+  std::vector<std::size_t> histogram;
+};
+
+void print_text(const Report& r) {
   std::string types;
-  for (const auto& [type, count] : count_types(topology))
-    types +=
-        (types.empty() ? "" : ", ") + std::to_string(count) + " " + type + (count == 1 ? "" : "s");
-  std::printf("cells      %zu (%s)\n", mesh.n_cells(), types.c_str());
-  std::printf("q_min      %.6f\nq*_min     %.6f\nq_mean     %.6f\ninvalid    %zu\n", q.q_min,
-              q.q_star_min, q.q_mean, q.n_invalid);
-  const std::size_t most = *std::max_element(histogram.begin(), histogram.end());
+  for (const auto& [type, count] : r.cells)
+    types += (types.empty() ? "" : ", ") + std::to_string(count) + " " +
+             (count == 1 ? type : plural(type));
+  std::printf("%-13s%zu (%zu fixed)\n", "nodes", r.n_nodes, r.n_fixed_nodes);
+  std::printf("%-13s%zu (%s)\n", "cells", r.n_cells, types.c_str());
+  std::printf("%-13s%.6f\n%-13s%.6f\n%-13s%.6f\n%-13s%zu\n", "q_min", r.quality.q_min, "q*_min",
+              r.quality.q_star_min, "q_mean", r.quality.q_mean, "invalid", r.quality.n_invalid);
+  for (const auto& [key, text, value] : r.geometry) std::printf("%-13s%.6g\n", text, value);
+  const std::size_t most = *std::max_element(r.histogram.begin(), r.histogram.end());
   constexpr std::size_t width = 50;
   std::printf("mean ratio\n");
   for (std::size_t b = 0; b < n_bins; ++b)
     std::printf("  %.1f-%.1f %8zu %s\n", static_cast<double>(b) / n_bins,
-                static_cast<double>(b + 1) / n_bins, histogram[b],
-                std::string((histogram[b] * width + most - 1) / most, '#').c_str());
+                static_cast<double>(b + 1) / n_bins, r.histogram[b],
+                std::string((r.histogram[b] * width + most - 1) / most, '#').c_str());
 }
 
-template <int dim>
-void print_json(const Mesh<dim>& mesh, const MeshQuality& q,
-                const std::vector<std::size_t>& histogram) {
-  nlohmann::ordered_json json;
-  json["n_nodes"] = mesh.n_nodes();
-  json["n_fixed_nodes"] = mesh.n_nodes() - mesh.topology().free_nodes().size();
-  json["n_cells"] = mesh.n_cells();
-  json["cells"] = count_types(mesh.topology());
-  json["n_invalid"] = q.n_invalid;
-  json["q_min"] = q.q_min;
-  json["q_star_min"] = q.q_star_min;
-  json["q_mean"] = q.q_mean;
-  json["histogram"] = histogram;
+void print_json(const Report& r) {
+  nlohmann::ordered_json json = {{"n_nodes", r.n_nodes},
+                                 {"n_fixed_nodes", r.n_fixed_nodes},
+                                 {"n_cells", r.n_cells},
+                                 {"cells", r.cells},
+                                 {"n_invalid", r.quality.n_invalid},
+                                 {"q_min", r.quality.q_min},
+                                 {"q_star_min", r.quality.q_star_min},
+                                 {"q_mean", r.quality.q_mean}};
+  for (const auto& [key, text, value] : r.geometry) json[key] = value;
+  json["histogram"] = r.histogram;
   std::printf("%s\n", json.dump(2).c_str());
 }
 
 template <int dim>
 void report(const Arguments& arguments, const Mesh<dim>& mesh,
             const std::vector<std::size_t>& cell_lines) {
+  const Topology& topology = mesh.topology();
   const auto cell_quality = cell_mean_ratios(mesh);
-  const MeshQuality quality = mesh_quality(mesh.topology(), cell_quality);
-  const auto histogram = quality_histogram(cell_quality, n_bins);
-  (arguments.json ? print_json<dim> : print_text<dim>)(mesh, quality, histogram);
+  (arguments.json ? print_json
+                  : print_text)({.n_nodes = mesh.n_nodes(),
+                                 .n_fixed_nodes = mesh.n_nodes() - topology.free_nodes().size(),
+                                 .n_cells = mesh.n_cells(),
+                                 .cells = count_types(topology),
+                                 .quality = mesh_quality(topology, cell_quality),
+                                 .geometry = geometry_numbers(mesh),
+                                 .histogram = quality_histogram(cell_quality, n_bins)});
   std::fflush(stdout);
+  if (!arguments.figure.empty())
+    write_histogram_figure(arguments.figure,
+                           std::filesystem::path(arguments.in).filename().string(), topology,
+                           cell_quality);
   require_valid(mesh, arguments.in, cell_lines);
 }
 
 void report_quality(const Arguments& arguments) {
+  if (!arguments.figure.empty()) require_figure_path(arguments.figure);
   const MeshFile file = read_mesh(arguments.in);
   std::visit([&](const auto& mesh) { report(arguments, mesh, file.cell_lines); }, file.mesh);
 }
@@ -90,6 +133,8 @@ void add_quality_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "quality", "quality numbers of a mesh file; exit code 2 if it has invalid cells");
   command->add_option("in", arguments->in, "mesh to read")->required();
+  command->add_option("--histogram", arguments->figure,
+                      "picture (.png, .pdf or .svg) of the histogram");
   command->add_flag("--json", arguments->json, "as JSON");
   command->callback([arguments] { report_quality(*arguments); });
 }

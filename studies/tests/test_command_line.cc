@@ -10,7 +10,10 @@
 #include "fem/manufactured_solution.h"
 #include "meshes/generators/domains.h"
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/quality/warpage.h"
+#include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/command_line.h"
 
 namespace smoothfem {
@@ -94,6 +97,46 @@ TEST_F(CommandLine, QualityAsTextAndAsJson) {
   EXPECT_EQ(json.at("q_min"), expected.q_min);
   EXPECT_EQ(json.at("q_star_min"), expected.q_star_min);
   EXPECT_EQ(json.at("q_mean"), expected.q_mean);
+  EXPECT_EQ(json.at("angle_min"), angle_range(mixed_mesh(true)).min);
+  EXPECT_EQ(json.at("angle_max"), angle_range(mixed_mesh(true)).max);
+}
+
+TEST_F(CommandLine, QualityOfAVolumeMeshHasWarpageAndDihedralAngles) {
+  VolumeMesh mesh = test::box_mesh(2, 1, 1, test::BoxCells::hexahedra);
+  mesh.coordinates()[1].x() += 0.5;
+  write_mesh(file("in.vtu"), mesh);
+  const Outcome outcome = smoothfem({"quality", "in.vtu", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("cells").at("hexahedron"), 2);
+  EXPECT_EQ(json.at("n_fixed_nodes"), 12);
+  EXPECT_EQ(json.at("q_min"), mesh_quality(mesh).q_min);
+  EXPECT_EQ(json.at("warpage_max"), mesh_warpage(mesh).max);
+  EXPECT_EQ(json.at("warpage_mean"), mesh_warpage(mesh).mean);
+  EXPECT_EQ(json.at("dihedral_min"), angle_range(mesh).min);
+  EXPECT_EQ(json.at("dihedral_max"), angle_range(mesh).max);
+  const Outcome text = smoothfem({"quality", "in.vtu"});
+  EXPECT_NE(text.out.find("2 hexahedra"), std::string::npos) << text.out;
+}
+
+TEST_F(CommandLine, QualityDrawsAHistogram) {
+  write_mesh(file("in.vtu"), test::box_mesh(2, 2, 4, test::BoxCells::mixed));
+  for (const auto& [name, head] : {std::pair{"a.png", "\x89PNG"}, {"new/a.pdf", "%PDF"}}) {
+    const Outcome outcome = smoothfem({"quality", "in.vtu", "--histogram", name});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(content_of(file(name)).starts_with(head));
+  }
+  const Outcome other = smoothfem({"quality", "in.vtu", "--histogram", "a.bmp"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("must end with .png, .pdf or .svg"), std::string::npos) << other.err;
+  ::setenv("SMOOTHFEM_PYTHON", "/nowhere/python3", 1);
+  const Outcome no_python = smoothfem({"quality", "in.vtu", "--histogram", "b.png"});
+  ::unsetenv("SMOOTHFEM_PYTHON");
+  EXPECT_EQ(no_python.exit_code, 2);
+  EXPECT_NE(no_python.err.find("there is no Python at /nowhere/python3; set SMOOTHFEM_PYTHON"),
+            std::string::npos)
+      << no_python.err;
+  EXPECT_FALSE(fs::exists(file("b.png")));
 }
 
 TEST_F(CommandLine, QualityOfAnInvalidMeshIsShownBeforeItIsRefused) {
