@@ -101,12 +101,12 @@ void BlockConjugateGradients<dim>::prepare(const BlockMatrix<dim>& matrix) {
   columns_ = &matrix.columns();
   const std::size_t n = matrix.n_rows();
   inverse_factors_.resize(n);
-  parallel_for_ranges(n, row_grain, [&](std::size_t first, std::size_t last) {
+  for_row_ranges(n, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row)
       inverse_factors_[row] = inverse_factor<dim>(matrix.diagonal_block(row));
   });
   scaled_.resize(dim * dim * columns_->n_entries() + n_lanes);  // columns are read n_lanes at a time
-  parallel_for_ranges(n, row_grain, [&](std::size_t first, std::size_t last) {
+  for_row_ranges(n, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row)
       for (std::size_t k = columns_->offset(row); k < columns_->offset(row + 1); ++k) {
         const auto column = columns_->entries()[k];
@@ -135,7 +135,7 @@ double BlockConjugateGradients<dim>::norm(const BlockVector<dim>& residual) cons
 template <int dim>
 void BlockConjugateGradients<dim>::precondition(const BlockVector<dim>& residual,
                                                 BlockVector<dim>& result) const {
-  parallel_for_ranges(residual.size(), row_grain, [&](std::size_t first, std::size_t last) {
+  for_row_ranges(residual.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       result[i] = inverse_factors_[i].transpose() * (inverse_factors_[i] * residual[i]);
   });
@@ -161,7 +161,7 @@ typename BlockConjugateGradients<dim>::Result BlockConjugateGradients<dim>::solv
     BlockVector<dim>& result) {
   const std::size_t n = right.size();
   const auto scale_back = [&](BlockVector<dim>& scaled) {
-    parallel_for_ranges(n, row_grain, [&](std::size_t first, std::size_t last) {
+    for_row_ranges(n, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)
         scaled[i] = (inverse_factors_[i].transpose() * scaled[i]).eval();
     });
@@ -196,7 +196,7 @@ typename BlockConjugateGradients<dim>::Result BlockConjugateGradients<dim>::solv
     });
     const double beta = rho_new / rho;
     rho = rho_new;
-    parallel_for_ranges(n, row_grain, [&](std::size_t first, std::size_t last) {
+    for_row_ranges(n, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)
         direction_[i] = residual_[i] + beta * direction_[i];
     });

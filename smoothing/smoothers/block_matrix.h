@@ -18,11 +18,21 @@ using BlockVector = std::vector<Point<dim>>;
 /// Rows that one thread takes at a time: what fixes the order of sums over them.
 inline constexpr std::size_t row_grain = 1024;
 
+/// Calls work(first, last) for ranges of rows, by several threads where there are enough rows: with
+/// fewer, waiting for each other at the end of every loop costs more than it gains.
+template <class Work>
+void for_row_ranges(std::size_t n_rows, const Work& work) {
+  constexpr std::size_t min_rows = 16384;
+  if (n_rows >= min_rows) return parallel_for_ranges(n_rows, row_grain, work);
+  for (std::size_t first = 0; first < n_rows; first += row_grain)
+    work(first, std::min(first + row_grain, n_rows));
+}
+
 /// Sum of part(first, last) over ranges of rows, the same for every number of threads.
 template <class Part>
 double sum_over_ranges(std::size_t n_rows, const Part& part) {
   std::vector<double> parts((n_rows + row_grain - 1) / row_grain);
-  parallel_for_ranges(n_rows, row_grain, [&](std::size_t first, std::size_t last) {
+  for_row_ranges(n_rows, [&](std::size_t first, std::size_t last) {
     parts[first / row_grain] = part(first, last);
   });
   double sum = 0.0;
@@ -80,7 +90,7 @@ class BlockMatrix {
   Block& block(std::uint32_t position) { return blocks_[position]; }
   const Block& diagonal_block(std::size_t row) const { return blocks_[diagonal_[row]]; }
   void set_zero() {
-    parallel_for_ranges(blocks_.size(), row_grain, [&](std::size_t first, std::size_t last) {
+    for_row_ranges(blocks_.size(), [&](std::size_t first, std::size_t last) {
       std::fill(blocks_.begin() + first, blocks_.begin() + last, Block::Zero());
     });
   }

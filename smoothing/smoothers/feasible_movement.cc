@@ -138,7 +138,7 @@ template <int dim>
 double feasible_fractions(const Topology& topology, const std::vector<Point<dim>>& from,
                           const std::vector<Point<dim>>& to, double share,
                           std::vector<double>& limits) {
-  constexpr std::size_t grain = 4096;
+  constexpr std::size_t grain = 16384;
   std::vector<double> of_cells(topology.n_cells()), parts(topology.blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {
     parts[b] = cell_limits(topology, from, to, share, topology.blocks()[b], of_cells);

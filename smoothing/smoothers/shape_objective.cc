@@ -163,7 +163,7 @@ CompressedRows<std::uint32_t> coupled_unknowns(const Topology& topology,
   const auto& free_nodes = topology.free_nodes();
   std::vector<std::vector<std::uint32_t>> parts((free_nodes.size() + row_grain - 1) / row_grain);
   std::vector<std::size_t> offsets(free_nodes.size() + 1, 0);
-  parallel_for_ranges(free_nodes.size(), row_grain, [&](std::size_t first, std::size_t last) {
+  for_row_ranges(free_nodes.size(), [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> row;
     auto& part = parts[first / row_grain];
     for (std::size_t i = first; i < last; ++i) {

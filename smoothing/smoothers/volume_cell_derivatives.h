@@ -8,11 +8,12 @@ namespace smoothfem {
 /// f = |S|^2 / (3 det(S)^(2/3)): a convex function of S and det(S), so that all of f's Hessian is
 /// convex but the part with the second derivative of det(S). That part couples different nodes only
 /// (a determinant is linear in the place of each node) and says little of the shape: added up over
-/// equally large elements it vanishes. The convex model leaves it out, and half of the square of
-/// grad(h) / (2 m), which makes up for part of the overestimate in elements that have almost
-/// collapsed: h grows like det^(-4/3), a Newton step lets the determinant grow by 3/7, this model
-/// by 2/3. (A quarter of grad(f) grad(f)' / f is what f's Hessian can spare and stay positive
-/// semidefinite; by the inequality of Cauchy and Schwarz that holds for means of corners.)
+/// equally large elements it vanishes. The convex model leaves it out, but for a bound: f / 6 times
+/// |dS S^-1|^2, the strain of the element as it is, which keeps steps to lengths where determinants
+/// behave as their first derivatives say. Without it Newton steps are all but lost where elements
+/// have almost collapsed. It also leaves out 5/9 of grad(m) grad(m)', m the mean of the f's, to
+/// be bolder there: what all of this can spare and stay positive semidefinite (as 5/18 of
+/// grad(f) grad(f)' / f at each corner can).
 template <class Real, std::size_t n>
 class CellDerivatives<3, Real, n> {
  public:
@@ -26,7 +27,7 @@ class CellDerivatives<3, Real, n> {
     const Real scale = (2.0 / static_cast<double>(n_corners)) * mean;
     unrolled<n_corners>([&](auto k) SMOOTHFEM_INLINE_LAMBDA { add_corner<k>(x, scale, model); });
     // 2 m Hess(m) stands there now; grad(h) = 2 m grad(m), and h adds 2 grad(m) grad(m)'.
-    const Real factor = (model == HessianModel::exact ? 0.5 : -0.125) / (mean * mean);
+    const Real factor = (model == HessianModel::exact ? 0.5 : -5.0 / 36.0) / (mean * mean);
     for (std::size_t p = 0; p < n; ++p)
       for (std::size_t q = p; q < n; ++q)
         hessian[node_pair(n, p, q)].add_product(factor * gradient[p], gradient[q]);
@@ -43,7 +44,6 @@ class CellDerivatives<3, Real, n> {
     const Real value = scale * corner.value;
     const Real unit = 2.0 * value * corner.inverse_squared_norm, mixed = (-2.0 / 3.0) * unit;
     const Real slope = (-2.0 / 3.0) * value, square = (10.0 / 9.0) * value;
-    const Real twist = model == HessianModel::exact ? (2.0 / 3.0) * value : Real{};
     constexpr LocalSimplex places = VolumeElement<n>::corners[k];
     std::array<Vector3<Real>, 4> a, b;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -58,8 +58,10 @@ class CellDerivatives<3, Real, n> {
         block.add_product(a[i], c[j]);
         block.add_product(c[i], b[j]);
         if (corner_gram<n>[i][j] != 0.0) block.add_unit(corner_gram<n>[i][j] * unit);
-        if (i != j && model == HessianModel::exact)
-          add_cross_product(twist * cross(c[i], c[j]), block);
+        if (model == HessianModel::convex)
+          block.add_unit(((1.0 / 6.0) * value) * dot(c[i], c[j]));
+        else if (i != j)
+          add_cross_product(((2.0 / 3.0) * value) * cross(c[i], c[j]), block);
       }
   }
 
