@@ -46,18 +46,20 @@ class AbaqusReader {
  private:
   void read_block() {
     const std::string& keyword = lines_.keyword();
-    if (keyword == "NODE")
-      read_nodes();
-    else if (keyword == "ELEMENT")
-      read_elements();
+    if (keyword == "ASSEMBLY" || keyword == "END ASSEMBLY")
+      in_assembly_ = keyword == "ASSEMBLY";
+    else if (keyword == "INSTANCE")
+      read_instance();
+    else if (keyword == "END INSTANCE")
+      in_instance_ = false;
+    else if (keyword == "NODE" || keyword == "ELEMENT")
+      read_mesh_block(keyword);
     else if (keyword == "ELSET")
       read_element_set();
     else if (keyword == "NSET" && capitals(lines_.parameter("NSET")) == abaqus_fixed_set)
       for_each_range([&](const LabelRange& range) { fixed_.push_back(range); });
     else if (keyword == "PART" && ++n_parts_ > 1)
       lines_.fail("the file has several parts; save each of them as a file of its own");
-    else if (keyword == "INSTANCE")
-      read_instance();
     else if (keyword == "INCLUDE" || keyword == "SYSTEM" || keyword == "NGEN" ||
              keyword == "NFILL" || keyword == "NCOPY" || keyword == "ELGEN" || keyword == "ELCOPY")
       lines_.fail("*" + keyword +
@@ -65,7 +67,16 @@ class AbaqusReader {
                   "coordinates");
   }
 
+  void read_mesh_block(const std::string& keyword) {
+    // Reference points of an assembly have labels of their own and are no part of the mesh.
+    if (in_assembly_ && !in_instance_) return;
+    if (lines_.has_parameter("INPUT"))
+      lines_.fail("*" + keyword + " with INPUT is not supported; put the lines of that file here");
+    keyword == "NODE" ? read_nodes() : read_elements();
+  }
+
   void read_instance() {
+    in_instance_ = true;
     if (++n_instances_ > 1)
       lines_.fail("the assembly has several instances; save each of them as a file of its own");
     if (lines_.next_data())
@@ -74,15 +85,7 @@ class AbaqusReader {
           "final coordinates and without instances");
   }
 
-  void require_listed_here() {
-    if (lines_.has_parameter("INPUT"))
-      lines_.fail("*" + lines_.keyword() +
-                  " with INPUT is not supported; put the lines of that "
-                  "file here");
-  }
-
   void read_nodes() {
-    require_listed_here();
     if (capitals(lines_.parameter("SYSTEM", "R")) != "R")
       lines_.fail("only Cartesian coordinates are supported (*NODE without SYSTEM)");
     while (lines_.next_data()) {
@@ -96,7 +99,6 @@ class AbaqusReader {
   }
 
   void read_elements() {
-    require_listed_here();
     const std::string type = capitals(lines_.parameter("TYPE"));
     const auto element = abaqus_element(type);
     if (!element)
@@ -266,6 +268,7 @@ class AbaqusReader {
   std::vector<std::pair<LabelRange, std::size_t>> set_ranges_;
   std::map<std::pair<int, std::size_t>, int> tags_;
   int n_parts_ = 0, n_instances_ = 0;
+  bool in_assembly_ = false, in_instance_ = false;
 };
 
 }  // namespace

@@ -38,7 +38,8 @@ MeshLabels labels_of(MeshParts& parts, int dim) {
   labels.node_ids = worth_keeping(std::move(parts.node_ids));
   const auto& facets = parts.elements[dim - 1];
   for (std::size_t f = 0; f < facets.tags.size(); ++f) {
-    if (facets.tags[f] == 0) continue;
+    const bool fits = dim == 2 || facets.nodes[f].size() <= 4;  // no cell has such a face
+    if (facets.tags[f] == 0 || !fits) continue;
     labels.facets.append(facets.nodes[f]);
     labels.facet_tags.push_back(facets.tags[f]);
   }

@@ -29,8 +29,12 @@ void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
 
-/// Checks that the rows of the cell sections of a legacy file (versions below 5) fill exactly the
-/// announced size, which VTK relies on. Throws InputError that names the section.
-void check_legacy_vtk_cells(const std::filesystem::path& path, std::string_view content);
+/// Checks what VTK relies on in a legacy file: that field data are complete and the rows of
+/// the cell sections (in versions below 5) fill exactly the announced size. Throws InputError that
+/// names the section.
+void check_legacy_vtk_structure(const std::filesystem::path& path, std::string_view content);
+
+/// The same for a .vtu file: arrays of its field data have a type that VTK knows.
+void check_vtu_field_data(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace smoothfem

@@ -239,7 +239,7 @@ MeshFile read_legacy_vtk(const std::filesystem::path& path) {
     throw InputError(name +
                      ":1: the first line is not '# vtk DataFile Version ...'; this is not a "
                      "legacy VTK file");
-  check_legacy_vtk_cells(path, content);
+  check_legacy_vtk_structure(path, content);
   const VtkMessages messages;
   vtkNew<vtkGenericDataObjectReader> reader;
   reader->SetFileName(name.c_str());
@@ -266,6 +266,7 @@ MeshFile read_vtu(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (content.find("<VTKFile") == std::string::npos)
     throw InputError(name + ": the file has no element <VTKFile>; this is not a .vtu file");
+  check_vtu_field_data(path, content);
   const VtkMessages messages;
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!reader->CanReadFile(name.c_str()))

@@ -269,7 +269,8 @@ TEST_F(VolumeFiles, AbaqusSetsAreNames) {
       "*PART, NAME=one\n*NODE\n1,0,0,0\n2,1,0\n3,0,1,0\n4,0,0,1\n5,1,1,1.5D0\n"
       "*ELEMENT,TYPE=C3D4\n1,1,2,3,4\n2,2,5,3,4\n*ELEMENT, TYPE=S3, ELSET=\"the wall\"\n9,1,3,2\n"
       "*ELSET, ELSET=Steel, GENERATE\n2,8,2\n*ELSET,ELSET=all\n1,2,steel\n*END PART\n"
-      "*INSTANCE, NAME=one-1, PART=one\n*END INSTANCE\n"));
+      "*ASSEMBLY, NAME=a\n*INSTANCE, NAME=one-1, PART=one\n*END INSTANCE\n"
+      "*NODE\n1,9,9,9\n*NSET, NSET=reference\n1\n*END ASSEMBLY\n"));
   const MeshLabels& labels = std::get<VolumeMesh>(read.mesh).topology().labels();
   EXPECT_EQ(labels.facets.size(), 1u);
   EXPECT_EQ(labels.names.at({2, labels.facet_tags[0]}), "the wall");
