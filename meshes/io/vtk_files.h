@@ -12,10 +12,10 @@ namespace smoothfem {
 /// a plane triangles, quadrilaterals, pixels and polygons. Cells of one dimension less whose entry
 /// of the cell array `physical_tag` is not zero become labelled facets; other cells of lower
 /// dimension are ignored. Honoured are also the point array `fixed` (not zero = fixed), the arrays
-/// `node_id` and `cell_id`, and the field `physical_name`, strings "dimension tag name". All nodes
-/// are kept. Many programs write wedges in Gmsh's order (node_order.h): if more of a file's wedges
-/// have a positive volume in that order than in VTK's, it is taken for all of them. Refused:
-/// incomplete files, surfaces that are not planar, cells with mid-edge nodes, other cells.
+/// `node_id` and `cell_id`, and the field `physical_name`, characters of lines "dimension tag
+/// name". All nodes are kept. Many programs write wedges in Gmsh's order (node_order.h): if more of
+/// a file's wedges have a positive volume in that order than in VTK's, it is taken for all of them.
+/// Refused: incomplete files, surfaces that are not planar, cells with mid-edge nodes, other cells.
 MeshFile read_legacy_vtk(const std::filesystem::path& path);
 MeshFile read_vtu(const std::filesystem::path& path);
 

@@ -8,7 +8,6 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -16,6 +15,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 
 #include "meshes/io/line_reader.h"
@@ -119,13 +119,17 @@ class DataSetReader {
     for (vtkIdType i = 0; i < n; ++i) parts_.fixed->push_back(fixed->GetComponent(i, 0) != 0.0);
   }
 
-  /// Strings "dimension tag name" in the field data.
+  /// Lines "dimension tag name" in the field data, as characters.
   void read_names() {
-    auto* names =
-        vtkStringArray::SafeDownCast(data_.GetFieldData()->GetAbstractArray("physical_name"));
-    for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
-      if (!add_physical_name(names->GetValue(i), parts_))
-        fail("the field 'physical_name' has the entry '" + names->GetValue(i) +
+    vtkDataArray* characters = data_.GetFieldData()->GetArray("physical_name");
+    if (!characters) return;
+    std::string text;
+    for (vtkIdType i = 0; i < characters->GetNumberOfTuples(); ++i)
+      text += static_cast<char>(characters->GetComponent(i, 0));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      if (!add_physical_name(line, parts_))
+        fail("the field 'physical_name' has the line '" + line +
              "', which is not 'dimension tag name'");
   }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -61,6 +63,11 @@ std::string third_line(std::string_view content) {
   return line;
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 /// The section FIELD of a data set, before its points: VTK crashes where it cannot read it.
 class FieldSection {
  public:
@@ -71,13 +78,15 @@ class FieldSection {
     line();  // version
     line();  // name
     const bool binary = line().starts_with("BINARY");
-    line();  // DATASET
+    std::istringstream dataset(line());
     std::istringstream title(line());
-    std::string keyword, name;
+    std::string keyword, kind, name;
+    dataset >> keyword >> kind;
+    if (kind.find("FIELD") != kind.npos || !(dataset >> std::ws).eof()) return false;
     int n_arrays = -1;
     title >> keyword;
-    if (keyword != "FIELD") return true;
-    if (!(title >> name >> n_arrays) || n_arrays < 0) return false;
+    if (!lower_case(keyword).starts_with("field")) return true;  // all that VTK looks at
+    if (keyword.size() != 5 || !(title >> name >> n_arrays) || n_arrays < 0) return false;
     for (int i = 0; i < n_arrays && binary; ++i)
       if (!skip_array()) return false;
     return rest_.find("POINTS ") != rest_.npos;
@@ -114,12 +123,15 @@ class FieldSection {
     return true;
   }
 
-  /// 0 for a type that is not known; bits are packed, but then VTK refuses what is too short.
-  static std::size_t size_of(std::string_view type) {
-    if (type == "double" || type.ends_with("long") || type.ends_with("int64")) return 8;
-    if (type == "float" || type.ends_with("int") || type == "vtkIdType") return 4;
-    if (type.ends_with("short")) return 2;
-    return type.ends_with("char") ? 1 : 0;
+  /// 0 for a type that is not known.
+  static std::size_t size_of(const std::string& type) {
+    static const std::map<std::string, std::size_t> sizes = {
+        {"char", 1},           {"signed_char", 1}, {"unsigned_char", 1}, {"short", 2},
+        {"unsigned_short", 2}, {"int", 4},         {"unsigned_int", 4},  {"vtkidtype", 4},
+        {"float", 4},          {"long", 8},        {"unsigned_long", 8}, {"vtktypeint64", 8},
+        {"vtktypeuint64", 8},  {"double", 8}};
+    const auto size = sizes.find(lower_case(type));
+    return size == sizes.end() ? 0 : size->second;
   }
 
   /// The two highest bits of the first byte tell how many bytes hold the length.

@@ -7,8 +7,8 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -49,7 +49,7 @@ int vtk_type(ElementType type) {
 }
 
 template <class Array, class Values>
-void add_array(vtkDataSetAttributes& attributes, const std::string& name, const Values& values) {
+void add_array(vtkFieldData& attributes, const std::string& name, const Values& values) {
   vtkNew<Array> array;
   array->SetName(name.c_str());
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
@@ -132,11 +132,10 @@ void add_labels(const MeshLabels& labels, std::size_t n_cells, vtkUnstructuredGr
   if (!labels.node_ids.empty())
     add_array<vtkTypeInt64Array>(*grid.GetPointData(), "node_id", labels.node_ids);
   if (labels.names.empty()) return;
-  vtkNew<vtkStringArray> names;
-  names->SetName("physical_name");
-  for (const auto& [key, name] : labels.names)
-    names->InsertNextValue(physical_name_line(key, name));
-  grid.GetFieldData()->AddArray(names);
+  // Not as an array of strings: VTK crashes where such arrays are damaged.
+  std::string lines;
+  for (const auto& [key, name] : labels.names) lines += physical_name_line(key, name) + "\n";
+  add_array<vtkUnsignedCharArray>(*grid.GetFieldData(), "physical_name", lines);
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFields& fields) {
