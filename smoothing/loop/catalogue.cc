@@ -41,13 +41,30 @@ std::vector<MethodInfo> method_catalogue() {
   return infos;
 }
 
+namespace {
+
 template <int dim>
-Stages<dim> stages_of(const std::string& name) {
+const auto& factory_of(const std::string& name) {
   const StageFactories& factories = entry(name).factories;
   if constexpr (dim == 2)
-    return factories.planar();
+    return factories.planar;
   else
-    return factories.volume();
+    return factories.volume;
+}
+
+}  // namespace
+
+template <int dim>
+bool takes_meshes(const std::string& method) {
+  return static_cast<bool>(factory_of<dim>(method));
+}
+
+template <int dim>
+Stages<dim> stages_of(const std::string& name) {
+  if (!takes_meshes<dim>(name))
+    throw InputError("method " + name + " does not take " + (dim == 2 ? "planar" : "volume") +
+                     " meshes; choose another one (see 'list')");
+  return factory_of<dim>(name)();
 }
 
 template <int dim>
@@ -72,6 +89,8 @@ void Method<dim>::set(const std::string& name, const std::string& value) {
   set_value(find_parameter(parameters(), name, owner), value, owner);
 }
 
+template bool takes_meshes<2>(const std::string&);
+template bool takes_meshes<3>(const std::string&);
 template Stages<2> stages_of(const std::string&);
 template Stages<3> stages_of(const std::string&);
 template Method<2> make_method(const std::string&);

@@ -31,7 +31,8 @@ struct Method {
   void set(const std::string& name, const std::string& value);
 };
 
-/// How to make the stages of a method for planar and for volume meshes.
+/// How to make the stages of a method for planar and for volume meshes; empty where it takes none
+/// of these.
 struct StageFactories {
   std::function<Stages<2>()> planar;
   std::function<Stages<3>()> volume;
@@ -45,7 +46,12 @@ struct RegisteredMethod {
 /// All registered methods, sorted by name.
 std::vector<MethodInfo> method_catalogue();
 
-/// A method with its default parameters; throws InputError listing the names there are.
+/// True if the method takes meshes of dimension dim.
+template <int dim>
+bool takes_meshes(const std::string& method);
+
+/// A method with its default parameters. Throws InputError listing the names there are, or saying
+/// that the method does not take meshes of dimension dim.
 template <int dim>
 Method<dim> make_method(const std::string& name);
 

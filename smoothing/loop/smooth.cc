@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/mesh/reordering.h"
@@ -28,24 +29,24 @@ class SmoothingClock {
 template <int dim>
 class BestMesh {
  public:
-  BestMesh(ResultMesh rule, const std::vector<Point<dim>>& coordinates, const MeshQuality& quality)
+  BestMesh(ResultMesh rule, const std::vector<Point<dim>>& coordinates, const MeshQuality& quality,
+           double score)
       : rule_(rule) {
     if (rule_ == ResultMesh::last) return;
-    best_ = number(quality);
+    best_ = number(quality, score);
     coordinates_ = coordinates;
   }
 
-  /// True if this mesh is the new best. moved: nodes that have moved since the last offer, null if
-  /// they are not known.
+  /// True if this mesh, which the step has just reached, is the new best.
   bool offer(const std::vector<Point<dim>>& coordinates, const MeshQuality& quality,
-             const std::vector<NodeIndex>* moved) {
+             const StepReport& report) {
     if (rule_ == ResultMesh::last) return false;
-    if (moved)
+    if (const auto* moved = report.moved)
       moved_since_best_.insert(moved_since_best_.end(), moved->begin(), moved->end());
     else
       all_moved_ = true;
-    if (quality.n_invalid > 0 || !(number(quality) > best_)) return false;
-    best_ = number(quality);
+    if (quality.n_invalid > 0 || !(number(quality, report.score) > best_)) return false;
+    best_ = number(quality, report.score);
     if (all_moved_)
       coordinates_ = coordinates;
     else
@@ -61,7 +62,8 @@ class BestMesh {
   }
 
  private:
-  double number(const MeshQuality& quality) const {
+  double number(const MeshQuality& quality, double score) const {
+    if (rule_ == ResultMesh::best_score) return score;
     return rule_ == ResultMesh::best_q_mean ? quality.q_mean : quality.q_star_min;
   }
 
@@ -70,6 +72,25 @@ class BestMesh {
   std::vector<Point<dim>> coordinates_;
   std::vector<NodeIndex> moved_since_best_;
   bool all_moved_ = false;
+};
+
+/// The highest q_min and q_mean met so far, and how long ago.
+class QualityRecord {
+ public:
+  explicit QualityRecord(const MeshQuality& initial)
+      : q_min_(initial.q_min), q_mean_(initial.q_mean) {}
+
+  void add(const MeshQuality& quality) {
+    const bool gain = quality.q_min > q_min_ || quality.q_mean > q_mean_;
+    n_without_gain_ = gain ? 0 : n_without_gain_ + 1;
+    q_min_ = std::max(q_min_, quality.q_min);
+    q_mean_ = std::max(q_mean_, quality.q_mean);
+  }
+  int n_without_gain() const { return n_without_gain_; }
+
+ private:
+  double q_min_, q_mean_;
+  int n_without_gain_ = 0;
 };
 
 /// Over the edges of every cell: an inner edge counts once a cell, as in the thesis' stopping rule.
@@ -122,20 +143,22 @@ class SmoothingRun {
     StageResult result{std::string(smoother.name()), 0};
     clock_.start();
     smoother.initialize(state_);
-    BestMesh<dim> best(rule.result, state_.mesh.coordinates(), quality_);
+    BestMesh<dim> best(rule.result, state_.mesh.coordinates(), quality_, smoother.initial_score());
     clock_.stop();
     int n_without_best = 0;
+    QualityRecord highest(quality_);
     for (int i = 0; i < rule.max_iterations; ++i) {
       const MeshQuality before = quality_;
       clock_.start();
       const StepReport report = guarded_step(smoother, rule);
       n_without_best =
-          best.offer(state_.mesh.coordinates(), quality_, report.moved) ? 0 : n_without_best + 1;
+          best.offer(state_.mesh.coordinates(), quality_, report) ? 0 : n_without_best + 1;
       clock_.stop();
       complete_quality(rule, report);
       result.iterations += report.n_counted;
       observe(result.name, result.iterations, report.n_reset);
-      if (stops(rule, report, before, n_without_best)) break;
+      highest.add(quality_);
+      if (stops(rule, report, before, n_without_best, highest)) break;
     }
     clock_.start();
     best.restore(state_.mesh.coordinates());
@@ -205,13 +228,16 @@ class SmoothingRun {
   }
 
   bool stops(const SmoothingRule& rule, const StepReport& report, const MeshQuality& before,
-             int n_without_best) const {
+             int n_without_best, const QualityRecord& highest) const {
     switch (rule.criterion) {
       case StoppingCriterion::q_mean_gain:
         return !(quality_.q_mean - before.q_mean > rule.tolerance);
+      case StoppingCriterion::q_mean_change:
+        return std::abs(quality_.q_mean - before.q_mean) <= rule.tolerance ||
+               highest.n_without_gain() >= rule.patience;
       case StoppingCriterion::max_displacement:
         return report.max_displacement < rule.tolerance * mean_edge_length_;
-      case StoppingCriterion::q_star_min_stall:
+      case StoppingCriterion::result_stall:
         return n_without_best >= rule.patience;
       case StoppingCriterion::converged:
         return report.converged;

@@ -28,13 +28,21 @@ enum class QualityUse {
 };
 
 /// The mesh a method ends with.
-enum class ResultMesh { last, best_q_mean, best_q_star_min };
+enum class ResultMesh {
+  last,
+  best_q_mean,
+  best_q_star_min,
+  best_score  ///< as the steps report it
+};
 
 /// When to stop.
 enum class StoppingCriterion {
-  q_mean_gain,       ///< q_mean rose by no more than `tolerance` in an iteration
+  q_mean_gain,  ///< q_mean rose by no more than `tolerance` in an iteration
+  /// q_mean changed by no more than `tolerance`, or `patience` iterations in a row without a new
+  /// highest q_min or q_mean
+  q_mean_change,
   max_displacement,  ///< no node moved `tolerance` times the initial mean edge length
-  q_star_min_stall,  ///< `patience` iterations in a row without a new highest q*_min
+  result_stall,      ///< `patience` iterations in a row without a new best mesh (ResultMesh)
   converged,         ///< the step says so
 };
 
@@ -61,6 +69,7 @@ struct StepReport {
   /// q*_min where the rest would take a look at every cell.
   std::optional<MeshQuality> quality = {};
   std::optional<double> q_star_min = {};
+  double score = 0.0;  ///< of the mesh, for ResultMesh::best_score
   /// The nodes that the step has moved, where these are few; otherwise null. Valid until the next
   /// step.
   const std::vector<NodeIndex>* moved = nullptr;
@@ -81,6 +90,9 @@ class Smoother {
 
   /// Called once before the first step; what depends on the topology alone belongs here.
   virtual void initialize(const SmoothingState<dim, spacedim>& /*state*/) {}
+
+  /// Score of the mesh given to initialize, for ResultMesh::best_score.
+  virtual double initial_score() const { return 0.0; }
 
   /// Moves free nodes of state.mesh: one iteration. Must not move fixed nodes.
   virtual StepReport step(SmoothingState<dim, spacedim>& state) = 0;

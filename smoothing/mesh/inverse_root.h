@@ -8,9 +8,8 @@
 namespace smoothfem {
 
 /// Inverse p-th root x^(-1/p), p = 2, 3 or 4, for positive normal numbers; relative error below
-/// 4e-16 times p. Additions and multiplications only: the same bits on every machine, and faster
-/// than square roots and divisions where several are needed. Zero gives a large finite number, so
-/// that 0 * inverse_root(0) is 0; negative numbers give anything.
+/// 4e-16. Additions and multiplications only: the same bits on every machine. Zero and negative
+/// numbers give anything.
 ///
 /// The logarithm of a number is nearly linear in the integer that its bits make: dividing that by
 /// -p gives a start with four percent of error, which each of the two steps takes to its fourth

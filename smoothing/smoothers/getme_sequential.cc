@@ -2,6 +2,7 @@
 
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/min_tree.h"
+#include "smoothing/quality/warpage.h"
 #include "smoothing/smoothers/element_regularization.h"
 #include "smoothing/smoothers/local_quality.h"
 
@@ -25,13 +26,70 @@ ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
   return element;
 }
 
-/// Transforms the element with the lowest corrected quality, alone, again and again (thesis,
-/// Section 4.3, Fig. 4.3). A step is a cycle of such transformations, after which q*_min is looked
-/// at.
+/// Qualities of some cells; false as soon as one is invalid.
 template <int dim>
+SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
+                                           std::vector<double>& quality) {
+  return for_each_mean_ratio<dim>(
+      mesh.topology(), cells,
+      [&](NodeIndex i)
+          SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return mesh.coordinates()[i]; },
+      [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {
+        quality[position] = q;
+        return q > 0.0;
+      });
+}
+SMOOTHFEM_VECTOR_CLONES
+bool evaluate(const PlanarMesh& mesh, std::span<const CellIndex> cells,
+              std::vector<double>& quality) {
+  return mean_ratios_if_valid<2>(mesh, cells, quality);
+}
+SMOOTHFEM_VECTOR_CLONES
+bool evaluate(const VolumeMesh& mesh, std::span<const CellIndex> cells,
+              std::vector<double>& quality) {
+  return mean_ratios_if_valid<3>(mesh, cells, quality);
+}
+
+/// By which quality the next element is chosen: its mean ratio.
+template <int dim>
+struct ByMeanRatio {
+  static constexpr std::string_view stage_name = "sequential";
+  static constexpr ResultMesh result = ResultMesh::best_q_star_min;
+  static constexpr int cycle = 100, patience = 10;
+
+  Parameters parameters() { return {}; }
+  double operator()(const Mesh<dim>&, CellIndex, double mean_ratio) const { return mean_ratio; }
+};
+
+/// Or q_gamma = min(mean ratio, gamma (1 - warpage / 2)) (thesis, Section 4.7).
+template <int dim>
+struct ByMeanRatioAndWarpage {
+  static constexpr std::string_view stage_name = "qgamma";
+  static constexpr ResultMesh result = ResultMesh::best_score;
+  static constexpr int cycle = 1, patience = 100;
+  double gamma = 0.25;
+
+  Parameters parameters() {
+    return {{"gamma",
+             "weight of the warpage: large values raise the mean ratio, small ones flatten faces "
+             "(Section 4.7)",
+             &gamma, 1e-9, 1e9}};
+  }
+  double operator()(const Mesh<dim>& mesh, CellIndex cell, double mean_ratio) const {
+    double warpage = 0.0;
+    with_corners<dim>(mesh.topology().cell_nodes(cell), mesh.coordinates(),
+                      [&](auto corners) { warpage = element_warpage(corners); });
+    return std::min(mean_ratio, gamma * (1.0 - 0.5 * warpage));
+  }
+};
+
+/// Transforms the element with the lowest corrected quality, alone, again and again (thesis,
+/// Section 4.3, Fig. 4.3). A step is a cycle of such transformations, after which the lowest
+/// quality is looked at. Assessment: what quality is.
+template <int dim, template <int> class Assessment>
 class GetmeSequential final : public Smoother<dim> {
  public:
-  std::string_view name() const override { return "sequential"; }
+  std::string_view name() const override { return Assessment<dim>::stage_name; }
 
   Parameters parameters() override {
     Parameters all = element_.parameters();
@@ -42,17 +100,20 @@ class GetmeSequential final : public Smoother<dim> {
          0.0, 1.0},
         {"penalty_success", "added when the transformation is kept; penalties never fall below 0",
          &penalty_success_, -1.0, 0.0},
-        {"cycle", "transformations between two looks at q*_min (Section 6.2)", &cycle_, 1.0, 1e9},
-        {"patience", "stop after this many looks without a new best q*_min", &patience_, 1.0, 1e9},
+        {"cycle", "transformations between two looks at the lowest quality (Section 6.2)", &cycle_,
+         1.0, 1e9},
+        {"patience", "stop after this many looks without a higher lowest quality", &patience_, 1.0,
+         1e9},
         {"max_cycles", "stop after this many cycles at the latest", &max_cycles_, 1.0, 1e9}};
     all.insert(all.end(), own.begin(), own.end());
+    for (auto& parameter : assess_.parameters()) all.push_back(std::move(parameter));
     return all;
   }
 
   SmoothingRule rule() const override {
     return {.quality_use = QualityUse::smoother,
-            .result = ResultMesh::best_q_star_min,
-            .criterion = StoppingCriterion::q_star_min_stall,
+            .result = Assessment<dim>::result,
+            .criterion = StoppingCriterion::result_stall,
             .patience = patience_,
             .max_iterations = max_cycles_};
   }
@@ -61,9 +122,9 @@ class GetmeSequential final : public Smoother<dim> {
   void initialize(const SmoothingState<dim>& state) override {
     element_.prepare();
     const auto& topology = state.mesh.topology();
-    std::vector<double> keys = state.cell_quality;
+    std::vector<double> keys(topology.n_cells(), MinTree::never);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
-      if (!topology.has_free_node(c)) keys[c] = MinTree::never;
+      if (topology.has_free_node(c)) keys[c] = assess_(state.mesh, c, state.cell_quality[c]);
     by_quality_.build(keys);
     by_corrected_quality_.build(std::move(keys));
     penalties_.assign(topology.n_cells(), 0.0);
@@ -72,31 +133,53 @@ class GetmeSequential final : public Smoother<dim> {
     last_picked_ = no_cell;
   }
 
+  double initial_score() const override { return lowest_quality(); }
+
   StepReport step(SmoothingState<dim>& state) override {
     StepReport report{.n_counted = 0};
     moved_in_cycle_.clear();
     for (int i = 0; i < cycle_ && !by_corrected_quality_.empty(); ++i) {
-      const CellIndex worst = by_corrected_quality_.top();
+      const CellIndex worst = worst_cell(state);
       transform(state, worst);
       const bool kept = accept_or_undo(state);
       update_penalty(worst, kept);
       if (kept)
         for (const CellIndex c : touched_) {
-          by_quality_.update(c, state.cell_quality[c]);
-          by_corrected_quality_.update(c, state.cell_quality[c] + penalties_[c]);
+          by_quality_.update(c, assess_(state.mesh, c, state.cell_quality[c]));
+          by_corrected_quality_.update(c, by_quality_.key(c) + penalties_[c]);
         }
       else
         ++report.n_reset;
-      by_corrected_quality_.update(worst, state.cell_quality[worst] + penalties_[worst]);
+      by_corrected_quality_.update(worst, by_quality_.key(worst) + penalties_[worst]);
       ++report.n_counted;
     }
-    if (!by_quality_.empty()) report.q_star_min = by_quality_.key(by_quality_.top());
+    report.score = lowest_quality();
+    if (Assessment<dim>::result == ResultMesh::best_q_star_min && !by_quality_.empty())
+      report.q_star_min = report.score;
     report.moved = &moved_in_cycle_;
     return report;
   }
 
  private:
   static constexpr CellIndex no_cell = static_cast<CellIndex>(-1);
+
+  double lowest_quality() const {
+    return by_quality_.empty() ? 0.0 : by_quality_.key(by_quality_.top());
+  }
+
+  /// Of two elements whose quality is that of the face they share, the one with the lower mean
+  /// ratio (thesis, Section 4.7).
+  CellIndex worst_cell(const SmoothingState<dim>& state) const {
+    CellIndex worst = by_corrected_quality_.top();
+    if (Assessment<dim>::result == ResultMesh::best_q_star_min) return worst;
+    const double key = by_corrected_quality_.key(worst);
+    for (const NodeIndex node : state.mesh.topology().cell_nodes(worst))
+      for (const CellIndex c : state.mesh.topology().node_cells(node))
+        if (by_corrected_quality_.key(c) == key &&
+            state.cell_quality[c] < state.cell_quality[worst])
+          worst = c;
+    return worst;
+  }
 
   /// Sets the free nodes of a cell to their transformed places; remembers the old ones.
   void transform(SmoothingState<dim>& state, CellIndex cell) {
@@ -144,15 +227,13 @@ class GetmeSequential final : public Smoother<dim> {
     last_picked_ = cell;
   }
 
-  static bool evaluate(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
-                       std::vector<double>& quality);
-
   ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
+  Assessment<dim> assess_;
   double penalty_invalid_ = 1e-4;
   double penalty_repeated_ = 1e-5;
   double penalty_success_ = -1e-3;
-  int cycle_ = 100;
-  int patience_ = 10;
+  int cycle_ = Assessment<dim>::cycle;
+  int patience_ = Assessment<dim>::patience;
   int max_cycles_ = 100000;
 
   MinTree by_quality_, by_corrected_quality_;
@@ -167,38 +248,30 @@ class GetmeSequential final : public Smoother<dim> {
   std::vector<double> new_quality_;
 };
 
-/// False as soon as a cell is invalid.
 template <int dim>
-SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
-                                           std::vector<double>& quality) {
-  return for_each_mean_ratio<dim>(
-      mesh.topology(), cells,
-      [&](NodeIndex i)
-          SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return mesh.coordinates()[i]; },
-      [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {
-        quality[position] = q;
-        return q > 0.0;
-      });
-}
-template <>
-SMOOTHFEM_VECTOR_CLONES bool GetmeSequential<2>::evaluate(const PlanarMesh& mesh,
-                                                          std::span<const CellIndex> cells,
-                                                          std::vector<double>& quality) {
-  return mean_ratios_if_valid<2>(mesh, cells, quality);
-}
-template <>
-SMOOTHFEM_VECTOR_CLONES bool GetmeSequential<3>::evaluate(const VolumeMesh& mesh,
-                                                          std::span<const CellIndex> cells,
-                                                          std::vector<double>& quality) {
-  return mean_ratios_if_valid<3>(mesh, cells, quality);
-}
+using Sequential = GetmeSequential<dim, ByMeanRatio>;
 
 const RegisteredMethod registered({.name = "getme-sequential",
                                    .title = "GETMe sequential",
                                    .description = "transforms the worst element, one at a time; "
                                                   "second stage of GETMe",
                                    .source = "Section 4.3, Fig. 4.3; parameters of Chapter 6"},
-                                  single_stage<GetmeSequential>());
+                                  single_stage<Sequential>());
+
+/// GETMe, then the sequential method on q_gamma from its mesh.
+Stages<3> make_qgamma_stages() {
+  Stages<3> stages = stages_of<3>("getme");
+  stages.push_back(std::make_unique<GetmeSequential<3, ByMeanRatioAndWarpage>>());
+  return stages;
+}
+
+const RegisteredMethod registered_qgamma(
+    {.name = "getme-qgamma",
+     .title = "GETMe q_gamma",
+     .description = "GETMe, then the sequential method on the lower of mean ratio and weighted "
+                    "warpage of the faces; volume meshes",
+     .source = "Section 4.7; parameters of Section 5.4.4"},
+    {{}, make_qgamma_stages});
 
 }  // namespace
 }  // namespace smoothfem

@@ -4,184 +4,302 @@
 #include <Eigen/Geometry>
 
 #include "smoothing/loop/smooth.h"
-#include "smoothing/tests/planar_meshes.h"
+#include "smoothing/mesh/parallel.h"
+#include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
 namespace {
 
+using test::box_mesh;
+using test::BoxCells;
 using test::grid_mesh;
 using test::GridCells;
 
-std::vector<std::pair<std::string, PlanarMesh>> distorted_meshes() {
-  std::vector<std::pair<std::string, PlanarMesh>> all{
-      {"triangles", grid_mesh(7, GridCells::triangles)},
-      {"quadrilaterals", grid_mesh(7, GridCells::quadrilaterals)},
-      {"mixed", grid_mesh(7, GridCells::mixed)},
-      {"pentagons", test::pentagon_mesh()},
-      {"hexagons", test::honeycomb_mesh()}};
+template <int dim>
+using NamedMeshes = std::vector<std::pair<std::string, Mesh<dim>>>;
+
+template <int dim>
+NamedMeshes<dim> regular_topologies() {
+  if constexpr (dim == 2)
+    return {{"triangles", grid_mesh(7, GridCells::triangles)},
+            {"quadrilaterals", grid_mesh(7, GridCells::quadrilaterals)},
+            {"mixed", grid_mesh(7, GridCells::mixed)},
+            {"pentagons", test::pentagon_mesh()},
+            {"hexagons", test::honeycomb_mesh()}};
+  else
+    return {{"tetrahedra", box_mesh(4, 4, 4, BoxCells::tetrahedra)},
+            {"pyramids", box_mesh(4, 3, 3, BoxCells::pyramids)},
+            {"prisms", box_mesh(4, 4, 4, BoxCells::prisms)},
+            {"hexahedra", box_mesh(4, 4, 4, BoxCells::hexahedra)},
+            {"mixed", box_mesh(3, 4, 6, BoxCells::mixed)}};
+}
+
+template <int dim>
+NamedMeshes<dim> distorted_meshes() {
+  auto all = regular_topologies<dim>();
   for (auto& [name, mesh] : all) test::distort(mesh, 0.25, 7);
   return all;
 }
 
-class EveryMethod : public testing::TestWithParam<std::string> {
- protected:
-  /// The method with so few iterations that differences in rounding cannot grow.
-  static Method<2> short_method() {
-    Method<2> method = make_method<2>(GetParam());
-    for (const auto& parameter : method.parameters())
-      if (parameter.name.ends_with("max_iterations") || parameter.name.ends_with("max_cycles"))
-        method.set(parameter.name, "5");
-    return method;
-  }
-  static bool claims_validity() {
-    for (const auto& stage : make_method<2>(GetParam()).stages)
-      if (!stage->rule().needs_valid_mesh) return false;
-    return true;
-  }
-};
+/// Meshes that are where every method wants them.
+template <int dim>
+std::vector<Mesh<dim>> regular_patches() {
+  if constexpr (dim == 2)
+    return {grid_mesh(6, GridCells::quadrilaterals), grid_mesh(6, GridCells::triangles, true),
+            test::honeycomb_mesh()};
+  else
+    return {box_mesh(4, 4, 4, BoxCells::hexahedra), test::equilateral_prisms(5, 3)};
+}
 
-double farthest(const PlanarMesh& a, const PlanarMesh& b) {
+/// A mesh with one node beyond its neighbours.
+template <int dim>
+Mesh<dim> tangled_mesh() {
+  auto mesh = [] {
+    if constexpr (dim == 2)
+      return grid_mesh(4, GridCells::triangles);
+    else
+      return box_mesh(4, 4, 4, BoxCells::hexahedra);
+  }();
+  const NodeIndex moved = mesh.topology().free_nodes()[0];
+  mesh.coordinates()[moved] += Point<dim>::Constant(2.2);
+  return mesh;
+}
+
+template <int dim>
+double farthest(const Mesh<dim>& a, const Mesh<dim>& b) {
   double longest = 0.0;
   for (std::size_t i = 0; i < a.n_nodes(); ++i)
     longest = std::max(longest, (a.coordinates()[i] - b.coordinates()[i]).norm());
   return longest;
 }
 
-TEST_P(EveryMethod, ImprovesDistortedMeshesOfEveryTypeAndMovesOnlyFreeNodes) {
-  for (const auto& [name, mesh] : distorted_meshes()) {
-    PlanarMesh result = mesh;
-    Method<2> method = make_method<2>(GetParam());
-    smooth(result, method);
-    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      if (mesh.topology().is_fixed(i)) {
-        EXPECT_EQ(result.coordinates()[i], mesh.coordinates()[i]) << name << " node " << i;
-      }
-    EXPECT_EQ(&result.topology(), &mesh.topology()) << name;
-    EXPECT_GT(mesh_quality(result).q_star_min, mesh_quality(mesh).q_star_min) << name;
-    EXPECT_GT(mesh_quality(result).q_mean, mesh_quality(mesh).q_mean) << name;
+template <int dim>
+Eigen::Matrix<double, dim, dim> rotation() {
+  if constexpr (dim == 2)
+    return Eigen::Rotation2Dd(0.9).toRotationMatrix();
+  else
+    return Eigen::AngleAxisd(0.9, Point<3>(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+}
+
+class EveryMethod : public testing::TestWithParam<std::string> {
+ protected:
+  /// Calls check<dim>() for the dimensions that the method takes.
+  template <class Check>
+  static void in_every_dimension(const Check& check) {
+    if (takes_meshes<2>(GetParam())) check.template operator()<2>();
+    if (takes_meshes<3>(GetParam())) check.template operator()<3>();
   }
+  template <int dim>
+  static Method<dim> method() {
+    return make_method<dim>(GetParam());
+  }
+  /// The method with so few iterations that differences in rounding cannot grow.
+  template <int dim>
+  static Method<dim> short_method(const std::string& n_iterations = "5") {
+    Method<dim> method = make_method<dim>(GetParam());
+    for (const auto& parameter : method.parameters())
+      if (parameter.name.ends_with("max_iterations") || parameter.name.ends_with("max_cycles"))
+        method.set(parameter.name, n_iterations);
+    return method;
+  }
+  template <int dim>
+  static bool claims_validity() {
+    for (const auto& stage : make_method<dim>(GetParam()).stages)
+      if (!stage->rule().needs_valid_mesh) return false;
+    return true;
+  }
+};
+
+TEST_P(EveryMethod, ImprovesDistortedMeshesOfEveryTypeAndMovesOnlyFreeNodes) {
+  in_every_dimension([]<int dim>() {
+    for (const auto& [name, mesh] : distorted_meshes<dim>()) {
+      Mesh<dim> result = mesh;
+      auto made = method<dim>();
+      smooth(result, made);
+      for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+        if (mesh.topology().is_fixed(i)) {
+          EXPECT_EQ(result.coordinates()[i], mesh.coordinates()[i]) << name << " node " << i;
+        }
+      EXPECT_EQ(&result.topology(), &mesh.topology()) << name;
+      EXPECT_GT(mesh_quality(result).q_star_min, mesh_quality(mesh).q_star_min) << name;
+      EXPECT_GT(mesh_quality(result).q_mean, mesh_quality(mesh).q_mean) << name;
+    }
+  });
 }
 
 TEST_P(EveryMethod, LeavesRegularPatchesWhereTheyAre) {
-  for (const auto& mesh : {grid_mesh(6, GridCells::quadrilaterals),
-                           grid_mesh(6, GridCells::triangles, true), test::honeycomb_mesh()}) {
-    PlanarMesh result = mesh;
-    Method<2> method = short_method();
-    smooth(result, method);
-    EXPECT_LT(farthest(result, mesh), 1e-11);
-  }
+  in_every_dimension([]<int dim>() {
+    for (const auto& mesh : regular_patches<dim>()) {
+      Mesh<dim> result = mesh;
+      auto made = short_method<dim>();
+      smooth(result, made);
+      EXPECT_LT(farthest(result, mesh), 1e-11);
+    }
+  });
 }
 
 TEST_P(EveryMethod, CommutesWithSimilarities) {
-  const Eigen::Rotation2Dd rotation(0.9);
-  const Point<2> shift(30.0, -70.0);
-  for (const double scale : {1e-3, 25.0})
-    for (const auto& [name, mesh] : distorted_meshes()) {
-      const auto similar = [&](PlanarMesh m) {
-        for (auto& p : m.coordinates()) p = scale * (rotation * p + shift);
-        return m;
-      };
-      PlanarMesh here = mesh, there = similar(mesh);
-      Method<2> first = short_method(), second = short_method();
-      const auto a = smooth(here, first), b = smooth(there, second);
-      EXPECT_EQ(a.iterations_text(), b.iterations_text()) << name;
-      EXPECT_LT(farthest(similar(here), there), 1e-9 * scale) << name;
-    }
+  in_every_dimension([]<int dim>() {
+    const Eigen::Matrix<double, dim, dim> turned = rotation<dim>();
+    const Point<dim> shift = Point<dim>::LinSpaced(30.0, -70.0);
+    for (const double scale : {1e-9, 1e-3, 25.0, 1e9})
+      for (const auto& [name, mesh] : distorted_meshes<dim>()) {
+        const auto similar = [&](Mesh<dim> m) {
+          for (auto& p : m.coordinates()) p = scale * (turned * p + shift);
+          return m;
+        };
+        Mesh<dim> here = mesh, there = similar(mesh);
+        auto first = short_method<dim>(), second = short_method<dim>();
+        const auto a = smooth(here, first), b = smooth(there, second);
+        EXPECT_EQ(a.iterations_text(), b.iterations_text()) << name << ' ' << scale;
+        EXPECT_LT(farthest(similar(here), there), 1e-8 * scale) << name << ' ' << scale;
+      }
+  });
 }
 
 TEST_P(EveryMethod, GivesTheSameBitsTwice) {
-  for (const auto& [name, mesh] : distorted_meshes()) {
-    PlanarMesh first = mesh, second = mesh;
-    Method<2> method = make_method<2>(GetParam()), other = make_method<2>(GetParam());
-    smooth(first, method);
-    smooth(second, other);
-    EXPECT_EQ(first.coordinates(), second.coordinates()) << name;
-    PlanarMesh again = mesh;
-    smooth(again, method);
-    EXPECT_EQ(first.coordinates(), again.coordinates()) << name << ": the method keeps a state";
-  }
+  in_every_dimension([]<int dim>() {
+    for (const auto& [name, mesh] : distorted_meshes<dim>()) {
+      Mesh<dim> first = mesh, second = mesh;
+      auto made = method<dim>(), other = method<dim>();
+      smooth(first, made);
+      smooth(second, other);
+      EXPECT_EQ(first.coordinates(), second.coordinates()) << name;
+      Mesh<dim> again = mesh;
+      smooth(again, made);
+      EXPECT_EQ(first.coordinates(), again.coordinates()) << name << ": the method keeps a state";
+    }
+  });
 }
 
 TEST_P(EveryMethod, TellsTheObserverEveryIteration) {
-  for (const auto& [name, mesh] : distorted_meshes()) {
-    PlanarMesh result = mesh;
-    Method<2> method = make_method<2>(GetParam());
-    std::vector<IterationRecord> records;
-    const auto summary = smooth(result, method, [&](const auto& record, const auto& seen) {
-      const MeshQuality quality = mesh_quality(seen);
-      EXPECT_EQ(record.quality.q_min, quality.q_min) << name;
-      EXPECT_EQ(record.quality.q_mean, quality.q_mean) << name;
-      EXPECT_EQ(record.quality.q_star_min, quality.q_star_min) << name;
-      if (record.record == 0) {
-        EXPECT_EQ(seen.coordinates(), mesh.coordinates()) << name;
+  in_every_dimension([]<int dim>() {
+    for (const auto& [name, mesh] : distorted_meshes<dim>()) {
+      Mesh<dim> result = mesh;
+      auto made = method<dim>();
+      std::vector<IterationRecord> records;
+      const auto summary = smooth(result, made, [&](const auto& record, const auto& seen) {
+        const MeshQuality quality = mesh_quality(seen);
+        EXPECT_EQ(record.quality.q_min, quality.q_min) << name;
+        EXPECT_EQ(record.quality.q_mean, quality.q_mean) << name;
+        EXPECT_EQ(record.quality.q_star_min, quality.q_star_min) << name;
+        if (record.record == 0) {
+          EXPECT_EQ(seen.coordinates(), mesh.coordinates()) << name;
+        }
+        records.push_back(record);
+      });
+      ASSERT_GT(records.size(), made.stages.size()) << name;
+      EXPECT_EQ(records[0].stage, "initial");
+      for (std::size_t i = 1; i < records.size(); ++i) {
+        EXPECT_EQ(records[i].record, i);
+        EXPECT_GE(records[i].smoothing_seconds, records[i - 1].smoothing_seconds);
+        if (records[i].stage == records[i - 1].stage) {
+          EXPECT_GT(records[i].iteration, records[i - 1].iteration);
+        }
       }
-      records.push_back(record);
-    });
-    ASSERT_GT(records.size(), method.stages.size()) << name;
-    EXPECT_EQ(records[0].stage, "initial");
-    for (std::size_t i = 1; i < records.size(); ++i) {
-      EXPECT_EQ(records[i].record, i);
-      EXPECT_GE(records[i].smoothing_seconds, records[i - 1].smoothing_seconds);
-      if (records[i].stage == records[i - 1].stage) {
-        EXPECT_GT(records[i].iteration, records[i - 1].iteration);
-      }
+      EXPECT_EQ(records.back().iteration, summary.stages.back().iterations);
+      EXPECT_EQ(summary.quality.q_mean, mesh_quality(result).q_mean) << name;
     }
-    EXPECT_EQ(records.back().iteration, summary.stages.back().iterations);
-    EXPECT_EQ(summary.quality.q_mean, mesh_quality(result).q_mean) << name;
-  }
+  });
+}
+
+TEST_P(EveryMethod, GivesTheSameMeshWithAndWithoutObserver) {
+  in_every_dimension([]<int dim>() {
+    for (const auto& [name, mesh] : distorted_meshes<dim>()) {
+      Mesh<dim> seen = mesh, unseen = mesh;
+      auto made = method<dim>(), other = method<dim>();
+      const auto a = smooth(seen, made, [](const auto&, const auto&) {});
+      const auto b = smooth(unseen, other);
+      EXPECT_EQ(seen.coordinates(), unseen.coordinates()) << name;
+      EXPECT_EQ(a.quality.q_mean, b.quality.q_mean) << name;
+      EXPECT_EQ(a.iterations_text(), b.iterations_text()) << name;
+    }
+  });
 }
 
 TEST_P(EveryMethod, KeepsTheMeshValidIfItClaimsSo) {
-  if (!claims_validity()) GTEST_SKIP() << "does not claim it";
-  for (auto& [name, mesh] : distorted_meshes()) {
-    test::distort(mesh, 0.9, 11);
-    Method<2> method = make_method<2>(GetParam());
-    smooth(mesh, method, [&](const IterationRecord& record, const PlanarMesh& seen) {
-      EXPECT_EQ(mesh_quality(seen).n_invalid, 0u) << name << ' ' << record.record;
-    });
-  }
+  in_every_dimension([]<int dim>() {
+    if (!claims_validity<dim>()) GTEST_SKIP() << "does not claim it";
+    for (auto& [name, mesh] : distorted_meshes<dim>()) {
+      test::distort(mesh, 0.9, 11);
+      auto made = method<dim>();
+      smooth(mesh, made, [&](const IterationRecord& record, const auto& seen) {
+        EXPECT_EQ(mesh_quality(seen).n_invalid, 0u) << name << ' ' << record.record;
+      });
+    }
+  });
 }
 
 TEST_P(EveryMethod, RefusesTangledMeshesIfItNeedsValidOnes) {
-  auto mesh = grid_mesh(4, GridCells::triangles);
-  mesh.coordinates()[6] = {3.0, 3.5};
-  const auto tangled = mesh.coordinates();
-  Method<2> method = make_method<2>(GetParam());
-  if (claims_validity()) {
-    EXPECT_THROW(smooth(mesh, method), InputError);
-    EXPECT_EQ(mesh.coordinates(), tangled);
-  } else {
-    EXPECT_NO_THROW(smooth(mesh, method));
-    EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u) << "these grids untangle";
-  }
+  in_every_dimension([]<int dim>() {
+    auto mesh = tangled_mesh<dim>();
+    const auto tangled = mesh.coordinates();
+    auto made = method<dim>();
+    if (claims_validity<dim>()) {
+      EXPECT_THROW(smooth(mesh, made), InputError);
+      EXPECT_EQ(mesh.coordinates(), tangled);
+    } else {
+      EXPECT_NO_THROW(smooth(mesh, made));
+      EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u) << "these grids untangle";
+    }
+  });
 }
 
 TEST_P(EveryMethod, TakesUnusedNodes) {
-  const auto grid = grid_mesh(5, GridCells::quadrilaterals);
-  test::Cells cells;
-  for (CellIndex c = 0; c < grid.n_cells(); ++c) {
-    const auto nodes = grid.topology().cell_nodes(c);
-    cells.emplace_back(nodes.begin(), nodes.end());
-  }
-  auto coordinates = grid.coordinates();
-  coordinates.emplace_back(2.2, 2.2);
-  auto with_unused = test::make_mesh(coordinates, cells), without = grid;
-  test::distort(with_unused, 0.3, 2);
-  test::distort(without, 0.3, 2);
-  Method<2> method = make_method<2>(GetParam()), other = make_method<2>(GetParam());
-  smooth(with_unused, method);
-  smooth(without, other);
-  EXPECT_EQ(with_unused.coordinates().back(), Point<2>(2.2, 2.2));
-  for (std::size_t i = 0; i < without.n_nodes(); ++i)
-    EXPECT_EQ(with_unused.coordinates()[i], without.coordinates()[i]) << i;
+  in_every_dimension([]<int dim>() {
+    auto without = regular_topologies<dim>()[1].second;
+    auto coordinates = without.coordinates();
+    coordinates.push_back(Point<dim>::Constant(2.2));
+    Mesh<dim> with_unused(
+        std::make_shared<const Topology>(dim, coordinates.size(), without.topology().cells()),
+        coordinates);
+    test::distort(with_unused, 0.3, 2);
+    test::distort(without, 0.3, 2);
+    auto made = method<dim>(), other = method<dim>();
+    smooth(with_unused, made);
+    smooth(without, other);
+    EXPECT_EQ(with_unused.coordinates().back(), Point<dim>::Constant(2.2));
+    for (std::size_t i = 0; i < without.n_nodes(); ++i)
+      EXPECT_EQ(with_unused.coordinates()[i], without.coordinates()[i]) << i;
+  });
 }
 
 TEST_P(EveryMethod, TakesMeshesWithNothingToMove) {
-  auto mesh = test::make_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}});
-  const auto before = mesh.coordinates();
-  Method<2> method = make_method<2>(GetParam());
-  smooth(mesh, method);
-  EXPECT_EQ(mesh.coordinates(), before);
+  in_every_dimension([]<int dim>() {
+    for (const auto& [name, free] : regular_topologies<dim>()) {
+      Mesh<dim> mesh(std::make_shared<const Topology>(dim, free.n_nodes(), free.topology().cells(),
+                                                      std::vector<bool>(free.n_nodes(), true)),
+                     free.coordinates());
+      auto made = method<dim>();
+      smooth(mesh, made);
+      EXPECT_EQ(mesh.coordinates(), free.coordinates()) << name;
+    }
+  });
+}
+
+/// Large enough for several blocks of cells and another order inside.
+TEST_P(EveryMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
+  const int usual = n_threads();
+  in_every_dimension([]<int dim>() {
+    auto mesh = [] {
+      if constexpr (dim == 2)
+        return grid_mesh(140, GridCells::mixed);
+      else
+        return box_mesh(22, 22, 34, BoxCells::mixed);
+    }();
+    test::distort(mesh, 0.6, 3);
+    ASSERT_GT(mesh.topology().blocks().size(), 1u);
+    std::vector<Mesh<dim>> results;
+    for (const int threads : {1, 2, 3, 8}) {
+      set_n_threads(threads);
+      results.push_back(mesh);
+      auto made = short_method<dim>("3");
+      smooth(results.back(), made);
+      EXPECT_EQ(results.back().coordinates(), results.front().coordinates()) << threads;
+    }
+    EXPECT_NE(results.front().coordinates(), mesh.coordinates());
+  });
+  set_n_threads(usual);
 }
 
 std::vector<std::string> method_names() {

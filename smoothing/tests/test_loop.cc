@@ -6,6 +6,7 @@
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/loop/min_tree.h"
+#include "smoothing/loop/preset.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/planar_meshes.h"
 
@@ -61,15 +62,84 @@ TEST(Catalogue, HasTheBuiltInMethodsAndNamesThemInErrors) {
               HasSubstr("there is no method 'getmee'; choose one of getme, "));
 }
 
+template <int dim>
+void expect_documented_defaults(const std::string& method_name) {
+  if (!takes_meshes<dim>(method_name)) {
+    EXPECT_THAT(message_of([&] { make_method<dim>(method_name); }), HasSubstr("does not take"));
+    return;
+  }
+  Method<dim> method = make_method<dim>(method_name);
+  for (const auto& parameter : method.parameters()) {
+    const std::string text = value_text(parameter);
+    EXPECT_NO_THROW(set_value(parameter, text, method_name)) << parameter.name;
+    EXPECT_EQ(value_text(parameter), text);
+    EXPECT_FALSE(parameter.description.empty()) << parameter.name;
+  }
+}
+
 TEST(Catalogue, DefaultsLieInTheirRangesAndAreDocumented) {
   for (const auto& info : method_catalogue()) {
-    Method<2> method = make_method<2>(info.name);
-    for (const auto& parameter : method.parameters()) {
-      EXPECT_FALSE(parameter.description.empty()) << info.name << ' ' << parameter.name;
-      EXPECT_NO_THROW(method.set(parameter.name, value_text(parameter)))
-          << info.name << ' ' << parameter.name;
+    EXPECT_FALSE(info.title.empty() || info.description.empty() || info.source.empty());
+    expect_documented_defaults<2>(info.name);
+    expect_documented_defaults<3>(info.name);
+  }
+}
+
+TEST(Parameters, TakeNamesAndLists) {
+  int position = 0;
+  std::vector<double> numbers{1.0, 0.25};
+  const Parameter choice{"c", "", Choice{&position, {"one", "two"}}};
+  const Parameter list{"l", "", &numbers, 0.0, 1.0};
+  set_value(choice, "two", "method x");
+  EXPECT_EQ(position, 1);
+  EXPECT_EQ(value_text(choice), "two");
+  EXPECT_THAT(message_of([&] { set_value(choice, "three", "method x"); }),
+              HasSubstr("parameter c is given as 'three'; choose one of one, two"));
+  EXPECT_EQ(value_text(list), "1, 0.25");
+  set_value(list, "0.5, 0.125,0", "method x");
+  EXPECT_EQ(numbers, (std::vector<double>{0.5, 0.125, 0.0}));
+  for (const std::string bad : {"", "0.5,,1", "0.5, 2", "a"})
+    EXPECT_THROW(set_value(list, bad, "method x"), InputError) << bad;
+}
+
+TEST(Presets, SetParametersThatExist) {
+  for (const Preset& preset : presets()) {
+    EXPECT_FALSE(preset.description.empty() || preset.source.empty());
+    for (const auto& info : method_catalogue()) {
+      const auto apply = [&]<int dim>() {
+        if (!takes_meshes<dim>(info.name)) return;
+        Method<dim> method = make_method<dim>(info.name);
+        const bool meant =
+            std::any_of(method.stages.begin(), method.stages.end(), [&](const auto& stage) {
+              return std::any_of(preset.settings.begin(), preset.settings.end(),
+                                 [&](const auto& setting) {
+                                   return setting.dim == dim && setting.stage == stage->name();
+                                 });
+            });
+        const std::string message = message_of([&] { apply_preset(preset, method); });
+        EXPECT_EQ(message == "nothing thrown", meant)
+            << preset.name << ' ' << info.name << ": " << message;
+      };
+      apply.operator()<2>();
+      apply.operator()<3>();
     }
   }
+}
+
+TEST(Presets, HaveTheParametersOfTheText) {
+  const auto text = [](const std::string& preset, const std::string& method_name,
+                       const std::string& parameter) {
+    Method<3> method = make_method<3>(method_name);
+    apply_preset(find_preset(preset), method);
+    return value_text(find_parameter(method.parameters(), parameter, "test"));
+  };
+  EXPECT_EQ(text("thesis-5.2", "getme", "simultaneous.scaling"), "mean-volume");
+  EXPECT_EQ(text("thesis-5.3", "getme", "simultaneous.sigma_hexahedron_max"), "0.6");
+  EXPECT_EQ(text("thesis-5.4", "getme-qgamma", "qgamma.penalty_success"), "-0.01");
+  EXPECT_EQ(text("thesis-5.5", "getme-adaptive", "min.relaxation"), "0.5, 0.25, 0.1, 0.01, 0");
+  EXPECT_EQ(text("thesis-5.5", "smart-laplace", "tolerance"), "0.0001");
+  EXPECT_EQ(text("thesis-6.3", "getme", "simultaneous.sigma_tetrahedron_max"), "50.7");
+  EXPECT_THAT(message_of([] { find_preset("thesis-9"); }), HasSubstr("thesis-5.1, thesis-5.2"));
 }
 
 TEST(Catalogue, StagesNameTheirParameters) {

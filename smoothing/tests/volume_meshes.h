@@ -63,6 +63,15 @@ inline VolumeMesh box_mesh(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz,
   return make_volume_mesh(x, cells);
 }
 
+/// n x n rhombs of two equilateral triangles each, in n_layers layers of regular prisms.
+inline VolumeMesh equilateral_prisms(std::uint32_t n, std::uint32_t n_layers) {
+  VolumeMesh mesh = box_mesh(n, n, n_layers, BoxCells::prisms);
+  // The diagonal that cuts a square becomes an edge of length one.
+  for (auto& p : mesh.coordinates())
+    p = Point<3>(p.x() - 0.5 * p.y(), 0.5 * std::numbers::sqrt3 * p.y(), p.z());
+  return mesh;
+}
+
 /// Moves each free node by up to `radius` in each direction where its cells stay valid.
 inline void distort(VolumeMesh& mesh, double radius, std::uint64_t seed) {
   Random random(seed);

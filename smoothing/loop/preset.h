@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "smoothing/loop/catalogue.h"
+
+namespace smoothfem {
+
+/// A named set of parameters: those of an experiment in the literature.
+struct Preset {
+  /// One parameter of the stage with this name, in methods for meshes of dimension dim.
+  struct Setting {
+    int dim;
+    std::string stage, parameter, value;
+  };
+
+  std::string name;
+  std::string description;
+  std::string source;
+  std::vector<Setting> settings;
+};
+
+/// The parameter sets of the thesis' Chapters 5 and 6.
+const std::vector<Preset>& presets();
+
+/// Throws InputError listing the names there are.
+const Preset& find_preset(const std::string& name);
+
+/// Sets the parameters of the method's stages that the preset names. Throws InputError if it names
+/// none of them; the sentence says which stages it has parameters for.
+template <int dim>
+void apply_preset(const Preset& preset, Method<dim>& method);
+
+}  // namespace smoothfem
