@@ -25,10 +25,12 @@ void require_in_range(const DistortionParameters& p) {
   if (!(p.tolerance > 0.0)) throw InputError("the distortion's tolerance must be positive");
 }
 
-/// Uniform in the unit disk. By rejection: sine and cosine differ between machines.
-Point<2> point_in_unit_disk(SplitMix64& random) {
+/// Uniform in the unit ball. By rejection: sine and cosine differ between machines.
+template <int dim>
+Point<dim> point_in_unit_ball(SplitMix64& random) {
   while (true) {
-    const Point<2> point(2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0);
+    Point<dim> point;
+    for (int d = 0; d < dim; ++d) point[d] = 2.0 * random.uniform() - 1.0;
     if (point.squaredNorm() <= 1.0) return point;
   }
 }
@@ -36,9 +38,10 @@ Point<2> point_in_unit_disk(SplitMix64& random) {
 /// In a ball larger than the node's cells few places are valid; some nodes have hardly any.
 constexpr int tries_per_candidate = 20;
 
+template <int dim>
 class Distortion {
  public:
-  Distortion(const PlanarMesh& mesh, const DistortionParameters& parameters)
+  Distortion(const Mesh<dim>& mesh, const DistortionParameters& parameters)
       : mesh_(mesh), original_(mesh.coordinates()), parameters_(parameters) {
     const Topology& topology = mesh.topology();
     edge_length_.resize(mesh.n_nodes(), 0.0);
@@ -66,8 +69,8 @@ class Distortion {
     const auto n_cells = static_cast<double>(mesh_.n_cells());
     double excess = (mesh_quality(mesh_).q_mean - target) * n_cells;
     for (const NodeIndex node : mesh_.topology().free_nodes()) {
-      Point<2>& place = mesh_.coordinates()[node];
-      const Point<2> from = place, to = worst_place(node, parameters_.n_sweeps, radius);
+      Point<dim>& place = mesh_.coordinates()[node];
+      const Point<dim> from = place, to = worst_place(node, parameters_.n_sweeps, radius);
       const auto degree = static_cast<double>(mesh_.topology().node_cells(node).size());
       const double before = quality_around(node);
       place = to;
@@ -92,19 +95,19 @@ class Distortion {
     return false;
   }
 
-  const PlanarMesh& mesh() const { return mesh_; }
+  const Mesh<dim>& mesh() const { return mesh_; }
 
  private:
   /// The worst valid place of those a node chooses from; the present one if there is none.
-  Point<2> worst_place(NodeIndex node, int sweep, double radius) {
-    Point<2>& place = mesh_.coordinates()[node];
-    const Point<2> present = place;
-    Point<2> worst = present;
+  Point<dim> worst_place(NodeIndex node, int sweep, double radius) {
+    Point<dim>& place = mesh_.coordinates()[node];
+    const Point<dim> present = place;
+    Point<dim> worst = present;
     double worst_quality = 2.0;  // above every mean ratio
     SplitMix64 random = counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
     const int n_tries = tries_per_candidate * parameters_.n_candidates;
     for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
-      place = original_[node] + radius * edge_length_[node] * point_in_unit_disk(random);
+      place = original_[node] + radius * edge_length_[node] * point_in_unit_ball<dim>(random);
       const double quality = quality_around(node);
       if (!(quality > 0.0)) continue;
       ++n_valid;
@@ -129,8 +132,8 @@ class Distortion {
     return sum / static_cast<double>(cells.size());
   }
 
-  PlanarMesh mesh_;
-  std::vector<Point<2>> original_;
+  Mesh<dim> mesh_;
+  std::vector<Point<dim>> original_;
   std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
   DistortionParameters parameters_;
 };
@@ -148,7 +151,18 @@ std::string not_reached(double target, double q_lowest, double q_initial) {
 
 }  // namespace
 
-DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameters) {
+template <int dim>
+double distort_within(Mesh<dim>& mesh, double radius, const DistortionParameters& parameters) {
+  require_in_range(parameters);
+  require_valid(mesh);
+  Distortion<dim> distortion(mesh, parameters);
+  const double q_mean = distortion.apply(radius);
+  mesh.coordinates() = distortion.mesh().coordinates();
+  return q_mean;
+}
+
+template <int dim>
+DistortionResult distort(Mesh<dim>& mesh, const DistortionParameters& parameters) {
   require_in_range(parameters);
   require_valid(mesh);
   const double target = parameters.target_q_mean;
@@ -161,7 +175,7 @@ DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameter
 
   // The mean quality falls with the radius until the balls hold all valid places: the first step
   // below the target brackets the radius.
-  Distortion distortion(mesh, parameters);
+  Distortion<dim> distortion(mesh, parameters);
   double lower = 0.0, upper = 0.0, q_lowest = q_initial;
   for (int step = 1; step <= n_scan_steps && q_lowest >= target; ++step) {
     lower = upper;
@@ -182,5 +196,10 @@ DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameter
   mesh.coordinates() = distortion.mesh().coordinates();
   return result;
 }
+
+template double distort_within(Mesh<2>&, double, const DistortionParameters&);
+template double distort_within(Mesh<3>&, double, const DistortionParameters&);
+template DistortionResult distort(Mesh<2>&, const DistortionParameters&);
+template DistortionResult distort(Mesh<3>&, const DistortionParameters&);
 
 }  // namespace smoothfem

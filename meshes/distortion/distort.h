@@ -32,6 +32,13 @@ struct DistortionResult {
 /// with the mesh unchanged, for an invalid mesh, parameters out of range (target in (0, 1),
 /// n_candidates and n_sweeps >= 1, tolerance > 0) and a target that no radius reaches, with the
 /// range that can be reached.
-DistortionResult distort(PlanarMesh& mesh, const DistortionParameters& parameters);
+template <int dim>
+DistortionResult distort(Mesh<dim>& mesh, const DistortionParameters& parameters);
+
+/// The same with balls of a given radius (relative, about 0.65 and two sweeps for tetrahedra, 0.9 and
+/// one for hexahedra give the mean quality of the thesis' distorted volume meshes) instead of a
+/// target; returns the mean quality that this gives.
+template <int dim>
+double distort_within(Mesh<dim>& mesh, double radius, const DistortionParameters& parameters);
 
 }  // namespace smoothfem

@@ -50,6 +50,20 @@ TEST_P(EveryFormat, RoundTripKeepsCoordinatesCellsAndFixedNodes) {
   expect_same_mesh(read_planar(target("deeper/folder/a")).mesh, mesh);
 }
 
+TEST_P(EveryFormat, RoundTripKeepsLabels) {
+  if (!GetParam().holds_physical_names) return;
+  MeshLabels labels;
+  labels.cell_tags = {7, 7, 3, 3, 7, 3};
+  labels.facets.append(std::vector<NodeIndex>{1, 2});
+  labels.facets.append(std::vector<NodeIndex>{0, 1});
+  labels.facet_tags = {5, 4};
+  labels.names = {{{2, 7}, "steel, 2 = hard"}, {{2, 3}, "air gap"}, {{1, 5}, "inlet"}};
+  labels.node_ids = {4, 5, 6, 8, 9, 10, 11, 12, 13, 1000000};
+  labels.cell_ids = {2, 3, 4, 7, 8, 9};
+  write_mesh(target("a"), mixed_mesh(false, labels));
+  EXPECT_EQ(read_planar(target("a")).mesh.topology().labels(), labels);
+}
+
 TEST_P(EveryFormat, PolygonsAreHeldOrRefused) {
   const std::string message = input_error_of([&] { write_mesh(target("a"), mixed_mesh(true)); });
   if (GetParam().holds_polygons)
