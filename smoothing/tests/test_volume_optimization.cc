@@ -275,7 +275,7 @@ TEST(VolumeGlobalOptimization, RescuesBarelyValidElements) {
         lowest = std::min(lowest, cell_mean_ratio(mesh, c));
       return lowest;
     };
-    while (move_to(valid) > 1e-7 && invalid - valid > 1e-15) {
+    while (move_to(valid) > 1e-7 && invalid - valid > 1e-10) {
       const double middle = 0.5 * (valid + invalid);
       (move_to(middle) > 0.0 ? valid : invalid) = middle;
     }

@@ -1,0 +1,246 @@
+#include "smoothing/smoothers/vertex_descent.h"
+
+#include <Eigen/Dense>
+
+#include "smoothing/mesh/cell_blocks.h"
+#include "smoothing/mesh/parallel.h"
+#include "smoothing/smoothers/node_terms.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// The nodes of a cell in an order that turns the cell so that the node at `position` comes first;
+/// the top of a pyramid stays where it is.
+template <int dim, std::size_t n>
+constexpr std::array<LocalIndex, n> turned(std::size_t position) {
+  std::array<LocalIndex, n> order{};
+  const auto set = [&](std::size_t k, std::size_t node) {
+    order[k] = static_cast<LocalIndex>(node);
+  };
+  if constexpr (dim == 2) {
+    for (std::size_t k = 0; k < n; ++k) set(k, (position + k) % n);
+  } else if constexpr (n == 4) {
+    for (std::size_t k = 0; k < n; ++k) set(k, position ^ k);
+  } else if constexpr (n == 5) {
+    for (std::size_t k = 0; k < 4; ++k) set(k, (position + k) % 4);
+    set(4, 4);
+  } else {
+    constexpr std::size_t m = n / 2;  // upside down if the node is above
+    const bool above = position >= m;
+    for (std::size_t k = 0; k < m; ++k) {
+      const std::size_t turn = (position + (above ? m - k : k)) % m;
+      set(k, above ? m + turn : turn);
+      set(m + k, above ? turn : m + turn);
+    }
+  }
+  return order;
+}
+template <int dim, std::size_t n>
+inline constexpr auto turned_orders = [] {
+  std::array<std::array<LocalIndex, n>, n> orders{};
+  for (std::size_t p = 0; p < n; ++p) orders[p] = turned<dim, n>(p);
+  return orders;
+}();
+
+SMOOTHFEM_INLINE std::size_t position_of(NodeIndex node, std::span<const NodeIndex> nodes) {
+  return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+}
+
+/// Calls visit(nodes, slot, lanes) for the cells of a node, several of one kind at a time: places of
+/// their nodes with the node itself at `slot` (a std::integral_constant), and how many of the lanes
+/// count.
+template <int dim, class Visit>
+SMOOTHFEM_INLINE void for_each_cell_of_node(const Topology& topology,
+                                            const std::vector<Point<dim>>& x, NodeIndex node,
+                                            const Point<dim>& place, const Visit& visit) {
+  const auto cells = topology.node_cells(node);
+  const auto place_of = [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& {
+    return i == node ? place : x[i];
+  };
+  const auto is_top = [&](std::span<const NodeIndex> nodes) {
+    return dim == 3 && nodes.size() == 5 && nodes[4] == node;
+  };
+  for (std::size_t first = 0; first < cells.size();) {
+    const auto nodes = topology.cell_nodes(cells[first]);
+    const bool top = is_top(nodes);
+    std::size_t count = 1;
+    while (count < n_lanes && first + count < cells.size()) {
+      const auto others = topology.cell_nodes(cells[first + count]);
+      if (others.size() != nodes.size() || is_top(others) != top) break;
+      ++count;
+    }
+    with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
+      constexpr std::size_t n = decltype(size)::value;
+      if constexpr (n == 0) {
+        count = 1;
+        std::vector<Vector<dim, double>> corners;
+        const std::size_t at = position_of(node, nodes);
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          corners.push_back(vector_of(place_of(nodes[(at + k) % nodes.size()])));
+        visit(std::span<const Vector<dim, double>>(corners),
+              std::integral_constant<std::size_t, 0>{}, count);
+      } else {
+        std::array<std::array<NodeIndex, n>, n_lanes> turned_nodes;
+        std::array<const NodeIndex*, n_lanes> rows;
+        for (std::size_t l = 0; l < n_lanes; ++l) {
+          const auto row = topology.cell_nodes(cells[first + std::min(l, count - 1)]);
+          const auto& order = turned_orders<dim, n>[position_of(node, row)];
+          for (std::size_t k = 0; k < n; ++k) turned_nodes[l][k] = row[order[k]];
+          rows[l] = turned_nodes[l].data();
+        }
+        const auto corners = gather_cells<n, dim>(place_of, rows);
+        const std::span<const Vector<dim, Lanes>, n> span(corners);
+        if constexpr (dim == 3 && n == 5) {
+          if (top) {
+            visit(span, std::integral_constant<std::size_t, 4>{}, count);
+            return;
+          }
+        }
+        visit(span, std::integral_constant<std::size_t, 0>{}, count);
+      }
+    });
+    first += count;
+  }
+}
+
+SMOOTHFEM_INLINE double sum_of_first(double value, std::size_t) {
+  return value;
+}
+SMOOTHFEM_INLINE double sum_of_first(Lanes value, std::size_t count) {
+  double sum = 0.0;
+  for (std::size_t l = 0; l < count; ++l) sum += value[l];
+  return sum;
+}
+template <class Real>
+SMOOTHFEM_INLINE Point<2> sum_of_first(Vector2<Real> v, std::size_t count) {
+  return {sum_of_first(v.x, count), sum_of_first(v.y, count)};
+}
+template <class Real>
+SMOOTHFEM_INLINE Point<3> sum_of_first(Vector3<Real> v, std::size_t count) {
+  return {sum_of_first(v.x, count), sum_of_first(v.y, count), sum_of_first(v.z, count)};
+}
+
+template <int dim>
+struct LocalObjective {
+  double value = 0.0;
+  Point<dim> gradient = Point<dim>::Zero();
+  Eigen::Matrix<double, dim, dim> hessian = Eigen::Matrix<double, dim, dim>::Zero();
+};
+
+/// Of the cells of a node, with that at `place`.
+template <bool with_derivatives, int dim>
+SMOOTHFEM_INLINE LocalObjective<dim> local_objective(const Topology& topology,
+                                                     const std::vector<Point<dim>>& x,
+                                                     NodeIndex node, const Point<dim>& place,
+                                                     double softness) {
+  LocalObjective<dim> sum;
+  for_each_cell_of_node<dim>(
+      topology, x, node, place,
+      [&](auto nodes, auto slot, std::size_t count) SMOOTHFEM_INLINE_LAMBDA {
+        const auto terms = node_terms<slot, with_derivatives>(nodes, softness);
+        sum.value += sum_of_first(terms.value, count);
+        if constexpr (with_derivatives) {
+          sum.gradient += sum_of_first(terms.gradient, count);
+          for (int i = 0; i < dim * dim; ++i)
+            sum.hessian.data()[i] +=
+                sum_of_first(terms.hessian.entries[static_cast<std::size_t>(i)], count);
+        }
+      });
+  return sum;
+}
+
+/// Mean |det(S)| of the corners of a node's cells.
+template <int dim>
+SMOOTHFEM_INLINE double mean_size(const Topology& topology, const std::vector<Point<dim>>& x,
+                                  NodeIndex node) {
+  double sum = 0.0, n = 0.0;
+  for_each_cell_of_node<dim>(
+      topology, x, node, x[node],
+      [&](auto nodes, auto slot, std::size_t count) SMOOTHFEM_INLINE_LAMBDA {
+        for_each_corner<slot>(nodes, [&](const auto& corner, int) SMOOTHFEM_INLINE_LAMBDA {
+          const auto determinant =
+              (1.0 / corner.regular_determinant) * frame_determinant(corner.edges);
+          sum += sum_of_first(determinant > 0.0 ? determinant : -determinant, count);
+          n += static_cast<double>(count);
+        });
+      });
+  return sum / n;
+}
+
+/// One Newton step of one node, halved until the objective of its cells falls enough.
+template <int dim>
+SMOOTHFEM_INLINE void descend_node(const Topology& topology, NodeIndex node, double softness,
+                                   std::vector<Point<dim>>& x) {
+  constexpr double sufficient = 1e-4;
+  constexpr int max_halvings = 30;
+  if (softness > 0.0) softness *= mean_size(topology, x, node);
+  const Point<dim> start = x[node];
+  const auto here = local_objective<true>(topology, x, node, start, softness);
+  const Point<dim> step = -here.hessian.ldlt().solve(here.gradient);
+  const double slope = step.dot(here.gradient);
+  if (!(slope < 0.0) || !step.allFinite()) return;
+  double alpha = 1.0;
+  for (int k = 0; k < max_halvings; ++k, alpha *= 0.5) {
+    const Point<dim> place = start + alpha * step;
+    const double value = local_objective<false>(topology, x, node, place, softness).value;
+    if (value <= here.value + sufficient * alpha * slope) {
+      x[node] = place;
+      return;
+    }
+  }
+}
+
+// Templates cannot be compiled for several kinds of registers; these can.
+SMOOTHFEM_VECTOR_CLONES
+void descend(const Topology& topology, NodeIndex node, double softness,
+             std::vector<Point<2>>& x) {
+  descend_node<2>(topology, node, softness, x);
+}
+SMOOTHFEM_VECTOR_CLONES
+void descend(const Topology& topology, NodeIndex node, double softness,
+             std::vector<Point<3>>& x) {
+  descend_node<3>(topology, node, softness, x);
+}
+
+}  // namespace
+
+template <int dim>
+VertexDescent<dim>::VertexDescent(const Topology& topology) : topology_(topology) {
+  constexpr std::size_t grain = 1024;
+  const auto& nodes = topology.free_nodes();
+  std::vector<IndexRange> written, read;
+  for (std::size_t first = 0; first < nodes.size(); first += grain) {
+    const IndexRange part{first, std::min(first + grain, nodes.size())};
+    IndexRange range{nodes[part.first], nodes[part.last - 1] + 1u};
+    written.push_back(range);
+    for (std::size_t i = part.first; i < part.last; ++i)
+      for (const CellIndex c : topology.node_cells(nodes[i]))
+        for (const NodeIndex j : topology.cell_nodes(c)) {
+          range.first = std::min<std::size_t>(range.first, j);
+          range.last = std::max<std::size_t>(range.last, j + 1u);
+        }
+    read.push_back(range);
+    parts_.push_back(part);
+  }
+  groups_ = disjoint_groups(
+      parts_.size(), [&](std::size_t p) { return written[p]; },
+      [&](std::size_t p) { return read[p]; });
+}
+
+template <int dim>
+void VertexDescent<dim>::sweep(std::vector<Point<dim>>& x, double softness,
+                               const std::uint8_t* active) const {
+  const auto& nodes = topology_.free_nodes();
+  for (const auto& group : groups_)
+    parallel_for(group.size(), [&](std::size_t p) {
+      const IndexRange part = parts_[group[p]];
+      for (std::size_t i = part.first; i < part.last; ++i)
+        if (!active || active[nodes[i]]) descend(topology_, nodes[i], softness, x);
+    });
+}
+
+template class VertexDescent<2>;
+template class VertexDescent<3>;
+
+}  // namespace smoothfem

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "smoothing/mesh/mesh.h"
+#include "smoothing/smoothers/disjoint_groups.h"
+
+namespace smoothfem {
+
+/// Minimizes the shape objective (shape_objective.h) node after node: each free node in turn takes
+/// a Newton step for the cells it belongs to, in which its place is the minimum of a convex function
+/// as long as they are valid, shortened until that falls. Several threads take parts of the mesh at
+/// a time that do not touch each other; the result is the same for every number of them.
+template <int dim>
+class VertexDescent {
+ public:
+  explicit VertexDescent(const Topology& topology);
+
+  /// One sweep over the free nodes. x: of all nodes.
+  void sweep(std::vector<Point<dim>>& x) const { sweep(x, 0.0, nullptr); }
+
+  /// One sweep over the free nodes in `active` for the objective that invalid cells have too
+  /// (node_terms.h); softness: in terms of the mean |det(S)| of the node's corners.
+  void soft_sweep(std::vector<Point<dim>>& x, double softness,
+                  const std::vector<std::uint8_t>& active) const {
+    sweep(x, softness, active.data());
+  }
+
+ private:
+  void sweep(std::vector<Point<dim>>& x, double softness, const std::uint8_t* active) const;
+
+  const Topology& topology_;
+  std::vector<IndexRange> parts_;  ///< of topology.free_nodes()
+  DisjointGroups groups_;
+};
+
+}  // namespace smoothfem
