@@ -35,8 +35,7 @@ enum class MshVersion { v2_2, v4_1 };
 
 struct MeshWriteOptions {
   MshVersion msh_version = MshVersion::v4_1;
-  /// Gmsh prints 16 digits in text files: one too few to get every coordinate back, and enough of a
-  /// difference to make a barely valid cell invalid. Binary files are exact.
+  /// Both keep every bit of the coordinates; text is three times as large.
   bool msh_binary = true;
 };
 

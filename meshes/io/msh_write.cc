@@ -6,11 +6,14 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <unordered_map>
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/gmsh_session.h"
+#include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/msh_file.h"
+#include "meshes/io/number_text.h"
 #include "smoothing/mesh/input_error.h"
 
 namespace smoothfem {
@@ -128,6 +131,68 @@ void require_complete_file(const std::filesystem::path& path) {
     throw std::runtime_error("only a part of it could be written; is the disk full?");
 }
 
+/// Gmsh prints 16 digits into text files: one too few to get every coordinate back, and enough of
+/// a difference to make a barely valid cell invalid. Prints those of $Nodes again with all.
+class NodesPrintedAgain {
+ public:
+  NodesPrintedAgain(const std::filesystem::path& file, const MeshView& mesh)
+      : content_(read_whole_file(file)), reader_(file, content_), mesh_(mesh) {
+    const auto tags = numbers(mesh.topology().labels().node_ids, mesh.n_nodes());
+    for (NodeIndex i = 0; i < tags.size(); ++i) index_of_tag_.emplace(tags[i], i);
+  }
+
+  std::string text(bool version_4) {
+    do reader_.require_line("$Nodes");
+    while (reader_.word() != "$Nodes");
+    text_ = content_.substr(0, content_.size() - reader_.rest().size());
+    reader_.require_line("the number of nodes");
+    copy_line();
+    const std::uint64_t n = reader_.integer("the number of nodes or blocks");
+    for (std::uint64_t i = 0; i < n; ++i) version_4 ? print_block() : print_node();
+    return text_.append(reader_.rest());
+  }
+
+ private:
+  void copy_line() { text_.append(reader_.text()).append("\n"); }
+
+  void print_node() {
+    reader_.require_line("a node");
+    const std::uint64_t tag = reader_.integer("the node's tag");
+    append_number(text_, tag);
+    text_ += ' ';
+    print_point(tag);
+  }
+
+  void print_block() {
+    reader_.require_line("a block of nodes");
+    copy_line();
+    for (int skipped = 0; skipped < 3; ++skipped) reader_.word();
+    std::vector<std::uint64_t> tags(reader_.integer("the number of nodes in the block"));
+    for (auto& tag : tags) {
+      reader_.require_line("a node's tag");
+      tag = reader_.integer("the node's tag");
+      copy_line();
+    }
+    for (const std::uint64_t tag : tags) {
+      reader_.require_line("a node's coordinates");
+      print_point(tag);
+    }
+  }
+
+  void print_point(std::uint64_t tag) {
+    const Point<3> point = mesh_.point(index_of_tag_.at(tag));
+    for (int d = 0; d < 3; ++d) {
+      append_number(text_, point[d]);
+      text_ += d < 2 ? ' ' : '\n';
+    }
+  }
+
+  std::string content_, text_;
+  LineReader reader_;
+  const MeshView& mesh_;
+  std::unordered_map<std::uint64_t, NodeIndex> index_of_tag_;
+};
+
 }  // namespace
 
 void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
@@ -146,6 +211,8 @@ void write_msh(const std::filesystem::path& path, const MeshView& mesh, const Me
       gmsh::write(temporary.string());
     });
     require_complete_file(temporary);
+    if (!options.msh_binary)
+      write_atomically(temporary, NodesPrintedAgain(temporary, mesh).text(version_4));
   });
 }
 
