@@ -18,8 +18,12 @@ class VertexDescent {
 
   /// One sweep over the free nodes. x: of all nodes.
   void sweep(std::vector<Point<dim>>& x) const { sweep(x, 0.0, nullptr); }
+  /// One sweep over the free nodes with a flag in `active` (one for each node).
+  void sweep(std::vector<Point<dim>>& x, const std::vector<std::uint8_t>& active) const {
+    sweep(x, 0.0, active.data());
+  }
 
-  /// One sweep over the free nodes in `active` for the objective that invalid cells have too
+  /// The same for the objective that invalid cells have too
   /// (node_terms.h); softness: in terms of the mean |det(S)| of the node's corners.
   void soft_sweep(std::vector<Point<dim>>& x, double softness,
                   const std::vector<std::uint8_t>& active) const {
