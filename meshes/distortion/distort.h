@@ -35,8 +35,8 @@ struct DistortionResult {
 template <int dim>
 DistortionResult distort(Mesh<dim>& mesh, const DistortionParameters& parameters);
 
-/// The same with balls of a given radius (relative, about 0.65 and two sweeps for tetrahedra, 0.9 and
-/// one for hexahedra give the mean quality of the thesis' distorted volume meshes) instead of a
+/// The same with balls of a given radius (relative, about 0.65 and two sweeps for tetrahedra, 0.9
+/// and one for hexahedra give the mean quality of the thesis' distorted volume meshes) instead of a
 /// target; returns the mean quality that this gives.
 template <int dim>
 double distort_within(Mesh<dim>& mesh, double radius, const DistortionParameters& parameters);

@@ -2,11 +2,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "fem/manufactured_solution.h"
 #include "meshes/generators/domains.h"
 #include "meshes/io/mesh_file.h"
-#include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/study.h"
 
@@ -19,16 +20,30 @@ struct Arguments {
   bool study_keys = false;
 };
 
+/// Parameters of a method for meshes of one dimension, without those in `known`.
+template <int dim>
+void list_parameters(const std::string& method, std::set<std::string>& known) {
+  if (!takes_meshes<dim>(method)) return;
+  Method<dim> made = make_method<dim>(method);
+  for (const auto& parameter : made.parameters())
+    if (known.insert(parameter.name).second)
+      std::printf("      %-40s %-8s %s%s\n", parameter.name.c_str(), value_text(parameter).c_str(),
+                  parameter.description.c_str(), dim == 3 ? " [volume meshes]" : "");
+}
+
 void list_methods() {
   std::printf("METHODS (smooth -m NAME, 'methods' in study files)\n");
   for (const auto& info : method_catalogue()) {
     std::printf("\n  %s: %s\n      %s. Source: %s.\n", info.name.c_str(), info.title.c_str(),
                 info.description.c_str(), info.source.c_str());
-    Method<2> method = make_method<2>(info.name);
-    for (const auto& parameter : method.parameters())
-      std::printf("      %-32s %-8s %s\n", parameter.name.c_str(), value_text(parameter).c_str(),
-                  parameter.description.c_str());
+    std::set<std::string> known;
+    list_parameters<2>(info.name, known);
+    list_parameters<3>(info.name, known);
   }
+  std::printf("\nPRESETS (smooth --preset NAME)\n\n");
+  for (const auto& preset : presets())
+    std::printf("  %-16s %s. Source: %s.\n", preset.name.c_str(), preset.description.c_str(),
+                preset.source.c_str());
 }
 
 void list_studies(const std::filesystem::path& folder) {

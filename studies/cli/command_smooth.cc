@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -5,7 +6,11 @@
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtu_series.h"
+#include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/mesh/parallel.h"
+#include "smoothing/untangling/untangle.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/results.h"
 
@@ -14,19 +19,31 @@ namespace smoothfem {
 namespace {
 
 struct Arguments {
-  std::string in, out, method, log, series;
+  std::string in, out, method, preset, fix, log, series;
   std::vector<std::string> settings;
-  bool quiet = false;
+  int n_threads = 0;  ///< 0: as OpenMP finds them
+  bool untangle = false, quiet = false;
 };
 
 template <int dim>
-void apply_settings(Method<dim>& method, const std::vector<std::string>& settings) {
-  for (const auto& setting : settings) {
+Method<dim> configured_method(const Arguments& arguments) {
+  Method<dim> method = make_method<dim>(arguments.method);
+  if (!arguments.preset.empty()) apply_preset(find_preset(arguments.preset), method);
+  for (const auto& setting : arguments.settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos)
       throw InputError("--set needs key=value, but is given as '" + setting + "'");
     method.set(setting.substr(0, equals), setting.substr(equals + 1));
   }
+  return method;
+}
+
+/// The mesh with the nodes fixed that --fix names.
+template <int dim>
+Mesh<dim> with_rule(Mesh<dim> mesh, const std::string& rule) {
+  if (rule.empty()) return mesh;
+  auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule(rule));
+  return with_fixed_nodes(std::move(mesh), std::move(fixed));
 }
 
 void print_row(const char* when, const MeshQuality& q) {
@@ -53,6 +70,7 @@ class Recorder {
     fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
     series_->add(static_cast<double>(record.record), mesh, fields);
   }
+  bool looks() const { return series_ || !arguments_.log.empty(); }
   void write_log() const {
     if (!arguments_.log.empty()) write_atomically(arguments_.log, iterations_csv("smooth", rows_));
   }
@@ -63,18 +81,55 @@ class Recorder {
   std::vector<IterationRow> rows_;
 };
 
-template <int dim>
-void smooth_mesh(const Arguments& arguments, Mesh<dim>& mesh,
-                 const std::vector<std::size_t>& cell_lines) {
-  Method<dim> method = make_method<dim>(arguments.method);
-  apply_settings(method, arguments.settings);
-  for (const auto& stage : method.stages)
-    if (stage->rule().needs_valid_mesh) require_valid(mesh, arguments.in, cell_lines);
+/// Says honestly that untangling did not succeed, and where.
+[[noreturn]] void refuse(const std::string& path, const std::vector<std::size_t>& cell_ids,
+                         const UntangleResult& result) {
+  const bool hopeless = !result.unmendable_cells.empty();
+  const auto& cells = hopeless ? result.unmendable_cells : result.invalid_cells;
+  constexpr std::size_t n_named = 5;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(n_named, cells.size()); ++i)
+    names += (i > 0 ? ", " : "") + std::to_string(cell_ids.empty() ? cells[i] : cell_ids[cells[i]]);
+  if (cells.size() > n_named) names += ", ...";
+  const std::string count = std::to_string(cells.size()) + " of " +
+                            std::to_string(result.n_invalid_before) + " invalid cells";
+  throw InputError(path + ": " + count +
+                   (hopeless ? " have only fixed nodes, so that nothing can mend them (cells " +
+                                   names + "); free some of their nodes with --fix"
+                             : " are left after untangling (cells " + names +
+                                   "); free more nodes with --fix or mend them by hand"));
+}
 
+/// Makes a tangled mesh valid if --untangle asks for it; otherwise refuses it where a stage needs a
+/// valid one.
+template <int dim>
+void make_valid(const Arguments& arguments, const Method<dim>& method, Mesh<dim>& mesh,
+                const std::vector<std::size_t>& cell_lines) {
+  const bool needs_valid =
+      std::any_of(method.stages.begin(), method.stages.end(),
+                  [](const auto& stage) { return stage->rule().needs_valid_mesh; });
+  if (!arguments.untangle) {
+    if (needs_valid) require_valid(mesh, arguments.in, cell_lines);
+    return;
+  }
+  const UntangleResult result = untangle(mesh);
+  if (!result.valid) refuse(arguments.in, mesh.topology().labels().cell_ids, result);
+  if (!arguments.quiet && result.n_invalid_before > 0)
+    std::printf("untangled %zu invalid cells in %.4g s\n", result.n_invalid_before, result.seconds);
+}
+
+template <int dim>
+void smooth_mesh(const Arguments& arguments, Mesh<dim> mesh,
+                 const std::vector<std::size_t>& cell_lines) {
+  Method<dim> method = configured_method<dim>(arguments);
+  mesh = with_rule(std::move(mesh), arguments.fix);
   const MeshQuality before = mesh_quality(mesh);
+  make_valid(arguments, method, mesh, cell_lines);
   Recorder recorder(arguments);
-  const auto result = smooth(
-      mesh, method, [&](const auto& record, const auto& now) { recorder.observe(record, now); });
+  Observer<dim> observer;  // none where nobody looks: it costs a look at all cells
+  if (recorder.looks())
+    observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
+  const auto result = smooth(mesh, method, observer);
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   write_mesh(arguments.out, mesh, fields);
@@ -83,13 +138,16 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim>& mesh,
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
   print_row("before", before);
   print_row("after", result.quality);
-  std::printf("%s: %s iterations in %.4g s; written to %s\n", method.info.title.c_str(),
-              result.iterations_text().c_str(), result.smoothing_seconds, arguments.out.c_str());
+  std::printf("%s: %s iterations in %.4g s on %d threads; written to %s\n",
+              method.info.title.c_str(), result.iterations_text().c_str(), result.smoothing_seconds,
+              n_threads(), arguments.out.c_str());
 }
 
 void smooth_file(const Arguments& arguments) {
+  if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
   MeshFile file = read_mesh(arguments.in);
-  std::visit([&](auto& mesh) { smooth_mesh(arguments, mesh, file.cell_lines); }, file.mesh);
+  std::visit([&](auto& mesh) { smooth_mesh(arguments, std::move(mesh), file.cell_lines); },
+             file.mesh);
 }
 
 }  // namespace
@@ -100,8 +158,16 @@ void add_smooth_command(CLI::App& app) {
   command->add_option("in", arguments->in, "mesh to read")->required();
   command->add_option("-m,--method", arguments->method, "method (see 'list')")->required();
   command->add_option("-o,--out", arguments->out, "mesh to write")->required();
+  command->add_option("--preset", arguments->preset,
+                      "parameters of an experiment (see 'list'); --set comes after it");
   command->add_option("--set", arguments->settings, "parameter of the method: key=value")
       ->allow_extra_args(false);
+  command->add_option("--fix", arguments->fix,
+                      "nodes that stay: boundary, file, free or group=NAME[,NAME] (as in the file, "
+                      "or the boundary, unless given)");
+  command->add_flag("--untangle", arguments->untangle, "make a tangled mesh valid first");
+  command->add_option("--threads", arguments->n_threads, "threads (all cores unless given)")
+      ->check(CLI::Range(1, 1024));
   command->add_option("--log", arguments->log, "CSV file with one row an iteration");
   command->add_option("--series", arguments->series, "VTU series (.pvd) with every iteration");
   command->add_flag("--quiet", arguments->quiet, "print nothing");

@@ -1,0 +1,215 @@
+/// Times of the smoothers on volume meshes of the size of the thesis' Section 6.3: 568,000
+/// distorted tetrahedra, 68,600 distorted hexahedra, on one and two threads. An iteration is set in
+/// relation to a plain Laplace sweep, to the same work on a mesh that fits the innermost cache, and
+/// to the time that the bytes it must move take at the bandwidth of a triad a = b + s c. One more
+/// benchmark smooths ten million tetrahedra and says how much memory that took.
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "meshes/bench/volume_meshes.h"
+#include "smoothing/loop/smooth.h"
+#include "smoothing/mesh/parallel.h"
+#include "smoothing/mesh/reordering.h"
+#include "smoothing/tests/volume_meshes.h"
+
+namespace smoothfem::bench {
+namespace {
+
+double seconds_of(const auto& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Median of n runs.
+double median_seconds(int n, const auto& work) {
+  std::vector<double> all;
+  for (int i = 0; i < n; ++i) all.push_back(seconds_of(work));
+  std::nth_element(all.begin(), all.begin() + n / 2, all.end());
+  return all[n / 2];
+}
+
+/// Bytes a second of a = b + s c on arrays too large for the cache, with the present threads.
+double triad_bandwidth() {
+  constexpr std::size_t n = 1 << 25;
+  std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
+  const double seconds = median_seconds(5, [&] {
+    parallel_for_ranges(n, n / 64, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) a[i] = b[i] + 3.0 * c[i];
+    });
+    benchmark::DoNotOptimize(a.data());
+  });
+  return 3.0 * sizeof(double) * n / seconds;
+}
+
+/// What a pass over the mesh cannot avoid: cells' nodes, coordinates, qualities written, sums of
+/// the nodes read and written, new coordinates.
+double bytes_of_iteration(const VolumeMesh& mesh) {
+  const double nodes = static_cast<double>(mesh.n_nodes());
+  return static_cast<double>(mesh.topology().cells().n_entries()) * sizeof(NodeIndex) +
+         static_cast<double>(mesh.n_cells()) * (sizeof(std::size_t) + sizeof(double)) +
+         nodes * (3 * sizeof(Point<3>) + 2 * 4 * sizeof(double));
+}
+
+/// Seconds of one iteration of a method's first stage, a median.
+double iteration_seconds(const VolumeMesh& mesh, const std::string& method, int n) {
+  const Reordering<3> reordering(mesh.topology());
+  SmoothingState<3> state{reordering.apply(mesh), {}};
+  compute_cell_mean_ratios(state.mesh, state.cell_quality);
+  const auto stages = stages_of<3>(method);
+  stages[0]->initialize(state);
+  return median_seconds(n, [&] {
+    stages[0]->step(state);
+    if (stages[0]->rule().quality_use == QualityUse::loop)
+      compute_cell_mean_ratios(state.mesh, state.cell_quality);
+  });
+}
+
+const VolumeMesh& mesh_named(const std::string& name) {
+  static std::map<std::string, VolumeMesh> meshes;
+  const auto found = meshes.find(name);
+  if (found != meshes.end()) return found->second;
+  return meshes.emplace(name, name == "tetrahedra" ? bored_cube(true) : swept_gear(true))
+      .first->second;
+}
+VolumeMesh small_mesh(const std::string& name) {
+  auto mesh = test::box_mesh(
+      5, 5, 5, name == "tetrahedra" ? test::BoxCells::tetrahedra : test::BoxCells::hexahedra);
+  test::distort(mesh, 0.3, 1);
+  return mesh;
+}
+
+void iteration(benchmark::State& state, const std::string& name, const std::string& method) {
+  set_n_threads(static_cast<int>(state.range(0)));
+  const VolumeMesh& mesh = mesh_named(name);
+  double seconds = 0.0;
+  for (auto _ : state) {
+    seconds = iteration_seconds(mesh, method, 15);
+    state.SetIterationTime(seconds);
+  }
+  const auto n_cells = static_cast<double>(mesh.n_cells());
+  state.counters["ns/element"] = 1e9 * seconds / n_cells;
+  state.counters["laplace_sweeps"] = seconds / iteration_seconds(mesh, "laplace", 15);
+  const VolumeMesh small = small_mesh(name);
+  const double small_seconds = iteration_seconds(small, method, 2000);
+  state.counters["to_in_cache"] =
+      seconds / n_cells / (small_seconds / small.n_cells()) * static_cast<double>(state.range(0));
+  state.counters["to_bandwidth"] = seconds / (bytes_of_iteration(mesh) / triad_bandwidth());
+}
+
+/// One transformation of the sequential method, on the mesh that the simultaneous one leaves.
+void sequential_step(benchmark::State& state, const std::string& name) {
+  set_n_threads(1);
+  VolumeMesh mesh = mesh_named(name);
+  auto simultaneous = make_method<3>("getme-simultaneous");
+  smooth(mesh, simultaneous);
+  const Reordering<3> reordering(mesh.topology());
+  SmoothingState<3> smoothing{reordering.apply(mesh), {}};
+  compute_cell_mean_ratios(smoothing.mesh, smoothing.cell_quality);
+  const auto stages = stages_of<3>("getme-sequential");
+  stages[0]->initialize(smoothing);
+  std::size_t n_steps = 0;
+  double total = 0.0;
+  for (auto _ : state) {
+    const double seconds = seconds_of([&] { n_steps += stages[0]->step(smoothing).n_counted; });
+    total += seconds;
+    state.SetIterationTime(seconds);
+  }
+  state.counters["us/step"] = 1e6 * total / static_cast<double>(n_steps);
+}
+
+void whole_run(benchmark::State& state, const std::string& name, const std::string& method_name) {
+  set_n_threads(static_cast<int>(state.range(0)));
+  SmoothingResult result;
+  for (auto _ : state) {
+    VolumeMesh mesh = mesh_named(name);
+    auto method = make_method<3>(method_name);
+    result = smooth(mesh, method);
+    state.SetIterationTime(result.smoothing_seconds);
+  }
+  state.counters["q_min"] = result.quality.q_min;
+  state.counters["q_star_min"] = result.quality.q_star_min;
+  state.counters["q_mean"] = result.quality.q_mean;
+  state.SetLabel(result.iterations_text() + " iterations");
+}
+
+double peak_bytes() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Kuhn tetrahedra: n^3 cubes of six. Run alone, its peak memory is that of the mesh and smoothing.
+void many_tetrahedra(benchmark::State& state) {
+  set_n_threads(static_cast<int>(state.range(1)));
+  VolumeMesh mesh = kuhn_cube(static_cast<std::uint32_t>(state.range(0)));
+  test::distort(mesh, 0.3, 1);
+  const double before = peak_bytes();
+  SmoothingResult result;
+  std::size_t n_iterations = 0;
+  for (auto _ : state) {
+    auto method = make_method<3>("getme-simultaneous");
+    method.set("max_iterations", "10");
+    method.set("tolerance", "-1");
+    VolumeMesh smoothed = mesh;
+    std::vector<double> times;
+    result = smooth(smoothed, method, [&](const auto& record, const auto&) {
+      times.push_back(record.smoothing_seconds);
+    });
+    n_iterations = times.size() - 1;
+    state.SetIterationTime(times.back() - times[1]);
+    state.counters["ns/element/iteration"] = 1e9 * (times.back() - times[1]) /
+                                             static_cast<double>(n_iterations - 1) /
+                                             static_cast<double>(mesh.n_cells());
+  }
+  state.counters["tetrahedra"] = static_cast<double>(mesh.n_cells());
+  state.counters["peak_GiB"] = peak_bytes() / (1 << 30);
+  state.counters["bytes/element_above_start"] =
+      (peak_bytes() - before) / static_cast<double>(mesh.n_cells());
+}
+
+void register_all() {
+  for (const std::string mesh : {"tetrahedra", "hexahedra"}) {
+    for (const std::string method : {"getme-simultaneous", "smart-laplace", "laplace"})
+      benchmark::RegisterBenchmark(("iteration/" + method + "/" + mesh).c_str(),
+                                   [=](benchmark::State& state) { iteration(state, mesh, method); })
+          ->Arg(1)
+          ->Arg(2)
+          ->UseManualTime()
+          ->Iterations(3)
+          ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("step/getme-sequential/" + mesh).c_str(),
+                                 [=](benchmark::State& state) { sequential_step(state, mesh); })
+        ->UseManualTime()
+        ->Iterations(100)
+        ->Unit(benchmark::kMicrosecond);
+    for (const std::string method : {"getme", "getme-adaptive", "smart-laplace"})
+      benchmark::RegisterBenchmark(("run/" + method + "/" + mesh).c_str(),
+                                   [=](benchmark::State& state) { whole_run(state, mesh, method); })
+          ->Arg(1)
+          ->Arg(2)
+          ->UseManualTime()
+          ->Iterations(3)
+          ->Unit(benchmark::kMillisecond);
+  }
+  benchmark::RegisterBenchmark("many_tetrahedra", many_tetrahedra)
+      ->Args({26, 2})
+      ->Args({119, 2})
+      ->UseManualTime()
+      ->Iterations(1)
+      ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+}  // namespace smoothfem::bench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  smoothfem::bench::register_all();
+  benchmark::RunSpecifiedBenchmarks();
+}

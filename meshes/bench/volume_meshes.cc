@@ -1,0 +1,97 @@
+#include "meshes/bench/volume_meshes.h"
+
+#include <gmsh.h>
+
+#include <iostream>
+
+#include "meshes/distortion/distort.h"
+#include "meshes/generators/domains.h"
+#include "meshes/io/gmsh_session.h"
+#include "meshes/io/mesh_file.h"
+#include "smoothing/tests/volume_meshes.h"
+
+namespace smoothfem::bench {
+
+namespace {
+
+/// Each quadrilateral of a planar mesh becomes a column of n_layers hexahedra.
+VolumeMesh sweep(const PlanarMesh& mesh, std::uint32_t n_layers, double height) {
+  const auto n = static_cast<NodeIndex>(mesh.n_nodes());
+  std::vector<Point<3>> x;
+  CompressedRows<NodeIndex> cells;
+  for (std::uint32_t layer = 0; layer <= n_layers; ++layer)
+    for (const auto& p : mesh.coordinates()) x.emplace_back(p.x(), p.y(), height * layer);
+  for (std::uint32_t layer = 0; layer < n_layers; ++layer)
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+      const auto q = mesh.topology().cell_nodes(c);
+      const NodeIndex below = layer * n, above = below + n;
+      cells.append(std::array<NodeIndex, 8>{below + q[0], below + q[1], below + q[2], below + q[3],
+                                            above + q[0], above + q[1], above + q[2],
+                                            above + q[3]});
+    }
+  return test::make_volume_mesh(x, cells);
+}
+
+void generate_bored_cube(const std::filesystem::path& path) {
+  std::cerr << "generating " << path << '\n';
+  GmshSession session;
+  constexpr double size = 0.02005;
+  session.set_option("Mesh.MeshSizeMin", size);
+  session.set_option("Mesh.MeshSizeMax", size);
+  session.set_option("Mesh.MshFileVersion", 4.1);
+  session.set_option("Mesh.Binary", 1);
+  session.run("cannot mesh the cube", [&] {
+    gmsh::model::add("cube");
+    const int cube = gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    const int bore = gmsh::model::occ::addCylinder(0.5, 0.5, -0.5, 0, 0, 2, 0.2);
+    gmsh::vectorpair result;
+    std::vector<gmsh::vectorpair> map;
+    gmsh::model::occ::cut({{3, cube}}, {{3, bore}}, result, map);
+    gmsh::model::occ::synchronize();
+    gmsh::model::mesh::generate(3);
+    gmsh::write(path.string());
+  });
+}
+
+/// The mesh in a file, made first if it is not there.
+template <class Make>
+VolumeMesh kept(const std::string& name, const Make& make) {
+  const auto path = std::filesystem::temp_directory_path() / ("smoothfem_bench_" + name);
+  if (!std::filesystem::exists(path)) make(path);
+  return std::get<VolumeMesh>(read_mesh(path).mesh);
+}
+
+DistortionParameters sweeps(int n) {
+  DistortionParameters parameters;
+  parameters.n_candidates = 15;
+  parameters.n_sweeps = n;
+  return parameters;
+}
+
+}  // namespace
+
+VolumeMesh swept_gear(bool distorted) {
+  const PlanarMesh gear =
+      find_domain("gear").generate({.element_type = ElementType::quadrilateral});
+  VolumeMesh mesh = sweep(gear, 11, 0.2);
+  if (!distorted) return mesh;
+  return kept("swept_gear_distorted.vtu", [&](const auto& path) {
+    distort_within(mesh, 0.9, sweeps(1));
+    write_mesh(path, mesh);
+  });
+}
+
+VolumeMesh bored_cube(bool distorted) {
+  VolumeMesh mesh = kept("bored_cube.msh", generate_bored_cube);
+  if (!distorted) return mesh;
+  return kept("bored_cube_distorted.vtu", [&](const auto& path) {
+    distort_within(mesh, 0.65, sweeps(2));
+    write_mesh(path, mesh);
+  });
+}
+
+VolumeMesh kuhn_cube(std::uint32_t n) {
+  return test::box_mesh(n, n, n, test::BoxCells::tetrahedra);
+}
+
+}  // namespace smoothfem::bench
