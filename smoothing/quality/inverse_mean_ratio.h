@@ -158,8 +158,7 @@ SMOOTHFEM_INLINE CornerGradients<Real> corner_gradients(std::span<const Vector3<
   for (std::size_t i = 0; i < 3; ++i) c[i + 1] = cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
   const Real determinant = dot(edges[0], c[1]);
   const Real squared_norm = dot(edges[0], u[1]) + dot(edges[1], u[2]) + dot(edges[2], u[3]);
-  const Real root =
-      inverse_root<3>((1.0 / VolumeElement<n>::regular.determinant) * determinant);
+  const Real root = inverse_root<3>((1.0 / VolumeElement<n>::regular.determinant) * determinant);
   const Real inverse = 1.0 / determinant;
   for (std::size_t i = 1; i < 4; ++i) c[i] = inverse * c[i];
   c[0] = -1.0 * (c[1] + c[2] + c[3]);

@@ -14,7 +14,8 @@ Eigen::Matrix<double, dim, dim> inverse_factor(Eigen::Matrix<double, dim, dim> b
   // A block of elements that have almost collapsed is singular to rounding.
   constexpr double relative_shift = 1e-14;
   const double size = block.trace(), shift = relative_shift * size;
-  Eigen::Matrix<double, dim, dim> factor = Eigen::Matrix<double, dim, dim>::Zero(), inverse = factor;
+  Eigen::Matrix<double, dim, dim> factor = Eigen::Matrix<double, dim, dim>::Zero(),
+                                  inverse = factor;
   for (int j = 0; j < dim; ++j) {
     double pivot = block(j, j) + shift;
     for (int k = 0; k < j; ++k) pivot -= factor(j, k) * factor(j, k);
@@ -39,8 +40,8 @@ SMOOTHFEM_INLINE Lanes load_column(const double* numbers) {
 }
 SMOOTHFEM_INLINE Lanes load_column(const float* numbers) {
   using Floats = float __attribute__((vector_size(n_lanes * sizeof(float))));
-  using Unaligned =
-      float __attribute__((vector_size(n_lanes * sizeof(float)), aligned(sizeof(float)), may_alias));
+  using Unaligned = float
+      __attribute__((vector_size(n_lanes * sizeof(float)), aligned(sizeof(float)), may_alias));
   const Floats floats = *reinterpret_cast<const Unaligned*>(numbers);
   return __builtin_convertvector(floats, Lanes);
 }
@@ -105,7 +106,8 @@ void BlockConjugateGradients<dim>::prepare(const BlockMatrix<dim>& matrix) {
     for (std::size_t row = first; row < last; ++row)
       inverse_factors_[row] = inverse_factor<dim>(matrix.diagonal_block(row));
   });
-  scaled_.resize(dim * dim * columns_->n_entries() + n_lanes);  // columns are read n_lanes at a time
+  scaled_.resize(dim * dim * columns_->n_entries() +
+                 n_lanes);  // columns are read n_lanes at a time
   for_row_ranges(n, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row)
       for (std::size_t k = columns_->offset(row); k < columns_->offset(row + 1); ++k) {

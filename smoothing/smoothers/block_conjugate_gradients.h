@@ -44,7 +44,7 @@ class BlockConjugateGradients {
   using Block = Eigen::Matrix<double, dim, dim>;
 
   const CompressedRows<std::uint32_t>* columns_ = nullptr;
-  std::vector<Number> scaled_;         ///< dim x dim, columns first, for each entry of columns_
+  std::vector<Number> scaled_;          ///< dim x dim, columns first, for each entry of columns_
   std::vector<Block> inverse_factors_;  ///< L^-1 of each row
   BlockVector<dim> residual_, direction_, product_;
 };

@@ -11,7 +11,7 @@ namespace smoothfem {
 /// A dim x dim matrix, columns first: how two nodes of a cell act on each other.
 template <int dim, class Real>
 struct Block {
-  std::array<Real, static_cast<std::size_t>(dim * dim)> entries{};
+  std::array<Real, static_cast<std::size_t>(dim* dim)> entries{};
 
   /// Adds u v'.
   SMOOTHFEM_INLINE void add_product(Vector2<Real> u, Vector2<Real> v) {

@@ -54,8 +54,8 @@ SMOOTHFEM_INLINE Real corner_limit(const std::array<Vector3<Real>, 3>& edges,
   const auto [a, b, c] = edges;
   const auto [da, db, dc] = changes;
   const auto bc = cross(b, c), dbc = cross(db, c) + cross(b, dc), dbdc = cross(db, dc);
-  return smallest_root<4>(share * dot(a, bc), dot(da, bc) + dot(a, dbc), dot(da, dbc) + dot(a, dbdc),
-                          dot(da, dbdc));
+  return smallest_root<4>(share * dot(a, bc), dot(da, bc) + dot(a, dbc),
+                          dot(da, dbc) + dot(a, dbdc), dot(da, dbdc));
 }
 
 template <class Real>

@@ -24,26 +24,27 @@ class GlobalOptimization final : public Smoother<dim> {
   std::string_view name() const override { return "global-optimization"; }
 
   Parameters parameters() override {
-    return {{"tolerance",
-             "stop when a Newton step's model promises to lower the objective by no more than this "
-             "share",
-             &tolerance_, 0.0, 1.0},
-            {"newton_below",
-             "take the exact Hessian once a step lowers the objective by less than this share",
-             &newton_below_, 0.0, 1.0},
-            {"forcing", "the linear solve leaves at most this share of the gradient", &forcing_,
-             1e-12, 0.999},
-            {"determinant_share",
-             "a step may take at most this share of the determinant of an element's corner",
-             &determinant_share_, 1e-3, 0.999},
-            {"max_cg_iterations", "at most this many CG iterations a Newton step",
-             &max_cg_iterations_, 1.0, 1e9},
-            {"start_sweeps",
-             "sweeps of one-node Newton steps before the first Newton step of all nodes; on heavily "
-             "distorted meshes 10 shorten the whole run most",
-             &start_sweeps_, 0.0, 1e9},
-            {"max_iterations", "stop after this many Newton steps at the latest", &max_iterations_,
-             1.0, 1e9}};
+    return {
+        {"tolerance",
+         "stop when a Newton step's model promises to lower the objective by no more than this "
+         "share",
+         &tolerance_, 0.0, 1.0},
+        {"newton_below",
+         "take the exact Hessian once a step lowers the objective by less than this share",
+         &newton_below_, 0.0, 1.0},
+        {"forcing", "the linear solve leaves at most this share of the gradient", &forcing_, 1e-12,
+         0.999},
+        {"determinant_share",
+         "a step may take at most this share of the determinant of an element's corner",
+         &determinant_share_, 1e-3, 0.999},
+        {"max_cg_iterations", "at most this many CG iterations a Newton step", &max_cg_iterations_,
+         1.0, 1e9},
+        {"start_sweeps",
+         "sweeps of one-node Newton steps before the first Newton step of all nodes; on heavily "
+         "distorted meshes 10 shorten the whole run most",
+         &start_sweeps_, 0.0, 1e9},
+        {"max_iterations", "stop after this many Newton steps at the latest", &max_iterations_, 1.0,
+         1e9}};
   }
 
   SmoothingRule rule() const override {

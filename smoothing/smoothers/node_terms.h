@@ -4,13 +4,20 @@
 
 namespace smoothfem {
 
-/// A corner of a cell in any dimension: dim edges from it, |S|^2 as a form of them (the inverse Gram
-/// matrix of W) and the determinant of W.
+/// A corner of a cell in any dimension: dim edges from it, |S|^2 as a form of them (the inverse
+/// Gram matrix of W) and the determinant of W.
 template <int dim, class Real>
 struct CornerFrame {
   std::array<Vector<dim, Real>, dim> edges;
   std::array<std::array<double, dim>, dim> inverse_gram;
   double regular_determinant;
+
+  /// Half the gradient of |S|^2 with respect to the end of edge i.
+  SMOOTHFEM_INLINE Vector<dim, Real> half_gradient(std::size_t i) const {
+    auto sum = inverse_gram[i][0] * edges[0];
+    for (std::size_t j = 1; j < dim; ++j) sum = sum + inverse_gram[i][j] * edges[j];
+    return sum;
+  }
 };
 
 /// Calls visit(frame, position) for the corners that the mean ratio counts; position: that of node
@@ -25,10 +32,13 @@ SMOOTHFEM_INLINE void for_each_corner(std::span<const Vector2<Real>, extent> x,
   const double g = 1.0 / (angle.sine * angle.sine), mixed = -angle.cosine * g;
   for (std::size_t k = 0; k < n_corners; ++k) {
     const std::size_t next = k + 1 == n ? 0 : k + 1, previous = k == 0 ? n - 1 : k - 1;
-    visit(CornerFrame<2, Real>{{x[next] - x[k], x[previous] - x[k]},
-                               {{{g, mixed}, {mixed, g}}},
-                               angle.sine},
-          k == 0 ? 0 : next == 0 ? 1 : previous == 0 ? 2 : -1);
+    visit(
+        CornerFrame<2, Real>{
+            {x[next] - x[k], x[previous] - x[k]}, {{{g, mixed}, {mixed, g}}}, angle.sine},
+        k == 0          ? 0
+        : next == 0     ? 1
+        : previous == 0 ? 2
+                        : -1);
   }
 }
 template <std::size_t slot, class Real, std::size_t n, class Visit>
@@ -97,54 +107,53 @@ SMOOTHFEM_INLINE auto node_terms(std::span<const V<Real>, extent> x, double soft
   const Real infinite = Real{} + std::numeric_limits<double>::infinity();
   NodeTerms<dim, Real> terms;
   double n_corners = 0.0;
-  for_each_corner<slot>(x, [&](const CornerFrame<dim, Real>& corner, int position)
-                               SMOOTHFEM_INLINE_LAMBDA {
-    const auto& e = corner.edges;
-    std::array<Vector<dim, Real>, dim> u;  // gradient of |S|^2 / 2 by the edges
-    Real squared_norm{};
-    for (std::size_t i = 0; i < dim; ++i) {
-      u[i] = corner.inverse_gram[i][0] * e[0];
-      for (std::size_t j = 1; j < dim; ++j) u[i] = u[i] + corner.inverse_gram[i][j] * e[j];
-      squared_norm += dot(e[i], u[i]);
-    }
-    const double scale = 1.0 / corner.regular_determinant;
-    const Real determinant = scale * frame_determinant(e);
-    const Real spread = softness > 0.0 ? square_root(determinant * determinant +
-                                                     (4.0 * softness * softness))
-                                       : determinant;
-    const Real falling = (2.0 * softness * softness) / (spread - determinant);
-    const Real r = determinant > 0.0 ? 0.5 * (determinant + spread) : falling;
-    const Real power = shape_power<dim>(softness > 0.0 || determinant > 0.0 ? r : Real{} + 1.0);
-    const Real share = (1.0 / dim) * power;
-    terms.value += softness > 0.0 || determinant > 0.0 ? share * squared_norm : infinite;
-    n_corners += 1.0;
-    if (!with_derivatives || position < 0) return;
+  for_each_corner<slot>(
+      x, [&](const CornerFrame<dim, Real>& corner, int position) SMOOTHFEM_INLINE_LAMBDA {
+        const auto& e = corner.edges;
+        std::array<Vector<dim, Real>, dim> u;  // gradient of |S|^2 / 2 by the edges
+        Real squared_norm{};
+        for (std::size_t i = 0; i < dim; ++i) {
+          u[i] = corner.half_gradient(i);
+          squared_norm += dot(e[i], u[i]);
+        }
+        const double scale = 1.0 / corner.regular_determinant;
+        const Real determinant = scale * frame_determinant(e);
+        const Real spread =
+            softness > 0.0 ? square_root(determinant * determinant + (4.0 * softness * softness))
+                           : determinant;
+        const Real falling = (2.0 * softness * softness) / (spread - determinant);
+        const Real r = determinant > 0.0 ? 0.5 * (determinant + spread) : falling;
+        const Real power = shape_power<dim>(softness > 0.0 || determinant > 0.0 ? r : Real{} + 1.0);
+        const Real share = (1.0 / dim) * power;
+        terms.value += softness > 0.0 || determinant > 0.0 ? share * squared_norm : infinite;
+        n_corners += 1.0;
+        if (!with_derivatives || position < 0) return;
 
-    Vector<dim, Real> half_gradient{}, of_determinant{};
-    double gram = 0.0;
-    for (std::size_t i = 0; i < dim; ++i) {
-      if (position == 0) {
-        half_gradient = half_gradient - u[i];
-        of_determinant = of_determinant - cofactor(e, i);
-        for (std::size_t j = 0; j < dim; ++j) gram += corner.inverse_gram[i][j];
-      } else if (position == static_cast<int>(i) + 1) {
-        half_gradient = u[i];
-        of_determinant = cofactor(e, i);
-        gram = corner.inverse_gram[i][i];
-      }
-    }
-    const Real inverse = scale / spread;
-    const auto log_slope = inverse * of_determinant;
-    const Real bend = p * p + p * determinant / spread;
-    const Real least = Real{} + 2.0 * p * p;
-    const Real value = share * squared_norm;
-    const auto slope = (2.0 * share) * half_gradient;
-    terms.gradient = terms.gradient + slope - (p * value) * log_slope;
-    terms.hessian.add_unit((2.0 * gram) * share);
-    terms.hessian.add_product((-p) * slope, log_slope);
-    terms.hessian.add_product(
-        log_slope, (-p) * slope + ((bend > least ? bend : least) * value) * log_slope);
-  });
+        Vector<dim, Real> half_gradient{}, of_determinant{};
+        double gram = 0.0;
+        for (std::size_t i = 0; i < dim; ++i) {
+          if (position == 0) {
+            half_gradient = half_gradient - u[i];
+            of_determinant = of_determinant - cofactor(e, i);
+            for (std::size_t j = 0; j < dim; ++j) gram += corner.inverse_gram[i][j];
+          } else if (position == static_cast<int>(i) + 1) {
+            half_gradient = u[i];
+            of_determinant = cofactor(e, i);
+            gram = corner.inverse_gram[i][i];
+          }
+        }
+        const Real inverse = scale / spread;
+        const auto log_slope = inverse * of_determinant;
+        const Real bend = p * p + p * determinant / spread;
+        const Real least = Real{} + 2.0 * p * p;
+        const Real value = share * squared_norm;
+        const auto slope = (2.0 * share) * half_gradient;
+        terms.gradient = terms.gradient + slope - (p * value) * log_slope;
+        terms.hessian.add_unit((2.0 * gram) * share);
+        terms.hessian.add_product((-p) * slope, log_slope);
+        terms.hessian.add_product(
+            log_slope, (-p) * slope + ((bend > least ? bend : least) * value) * log_slope);
+      });
   const double mean = 1.0 / n_corners;
   const Real m = mean * terms.value;
   if constexpr (with_derivatives) {

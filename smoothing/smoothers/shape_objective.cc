@@ -48,7 +48,8 @@ struct Derivatives {
       const auto of_cell = blocks_by_cell(cell.hessian[k]);
       for (std::size_t l = 0; l < lanes; ++l) {
         const std::uint32_t place = places[l * n_pairs + k];
-        if (place != nowhere) add_block(of_cell[l], place % 2 != 0, hessian.block(place / 2).data());
+        if (place != nowhere)
+          add_block(of_cell[l], place % 2 != 0, hessian.block(place / 2).data());
       }
     }
     places += lanes * n_pairs;
@@ -107,12 +108,11 @@ SMOOTHFEM_INLINE double sum_of_block(const Topology& topology, const std::vector
   Lanes sums{};
   for_each_block<dim>(
       topology, x, block.first, block.last,
-      [&]<std::size_t n>(CellIndex, const std::array<Vector<dim, Lanes>, n>& corners)
-          SMOOTHFEM_INLINE_LAMBDA {
-            const Lanes mean =
-                mean_inverse_mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners));
-            sums += mean * mean;
-          },
+      [&]<std::size_t n>(CellIndex,
+                         const std::array<Vector<dim, Lanes>, n>& corners) SMOOTHFEM_INLINE_LAMBDA {
+        const Lanes mean = mean_inverse_mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners));
+        sums += mean * mean;
+      },
       [&](CellIndex, auto corners) SMOOTHFEM_INLINE_LAMBDA {
         const double mean = mean_inverse_mean_ratio(corners);
         sums[0] += mean * mean;
@@ -132,9 +132,7 @@ SMOOTHFEM_INLINE void add_block_derivatives(const std::vector<Point<dim>>& x,
             sums.add(c, CellDerivatives<dim, Lanes, n>(nodes, model));
           },
       [&]<std::size_t n>(CellIndex c, std::span<const Vector<dim, double>, n> nodes)
-          SMOOTHFEM_INLINE_LAMBDA {
-            sums.add(c, CellDerivatives<dim, double, n>(nodes, model));
-          });
+          SMOOTHFEM_INLINE_LAMBDA { sums.add(c, CellDerivatives<dim, double, n>(nodes, model)); });
 }
 
 // Templates cannot be compiled for several kinds of registers; these can.

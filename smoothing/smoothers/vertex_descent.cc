@@ -47,9 +47,9 @@ SMOOTHFEM_INLINE std::size_t position_of(NodeIndex node, std::span<const NodeInd
   return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
 }
 
-/// Calls visit(nodes, slot, lanes) for the cells of a node, several of one kind at a time: places of
-/// their nodes with the node itself at `slot` (a std::integral_constant), and how many of the lanes
-/// count.
+/// Calls visit(nodes, slot, lanes) for the cells of a node, several of one kind at a time: places
+/// of their nodes with the node itself at `slot` (a std::integral_constant), and how many of the
+/// lanes count.
 template <int dim, class Visit>
 SMOOTHFEM_INLINE void for_each_cell_of_node(const Topology& topology,
                                             const std::vector<Point<dim>>& x, NodeIndex node,
@@ -135,37 +135,42 @@ SMOOTHFEM_INLINE LocalObjective<dim> local_objective(const Topology& topology,
                                                      NodeIndex node, const Point<dim>& place,
                                                      double softness) {
   LocalObjective<dim> sum;
-  for_each_cell_of_node<dim>(
-      topology, x, node, place,
-      [&](auto nodes, auto slot, std::size_t count) SMOOTHFEM_INLINE_LAMBDA {
-        const auto terms = node_terms<slot, with_derivatives>(nodes, softness);
-        sum.value += sum_of_first(terms.value, count);
-        if constexpr (with_derivatives) {
-          sum.gradient += sum_of_first(terms.gradient, count);
-          for (int i = 0; i < dim * dim; ++i)
-            sum.hessian.data()[i] +=
-                sum_of_first(terms.hessian.entries[static_cast<std::size_t>(i)], count);
-        }
-      });
+  for_each_cell_of_node<dim>(topology, x, node, place,
+                             [&](auto nodes, auto slot, std::size_t count) SMOOTHFEM_INLINE_LAMBDA {
+                               const auto terms =
+                                   node_terms<slot, with_derivatives>(nodes, softness);
+                               sum.value += sum_of_first(terms.value, count);
+                               if constexpr (with_derivatives) {
+                                 sum.gradient += sum_of_first(terms.gradient, count);
+                                 for (int i = 0; i < dim * dim; ++i)
+                                   sum.hessian.data()[i] += sum_of_first(
+                                       terms.hessian.entries[static_cast<std::size_t>(i)], count);
+                               }
+                             });
   return sum;
 }
 
-/// Mean |det(S)| of the corners of a node's cells.
+/// Mean |det(S)| of the corners of a node's cells; where they are all flat, a little of what it
+/// would be in regular corners with their |S|^2.
 template <int dim>
 SMOOTHFEM_INLINE double mean_size(const Topology& topology, const std::vector<Point<dim>>& x,
                                   NodeIndex node) {
-  double sum = 0.0, n = 0.0;
+  constexpr double least_share = 1e-3;
+  double size = 0.0, squared_length = 0.0, n = 0.0;
   for_each_cell_of_node<dim>(
       topology, x, node, x[node],
       [&](auto nodes, auto slot, std::size_t count) SMOOTHFEM_INLINE_LAMBDA {
         for_each_corner<slot>(nodes, [&](const auto& corner, int) SMOOTHFEM_INLINE_LAMBDA {
           const auto determinant =
               (1.0 / corner.regular_determinant) * frame_determinant(corner.edges);
-          sum += sum_of_first(determinant > 0.0 ? determinant : -determinant, count);
+          size += sum_of_first(determinant > 0.0 ? determinant : -determinant, count);
+          for (std::size_t i = 0; i < dim; ++i)
+            squared_length += sum_of_first(dot(corner.edges[i], corner.half_gradient(i)), count);
           n += static_cast<double>(count);
         });
       });
-  return sum / n;
+  const double length = std::sqrt(squared_length / (dim * n));
+  return std::max(size / n, least_share * (dim == 2 ? length * length : length * length * length));
 }
 
 /// One Newton step of one node, halved until the objective of its cells falls enough.
@@ -193,13 +198,11 @@ SMOOTHFEM_INLINE void descend_node(const Topology& topology, NodeIndex node, dou
 
 // Templates cannot be compiled for several kinds of registers; these can.
 SMOOTHFEM_VECTOR_CLONES
-void descend(const Topology& topology, NodeIndex node, double softness,
-             std::vector<Point<2>>& x) {
+void descend(const Topology& topology, NodeIndex node, double softness, std::vector<Point<2>>& x) {
   descend_node<2>(topology, node, softness, x);
 }
 SMOOTHFEM_VECTOR_CLONES
-void descend(const Topology& topology, NodeIndex node, double softness,
-             std::vector<Point<3>>& x) {
+void descend(const Topology& topology, NodeIndex node, double softness, std::vector<Point<3>>& x) {
   descend_node<3>(topology, node, softness, x);
 }
 

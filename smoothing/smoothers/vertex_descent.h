@@ -8,9 +8,10 @@
 namespace smoothfem {
 
 /// Minimizes the shape objective (shape_objective.h) node after node: each free node in turn takes
-/// a Newton step for the cells it belongs to, in which its place is the minimum of a convex function
-/// as long as they are valid, shortened until that falls. Several threads take parts of the mesh at
-/// a time that do not touch each other; the result is the same for every number of them.
+/// a Newton step for the cells it belongs to, in which its place is the minimum of a convex
+/// function as long as they are valid, shortened until that falls. Several threads take parts of
+/// the mesh at a time that do not touch each other; the result is the same for every number of
+/// them.
 template <int dim>
 class VertexDescent {
  public:

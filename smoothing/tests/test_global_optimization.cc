@@ -24,7 +24,8 @@ std::vector<PlanarMesh> distorted_meshes(double radius) {
 
 TEST(ShapeObjective, CountsRegularElements) {
   const auto squares = grid_mesh(4, GridCells::quadrilaterals);
-  EXPECT_NEAR(ShapeObjective<2>(squares.shared_topology()).value(squares.coordinates()), 16.0, 1e-13);
+  EXPECT_NEAR(ShapeObjective<2>(squares.shared_topology()).value(squares.coordinates()), 16.0,
+              1e-13);
   const auto triangles = grid_mesh(3, GridCells::triangles, true);
   EXPECT_NEAR(ShapeObjective<2>(triangles.shared_topology()).value(triangles.coordinates()), 18.0,
               1e-13);
@@ -35,8 +36,8 @@ TEST(ShapeObjective, CountsRegularElements) {
 
 TEST(ShapeObjective, OfARightTriangleAndARectangle) {
   const auto triangle = test::make_mesh({{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}});
-  EXPECT_NEAR(ShapeObjective<2>(triangle.shared_topology()).value(triangle.coordinates()), 4.0 / 3.0,
-              1e-14);
+  EXPECT_NEAR(ShapeObjective<2>(triangle.shared_topology()).value(triangle.coordinates()),
+              4.0 / 3.0, 1e-14);
   const auto rectangle = test::make_mesh({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {{0, 1, 2, 3}});
   EXPECT_NEAR(ShapeObjective<2>(rectangle.shared_topology()).value(rectangle.coordinates()),
               1.25 * 1.25, 1e-14);
@@ -185,6 +186,20 @@ TEST(GlobalOptimization, ReachesTheSameMinimumFromDifferentStarts) {
       if (seed == 1) lowest = value;
       EXPECT_NEAR(value, lowest, 1e-7 * lowest);
     }
+  }
+}
+
+TEST(GlobalOptimization, ReachesTheSameMinimumWithStartSweeps) {
+  for (const auto& mesh : distorted_meshes(0.9)) {
+    const ShapeObjective<2> objective(mesh.shared_topology());
+    auto swept = mesh, plain = mesh;
+    Method<2> with = make_method<2>("global-optimization"),
+              without = make_method<2>("global-optimization");
+    with.set("start_sweeps", "5");
+    smooth(swept, with);
+    smooth(plain, without);
+    const double expected = objective.value(plain.coordinates());
+    EXPECT_NEAR(objective.value(swept.coordinates()), expected, 1e-7 * expected);
   }
 }
 

@@ -60,6 +60,16 @@ TEST(Untangle, MendsVolumeScrambles) {
   for (const double radius : {0.6, 1.5, 4.0}) expect_untangled(volume_meshes(), radius);
 }
 
+TEST(Untangle, MendsMeshesWithAllFreeNodesInAPlaneOrAPoint) {
+  for (const auto& regular : volume_meshes())
+    for (const int n_equal : {1, 3}) {
+      auto mesh = regular;
+      for (const NodeIndex i : mesh.topology().free_nodes())
+        for (int d = 0; d < n_equal; ++d) mesh.coordinates()[i][d] = 2.3 + 0.1 * d;
+      EXPECT_TRUE(untangle(mesh).valid);
+    }
+}
+
 TEST(Untangle, LeavesValidMeshesAsTheyAre) {
   auto mesh = box_mesh(4, 4, 4, BoxCells::hexahedra);
   test::distort(mesh, 0.6, 3);
@@ -106,7 +116,7 @@ TEST(Untangle, FollowsScale) {
 
 TEST(Untangle, DoesNotDependOnTheNumberOfThreads) {
   const int before = n_threads();
-  const auto tangled = scrambled(box_mesh(14, 14, 14, BoxCells::tetrahedra), 0.7, 2);
+  const auto tangled = scrambled(box_mesh(24, 24, 24, BoxCells::tetrahedra), 0.7, 2);
   std::optional<std::vector<Point<3>>> expected;
   for (const int n : {1, 2, 3, 8}) {
     set_n_threads(n);

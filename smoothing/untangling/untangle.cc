@@ -109,8 +109,7 @@ UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters) {
   }
   result.n_invalid_after = result.invalid_cells.size();
   result.valid = result.invalid_cells.empty();
-  result.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 

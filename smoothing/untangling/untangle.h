@@ -8,8 +8,8 @@
 namespace smoothfem {
 
 struct UntangleParameters {
-  /// Rounds of sweeps, each on a larger neighbourhood of the invalid cells and with a slower descent
-  /// of the softness; most meshes need one, what five do not mend more do not either.
+  /// Rounds of sweeps, each on a larger neighbourhood of the invalid cells and with a slower
+  /// descent of the softness; most meshes need one, what five do not mend more do not either.
   int max_rounds = 5;
   /// Sweeps of the first round; each round has twice as many as the one before.
   int sweeps = 25;
@@ -34,11 +34,11 @@ struct UntangleResult {
 
 /// Makes a tangled mesh valid by moving its free nodes, where it can. A valid mesh stays as it is,
 /// and so does one that could not be made valid. Minimizes the shape objective with determinants
-/// replaced by a positive, ever sharper bound of theirs (Escobar et al., Simultaneous untangling and
-/// smoothing of tetrahedral meshes, Comput. Methods Appl. Mech. Engrg. 192 (2003)), node after node,
-/// round the invalid cells; when all cells are valid some sweeps for the shape objective itself take
-/// them away from the edge of validity. Needs no start that is anything like valid. The same bits
-/// for every number of threads, the same result at every scale. dim = 2 or 3.
+/// replaced by a positive, ever sharper bound of theirs (Escobar et al., Simultaneous untangling
+/// and smoothing of tetrahedral meshes, Comput. Methods Appl. Mech. Engrg. 192 (2003)), node after
+/// node, round the invalid cells; when all cells are valid some sweeps for the shape objective
+/// itself take them away from the edge of validity. Needs no start that is anything like valid. The
+/// same bits for every number of threads, the same result at every scale. dim = 2 or 3.
 template <int dim>
 UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters = {});
 
