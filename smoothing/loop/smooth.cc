@@ -74,22 +74,24 @@ class BestMesh {
   bool all_moved_ = false;
 };
 
-/// The highest q_min and q_mean met so far, and how long ago.
+/// The highest quality numbers met so far, and how long ago.
 class QualityRecord {
  public:
   explicit QualityRecord(const MeshQuality& initial)
-      : q_min_(initial.q_min), q_mean_(initial.q_mean) {}
+      : q_min_(initial.q_min), q_star_min_(initial.q_star_min), q_mean_(initial.q_mean) {}
 
   void add(const MeshQuality& quality) {
     const bool gain = quality.q_min > q_min_ || quality.q_mean > q_mean_;
     n_without_gain_ = gain ? 0 : n_without_gain_ + 1;
     q_min_ = std::max(q_min_, quality.q_min);
+    q_star_min_ = std::max(q_star_min_, quality.q_star_min);
     q_mean_ = std::max(q_mean_, quality.q_mean);
   }
+  double q_star_min() const { return q_star_min_; }
   int n_without_gain() const { return n_without_gain_; }
 
  private:
-  double q_min_, q_mean_;
+  double q_min_, q_star_min_, q_mean_;
   int n_without_gain_ = 0;
 };
 
@@ -127,6 +129,7 @@ class SmoothingRun {
     if (uses_quality) clock_.start();
     evaluate_quality();
     if (uses_quality) clock_.stop();
+    state_.initial_quality = quality_;
     if (any_stage(method, [](const auto& rule) {
           return rule.criterion == StoppingCriterion::max_displacement;
         })) {
@@ -238,7 +241,10 @@ class SmoothingRun {
       case StoppingCriterion::max_displacement:
         return report.max_displacement < rule.tolerance * mean_edge_length_;
       case StoppingCriterion::result_stall:
-        return n_without_best >= rule.patience;
+        return n_without_best >= (highest.q_star_min() < state_.initial_quality.q_star_min
+                                      ? patience_below_start
+                                      : 1) *
+                                     rule.patience;
       case StoppingCriterion::converged:
         return report.converged;
     }

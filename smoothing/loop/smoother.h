@@ -18,7 +18,14 @@ struct SmoothingState {
   /// Quality of each cell of `mesh` at the beginning of a step. Up to date for every smoother but
   /// those with QualityUse::none, which must not look at it.
   std::vector<double> cell_quality;
+  /// Of the mesh that the method, not just this stage, began with.
+  MeshQuality initial_quality = {};
 };
+
+/// How many times its patience a stage that raises q*_min goes on for while q*_min is still below
+/// that of the mesh the method began with: an earlier stage may have lowered it, and the result
+/// should not be worse than the start.
+constexpr int patience_below_start = 10;
 
 /// Who evaluates the quality of the cells, and so whether its cost is part of the method's time.
 enum class QualityUse {
@@ -42,8 +49,10 @@ enum class StoppingCriterion {
   /// highest q_min or q_mean
   q_mean_change,
   max_displacement,  ///< no node moved `tolerance` times the initial mean edge length
-  result_stall,      ///< `patience` iterations in a row without a new best mesh (ResultMesh)
-  converged,         ///< the step says so
+  /// `patience` iterations in a row without a new best mesh (ResultMesh); patience_below_start
+  /// times as many while the best q*_min is below that at the method's start
+  result_stall,
+  converged,  ///< the step says so
 };
 
 struct SmoothingRule {

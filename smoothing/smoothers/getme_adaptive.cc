@@ -240,8 +240,9 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
 };
 
 /// Second stage: cycles that transform a share of the elements, those of the lowest quality when
-/// the cycle begins. A cycle ends after `patience` iterations that did not raise q*_min, counted as
-/// in Fig. 4.4; the stage ends after a cycle that did not.
+/// the cycle begins. A cycle ends after `patience` iterations in a row that did not raise q*_min
+/// (Section 5.1.3; in Fig. 4.4 they need not follow each other), the stage after a cycle that did
+/// not.
 template <int dim>
 class AdaptiveMinStage final : public AdaptiveStage<dim> {
  public:
@@ -275,11 +276,11 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
 
   StepReport step(SmoothingState<dim>& state) override {
     StepReport report = this->smooth_below(state, threshold_);
-    if (report.quality->q_star_min > best_)
-      best_ = report.quality->q_star_min;
-    else
-      ++n_without_gain_;
-    if (n_without_gain_ >= patience_) {
+    const bool gain = report.quality->q_star_min > best_;
+    best_ = std::max(best_, report.quality->q_star_min);
+    n_without_gain_ = gain ? 0 : n_without_gain_ + 1;
+    const bool below_start = best_ < state.initial_quality.q_star_min;
+    if (n_without_gain_ >= (below_start ? patience_below_start : 1) * patience_) {
       report.converged = !(best_ > best_at_start_);
       start_cycle(state);
     }
