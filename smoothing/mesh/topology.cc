@@ -8,37 +8,12 @@
 
 #include "smoothing/mesh/input_error.h"
 #include "smoothing/mesh/parallel.h"
+#include "smoothing/mesh/parallel_rows.h"
 #include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
 namespace {
-
-/// Nodes or cells that one thread takes at a time.
-constexpr std::size_t grain = 4096;
-
-/// Rows made one after the other, but in parallel: make_row(i, row) fills an empty row.
-template <class T, class MakeRow>
-CompressedRows<T> make_rows(std::size_t n_rows, const MakeRow& make_row) {
-  std::vector<std::vector<T>> parts((n_rows + grain - 1) / grain);
-  std::vector<std::size_t> offsets(n_rows + 1, 0);
-  parallel_for(parts.size(), [&](std::size_t part) {
-    std::vector<T> row;
-    for (std::size_t i = part * grain; i < std::min(n_rows, (part + 1) * grain); ++i) {
-      row.clear();
-      make_row(i, row);
-      parts[part].insert(parts[part].end(), row.begin(), row.end());
-      offsets[i + 1] = row.size();
-    }
-  });
-  for (std::size_t i = 0; i < n_rows; ++i) offsets[i + 1] += offsets[i];
-  std::vector<T> entries(offsets.back());
-  parallel_for(parts.size(), [&](std::size_t part) {
-    std::copy(parts[part].begin(), parts[part].end(), entries.begin() + offsets[part * grain]);
-    std::vector<T>().swap(parts[part]);
-  });
-  return {std::move(offsets), std::move(entries)};
-}
 
 /// For each node the cells that use it, ascending.
 CompressedRows<CellIndex> cells_by_node(std::size_t n_nodes,
@@ -148,6 +123,7 @@ void Topology::build_neighbours() {
 }
 
 void Topology::build_boundary() {
+  constexpr std::size_t grain = 4096;
   struct Part {
     std::vector<std::pair<CellIndex, std::uint32_t>> boundary;
     std::size_t n_facets = 0;

@@ -95,7 +95,7 @@ class AdaptiveStage : public Smoother<dim> {
     const Topology& topology = state.mesh.topology();
     element_.prepare();
     sums_.prepare(topology);
-    weights_.prepare(topology);
+    weights_->prepare(state.mesh.shared_topology());
     marked_.assign(topology.n_nodes(), 0);
     level_.assign(topology.n_nodes(), 0);
     all_cells_.resize(topology.n_cells());
@@ -103,12 +103,13 @@ class AdaptiveStage : public Smoother<dim> {
   }
 
  protected:
-  explicit AdaptiveStage(std::vector<double> relaxation) : relaxation_(std::move(relaxation)) {}
+  AdaptiveStage(std::vector<double> relaxation, std::shared_ptr<NeighbourWeights> weights)
+      : relaxation_(std::move(relaxation)), weights_(std::move(weights)) {}
 
   /// One iteration that transforms the elements of at most this quality.
   StepReport smooth_below(SmoothingState<dim>& state, double threshold) {
     find_active(state, threshold);
-    weights_.compute(active_cells_, state.cell_quality);
+    weights_->compute(active_cells_, state.cell_quality);
     add_active(state, threshold);
     previous_ = state.mesh.coordinates();
     targets_ = previous_;
@@ -150,7 +151,7 @@ class AdaptiveStage : public Smoother<dim> {
 
   void add_active(const SmoothingState<dim>& state, double threshold) {
     const auto& blocks = state.mesh.topology().blocks();
-    const Pass<dim> pass{state.mesh, element_, {weights_.weights().data(), threshold}};
+    const Pass<dim> pass{state.mesh, element_, {weights_->weights().data(), threshold}};
     parallel_for(blocks.size(), [&](std::size_t b) {
       const auto first =
           std::lower_bound(active_cells_.begin(), active_cells_.end(), blocks[b].first);
@@ -203,9 +204,9 @@ class AdaptiveStage : public Smoother<dim> {
 
   std::vector<double> relaxation_;
   NodeSums sums_;
-  NeighbourWeights weights_;
-  std::vector<std::uint8_t> marked_;  ///< free nodes of transformed elements
-  std::vector<std::uint8_t> level_;   ///< position in relaxation_ of each node
+  std::shared_ptr<NeighbourWeights> weights_;  ///< both stages use the same tables
+  std::vector<std::uint8_t> marked_;           ///< free nodes of transformed elements
+  std::vector<std::uint8_t> level_;            ///< position in relaxation_ of each node
   std::vector<CellIndex> all_cells_, active_cells_;
   std::vector<Point<dim>> previous_, targets_;
 };
@@ -214,7 +215,8 @@ class AdaptiveStage : public Smoother<dim> {
 template <int dim>
 class AdaptiveMeanStage final : public AdaptiveStage<dim> {
  public:
-  AdaptiveMeanStage() : AdaptiveStage<dim>({1.0, 0.25, 0.0625, 0.0}) {}
+  explicit AdaptiveMeanStage(std::shared_ptr<NeighbourWeights> weights)
+      : AdaptiveStage<dim>({1.0, 0.25, 0.0625, 0.0}, std::move(weights)) {}
   std::string_view name() const override { return "mean"; }
 
   Parameters parameters() override {
@@ -246,7 +248,8 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
 template <int dim>
 class AdaptiveMinStage final : public AdaptiveStage<dim> {
  public:
-  AdaptiveMinStage() : AdaptiveStage<dim>({0.5, 0.25, 0.1, 0.01, 0.0}) {}
+  explicit AdaptiveMinStage(std::shared_ptr<NeighbourWeights> weights)
+      : AdaptiveStage<dim>({0.5, 0.25, 0.1, 0.01, 0.0}, std::move(weights)) {}
   std::string_view name() const override { return "min"; }
 
   Parameters parameters() override {
@@ -310,8 +313,9 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
 template <int dim>
 Stages<dim> make_stages() {
   Stages<dim> stages;
-  stages.push_back(std::make_unique<AdaptiveMeanStage<dim>>());
-  stages.push_back(std::make_unique<AdaptiveMinStage<dim>>());
+  const auto weights = std::make_shared<NeighbourWeights>();
+  stages.push_back(std::make_unique<AdaptiveMeanStage<dim>>(weights));
+  stages.push_back(std::make_unique<AdaptiveMinStage<dim>>(weights));
   return stages;
 }
 

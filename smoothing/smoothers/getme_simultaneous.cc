@@ -115,12 +115,13 @@ class GetmeSimultaneous final : public Smoother<dim> {
     const Topology& topology = state.mesh.topology();
     if (!ready_) pass_over_all(state);
     ready_ = true;
-    previous_ = state.mesh.coordinates();
     // Where all weights are zero the node's elements are regular already: it stays.
+    previous_.resize(topology.n_nodes());
     sums_.for_each_node([&](NodeIndex i, const double* sums) {
-      if (!topology.is_fixed(i) && sums[dim] > 0.0)
-        state.mesh.coordinates()[i] = mean_place<dim>(sums);
+      const bool moves = !topology.is_fixed(i) && sums[dim] > 0.0;
+      previous_[i] = moves ? mean_place<dim>(sums) : state.mesh.coordinates()[i];
     });
+    previous_.swap(state.mesh.coordinates());
     StepReport report;
     report.quality = pass_over_all(state);
     if (report.quality->n_invalid > 0) {
@@ -147,29 +148,26 @@ class GetmeSimultaneous final : public Smoother<dim> {
   /// nodes of their cells, from all cells around those. Same bits as a pass over all cells.
   MeshQuality pass_around(SmoothingState<dim>& state, const std::vector<NodeIndex>& nodes) {
     const Topology& topology = state.mesh.topology();
-    marked_.assign(topology.n_nodes(), 0);
+    marked_nodes_.assign(topology.n_nodes(), 0);
+    marked_cells_.assign(topology.n_cells(), 0);
     std::vector<NodeIndex> changed_sums;
     for (const NodeIndex i : nodes)
       for (const CellIndex c : topology.node_cells(i))
         for (const NodeIndex j : topology.cell_nodes(c))
-          if (!std::exchange(marked_[j], 1)) changed_sums.push_back(j);
-    std::vector<CellIndex> cells;
-    for (const NodeIndex i : changed_sums) {
-      const auto around = topology.node_cells(i);
-      cells.insert(cells.end(), around.begin(), around.end());
-    }
-    if (cells.size() > topology.n_cells()) return pass_over_all(state);
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+          if (!std::exchange(marked_nodes_[j], 1)) changed_sums.push_back(j);
+    if (4 * changed_sums.size() > topology.n_nodes()) return pass_over_all(state);
+    for (const NodeIndex i : changed_sums)
+      for (const CellIndex c : topology.node_cells(i)) marked_cells_[c] = 1;
 
     const Pass<dim> pass{state.mesh, element_, {eta_}};
     const auto& blocks = topology.blocks();
     parallel_for(blocks.size(), [&](std::size_t b) {
-      const auto first = std::lower_bound(cells.begin(), cells.end(), blocks[b].first);
-      const auto last = std::lower_bound(first, cells.end(), blocks[b].last);
-      if (first == last) return;
+      std::vector<CellIndex> cells;
+      for (CellIndex c = blocks[b].first; c < blocks[b].last; ++c)
+        if (marked_cells_[c]) cells.push_back(c);
+      if (cells.empty()) return;
       for (const NodeIndex i : changed_sums) sums_.clear(b, i);
-      add_some(pass, {first, last}, marked_, sums_.of_block(b));
+      add_some(pass, cells, marked_nodes_, sums_.of_block(b));
       parts_[b] = PartialQuality(topology, state.cell_quality, blocks[b]);
     });
     return mesh_quality(parts_, topology.n_cells());
@@ -181,8 +179,9 @@ class GetmeSimultaneous final : public Smoother<dim> {
   NodeSums sums_;
   std::vector<PartialQuality> parts_;  ///< of each block of cells
   std::vector<Point<dim>> previous_;
-  std::vector<std::uint8_t> marked_;  ///< nodes whose sums have to be added again
-  bool ready_ = false;                ///< sums_ are those of the present mesh
+  std::vector<std::uint8_t> marked_nodes_;  ///< whose sums have to be added again
+  std::vector<std::uint8_t> marked_cells_;  ///< that add to them
+  bool ready_ = false;                      ///< sums_ are those of the present mesh
 };
 
 const RegisteredMethod registered({.name = "getme-simultaneous",
