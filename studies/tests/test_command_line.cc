@@ -10,9 +10,13 @@
 #include "fem/manufactured_solution.h"
 #include "meshes/generators/domains.h"
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/preset.h"
+#include "smoothing/loop/smooth.h"
+#include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/quality/warpage.h"
+#include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/command_line.h"
 
@@ -24,6 +28,7 @@ namespace fs = std::filesystem;
 TEST_F(CommandLine, EveryMethodSmoothsAMeshWithPentagons) {
   write_mesh(file("in.vtu"), mixed_mesh(true));
   for (const auto& info : method_catalogue()) {
+    if (!takes_meshes<2>(info.name)) continue;
     const std::string out = info.name + ".vtu";
     const Outcome smoothed = smoothfem({"smooth", "in.vtu", "-m", info.name, "-o", out});
     EXPECT_EQ(smoothed.exit_code, 0) << info.name << ": " << smoothed.err;
@@ -79,6 +84,147 @@ TEST_F(CommandLine, SettingsChangeTheResult) {
                   .exit_code,
               0);
   EXPECT_NE(content_of(file("out0.4.mesh")), content_of(file("out0.6.mesh")));
+}
+
+/// 3 x 3 x 4 cells of all types, shaken; the faces of the bottom are the group 5, "inlet".
+VolumeMesh shaken_box(test::BoxCells kind = test::BoxCells::mixed) {
+  VolumeMesh mesh = test::box_mesh(3, 3, 4, kind);
+  test::distort(mesh, 0.3, 3);
+  MeshLabels labels;
+  for (const NodeIndex a : {0, 1, 2, 4, 5, 6, 8, 9, 10}) {
+    if (kind == test::BoxCells::hexahedra) {
+      labels.facets.append(std::vector<NodeIndex>{a, a + 4, a + 5, a + 1});
+      labels.facet_tags.push_back(5);
+    } else {
+      labels.facets.append(std::vector<NodeIndex>{a, a + 5, a + 1});
+      labels.facets.append(std::vector<NodeIndex>{a, a + 4, a + 5});
+      labels.facet_tags.insert(labels.facet_tags.end(), 2, 5);
+    }
+  }
+  labels.names = {{{2, 5}, "inlet"}};
+  return {std::make_shared<const Topology>(3, mesh.n_nodes(), mesh.topology().cells(), std::nullopt,
+                                           labels),
+          mesh.coordinates()};
+}
+
+VolumeMesh read_volume(const fs::path& path) {
+  return std::get<VolumeMesh>(read_mesh(path).mesh);
+}
+
+TEST_F(CommandLine, SmoothsVolumeMeshesOfEveryFormat) {
+  for (const auto& format : mesh_formats()) {
+    if (!format.holds_volume_meshes) continue;
+    const std::string in = "in" + format.extension, out = "out" + format.extension;
+    write_mesh(file(in), shaken_box(test::BoxCells::hexahedra));
+    const Outcome outcome = smoothfem({"smooth", in, "-m", "getme-adaptive", "-o", out});
+    ASSERT_EQ(outcome.exit_code, 0) << format.name << ": " << outcome.err;
+    EXPECT_NE(outcome.out.find("after"), std::string::npos) << outcome.out;
+    const VolumeMesh before = read_volume(file(in)), after = read_volume(file(out));
+    EXPECT_EQ(after.topology().cells(), before.topology().cells()) << format.name;
+    EXPECT_GT(mesh_quality(after).q_star_min, mesh_quality(before).q_star_min) << format.name;
+    EXPECT_EQ(test::n_moved_fixed_nodes(before, after), 0u) << format.name;
+  }
+}
+
+TEST_F(CommandLine, EveryMethodForVolumeMeshesSmoothsOne) {
+  write_mesh(file("in.vtu"), shaken_box());
+  for (const auto& info : method_catalogue()) {
+    if (!takes_meshes<3>(info.name)) continue;
+    const Outcome outcome = smoothfem({"smooth", "in.vtu", "-m", info.name, "-o", "out.vtu"});
+    ASSERT_EQ(outcome.exit_code, 0) << info.name << ": " << outcome.err;
+    EXPECT_GT(mesh_quality(read_volume(file("out.vtu"))).q_mean, mesh_quality(shaken_box()).q_mean);
+  }
+}
+
+TEST_F(CommandLine, SettingsComeAfterThePreset) {
+  write_mesh(file("in.vtu"), shaken_box());
+  const auto result = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"smooth", "in.vtu", "-m", "getme", "-o", "out.vtu"});
+    const Outcome outcome = smoothfem(options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return read_volume(file("out.vtu")).coordinates();
+  };
+  const auto expected = [](const std::vector<std::pair<std::string, std::string>>& settings) {
+    VolumeMesh mesh = shaken_box();
+    Method<3> method = make_method<3>("getme");
+    apply_preset(find_preset("thesis-5.4"), method);
+    for (const auto& [name, value] : settings) method.set(name, value);
+    smooth(mesh, method);
+    return mesh.coordinates();
+  };
+  const auto preset = result({"--preset", "thesis-5.4"});
+  EXPECT_EQ(preset, expected({}));
+  EXPECT_NE(preset, result({}));
+  // Whatever their order on the command line.
+  const auto both = result({"--set", "simultaneous.rho=0.2", "--preset", "thesis-5.4"});
+  EXPECT_EQ(both, expected({{"simultaneous.rho", "0.2"}}));
+  EXPECT_NE(both, preset);
+}
+
+TEST_F(CommandLine, TheRuleForFixedNodesDecidesWhichMove) {
+  const VolumeMesh mesh = shaken_box();
+  write_mesh(file("in.msh"), mesh);
+  for (const std::string rule : {"boundary", "file", "free", "group=inlet", "group=5"}) {
+    const Outcome outcome = smoothfem({"smooth", "in.msh", "-m", "laplace", "-o", "out.msh",
+                                       "--fix", rule, "--set", "max_iterations=1"});
+    ASSERT_EQ(outcome.exit_code, 0) << rule << ": " << outcome.err;
+    const auto after = read_volume(file("out.msh")).coordinates();
+    const auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule(rule));
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      EXPECT_EQ(after[i] == mesh.coordinates()[i], fixed[i]) << rule << " node " << i;
+  }
+}
+
+TEST_F(CommandLine, TheNumberOfThreadsChangesNoByte) {
+  write_mesh(file("in.vtk"), shaken_box());
+  for (const std::string n : {"1", "3"}) {
+    const Outcome outcome =
+        smoothfem({"smooth", "in.vtk", "-m", "getme", "-o", n + ".vtk", "--threads", n});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("on " + n + " thread"), std::string::npos) << outcome.out;
+  }
+  EXPECT_EQ(content_of(file("1.vtk")), content_of(file("3.vtk")));
+}
+
+/// A node far beyond its neighbours, and cells with the numbers 100, 101, ...
+VolumeMesh tangled_box() {
+  const VolumeMesh mesh = test::box_mesh(3, 3, 3, test::BoxCells::hexahedra);
+  MeshLabels labels;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) labels.cell_ids.push_back(100 + c);
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) labels.node_ids.push_back(1 + i);
+  auto coordinates = mesh.coordinates();
+  coordinates[mesh.topology().free_nodes()[0]] += Point<3>(2.2, 2.2, 2.2);
+  return {std::make_shared<const Topology>(3, mesh.n_nodes(), mesh.topology().cells(), std::nullopt,
+                                           labels),
+          coordinates};
+}
+
+TEST_F(CommandLine, UntanglesWhereAskedTo) {
+  write_mesh(file("in.msh"), tangled_box());
+  const std::size_t n_invalid = mesh_quality(tangled_box()).n_invalid;
+  ASSERT_GT(n_invalid, 3u);
+  const Outcome outcome = smoothfem(
+      {"smooth", "in.msh", "-m", "getme", "-o", "out.msh", "--untangle", "--log", "rows.csv"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("untangled " + std::to_string(n_invalid) + " invalid cells"),
+            std::string::npos)
+      << outcome.out;
+  const VolumeMesh after = read_volume(file("out.msh"));
+  EXPECT_EQ(mesh_quality(after).n_invalid, 0u);
+  EXPECT_EQ(test::n_moved_fixed_nodes(tangled_box(), after), 0u);
+  EXPECT_EQ(after.topology().labels().cell_ids, tangled_box().topology().labels().cell_ids);
+  const CsvTable log(content_of(file("rows.csv")));
+  ASSERT_GT(log.rows.size(), 2u);
+  for (const auto& row : log.rows) {
+    EXPECT_EQ(row.at("n_invalid"), "0");
+    EXPECT_EQ(row.at("method"), "getme");
+  }
+  const auto seconds = [&](std::size_t i) {
+    return std::stod(log.rows[i].at("smoothing_seconds"));
+  };
+  for (std::size_t i = 1; i < log.rows.size(); ++i) EXPECT_GE(seconds(i), seconds(i - 1)) << i;
+  for (const std::string stage : {"initial", "simultaneous", "sequential"})
+    EXPECT_FALSE(log.select({{"stage", stage}}).empty()) << stage;
 }
 
 TEST_F(CommandLine, QualityAsTextAndAsJson) {
@@ -157,9 +303,15 @@ TEST_F(CommandLine, ListNamesEverythingThereIs) {
   };
   for (const auto& info : method_catalogue()) {
     expect_listed(info.name);
-    Method<2> method = make_method<2>(info.name);
-    for (const auto& parameter : method.parameters()) expect_listed(parameter.name);
+    const auto expect_parameters_listed = [&]<int dim>() {
+      if (!takes_meshes<dim>(info.name)) return;
+      Method<dim> method = make_method<dim>(info.name);
+      for (const auto& parameter : method.parameters()) expect_listed(parameter.name);
+    };
+    expect_parameters_listed.template operator()<2>();
+    expect_parameters_listed.template operator()<3>();
   }
+  for (const auto& preset : presets()) expect_listed(preset.name);
   for (const auto& format : mesh_formats()) expect_listed(format.extension);
   for (const auto& domain : domains()) expect_listed(domain.name);
   for (const auto& solution : manufactured_solutions()) expect_listed(solution.name);

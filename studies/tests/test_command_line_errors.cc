@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <set>
 
+#include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/command_line.h"
 
 namespace smoothfem {
@@ -131,6 +133,78 @@ TEST_F(BadInput, MethodOrParameterThatIsNotThere) {
   expect_refused(with({"getme", "--set", "simultaneous.lambda"}), {"key=value"});
   expect_refused(with({"getme", "--set", "simultaneous.lambda=much"}), {"much"});
   expect_refused(with({"getme", "--set", "simultaneous.lambda=-3"}), {"-3"});
+}
+
+TEST_F(BadInput, PresetOrRuleOrGroupThatIsNotThere) {
+  write_mesh(file("box.msh"), test::box_mesh(2, 2, 2, test::BoxCells::hexahedra));
+  const auto smooth = [&](const std::string& mesh, const std::string& method,
+                          std::vector<std::string> more) {
+    more.insert(more.begin(), {"smooth", mesh, "-m", method, "-o", "out.vtu", "--log", "log.csv",
+                               "--series", "series.pvd"});
+    return more;
+  };
+  expect_refused(smooth("good.mesh", "getme", {"--preset", "magic"}),
+                 {"no preset 'magic'", "thesis-5.1"});
+  expect_refused(smooth("good.mesh", "laplace", {"--preset", "thesis-5.1"}),
+                 {"thesis-5.1 has no parameters for method laplace on planar", "simultaneous"});
+  expect_refused(smooth("box.msh", "laplace", {"--preset", "thesis-5.4"}),
+                 {"thesis-5.4 has no parameters for method laplace on volume", "qgamma"});
+  expect_refused(smooth("box.msh", "getme", {"--preset", "thesis-5.4", "--set", "rho=2"}),
+                 {"'rho'", "simultaneous.rho"});
+  for (const std::string rule : {"all", "group=", "group", "Boundary"})
+    expect_refused(smooth("box.msh", "getme", {"--fix", rule}),
+                   {"'" + rule + "'", "use boundary, file, free or group=NAME"});
+  expect_refused(smooth("box.msh", "getme", {"--fix", "group=inlet"}),
+                 {"'inlet'", "the mesh has no labelled boundary groups"});
+  expect_refused(smooth("good.mesh", "getme-qgamma", {}),
+                 {"getme-qgamma does not take planar meshes"});
+  for (const std::string n : {"0", "-1", "2000", "many"})
+    expect_refused(smooth("good.mesh", "getme", {"--threads", n}), {"--threads", n});
+}
+
+/// Hexahedra of which node 13 with its 8 cells is the only free one.
+TEST_F(BadInput, TangledVolumeMesh) {
+  const VolumeMesh regular = test::box_mesh(2, 2, 2, test::BoxCells::hexahedra);
+  const auto labelled = [&](const std::vector<Point<3>>& coordinates) {
+    MeshLabels labels;
+    for (CellIndex c = 0; c < regular.n_cells(); ++c) labels.cell_ids.push_back(71 + c);
+    for (NodeIndex i = 0; i < regular.n_nodes(); ++i) labels.node_ids.push_back(31 + i);
+    return VolumeMesh(std::make_shared<const Topology>(
+                          3, regular.n_nodes(), regular.topology().cells(), std::nullopt, labels),
+                      coordinates);
+  };
+  auto places = regular.coordinates();
+  places[13] = {1.0, 1.0, 2.5};
+  write_mesh(file("tangled.msh"), labelled(places));
+  const std::vector<std::string> words = {"tangled.msh: 4 of 8 cells are invalid",
+                                          "cell 75 at (0, 0, 1)",
+                                          "cell 76 at (1, 0, 1)",
+                                          "cell 77 at (0, 1, 1)",
+                                          ", ...",
+                                          "untangle the mesh first"};
+  expect_refused({"quality", "tangled.msh"}, words);
+  expect_refused({"smooth", "tangled.msh", "-m", "getme", "-o", "out.vtu", "--log", "log.csv",
+                  "--series", "series.pvd"},
+                 words);
+  // Two corners of the box change places: their cells have only those and other fixed nodes.
+  places = regular.coordinates();
+  std::swap(places[0], places[2]);
+  write_mesh(file("hopeless.msh"), labelled(places));
+  for (const std::string method : {"getme", "laplace"})
+    expect_refused({"smooth", "hopeless.msh", "-m", method, "-o", "out.vtu", "--log", "log.csv",
+                    "--series", "series.pvd", "--untangle"},
+                   {"hopeless.msh: ",
+                    "2 of 2 invalid cells are left after untangling (cells 71, 72)", "--fix"});
+  VolumeMesh flat = labelled(regular.coordinates());
+  flat = with_fixed_nodes(flat, std::vector<bool>(flat.n_nodes(), true));
+  flat.coordinates()[13] = {1.0, 1.0, 2.5};
+  write_mesh(file("fixed.inp"), flat);
+  expect_refused({"smooth", "fixed.inp", "-m", "getme", "-o", "out.vtu", "--untangle"},
+                 {"4 of 4 invalid cells have only fixed nodes", "75, 76, 77, 78", "--fix"});
+  EXPECT_EQ(smoothfem({"smooth", "fixed.inp", "-m", "getme", "-o", "out.vtu", "--untangle", "--fix",
+                       "boundary"})
+                .exit_code,
+            0);
 }
 
 TEST_F(BadInput, OptionOrCommandThatIsNotThere) {
