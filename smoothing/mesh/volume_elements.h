@@ -11,16 +11,16 @@
 /// The four volume elements: node order, edges, faces, node simplices and duals, after Section 3.1
 /// and Fig. 3.5 of the thesis, counted from 0. This is the only place with such tables.
 ///
-///      tetrahedron            pyramid                prism               hexahedron
+///   tetrahedron          pyramid            prism           hexahedron
 ///
-///           3                    4                    5                   7-------6
-///          /|\                 .' '.                 /|\                 /|      /|
-///         / | \               /  |  \               3---4               4-------5 |
-///        /  |  \            3 . .|. . 2             | | |               | |     | |
-///       0---|---2          /     |   /              | 2 |               | 3-----|-2
-///        \  |  /          0 --------1               |/ \|               |/      |/
-///         \ | /                                     0---1               0-------1
-///           1
+///        3                  4              3-------5        7-------6
+///       /|\               //|\             |\     /|       /|      /|
+///      / | \             / / \ \           | \   / |      / |     / |
+///     /  |  \           3-/---\-2          |   4   |     4-------5  |
+///    0---|---2         / /     \/          0---|---2     |  3----|--2
+///     \  |  /         0---------1           \  |  /      | /     | /
+///      \ | /                                 \ | /       |/      |/
+///        1                                     1         0-------1
 ///
 /// Seen so that the node, its next ones and its last one in each row of `corners` span a positive
 /// volume: in the prism 0, 1, 2 run counterclockwise seen from 3, 4, 5 (as in Gmsh; VTK's wedge has
