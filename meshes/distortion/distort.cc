@@ -30,7 +30,7 @@ template <int dim>
 Point<dim> point_in_unit_ball(SplitMix64& random) {
   while (true) {
     Point<dim> point;
-    for (int d = 0; d < dim; ++d) point[d] = 2.0 * random.uniform() - 1.0;
+    for (int d = dim - 1; d >= 0; --d) point[d] = 2.0 * random.uniform() - 1.0;
     if (point.squaredNorm() <= 1.0) return point;
   }
 }

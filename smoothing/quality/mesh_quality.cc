@@ -42,30 +42,14 @@ void compute_cells(const VolumeMesh& mesh, const CellBlock& block, double* cell_
 PartialQuality::PartialQuality(const Topology& topology, const std::vector<double>& cell_quality,
                                const CellBlock& block)
     : q_min(none), q_star_min(none) {
-  // Several sums that do not wait for each other.
-  Lanes sums{}, lowest = sums + none, lowest_free = lowest;
-  LaneMask invalid{};
-  const auto add = [&](Lanes q, Lanes free_q) {
-    lowest = q < lowest ? q : lowest;
-    lowest_free = free_q < lowest_free ? free_q : lowest_free;
-    sums += q < none ? q : Lanes{};
-    invalid -= q <= 0.0;
-  };
-  std::array<double, n_lanes> q, free_q;
-  for (CellIndex first = block.first; first < block.last; first += n_lanes) {
-    for (std::size_t l = 0; l < n_lanes; ++l) {
-      const CellIndex c = first + l;
-      q[l] = c < block.last ? cell_quality[c] : none;  // counts for nothing
-      free_q[l] = c < block.last && topology.has_free_node(c) ? q[l] : none;
-    }
-    add(load_lanes(q.data()), load_lanes(free_q.data()));
+  for (CellIndex c = block.first; c < block.last; ++c) {
+    const double q = cell_quality[c];
+    q_min = q < q_min ? q : q_min;
+    const double free_q = topology.has_free_node(c) ? q : none;
+    q_star_min = free_q < q_star_min ? free_q : q_star_min;
+    sum += q;
+    n_invalid += q > 0.0 ? 0 : 1;
   }
-  for (std::size_t l = 0; l < n_lanes; ++l) {
-    q_min = std::min(q_min, lowest[l]);
-    q_star_min = std::min(q_star_min, lowest_free[l]);
-    n_invalid += static_cast<std::size_t>(invalid[l]);
-  }
-  sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t n_cells) {

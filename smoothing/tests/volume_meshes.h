@@ -39,8 +39,13 @@ inline VolumeMesh box_mesh(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz,
         if (here == BoxCells::hexahedra) {
           cells.append(h);
         } else if (here == BoxCells::prisms) {
-          cells.append(Row{h[0], h[1], h[2], h[4], h[5], h[6]});
-          cells.append(Row{h[0], h[2], h[3], h[4], h[6], h[7]});
+          if (kind == BoxCells::mixed) {  // lying, so that squares meet what is above
+            cells.append(Row{h[0], h[5], h[1], h[3], h[6], h[2]});
+            cells.append(Row{h[0], h[4], h[5], h[3], h[7], h[6]});
+          } else {
+            cells.append(Row{h[0], h[1], h[2], h[4], h[5], h[6]});
+            cells.append(Row{h[0], h[2], h[3], h[4], h[6], h[7]});
+          }
         } else if (here == BoxCells::pyramids) {
           const auto middle = static_cast<NodeIndex>(x.size());
           x.emplace_back(i + 0.5, j + 0.5, k + 0.5);

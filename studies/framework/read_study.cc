@@ -71,7 +71,8 @@ void parse(ParameterHandler& p, const std::string& text, const std::filesystem::
 std::vector<std::string> method_labels(const std::string& list) {
   if (list != "all") return split_list(list);
   std::vector<std::string> names;
-  for (const auto& info : method_catalogue()) names.push_back(info.name);
+  for (const auto& info : method_catalogue())
+    if (takes_meshes<2>(info.name)) names.push_back(info.name);
   return names;
 }
 

@@ -107,7 +107,8 @@ TEST_F(StudyFile, NamesItsMeshFileRelativeToItself) {
 
 TEST_F(StudyFile, AllMeansEveryRegisteredMethod) {
   std::vector<std::string> registered;
-  for (const auto& info : method_catalogue()) registered.push_back(info.name);
+  for (const auto& info : method_catalogue())
+    if (takes_meshes<2>(info.name)) registered.push_back(info.name);
   ASSERT_GE(registered.size(), 4u);
   EXPECT_EQ(names_of(read(one_mesh + "set methods = all\n").methods), registered);
   EXPECT_EQ(names_of(read(one_mesh).methods), registered) << "'all' is the default";
