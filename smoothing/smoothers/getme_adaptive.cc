@@ -259,7 +259,10 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
                    "cycle; the thesis does not print it, 0.001 to 0.01 is good",
                    &share_, 0.0, 1.0});
     all.push_back(
-        {"patience", "iterations without a higher q*_min that end a cycle", &patience_, 1.0, 1e9});
+        {"patience",
+         "iterations in a row without a higher q*_min that end a cycle; the thesis has 5, 10 "
+         "gains as much q*_min as the sequential method",
+         &patience_, 1.0, 1e9});
     all.push_back({"max_iterations", "stop after this many iterations at the latest",
                    &max_iterations_, 1.0, 1e9});
     return all;
@@ -303,8 +306,8 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
   }
 
   double share_ = 0.005;
-  int patience_ = 5;
-  int max_iterations_ = 1000;
+  int patience_ = 10;
+  int max_iterations_ = 10000;
   double threshold_ = 1.0;
   double best_ = 0.0, best_at_start_ = 0.0;
   int n_without_gain_ = 0;
