@@ -35,7 +35,7 @@ VolumeMesh sweep(const PlanarMesh& mesh, std::uint32_t n_layers, double height) 
 void generate_bored_cube(const std::filesystem::path& path) {
   std::cerr << "generating " << path << '\n';
   GmshSession session;
-  constexpr double size = 0.0191;
+  constexpr double size = 0.0192;
   session.set_option("Mesh.MeshSizeMin", size);
   session.set_option("Mesh.MeshSizeMax", size);
   session.set_option("Mesh.MshFileVersion", 4.1);
