@@ -78,12 +78,12 @@ const std::vector<ManufacturedSolution>& manufactured_solutions() {
 }
 
 const ManufacturedSolution& manufactured_solution(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const auto& solution : manufactured_solutions()) {
     if (solution.name == name) return solution;
-    known += (known.empty() ? "" : ", ") + solution.name;
+    known.push_back(solution.name);
   }
-  throw InputError("there is no solution '" + name + "'; choose one of " + known +
+  throw InputError("there is no solution '" + name + "'; " + choose_one_of(known) +
                    ", or give an expression");
 }
 

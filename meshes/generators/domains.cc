@@ -24,12 +24,12 @@ const std::vector<Domain>& domains() {
 }
 
 const Domain& find_domain(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const auto& domain : domains()) {
     if (domain.name == name) return domain;
-    known += (known.empty() ? "" : ", ") + domain.name;
+    known.push_back(domain.name);
   }
-  throw InputError("there is no domain '" + name + "'; use one of " + known);
+  throw InputError("there is no domain '" + name + "'; use one of " + joined(known));
 }
 
 }  // namespace smoothfem

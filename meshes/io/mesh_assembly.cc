@@ -118,13 +118,13 @@ void require_no_polygons(const std::filesystem::path& path, const MeshView& mesh
   const Topology& topology = mesh.topology();
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
     if (topology.cell_type(c) != ElementType::polygon) continue;
-    std::string others;
+    std::vector<std::string> others;
     for (const auto& format : mesh_formats())
-      if (format.holds_polygons) others += (others.empty() ? "" : ", ") + format.extension;
+      if (format.holds_polygons) others.push_back(format.extension);
     throw InputError("cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
                      std::to_string(topology.cell_nodes(c).size()) + " nodes, and " +
                      path.extension().string() +
-                     " files hold only triangles and quadrilaterals; use one of " + others);
+                     " files hold only triangles and quadrilaterals; use one of " + joined(others));
   }
 }
 

@@ -88,18 +88,18 @@ std::vector<const MeshFormat*> formats_of(const std::filesystem::path& path,
                                           const std::string& prefix) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  std::string known;
+  std::vector<std::string> known;
   std::vector<const MeshFormat*> found;
   for (const auto& format : mesh_formats()) {
     if (format.extension == extension) found.push_back(&format);
-    if (known.find(format.extension) == std::string::npos)
-      known += (known.empty() ? "" : ", ") + format.extension;
+    if (std::find(known.begin(), known.end(), format.extension) == known.end())
+      known.push_back(format.extension);
   }
   if (found.empty())
     throw InputError(prefix + ": " +
                      (extension.empty() ? "the file name has no extension"
                                         : "the extension " + extension + " is not known") +
-                     "; use one of " + known);
+                     "; use one of " + joined(known));
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 
@@ -22,34 +23,20 @@ std::vector<NodeIndex> put_back(Mesh<dim>& mesh, const std::vector<Point<dim>>& 
   return moved;
 }
 
-std::vector<CellIndex> cells_of(const Topology& topology, const std::vector<NodeIndex>& nodes) {
-  std::vector<CellIndex> cells;
-  for (const NodeIndex i : nodes) {
-    const auto attached = topology.node_cells(i);
-    cells.insert(cells.end(), attached.begin(), attached.end());
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 }  // namespace
 
 template <int dim>
 std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim>& mesh,
                                                     const std::vector<Point<dim>>& previous,
                                                     std::vector<double>& cell_quality) {
-  std::vector<CellIndex> invalid;
-  for (CellIndex c = 0; c < cell_quality.size(); ++c)
-    if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
-
+  std::vector<CellIndex> invalid = invalid_cells(cell_quality);
   std::vector<NodeIndex> all_moved;
   while (!invalid.empty()) {
     const auto moved = put_back(mesh, previous, invalid);
     if (moved.empty()) break;  // the cells were invalid before
     all_moved.insert(all_moved.end(), moved.begin(), moved.end());
     invalid.clear();
-    for (const CellIndex c : cells_of(mesh.topology(), moved)) {
+    for (const CellIndex c : mesh.topology().cells_around(moved)) {
       cell_quality[c] = cell_mean_ratio(mesh, c);
       if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
     }

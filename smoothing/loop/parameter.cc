@@ -93,21 +93,15 @@ void set_value(const Parameter& parameter, const std::string& text, const std::s
       parameter.value);
 }
 
-std::string choose_one_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  return "choose one of " + list;
-}
-
 const Parameter& find_parameter(const Parameters& parameters, const std::string& name,
                                 const std::string& owner) {
-  std::string known;
+  std::vector<std::string> known;
   for (const auto& parameter : parameters) {
     if (parameter.name == name) return parameter;
-    known += (known.empty() ? "" : ", ") + parameter.name;
+    known.push_back(parameter.name);
   }
   throw InputError(owner + " has no parameter '" + name + "'; it has " +
-                   (known.empty() ? "none" : known));
+                   (known.empty() ? "none" : joined(known)));
 }
 
 }  // namespace smoothfem

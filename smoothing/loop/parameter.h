@@ -33,9 +33,6 @@ std::string value_text(const Parameter& parameter);
 /// number (or no integer where one is needed, or none of the names) or outside the range.
 void set_value(const Parameter& parameter, const std::string& text, const std::string& owner);
 
-/// "choose one of a, b, c", the end of a sentence that refuses a name.
-std::string choose_one_of(const std::vector<std::string>& names);
-
 /// The parameter of this name; throws InputError listing the names there are.
 const Parameter& find_parameter(const Parameters& parameters, const std::string& name,
                                 const std::string& owner);

@@ -204,11 +204,9 @@ void apply_preset(const Preset& preset, Method<dim>& method) {
     }
   }
   if (any) return;
-  std::string stages;
-  for (const auto& stage : known) stages += (stages.empty() ? "" : ", ") + stage;
   throw InputError(owner + " has no parameters for method " + method.info.name + " on " +
                    (dim == 2 ? "planar" : "volume") + " meshes; it has them for the stages " +
-                   stages);
+                   joined(known));
 }
 
 template void apply_preset(const Preset&, Method<2>&);

@@ -142,7 +142,7 @@ class SmoothingRun {
 
   StageResult run_stage(Smoother<dim>& smoother) {
     const SmoothingRule rule = smoother.rule();
-    if (rule.needs_valid_mesh) require_valid(users_mesh());
+    if (rule.needs_valid_mesh && quality_.n_invalid > 0) require_valid(users_mesh());
     StageResult result{std::string(smoother.name()), 0};
     clock_.start();
     smoother.initialize(state_);

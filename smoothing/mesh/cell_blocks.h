@@ -122,7 +122,48 @@ SMOOTHFEM_INLINE void for_each_run(const Topology& topology, CellIndex first, Ce
   }
 }
 
-/// The same with the corners gathered: visit_block(cell, corners) with those of n_lanes cells,
+/// Up to n_lanes cells of one fixed type out of a list; the last one stands in for lanes behind
+/// them.
+struct ListedCells {
+  std::size_t first, count;  ///< positions first .. first + count - 1 of the list
+  std::array<CellIndex, n_lanes> cells;
+  std::array<const NodeIndex*, n_lanes> rows;  ///< their nodes
+};
+
+/// Visits the cells of a list in order: visit_run(size, listed) for cells of one fixed type that
+/// follow each other (size: std::integral_constant of its number of nodes), visit_cell(position)
+/// for polygons. Visitors return false to stop; returns whether all were visited.
+template <int dim, class VisitRun, class VisitCell>
+SMOOTHFEM_INLINE bool for_each_listed_run(const Topology& topology,
+                                          std::span<const CellIndex> cells,
+                                          const VisitRun& visit_run, const VisitCell& visit_cell) {
+  for (std::size_t first = 0; first < cells.size();) {
+    const std::size_t n_nodes = topology.cell_nodes(cells[first]).size();
+    std::size_t count = 1;
+    while (count < n_lanes && first + count < cells.size() &&
+           topology.cell_nodes(cells[first + count]).size() == n_nodes)
+      ++count;
+    bool going = true;
+    with_cell_size<dim>(n_nodes, [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
+      if constexpr (decltype(size)::value == 0) {
+        count = 1;
+        going = visit_cell(first);
+      } else {
+        ListedCells listed{first, count, {}, {}};
+        for (std::size_t l = 0; l < n_lanes; ++l) {
+          listed.cells[l] = cells[first + std::min(l, count - 1)];
+          listed.rows[l] = topology.cell_nodes(listed.cells[l]).data();
+        }
+        going = visit_run(size, listed);
+      }
+    });
+    if (!going) return false;
+    first += count;
+  }
+  return true;
+}
+
+/// for_each_run with the corners gathered: visit_block(cell, corners) with those of n_lanes cells,
 /// visit_cell(cell, corners) with those of one.
 template <int dim, class VisitBlock, class VisitCell>
 SMOOTHFEM_INLINE void for_each_block(const Topology& topology,

@@ -3,8 +3,20 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace smoothfem {
+
+/// "a, b, c", for sentences that list what there is.
+inline std::string joined(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+/// "choose one of a, b, c", the end of a sentence that refuses a name.
+inline std::string choose_one_of(const std::vector<std::string>& names) {
+  return "choose one of " + joined(names);
+}
 
 /// Something the user gave (a file, a parameter, a mesh) cannot be used. The message is one
 /// sentence that says what is wrong, where, and what to do; the command line prints it and exits

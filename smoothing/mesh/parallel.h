@@ -15,11 +15,6 @@ inline int n_threads() {
   return omp_get_max_threads();
 }
 
-/// Number of the calling thread within a parallel loop, below n_threads().
-inline int thread_number() {
-  return omp_get_thread_num();
-}
-
 /// Calls work(i) for i = 0 .. n-1, several at a time. Each call has to write to places of its own,
 /// and must not throw.
 template <class Work>

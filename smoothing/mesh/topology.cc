@@ -212,11 +212,15 @@ void Topology::build_blocks() {
   }
 }
 
-std::size_t Topology::block_of(CellIndex cell) const {
-  const auto next =
-      std::upper_bound(blocks_.begin(), blocks_.end(), cell,
-                       [](CellIndex c, const CellBlock& block) { return c < block.first; });
-  return static_cast<std::size_t>(next - blocks_.begin()) - 1;
+std::vector<CellIndex> Topology::cells_around(std::span<const NodeIndex> nodes) const {
+  std::vector<CellIndex> cells;
+  for (const NodeIndex i : nodes) {
+    const auto attached = node_cells_[i];
+    cells.insert(cells.end(), attached.begin(), attached.end());
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
 }
 
 std::shared_ptr<const Topology> Topology::reordered(

@@ -58,10 +58,11 @@ class Topology {
   std::span<const NodeIndex> cell_nodes(CellIndex cell) const { return cells_[cell]; }
   ElementType cell_type(CellIndex cell) const { return element_type(dim_, cells_[cell].size()); }
   const std::vector<CellBlock>& blocks() const { return blocks_; }
-  std::size_t block_of(CellIndex cell) const;
 
   /// Cells that use a node.
   std::span<const CellIndex> node_cells(NodeIndex node) const { return node_cells_[node]; }
+  /// Cells that use at least one of these nodes, ascending.
+  std::vector<CellIndex> cells_around(std::span<const NodeIndex> nodes) const;
   /// Nodes joined to a node by an edge.
   std::span<const NodeIndex> node_neighbours(NodeIndex node) const {
     return node_neighbours_[node];

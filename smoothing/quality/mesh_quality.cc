@@ -99,6 +99,13 @@ MeshQuality mesh_quality(const Mesh<dim>& mesh) {
   return mesh_quality(mesh.topology(), cell_mean_ratios(mesh));
 }
 
+std::vector<CellIndex> invalid_cells(std::span<const double> cell_quality) {
+  std::vector<CellIndex> invalid;
+  for (CellIndex c = 0; c < cell_quality.size(); ++c)
+    if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
+  return invalid;
+}
+
 std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
                                            std::size_t n_bins) {
   std::vector<std::size_t> counts(n_bins, 0);
@@ -154,15 +161,12 @@ void require_valid(const Mesh<dim>& mesh, const std::string& path,
                    std::span<const std::size_t> cell_lines) {
   constexpr std::size_t n_named = 3;
   const auto& topology = mesh.topology();
-  const auto quality = cell_mean_ratios(mesh);
-  std::vector<CellIndex> invalid;
-  std::size_t n_inverted = 0;
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    if (!(quality[c] > 0.0)) {
-      invalid.push_back(c);
-      if (signed_cell_size(mesh, c) < 0.0) ++n_inverted;
-    }
+  const auto invalid = invalid_cells(cell_mean_ratios(mesh));
   if (invalid.empty()) return;
+  const auto n_inverted =
+      static_cast<std::size_t>(std::count_if(invalid.begin(), invalid.end(), [&](CellIndex c) {
+        return signed_cell_size(mesh, c) < 0.0;
+      }));
 
   std::ostringstream message;
   if (!path.empty()) {

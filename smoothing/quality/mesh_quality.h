@@ -43,6 +43,9 @@ struct PartialQuality {
 /// From all blocks, added in their order.
 MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t n_cells);
 
+/// The cells with quality <= 0, ascending.
+std::vector<CellIndex> invalid_cells(std::span<const double> cell_quality);
+
 /// Number of cells in each of the n_bins equal parts of [0, 1]; quality 1 counts in the last.
 std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
                                            std::size_t n_bins);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -108,32 +107,19 @@ template <int dim, class Weighting>
 SMOOTHFEM_INLINE void add_to_marked(const ElementPass<dim, Weighting>& pass,
                                     std::span<const CellIndex> cells,
                                     const std::vector<std::uint8_t>& marked, double* sums) {
-  const auto& topology = pass.mesh.topology();
   const auto wanted = [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA { return marked[i] != 0; };
-  for (std::size_t first = 0; first < cells.size();) {
-    const std::size_t size = topology.cell_nodes(cells[first]).size();
-    std::size_t count = 1;
-    while (count < n_lanes && first + count < cells.size() &&
-           topology.cell_nodes(cells[first + count]).size() == size)
-      ++count;
-    with_cell_size<dim>(size, [&](auto constant) SMOOTHFEM_INLINE_LAMBDA {
-      constexpr std::size_t n = decltype(constant)::value;
-      if constexpr (n == 0) {
-        count = 1;
-        add_cell(pass, cells[first], wanted, sums);
-      } else {
-        std::array<CellIndex, n_lanes> some;
-        std::array<const NodeIndex*, n_lanes> rows;
-        for (std::size_t l = 0; l < n_lanes; ++l) {
-          some[l] = cells[first + std::min(l, count - 1)];
-          rows[l] = topology.cell_nodes(some[l]).data();
-        }
-        // One cell after the other to a node: the sums keep the order of the cells.
-        add_cells<n, dim>(pass, some, rows, count, wanted, sums);
-      }
-    });
-    first += count;
-  }
+  for_each_listed_run<dim>(
+      pass.mesh.topology(), cells,
+      [&]<std::size_t n>(std::integral_constant<std::size_t, n>, const ListedCells& listed)
+          SMOOTHFEM_INLINE_LAMBDA {
+            // One cell after the other to a node: the sums keep the order of the cells.
+            add_cells<n, dim>(pass, listed.cells, listed.rows, listed.count, wanted, sums);
+            return true;
+          },
+      [&](std::size_t position) SMOOTHFEM_INLINE_LAMBDA {
+        add_cell(pass, cells[position], wanted, sums);
+        return true;
+      });
 }
 
 }  // namespace smoothfem

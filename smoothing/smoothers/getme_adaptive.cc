@@ -98,8 +98,6 @@ class AdaptiveStage : public Smoother<dim> {
     weights_->prepare(state.mesh.shared_topology());
     marked_.assign(topology.n_nodes(), 0);
     level_.assign(topology.n_nodes(), 0);
-    all_cells_.resize(topology.n_cells());
-    std::iota(all_cells_.begin(), all_cells_.end(), CellIndex{0});
   }
 
  protected:
@@ -131,12 +129,13 @@ class AdaptiveStage : public Smoother<dim> {
   /// Marks the free nodes of transformed elements; active are all cells around them.
   void find_active(const SmoothingState<dim>& state, double threshold) {
     const Topology& topology = state.mesh.topology();
-    active_cells_.clear();
     if (threshold >= 1.0) {
       for (NodeIndex i = 0; i < topology.n_nodes(); ++i) marked_[i] = !topology.is_fixed(i);
-      active_cells_ = all_cells_;
+      active_cells_.resize(topology.n_cells());
+      std::iota(active_cells_.begin(), active_cells_.end(), CellIndex{0});
       return;
     }
+    active_cells_.clear();
     std::fill(marked_.begin(), marked_.end(), 0);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
       if (state.cell_quality[c] <= threshold)
@@ -178,7 +177,8 @@ class AdaptiveStage : public Smoother<dim> {
   std::size_t relax_until_valid(SmoothingState<dim>& state) {
     const Topology& topology = state.mesh.topology();
     std::size_t n_reset = 0;
-    std::vector<CellIndex> cells = active_cells_;
+    std::span<const CellIndex> cells = active_cells_;
+    std::vector<CellIndex> around;
     while (true) {
       evaluate_cells(state, cells);
       std::vector<NodeIndex> shortened;
@@ -189,16 +189,13 @@ class AdaptiveStage : public Smoother<dim> {
       if (shortened.empty()) return n_reset;
       std::sort(shortened.begin(), shortened.end());
       shortened.erase(std::unique(shortened.begin(), shortened.end()), shortened.end());
-      cells.clear();
       for (const NodeIndex i : shortened) {
         ++level_[i];
         place(state.mesh, i);
         if (relaxation_[level_[i]] == 0.0) ++n_reset;
-        const auto around = topology.node_cells(i);
-        cells.insert(cells.end(), around.begin(), around.end());
       }
-      std::sort(cells.begin(), cells.end());
-      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+      around = topology.cells_around(shortened);
+      cells = around;
     }
   }
 
@@ -207,7 +204,7 @@ class AdaptiveStage : public Smoother<dim> {
   std::shared_ptr<NeighbourWeights> weights_;  ///< both stages use the same tables
   std::vector<std::uint8_t> marked_;           ///< free nodes of transformed elements
   std::vector<std::uint8_t> level_;            ///< position in relaxation_ of each node
-  std::vector<CellIndex> all_cells_, active_cells_;
+  std::vector<CellIndex> active_cells_;
   std::vector<Point<dim>> previous_, targets_;
 };
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Dense>
 
+#include "smoothing/loop/smooth.h"
 #include "smoothing/smoothers/shape_objective.h"
 
 namespace smoothfem::test {
@@ -32,6 +35,25 @@ DenseDerivatives dense_derivatives(ShapeObjective<dim>& objective, const Mesh<di
   for (std::size_t i = 0; i < gradient.size(); ++i)
     result.gradient.template segment<dim>(static_cast<Eigen::Index>(dim * i)) = gradient[i];
   return result;
+}
+
+/// Global optimization of the mesh lowers the objective in every iteration, to a minimum.
+template <int dim>
+void expect_descent_to_a_stationary_point(Mesh<dim> mesh) {
+  ShapeObjective<dim> objective(mesh.shared_topology());
+  Method<dim> method = make_method<dim>("global-optimization");
+  method.set("tolerance", "1e-13");
+  double last = objective.value(mesh.coordinates());
+  smooth(mesh, method, [&](const IterationRecord&, const Mesh<dim>& seen) {
+    const double value = objective.value(seen.coordinates());
+    EXPECT_LE(value, last);
+    last = value;
+  });
+  const auto exact = dense_derivatives(objective, mesh, HessianModel::exact);
+  EXPECT_LT(exact.gradient.norm(), 1e-5 * exact.hessian.norm());
+  const Eigen::VectorXd eigenvalues =
+      exact.hessian.template selfadjointView<Eigen::Lower>().eigenvalues();
+  EXPECT_GT(eigenvalues.minCoeff(), 0.0);
 }
 
 }  // namespace smoothfem::test

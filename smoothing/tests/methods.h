@@ -1,7 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "smoothing/loop/catalogue.h"
 
@@ -15,6 +18,18 @@ Method<dim> short_method(const std::string& name, const std::string& n_iteration
     if (parameter.name.ends_with("max_iterations") || parameter.name.ends_with("max_cycles"))
       method.set(parameter.name, n_iterations);
   return method;
+}
+
+/// Names of all methods, and how tests of them are called.
+inline std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& info : method_catalogue()) names.push_back(info.name);
+  return names;
+}
+inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 /// Methods whose stages all need a valid mesh promise that it stays valid.

@@ -5,6 +5,7 @@
 
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/parallel.h"
+#include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
@@ -96,17 +97,11 @@ class EveryMethod : public testing::TestWithParam<std::string> {
   /// The method with so few iterations that differences in rounding cannot grow.
   template <int dim>
   static Method<dim> short_method(const std::string& n_iterations = "5") {
-    Method<dim> method = make_method<dim>(GetParam());
-    for (const auto& parameter : method.parameters())
-      if (parameter.name.ends_with("max_iterations") || parameter.name.ends_with("max_cycles"))
-        method.set(parameter.name, n_iterations);
-    return method;
+    return test::short_method<dim>(GetParam(), n_iterations);
   }
   template <int dim>
   static bool claims_validity() {
-    for (const auto& stage : make_method<dim>(GetParam()).stages)
-      if (!stage->rule().needs_valid_mesh) return false;
-    return true;
+    return test::claims_validity(method<dim>());
   }
 };
 
@@ -302,18 +297,8 @@ TEST_P(EveryMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
   set_n_threads(usual);
 }
 
-std::vector<std::string> method_names() {
-  std::vector<std::string> names;
-  for (const auto& info : method_catalogue()) names.push_back(info.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMethod, testing::ValuesIn(method_names()),
-                         [](const auto& info) {
-                           std::string name = info.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMethod, testing::ValuesIn(test::method_names()),
+                         test::test_name);
 
 }  // namespace
 }  // namespace smoothfem

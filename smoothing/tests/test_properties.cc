@@ -266,18 +266,8 @@ TEST_P(MethodProperties, NeverLowersTheQualityByWhichItKeepsMeshes) {
   check(never_lowers_what_it_keeps<2>, never_lowers_what_it_keeps<3>);
 }
 
-std::vector<std::string> method_names() {
-  std::vector<std::string> names;
-  for (const auto& info : method_catalogue()) names.push_back(info.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Catalogue, MethodProperties, testing::ValuesIn(method_names()),
-                         [](const auto& info) {
-                           std::string name = info.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Catalogue, MethodProperties, testing::ValuesIn(test::method_names()),
+                         test::test_name);
 
 /// Runs call() with each number of threads and puts the usual number back, also after a failure.
 template <class Call>
@@ -306,7 +296,7 @@ void check_numbers_of_threads() {
   parameters.maxSuccess = std::max(1, parameters.maxSuccess / 100);
   parameters.disableShrinking = true;
   const auto property = [](const RandomMesh<dim>& random) {
-    const auto name = *rc::gen::elementOf(method_names()).as("method");
+    const auto name = *rc::gen::elementOf(test::method_names()).as("method");
     RC_PRE(takes_meshes<dim>(name));
     const auto mesh = valid_mesh(enlarged(random));
     RC_ASSERT(mesh.topology().blocks().size() > 1u);

@@ -10,15 +10,6 @@ namespace smoothfem {
 
 namespace {
 
-template <int dim>
-std::vector<CellIndex> invalid_cells(const Mesh<dim>& mesh) {
-  const auto quality = cell_mean_ratios(mesh);
-  std::vector<CellIndex> invalid;
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    if (!(quality[c] > 0.0)) invalid.push_back(c);
-  return invalid;
-}
-
 /// Flags the nodes of these cells and of n_layers layers of cells round them.
 std::vector<std::uint8_t> nodes_round(const Topology& topology, const std::vector<CellIndex>& cells,
                                       int n_layers) {
@@ -75,7 +66,7 @@ class Untangling {
     for (int i = 0; i < n_sweeps; ++i, softness *= fall) {
       descent_.soft_sweep(mesh_.coordinates(), softness, active);
       ++n_sweeps_;
-      invalid = invalid_cells(mesh_);
+      invalid = invalid_cells(cell_mean_ratios(mesh_));
       // Softness above the determinants themselves says nothing of the shape.
       if (invalid.empty() && softness < 1.0) break;
     }
@@ -97,7 +88,7 @@ template <int dim>
 UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters) {
   const auto start = std::chrono::steady_clock::now();
   UntangleResult result;
-  result.invalid_cells = invalid_cells(mesh);
+  result.invalid_cells = invalid_cells(cell_mean_ratios(mesh));
   result.n_invalid_before = result.invalid_cells.size();
   for (const CellIndex c : result.invalid_cells)
     if (!mesh.topology().has_free_node(c)) result.unmendable_cells.push_back(c);
