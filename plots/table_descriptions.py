@@ -72,7 +72,12 @@ SOLVER = TableDescription(
                 form.format_scientific),
         Measure("cg_iterations", Heading("CG iterations", "CG iterations"), form.format_integer),
         Measure("jacobi_cg_iterations", Heading("with Jacobi", "with Jacobi"), form.format_integer),
-        Measure("cg_seconds", TIME, form.format_seconds, difference=False)))
+        Measure("cg_seconds", TIME, form.format_seconds, difference=False),
+        Measure("amg_cg_iterations", Heading("with AMG", "with AMG"), form.format_integer),
+        Measure("amg_setup_seconds", Heading("AMG setup (s)", "AMG setup (s)"), form.format_seconds,
+                difference=False),
+        Measure("amg_cg_seconds", Heading("AMG time (s)", "AMG time (s)"), form.format_seconds,
+                difference=False)))
 
 ERRORS = TableDescription(
     content="errors", source="summary", keys=("mesh", "degree", "method"),
@@ -98,6 +103,11 @@ DETAILS = TableDescription(
         Measure("n_dofs", Heading("Dofs", "Dofs"), form.format_integer),
         Measure("lambda_min", SYMBOLS["lambda_min"], form.format_scientific),
         Measure("lambda_max", SYMBOLS["lambda_max"], form.format_scientific),
+        Measure("condition_residual", Heading("Eigen residual", "Eigen residual"),
+                form.format_scientific),
+        # The usual one of planar studies; where methods differ, a reader has to know.
+        Measure("condition_method", Heading("cond(A) by", r"$\mathrm{cond}(A)$ by"), None,
+                difference=False, usual="lanczos+cholesky"),
         Measure("l2_error", SYMBOLS["l2_error"], form.format_error),
         Measure("h1_error", SYMBOLS["h1_error"], form.format_error),
         Measure("status", Heading("Status", "Status"), None, difference=False, usual="ok")))

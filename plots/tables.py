@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fills the tables of Section 6.2 of the thesis: our numbers, the printed ones, their difference.
+"""Fills the tables of Chapter 6 of the thesis: our numbers, the printed ones, their difference.
 
 One mechanism for all tables; what differs stands in table_descriptions.py.
 """
@@ -85,7 +85,7 @@ def make_table(description, results, printed):
         sentences = (("", comparison_note(printed, results)), ("", COLUMNS_NOTE)) + sentences
     return Table(name=f"table_{name}", caption=caption, keys=keys, rules=rules, groups=groups,
                  key_headings=tuple(KEY_HEADINGS[key] for key in description.keys),
-                 left_aligned=("Status",), notes=sentences)
+                 left_aligned=("Status", "cond(A) by"), notes=sentences)
 
 
 def first_degree(row, rows):
@@ -155,7 +155,8 @@ def unreached(rows, results):
 def make_group(measure, pairs, notes):
     """The columns of one measure, or None if there is nothing in them worth showing."""
     fields = [ours.get(measure.column, "") for ours, _ in pairs]
-    prints = [printed.get(measure.column, "") for _, printed in pairs]
+    # None: the print has no such row or column; empty: it has, and leaves it empty.
+    prints = [printed.get(measure.column) for _, printed in pairs]
     if not any(prints) and all(field in ("", measure.usual) for field in fields):
         return None
     values, texts = None, [field or MISSING for field in fields]
@@ -168,12 +169,12 @@ def make_group(measure, pairs, notes):
         texts = measure.format(values)
     columns, subheadings = [[number_cell(text) for text in texts]], ["ours"]
     if any(prints):
-        marks = [notes.letter(measure.column, row) if printed else ""
+        marks = ["" if printed is None else notes.letter(measure.column, row)
                  for row, printed in enumerate(prints)]
         columns.append([number_cell(printed or MISSING, mark) for printed, mark in zip(prints, marks)])
         subheadings.append("printed")
         if measure.difference and values is not None:
-            columns.append([number_cell(relative_difference(value, printed))
+            columns.append([number_cell(relative_difference(value, printed or ""))
                             for value, printed in zip(values, prints)])
             subheadings.append("%")
     else:
