@@ -159,11 +159,11 @@ def label_logarithmic(ax, low, high):
         ax.yaxis.set_minor_formatter(NullFormatter())
 
 
-def draw_legend(figure, results, styles):
+def draw_legend(figure, results, styles, markers=True):
     """The legend of all panels, above them, in as few lines as fit; returns its height in inches."""
     handles = []
     for method, look in styles.items():
-        handle = Line2D([], [], color=look.colour, marker=look.marker or None,
+        handle = Line2D([], [], color=look.colour, marker=(look.marker or None) if markers else None,
                         markersize=MARKER_SIZE + 0.8)
         handle.set_label("Initial mesh" if method == INITIAL else results.title(method))
         if method == INITIAL:

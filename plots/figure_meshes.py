@@ -30,10 +30,27 @@ def draw_meshes(blocks, detail=None):
     """
     grids = [grid for _, panels in blocks for _, grid in panels]
     aspect = DETAIL_ASPECT if detail else min(max(box_aspect(grids[0]), 0.5), 3.0)
+    windows = [window_of(panels[0][1], *detail, aspect) if detail else None for _, panels in blocks]
+
+    def overview(axes, number):
+        draw_overview(axes, blocks[number][1][0][1], windows[number])
+        caption(axes, "Position of the detail")
+    return draw_blocks(blocks, COLUMNS, aspect,
+                       lambda axes, grid, number: draw_mesh(axes, grid, windows[number]),
+                       overview if detail else None)
+
+
+def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None):
+    """A figure of blocks of panels below each other, in rows of `columns`, with a colour bar.
+
+    `blocks` is a list of (title, [(panel title, content), ...]), `aspect` width over height of a
+    panel. `draw_panel` gets axes, content and the number of the block, `draw_free` draws the first
+    free panel of a block.
+    """
     gap = 0.08
-    width = (style.FULL_WIDTH - (COLUMNS + 1) * gap) / COLUMNS
+    width = (style.FULL_WIDTH - (columns + 1) * gap) / columns
     height = width / aspect
-    rows = [rows_of_panels(panels) for _, panels in blocks]
+    rows = [rows_of_panels(panels, columns) for _, panels in blocks]
     total = sum(rows) * (height + CAPTION) + len(blocks) * BLOCK_TITLE + FOOT
     figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
 
@@ -41,18 +58,16 @@ def draw_meshes(blocks, detail=None):
         return figure.add_axes([(gap + column * (width + gap)) / style.FULL_WIDTH,
                                 (top - height) / total, width / style.FULL_WIDTH, height / total])
     top = total
-    for (title, panels), n_rows in zip(blocks, rows):
+    for number, ((title, panels), n_rows) in enumerate(zip(blocks, rows)):
         figure.text(0.5, (top - 0.7 * BLOCK_TITLE) / total, title, ha="center", fontsize=10)
         top -= BLOCK_TITLE
-        window = window_of(panels[0][1], *detail, aspect) if detail else None
-        for i in range(n_rows * COLUMNS):
-            axes = place(i % COLUMNS, top - i // COLUMNS * (height + CAPTION))
+        for i in range(n_rows * columns):
+            axes = place(i % columns, top - i // columns * (height + CAPTION))
             if i < len(panels):
-                draw_mesh(axes, panels[i][1], window)
+                draw_panel(axes, panels[i][1], number)
                 caption(axes, panels[i][0])
-            elif detail and i == len(panels):
-                draw_overview(axes, panels[0][1], window)
-                caption(axes, "Position of the detail")
+            elif draw_free and i == len(panels):
+                draw_free(axes, number)
             else:
                 axes.axis("off")
         top -= n_rows * (height + CAPTION)
@@ -60,9 +75,9 @@ def draw_meshes(blocks, detail=None):
     return figure
 
 
-def rows_of_panels(panels):
+def rows_of_panels(panels, columns=COLUMNS):
     """How many rows a block of panels takes."""
-    return math.ceil(len(panels) / COLUMNS)
+    return math.ceil(len(panels) / columns)
 
 
 def box_aspect(grid):

@@ -2,14 +2,22 @@
 """Which figures belong to a study, what they are called, and what they need."""
 
 from . import style
+from .figure_histograms import draw_histograms
 from .figure_history import draw_history
-from .figure_meshes import DETAIL_CENTRE, DETAIL_WIDTH, draw_meshes, rows_of_panels
+from .figure_meshes import COLUMNS as PLANAR_COLUMNS, DETAIL_CENTRE, DETAIL_WIDTH
+from .figure_meshes import draw_meshes, rows_of_panels
 from .figure_model import draw_model
+from .figure_sections import COLUMNS as SECTION_COLUMNS, draw_sections
+from .figure_solid import draw_solid
 from .read_results import INITIAL
 from .read_vtu import read_vtu
+from .virtual_display import NoDisplay
 
 # Numbers in the thesis of the figures of its studies; any other figure has no number.
-THESIS_NUMBERS = {"gear": {"model": "6_2", "meshes": "6_3", "history": "6_4"}}
+THESIS_NUMBERS = {"gear": {"model": "6_2", "meshes": "6_3", "history": "6_4"},
+                  "volume": {"model": "6_5", "meshes": "6_6", "histograms": "6_7", "history": "6_8"}}
+# The degree whose errors the history figure shows; the lowest one for any other study.
+HISTORY_DEGREES = {"volume": "2"}
 
 # Rows of panels that fit a page; with more of them each mesh gets figures of its own.
 ROWS_OF_A_PAGE = 4
@@ -34,27 +42,38 @@ def draw_figures(results, report):
             paths.extend(style.save_figure(figure, results.folder / "figures", name,
                                            f"{results.study_title}: {title}"))
 
-    grids = read_planar_grids(results, report)
-    if grids:
-        draw_mesh_figures(results, grids, save, report)
-    first = results.degrees[0] if results.degrees else ""
-    main = ("q_min", "q_mean", "e_max", "e_mean")
-    for log_time, variant, title in ((False, "", "history"), (True, "_log_time", "history, log time")):
-        save(draw_history(results, main, first, log_time),
-             figure_name(results.study, "history", variant), title)
-    for degree in results.degrees:
-        # Not figure_6_4_...: the thesis has these for the lowest degree only, and no true errors.
-        prefix = "figure_history" if results.study in THESIS_NUMBERS else "history"
-        if degree != first:
-            save(draw_history(results, main, degree), f"{prefix}_d{degree}", f"history, d = {degree}")
-        save(draw_history(results, ("e_l2", "e_h1", "l2_error", "h1_error"), degree),
-             f"{prefix}_norms_d{degree}", f"error norms, d = {degree}")
+    planar, volume = read_grids(results, report)
+    if planar:
+        draw_mesh_figures(results, planar, save, report)
+    if volume:
+        # A study of both kinds has two figures of each sort.
+        draw_volume_figures(results, volume, save, report, "_volume" if planar else "")
+    draw_history_figures(results, save)
     return paths
 
 
-def read_planar_grids(results, report):
-    """(mesh, method) -> grid for all planar meshes that are there, in the order of the study."""
-    grids, missing, not_planar = {}, [], []
+def draw_history_figures(results, save):
+    """Quality and errors against smoothing time, for each degree."""
+    first = results.degrees[0] if results.degrees else ""
+    shown = HISTORY_DEGREES.get(results.study, first)
+    shown = shown if shown in results.degrees else first
+    main = ("q_min", "q_mean", "e_max", "e_mean")
+    for log_time, variant, title in ((False, "", "history"), (True, "_log_time", "history, log time")):
+        save(draw_history(results, main, shown, log_time),
+             figure_name(results.study, "history", variant), title)
+    for degree in results.degrees:
+        # Without number: the thesis has these for one degree only, and no true errors.
+        prefix = "figure_history" if results.study in THESIS_NUMBERS else "history"
+        if degree != shown:
+            save(draw_history(results, main, degree), f"{prefix}_d{degree}", f"history, d = {degree}")
+        save(draw_history(results, ("e_l2", "e_h1", "l2_error", "h1_error"), degree),
+             f"{prefix}_norms_d{degree}", f"error norms, d = {degree}")
+
+
+def read_grids(results, report):
+    """(mesh, method) -> grid for all meshes that are there, in the order of the study: the planar
+    ones, and those of volume cells."""
+    planar, volume, missing, unknown = {}, {}, [], []
     for mesh in results.meshes:
         for method in (INITIAL, *results.methods):
             path = results.mesh_file(mesh, method)
@@ -62,36 +81,77 @@ def read_planar_grids(results, report):
                 missing.append(path.name)
                 continue
             grid = read_vtu(path)
-            if grid.is_planar and "mean_ratio" in grid.cell_data:
-                grids[mesh, method] = grid
+            kind = planar if grid.is_planar else volume if grid.is_volume else None
+            if kind is None or "mean_ratio" not in grid.cell_data:
+                unknown.append(path.name)
             else:
-                not_planar.append(path.name)
-    for names, reason in ((missing, "are missing"), (not_planar, "are not planar or lack `mean_ratio`")):
+                kind[mesh, method] = grid
+    for names, reason in ((missing, "are missing"),
+                          (unknown, "have cells of other kinds or lack `mean_ratio`")):
         if names:
             report(f"Not drawn, because meshes {reason}: {', '.join(names)}.")
-    return grids
+    return planar, volume
+
+
+def solved_grid(grids, report):
+    """The mesh that shows the exact solution best; None if there is none."""
+    solved = [(mesh, grid) for (mesh, _), grid in grids.items() if "exact_solution" in grid.point_data]
+    if not solved:
+        report("No figure of the model: no mesh has the point data `exact_solution`.")
+        return None
+    # The last method's mesh: interpolation on a distorted one is coarse.
+    return [grid for mesh, grid in solved if mesh == solved[0][0]][-1]
+
+
+def figure_settings(results):
+    """The study's own settings for figures, if it has any."""
+    settings = results.provenance.get("figures")
+    return settings if isinstance(settings, dict) else {}
+
+
+def pages(blocks, columns):
+    """Suffix -> blocks of one figure: all of them where they fit a page, else one for each mesh."""
+    if sum(rows_of_panels(panels, columns) for _, _, panels in blocks) <= ROWS_OF_A_PAGE:
+        return {"": [block[1:] for block in blocks]}
+    return {f"_{name}": [(title, panels)] for name, title, panels in blocks}
 
 
 def draw_mesh_figures(results, grids, save, report):
     """The figures of the model and of the meshes."""
-    # The exact solution is shown on the last method's mesh: interpolation on a distorted one is coarse.
-    solved = [(mesh, grid) for (mesh, _), grid in grids.items() if "exact_solution" in grid.point_data]
-    if solved:
-        grid = [grid for mesh, grid in solved if mesh == solved[0][0]][-1]
+    grid = solved_grid(grids, report)
+    if grid is not None:
         save(draw_model(grid), figure_name(results.study, "model"), "model and exact solution")
-    else:
-        report("No figure of the model: no mesh has the point data `exact_solution`.")
     names = list(dict.fromkeys(mesh for mesh, _ in grids))
-    blocks = [(results.title(mesh), [(results.title(method), grid)
-                                     for (name, method), grid in grids.items() if name == mesh])
+    blocks = [(mesh, results.title(mesh), [(results.title(method), grid)
+                                           for (name, method), grid in grids.items() if name == mesh])
               for mesh in names]
-    settings = results.provenance.get("figures")
-    settings = settings if isinstance(settings, dict) else {}
+    settings = figure_settings(results)
     detail = (settings.get("detail_centre", DETAIL_CENTRE), settings.get("detail_width", DETAIL_WIDTH))
-    parts = {"": blocks}
-    if sum(rows_of_panels(panels) for _, panels in blocks) > ROWS_OF_A_PAGE:
-        parts = {f"_{name}": [block] for name, block in zip(names, blocks)}
-    for part, shown in parts.items():
+    for part, shown in pages(blocks, PLANAR_COLUMNS).items():
         for variant, window in (("", detail), ("_full", None)):
             save(draw_meshes(shown, window), figure_name(results.study, "meshes", part + variant),
                  "meshes" if window is None else "details of the meshes")
+
+
+def draw_volume_figures(results, grids, save, report, suffix):
+    """The same for volume meshes, cut open, and histograms of their quality."""
+    qualities = {key: grid.cell_data["mean_ratio"] for key, grid in grids.items()}
+    for logarithmic, variant in ((False, ""), (True, "_log")):
+        save(draw_histograms(results, qualities, logarithmic),
+             figure_name(results.study, "histograms", suffix + variant), "histograms of quality")
+    normal = figure_settings(results).get("cut_normal")
+    blocks = [(mesh, results.title(mesh), [(results.title(method), grids.get((mesh, method)))
+                                           for method in (INITIAL, *results.methods)])
+              for mesh in dict.fromkeys(mesh for mesh, _ in grids)]
+    try:
+        grid = solved_grid(grids, report)
+        if grid is not None:
+            save(draw_solid(grid), figure_name(results.study, "model", suffix),
+                 "model and exact solution")
+        for part, shown in pages(blocks, SECTION_COLUMNS).items():
+            for variant, detail in (("", False), ("_detail", True)):
+                save(draw_sections(shown, detail, normal),
+                     figure_name(results.study, "meshes", suffix + part + variant),
+                     "details of the cut meshes" if detail else "cut meshes")
+    except NoDisplay as error:
+        report(f"No pictures of volume meshes: {error}.")

@@ -20,6 +20,8 @@ NUMPY_TYPES = {"Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int3
 
 # Planar cells whose connectivity walks around the cell: VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
 PLANAR_CELL_TYPES = (5, 7, 9)
+# VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID.
+VOLUME_CELL_TYPES = (10, 12, 13, 14)
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,11 @@ class UnstructuredGrid:
     def is_planar(self):
         """Whether every cell is a triangle, quadrilateral or polygon."""
         return bool(np.isin(self.types, PLANAR_CELL_TYPES).all())
+
+    @property
+    def is_volume(self):
+        """Whether every cell is a tetrahedron, hexahedron, prism or pyramid."""
+        return bool(np.isin(self.types, VOLUME_CELL_TYPES).all())
 
     def cells(self):
         """The cells as a list of arrays of node numbers."""

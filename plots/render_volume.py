@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of volume meshes as arrays of pixels, drawn by VTK off screen.
+
+VTK ends the process if something is wrong with the display. So it draws in a process of its own.
+"""
+
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, replace
+from multiprocessing import get_context
+from typing import Optional
+
+import numpy as np
+
+from .virtual_display import NoDisplay, virtual_display
+from .volume_geometry import View
+
+# Each pixel is the mean of this squared: smooth edges, the same on every machine, unlike the
+# multisampling of OpenGL drivers.
+SUPERSAMPLING = 2
+LIGHT = (-0.4, 0.7, 1.0)  # from the upper left: relative to the viewer, x to the right, y upwards
+FEATURE_ANGLE = 30.0  # degrees between two faces from which on their common edge is drawn
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One picture: the faces that are seen of some cells of a grid, in plain or given colours.
+
+    With `cell_colours` only faces that are no faces of the whole grid's surface are coloured: those
+    that taking cells away has opened.
+    """
+
+    grid: object  # UnstructuredGrid with volume cells
+    view: View
+    pixels: tuple  # width, height
+    cells: Optional[np.ndarray] = None  # which are there, (n_cells,) bool; None: all
+    cell_colours: Optional[np.ndarray] = None  # (n_cells, 3) uint8
+    point_colours: Optional[np.ndarray] = None  # (n_points, 3) uint8
+    plain_colour: tuple = (0.80, 0.86, 0.90)
+    cell_edges: bool = False  # of the coloured faces
+    feature_edges: bool = False
+    ambient: float = 0.45  # share of a colour that does not depend on the light
+
+
+def render(scenes):
+    """The pictures as arrays (height, width, 3) of uint8, background white; NoDisplay with one
+    sentence if there is no VTK, no Xvfb, or VTK ends in the middle."""
+    try:
+        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+    except ImportError as error:
+        raise NoDisplay(f"VTK's Python modules are missing ({error}); install the Debian package "
+                        "python3-vtk9") from None
+    with virtual_display(), ProcessPoolExecutor(1, get_context("fork")) as drawer:
+        try:
+            return [drawer.submit(draw_scene, scene).result() for scene in scenes]
+        except BrokenProcessPool:
+            raise NoDisplay("VTK gave up drawing off screen") from None
+
+
+def draw_scene(scene):
+    """One picture; needs a display."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkRenderingCore import (vtkLight, vtkRenderer, vtkRenderWindow,
+                                             vtkWindowToImageFilter)
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+
+    renderer = vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    width, height = (SUPERSAMPLING * n for n in scene.pixels)
+    for actor in actors_of(scene):
+        renderer.AddActor(actor)
+    place_camera(renderer, scene.view)
+    light = vtkLight()
+    light.SetLightTypeToCameraLight()
+    light.SetPosition(*LIGHT)
+    renderer.AddLight(light)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetSize(width, height)
+    window.AddRenderer(renderer)
+    window.Render()
+    shot = vtkWindowToImageFilter()
+    shot.SetInput(window)
+    shot.ReadFrontBufferOff()
+    shot.Update()
+    colours = vtk_to_numpy(shot.GetOutput().GetPointData().GetScalars()).reshape(height, width, 3)
+    window.Finalize()
+    blocks = colours[::-1].reshape(scene.pixels[1], SUPERSAMPLING, scene.pixels[0], SUPERSAMPLING, 3)
+    return blocks.mean(axis=(1, 3)).round().astype(np.uint8)
+
+
+def actors_of(scene):
+    """The plain or point-coloured surface, the faces that were opened, and feature edges."""
+    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+
+    surface = surface_of(vtk_grid(scene))
+    if scene.cell_colours is None:
+        found = [actor_of(surface, scene, scene.point_colours is not None)]
+    else:
+        whole = surface_of(vtk_grid(replace(scene, cells=None)))
+        n_points = len(scene.grid.points)
+        opened = ~np.isin(face_keys(surface, n_points), face_keys(whole, n_points))
+        found = [actor_of(with_faces(surface, chosen), scene, coloured)
+                 for chosen, coloured in ((~opened, False), (opened, True)) if chosen.any()]
+    if scene.feature_edges:
+        edges = vtkFeatureEdges()
+        edges.SetInputData(surface)
+        edges.SetFeatureAngle(FEATURE_ANGLE)
+        edges.ColoringOff()
+        edges.ManifoldEdgesOff()
+        edges.NonManifoldEdgesOff()
+        edges.Update()
+        found.append(line_actor(edges.GetOutput()))
+    return found
+
+
+def surface_of(grid):
+    """The outer faces of a grid with the numbers of their points in the grid."""
+    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(grid)
+    surface.PassThroughPointIdsOn()
+    surface.Update()
+    return surface.GetOutput()
+
+
+def faces_of(surface):
+    """(nodes, offsets) of the faces of a surface: face f has nodes[offsets[f]:offsets[f + 1]]."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    faces = surface.GetPolys()
+    return (vtk_to_numpy(faces.GetConnectivityArray()), vtk_to_numpy(faces.GetOffsetsArray()))
+
+
+def face_keys(surface, n_points):
+    """A number for each face that two faces of one grid share only if they have the same nodes."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    nodes, offsets = faces_of(surface)
+    numbers = vtk_to_numpy(surface.GetPointData().GetArray("vtkOriginalPointIds"))[nodes]
+    sizes = np.diff(offsets)
+    padded = np.full((len(sizes), sizes.max()), np.iinfo(np.int64).max)
+    padded[np.arange(padded.shape[1]) < sizes[:, None]] = numbers
+    padded.sort(axis=1)
+    # Two faces of a valid mesh with three nodes in common are the same.
+    return (padded[:, 0] * n_points + padded[:, 1]) * n_points + padded[:, 2]
+
+
+def with_faces(surface, chosen):
+    """A surface of the chosen faces with their colours."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+    nodes, offsets = faces_of(surface)
+    sizes = np.diff(offsets)
+    faces = vtkCellArray()
+    faces.SetData(
+        numpy_to_vtkIdTypeArray(np.concatenate(([0], np.cumsum(sizes[chosen]))).astype(np.int64),
+                                deep=True),
+        numpy_to_vtkIdTypeArray(nodes[np.repeat(chosen, sizes)].astype(np.int64), deep=True))
+    part = vtkPolyData()
+    part.SetPoints(surface.GetPoints())
+    part.SetPolys(faces)
+    colours = vtk_to_numpy(surface.GetCellData().GetScalars())[chosen]
+    part.GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(colours), deep=True))
+    return part
+
+
+def vtk_grid(scene):
+    """The chosen cells as VTK's own grid, with colours as scalars."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+    grid = scene.grid
+    chosen = np.ones(len(grid.types), dtype=bool) if scene.cells is None else scene.cells
+    sizes = np.diff(grid.offsets)
+    nodes = grid.connectivity[np.repeat(chosen, sizes)]
+    offsets = np.concatenate(([0], np.cumsum(sizes[chosen])))
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(grid.points, dtype=float), deep=True))
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets.astype(np.int64), deep=True),
+                  numpy_to_vtkIdTypeArray(nodes.astype(np.int64), deep=True))
+    result = vtkUnstructuredGrid()
+    result.SetPoints(points)
+    result.SetCells(numpy_to_vtk(grid.types[chosen].astype(np.uint8), deep=True), cells)
+    if scene.cell_colours is not None:
+        result.GetCellData().SetScalars(numpy_to_vtk(
+            np.ascontiguousarray(scene.cell_colours[chosen]), deep=True))
+    if scene.point_colours is not None:
+        result.GetPointData().SetScalars(numpy_to_vtk(
+            np.ascontiguousarray(scene.point_colours), deep=True))
+    return result
+
+
+def actor_of(surface, scene, coloured):
+    """The faces, with flat light: what looks curved on a coarse mesh is not."""
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.SetColorModeToDirectScalars()
+    # Without the offset, lines would drown in the faces that they bound.
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetScalarVisibility(coloured)
+    if scene.cell_colours is not None:
+        mapper.SetScalarModeToUseCellData()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetColor(*scene.plain_colour)
+    look.SetInterpolationToFlat()
+    look.SetAmbient(scene.ambient)
+    look.SetDiffuse(1 - scene.ambient)
+    look.SetSpecular(0)
+    if scene.cell_edges and coloured:
+        look.EdgeVisibilityOn()
+        look.SetEdgeColor(0.15, 0.15, 0.15)
+        look.SetLineWidth(1.0 * SUPERSAMPLING)
+    return actor
+
+
+def line_actor(lines):
+    """Thin dark lines."""
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(lines)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.15, 0.15, 0.15)
+    actor.GetProperty().SetLineWidth(2.5 * SUPERSAMPLING)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def place_camera(renderer, view):
+    """Parallel projection of the view's rectangle."""
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*view.centre)
+    camera.SetPosition(*(np.asarray(view.centre) + view.distance * np.asarray(view.towards)))
+    camera.SetViewUp(*view.up)
+    camera.SetParallelScale(0.5 * view.height)
+    renderer.ResetCameraClippingRange()
