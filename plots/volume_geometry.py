@@ -84,11 +84,12 @@ class Cut:
         return (cell_centres(grid) - self.origin) @ unit(self.normal) <= 0
 
     def crossed(self, grid):
-        """Which cells the plane crosses, shape (n_cells,)."""
+        """Which cells the plane crosses, shape (n_cells,); where it runs between cells, those that it
+        bounds on one side."""
         heights = ((grid.points - self.origin) @ unit(self.normal))[grid.connectivity]
         low = np.minimum.reduceat(heights, grid.offsets[:-1])
         high = np.maximum.reduceat(heights, grid.offsets[:-1])
-        return (low < 0) & (high > 0)
+        return (low <= 0) & (high > 0)
 
     def spacing(self, grid):
         """A typical distance between neighbouring nodes near the cut."""

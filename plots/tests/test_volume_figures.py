@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The figures of volume studies: which are made, what a picture shows, and what happens without VTK."""
+
+import contextlib
+import io
+import os
+import shutil
+import unittest
+from unittest import mock
+
+import numpy as np
+
+from plots import style
+from plots.__main__ import main
+from plots.figure_histograms import draw_histograms
+from plots.figures import pages, read_grids
+from plots.read_results import read_results
+from plots.read_vtu import read_vtu
+from plots.render_volume import Scene, render
+from plots.tests.synthetic_results import write_vtu
+from plots.tests.synthetic_volume import write_volume_results, write_volume_vtu
+from plots.tests.test_read_results import InFolder
+from plots.virtual_display import NoDisplay, virtual_display
+from plots.volume_geometry import Cut, view_of, widest_cut
+
+try:
+    import vtkmodules  # noqa: F401
+    MISSING = "" if shutil.which("Xvfb") else "Xvfb is not installed"
+except ImportError:
+    MISSING = "VTK's Python modules are not installed"
+
+needs_rendering = unittest.skipIf(MISSING, f"{MISSING}: nothing can be rendered off screen")
+
+
+class Geometry(InFolder):
+    def grid(self, kind):
+        write_volume_vtu(self.folder / "mesh.vtu", kind)
+        return read_vtu(self.folder / "mesh.vtu")
+
+    def test_kinds_of_cells(self):
+        for kind, n_cells in (("tet", 6 * 24), ("hex", 24)):
+            grid = self.grid(kind)
+            self.assertTrue(grid.is_volume and not grid.is_planar)
+            self.assertEqual(len(grid.types), n_cells)
+
+    def test_widest_cut_goes_through_the_longest_sides(self):
+        cut = widest_cut(self.grid("tet"))  # the box is 4 x 2 x 3
+        self.assertEqual((cut.origin, cut.normal), ((2.0, 1.0, 1.5), (0, -1, 0)))
+
+    def test_cut_keeps_whole_cells_of_one_side(self):
+        grid = self.grid("hex")
+        cut = Cut((1.2, 0, 0), (1, 0, 0))
+        self.assertEqual(cut.kept(grid).sum(), 6)  # the centres of the second layer are at x = 1.5
+        self.assertEqual(cut.crossed(grid).sum(), 6)
+        self.assertEqual(Cut((2, 1, 1), (0, 0, 1)).spacing(grid), 1.0)
+
+    def test_view_holds_all_points(self):
+        points = self.grid("tet").points
+        view = view_of(points, (-1, -2, 0.5)).fitted(1.7)
+        self.assertAlmostEqual(view.width / view.height, 1.7)
+        flat = view.flattened(points) - view.flattened([view.centre])
+        self.assertTrue((np.abs(flat) <= (0.5 * view.width, 0.5 * view.height)).all())
+
+    def test_pages(self):
+        blocks = [(name, name, [1] * 6) for name in ("a", "b", "c")]
+        self.assertEqual(list(pages(blocks, 6)), [""])
+        self.assertEqual(list(pages(blocks, 5)), ["_a", "_b", "_c"])
+
+
+class Histograms(InFolder):
+    def test_every_cell_is_counted_once(self):
+        results = read_results(write_volume_results(self.folder / "r"))
+        _, volume = read_grids(results, self.fail)
+        style.apply_style()
+        qualities = {key: grid.cell_data["mean_ratio"] for key, grid in volume.items()}
+        figure = draw_histograms(results, qualities)
+        for axes, n_cells in zip(figure.axes, (6 * 24, 24)):
+            self.assertEqual([patch.get_data().values.sum() for patch in axes.patches], [n_cells] * 5)
+            self.assertEqual({patch.get_data().values[0] for patch in axes.patches}, {1})
+        style.pyplot.close(figure)
+
+
+@needs_rendering
+class Rendering(InFolder):
+    def test_colours_of_cut_faces_only(self):
+        write_volume_vtu(self.folder / "mesh.vtu", "hex")
+        grid = read_vtu(self.folder / "mesh.vtu")
+        cut = Cut((2.2, 1, 1.5), (1, 0, 0))
+        red = np.tile(np.array([[255, 0, 0]], dtype=np.uint8), (len(grid.types), 1))
+        reds = []
+        views = [view_of(grid.points, direction, margin=0) for direction in ((1, 0, 0), (-1, 0, 0))]
+        scenes = [Scene(grid, view, (60, 40), cells=cut.kept(grid), cell_colours=red, ambient=1.0,
+                        plain_colour=(0, 0, 1)) for view in views]
+        for picture in render(scenes):
+            self.assertEqual(picture.shape, (40, 60, 3))
+            reds.append(np.mean((picture == (255, 0, 0)).all(axis=2)))
+            self.assertFalse((picture == (0, 0, 0)).all(axis=2).any())
+        # The box fills the height of the picture and the width of 2 : 3.
+        self.assertAlmostEqual(reds[0], 40 * 2 / 3 / 60, delta=0.05)
+        self.assertEqual(reds[1], 0)
+
+    def test_server_ends_and_environment_is_restored(self):
+        with mock.patch.dict(os.environ, {"DISPLAY": ":4321"}):
+            with virtual_display():
+                number = os.environ["DISPLAY"].removeprefix(":")
+                self.assertTrue(os.path.exists(f"/tmp/.X11-unix/X{number}"))
+            self.assertEqual(os.environ["DISPLAY"], ":4321")
+        self.assertFalse(os.path.exists(f"/tmp/.X11-unix/X{number}"))
+
+    def test_a_crash_is_one_sentence(self):
+        with mock.patch("plots.render_volume.draw_scene", os._exit):
+            with self.assertRaisesRegex(NoDisplay, "gave up"):
+                render([1])
+
+
+class VolumeStudy(InFolder):
+    def run_main(self, folder):
+        errors = io.StringIO()
+        # Coarse pictures: what they look like is not looked at here.
+        with contextlib.redirect_stderr(errors), mock.patch("plots.style.DPI", 40), \
+                mock.patch("plots.figure_sections.IMAGE_DPI", 100), \
+                mock.patch("plots.figure_solid.IMAGE_DPI", 100):
+            self.assertEqual(main([str(folder), "--quiet"]), 0, errors.getvalue())
+        return errors.getvalue(), {path.stem for path in folder.glob("figures/*.pdf")}
+
+    @needs_rendering
+    def test_figures_of_the_thesis(self):
+        folder = write_volume_results(self.folder / "r")
+        errors, names = self.run_main(folder)
+        self.assertEqual(errors, "")
+        self.assertEqual(names, {
+            "figure_6_5_model", "figure_6_6_meshes", "figure_6_6_meshes_detail",
+            "figure_6_7_histograms", "figure_6_7_histograms_log", "figure_6_8_history",
+            "figure_6_8_history_log_time", "figure_history_d1", "figure_history_norms_d1",
+            "figure_history_norms_d2"})
+
+    @needs_rendering
+    def test_own_study_of_both_dimensions_with_a_missing_file(self):
+        folder = write_volume_results(self.folder / "r", "own", ("hexes", "tets"), ("getme",))
+        (folder / "meshes" / "hexes_initial.vtu").unlink()
+        write_vtu(folder / "meshes" / "tets_initial.vtu")
+        errors, names = self.run_main(folder)
+        self.assertIn("hexes_initial.vtu", errors)
+        self.assertLessEqual({"model", "model_volume", "meshes", "meshes_volume", "history",
+                              "meshes_volume_detail", "histograms_volume"}, names)
+
+    def test_without_a_server_the_other_figures_are_made(self):
+        folder = write_volume_results(self.folder / "r")
+        with mock.patch("shutil.which", return_value=None):
+            errors, names = self.run_main(folder)
+        self.assertEqual(errors.count("\n"), 1, errors)
+        self.assertIn("No pictures of volume meshes", errors)
+        self.assertIn("figure_6_7_histograms", names)
+        self.assertNotIn("figure_6_6_meshes", names)
+
+    def test_servers_that_do_not_start(self):
+        for broken, said in (
+                (mock.patch("shutil.which", return_value=None), "not installed"),
+                (mock.patch("subprocess.Popen", side_effect=OSError("no memory")), "no memory"),
+                (mock.patch("shutil.which", return_value=shutil.which("true")), "did not start")):
+            with broken, self.assertRaisesRegex(NoDisplay, said), virtual_display():
+                self.fail("there is no server")
