@@ -4,6 +4,7 @@
 import argparse
 import sys
 
+from .claims import as_markdown as claims_as_markdown, check_claims, read_claims
 from .printed_values import read_printed_tables
 from .read_results import ResultsError, read_results
 from .table_formats import as_latex, as_markdown, as_text
@@ -34,13 +35,18 @@ def main(arguments=None):
 
     try:
         results = read_results(options.folder)
-        tables = make_tables(results, read_printed_tables(results.study, results.provenance))
+        printed = read_printed_tables(results.study, results.provenance)
+        tables = make_tables(results, printed)
         paths = []
         for table in tables:
             tell(as_text(table))
             for suffix, write in ((".md", as_markdown), (".tex", as_latex)):
                 path = results.folder / "tables" / (table.name + suffix)
                 paths.append(write_atomically(path, write(table)))
+        claims = read_claims(results.study)
+        if claims:
+            text = claims_as_markdown(check_claims(claims, results, printed), results)
+            paths.append(write_atomically(results.folder / "tables" / "claims.md", text))
         if not options.no_figures:
             from .figures import draw_figures  # matplotlib takes a second to load
             paths += draw_figures(results, lambda sentence: print(sentence, file=sys.stderr))

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Claims: their arithmetic, their verdicts, and that the criteria fit what is printed."""
+
+import re
+
+from plots.__main__ import main
+from plots.claim_values import Values
+from plots.claims import (FAILS, HOLDS, UNKNOWN, as_markdown, cases_of, check_claim, check_claims,
+                          met_in, number_of, read_claims, verdict_of)
+from plots.expressions import Missing, evaluate
+from plots.printed_values import read_printed_tables
+from plots.read_results import read_results
+from plots.tests.synthetic_results import results_row, write_csv, write_results
+from plots.tests.synthetic_volume import write_volume_results
+from plots.tests.test_read_results import InFolder
+
+ROWS = [{"mesh": "tri", "method": method, "degree": degree, "e_max": error, "q_min": quality}
+        for method, degree, error, quality in (("getme", "1", "2.0", "0.5"), ("getme", "2", "0.5", "0.5"),
+                                               ("other", "1", "4.0", "0"), ("other", "2", "", "0"))]
+THRESHOLDS = [{"mesh": "tri", "degree": "1", "error": "e_max", "method": method,
+               "method_seconds": seconds, "speedup": speedup}
+              for method, seconds, speedup in (("getme", "0.5", "4"), ("other", "", ""))]
+
+
+class Expressions(InFolder):
+    def test_arithmetic_and_comparisons(self):
+        for text, expected in (("1 + 2 * 3", 7), ("-(4 / 8)", -0.5), ("1 <= x < 3", True),
+                               ("twice(x) == 3", False), ("twice(x - 1)", 2)):
+            self.assertEqual(evaluate(text, {"x": 2}, lambda name, values: 2 * values[0]), expected)
+
+    def test_what_is_missing(self):
+        for text in ("1 / (x - x)", "f()"):
+            with self.assertRaises(Missing):
+                evaluate(text, {"x": 1.0}, lambda name, values: float("nan"))
+
+    def test_no_more_than_arithmetic(self):
+        for text in ("x.real", "[1]", "1 if 2 else 3", "open('f').read()", "y", "2 **", "x ** 2", "'a' / 2"):
+            with self.assertRaises(ValueError):
+                evaluate(text, {"x": 1.0}, lambda name, values: 1.0)
+
+
+class Verdicts(InFolder):
+    def outcome(self, *checks):
+        values = Values(ROWS, THRESHOLDS)
+        return check_claim({"checks": list(checks)}, values, Values([], []))
+
+    def test_holds_fails_unknown(self):
+        factor = "e_max('tri', 'getme', 1) / e_max('tri', 'getme', 2)"
+        for quantity, condition, verdict, ours in (
+                (factor, "value > 3", HOLDS, "4"), (factor, "value > 5", FAILS, "4"),
+                (factor, "printed < value", UNKNOWN, "4"),
+                ("e_max('tri', 'other', 2)", "value > 0", UNKNOWN, "–"),
+                ("e_max('quad', 'getme', 2)", "value > 0", UNKNOWN, "–"),
+                ("reached('tri', 1, 'e_max', 'other')", "value == 0", HOLDS, "0"),
+                ("speedup('tri', 1, 'e_max', 'other')", "value >= 2", FAILS, "0"),
+                ("method_seconds('tri', 1, 'e_max', 'other')", "value < 1", FAILS, "never"),
+                ("max(q_min('tri', 'getme'), column('e_max', 'tri', 'getme', 1))", "value == 2", HOLDS, "2")):
+            outcome = self.outcome({"quantity": quantity, "condition": condition})
+            self.assertEqual((outcome.verdict, outcome.ours), (verdict, ours), quantity)
+
+    def test_one_failing_check_decides(self):
+        holding, failing = ({"quantity": "1", "condition": f"value == {n}"} for n in (1, 2))
+        lacking = {"quantity": "e_max('quad', 'getme')", "condition": "value > 0"}
+        self.assertEqual(self.outcome(holding, lacking).verdict, UNKNOWN)
+        self.assertEqual(self.outcome(holding, lacking, failing).verdict, FAILS)
+
+    def test_cases_and_counts(self):
+        check = {"quantity": "e_max('tri', method, degree)", "condition": "value < 3",
+                 "for": {"method": ["getme", "other"], "degree": [1, 2]}}
+        outcome = self.outcome(check)
+        self.assertEqual(outcome.verdict, FAILS)
+        self.assertEqual(outcome.ours, "getme: d = 1: 2, getme: d = 2: 0.5, other: d = 1: 4")
+        self.assertEqual(self.outcome({**check, "at_least": 2}).verdict, HOLDS)
+        self.assertEqual(self.outcome({**check, "at_least": 3}).verdict, UNKNOWN)
+        many = self.outcome({**check, "for": {"method": ["getme", "other"], "degree": [1, 2, 1]}})
+        self.assertEqual(many.ours, "0.5 to 4, met in 3 of 6")
+
+
+class Trajectories(InFolder):
+    def values(self, iterations=(0, 1, 2), **fields):
+        rows = [results_row(mesh="tri", method="getme", degree="1", iteration=i, q_min=0.1 * (n + 1),
+                            smoothing_seconds=n, stage="first" if i else "initial", n_invalid=2 - n, **fields)
+                for n, i in enumerate(iterations)]
+        rows.append({**rows[-1], "stage": "second", "iteration": 100, "q_min": 0.2, "smoothing_seconds": 6})
+        folder = self.folder / "t"
+        folder.mkdir(exist_ok=True)
+        write_csv(folder / "iterations.csv", list(rows[0]), rows)
+        write_csv(folder / "summary.csv", list(rows[0]), rows)
+        return Values([], [], read_results(folder).iterations)
+
+    def test_functions(self):
+        values = self.values()
+        for text, expected in (
+                ("at_start('q_min', 'tri', 'getme', 1)", 0.1), ("highest('q_min', 'tri', 'getme', 1)", 0.3),
+                ("at_stage_end('q_min', 'tri', 'getme', 1, 'first')", 0.3),
+                ("after_iterations('q_min', 'tri', 'getme', 1, 1)", 0.2),
+                ("highest('q_min', 'tri', 'getme', 1, 'second')", 0.2),
+                ("after_share_of_time('q_min', 'tri', 'getme', 1, 0.25)", 0.25),
+                ("invalid_iterations('tri', 'getme')", 1), ("valid_iterations('tri', 'getme')", 2)):
+            self.assertAlmostEqual(evaluate(text, {}, values), expected, msg=text)
+
+    def test_gaps_in_the_record_leave_questions_open(self):
+        values = self.values(iterations=(0, 10, 20))
+        for text in ("invalid_iterations('tri', 'getme')", "highest('q_min', 'tri', 'getme', 1)",
+                     "after_iterations('q_min', 'tri', 'getme', 1, 5)", "valid_iterations('quad', 'getme')"):
+            with self.assertRaises(Missing, msg=text):
+                evaluate(text, {}, values)
+        self.assertAlmostEqual(evaluate("at_start('q_min', 'tri', 'getme', 1)", {}, values), 0.1)
+
+
+class ClaimsOfTheThesis(InFolder):
+    def test_criteria_fit_the_print(self):
+        for study in ("gear", "volume"):
+            printed = read_printed_tables(study, {})
+            rows = [row for content in ("smoothing", "solver", "errors") for row in printed[content].rows]
+            theirs = Values(rows, printed["thresholds"].rows)
+            claims = read_claims(study)
+            self.assertEqual(len({claim["id"] for claim in claims}), len(claims))
+            for claim in claims:
+                self.assertTrue(claim["checks"] or claim["reason"])
+                for check in claim["checks"]:
+                    numbers = [number_of(check["quantity"], case, theirs) for case in cases_of(check)]
+                    if "printed" not in check:  # in words, where the print has no numbers
+                        met = met_in(check, numbers, numbers)
+                        self.assertEqual(verdict_of(met, check.get("at_least", len(met))), HOLDS, claim["id"])
+
+    def test_every_name_is_a_column_or_function(self):
+        results = read_results(write_results(self.folder / "r"))
+        known = {*results.summary.columns, *results.thresholds.columns, "reached", "column", "min", "max",
+                 "at_start", "at_stage_end", "after_iterations", "after_share_of_time", "highest",
+                 "valid_iterations", "invalid_iterations"}
+        for claim in read_claims("gear") + read_claims("volume"):
+            for check in claim["checks"]:
+                self.assertLessEqual(set(re.findall(r"(\w+)\(", check["quantity"])), known)
+
+    def test_table_of_claims(self):
+        for study, write in (("gear", write_results), ("volume", write_volume_results)):
+            folder = write(self.folder / study)
+            self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
+            text = (folder / "tables" / "claims.md").read_text()
+            rows = [line for line in text.splitlines() if line.startswith("| ")]
+            self.assertEqual(len(rows), 1 + len(read_claims(study)))
+            self.assertEqual({row.count(" |") for row in rows}, {7})
+            self.assertIn("stand-ins", text)
+        folder = write_results(self.folder / "own", study="plate")
+        self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
+        self.assertFalse((folder / "tables" / "claims.md").exists())
+
+    def test_count_of_verdicts(self):
+        results = read_results(write_results(self.folder / "r"))
+        outcomes = check_claims(read_claims("gear"), results, {})
+        text = as_markdown(outcomes, results)
+        for verdict in (FAILS, UNKNOWN):
+            self.assertEqual(text.count(f"**{verdict}**"), sum(o.verdict == verdict for o in outcomes))
