@@ -20,7 +20,8 @@ def draw_histograms(results, qualities, logarithmic=False):
     meshes = [mesh for mesh in results.meshes if any(name == mesh for name, _ in qualities)]
     if not meshes:
         return None
-    styles = method_order(results)
+    present = {method for _, method in qualities}
+    styles = {name: look for name, look in method_order(results).items() if name in present}
     width, height = figure_size(1, len(meshes))
     height += 0.35
     figure, axes = pyplot.subplots(1, len(meshes), squeeze=False, figsize=(width, height))

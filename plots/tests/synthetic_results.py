@@ -10,7 +10,8 @@ import numpy as np
 
 COLUMNS = ("study mesh method stage iteration smoothing_seconds q_min q_star_min q_mean n_invalid "
            "n_reset degree n_dofs n_free condition_number condition_method lambda_min lambda_max "
-           "cg_iterations cg_seconds cg_converged jacobi_cg_iterations jacobi_cg_seconds e_max e_mean "
+           "condition_residual cg_iterations cg_seconds cg_converged jacobi_cg_iterations "
+           "jacobi_cg_seconds amg_cg_iterations amg_setup_seconds amg_cg_seconds e_max e_mean "
            "e_l2 e_h1 l2_error h1_error status").split()
 SUMMARY = ["study", "mesh", "method", "iterations", "smoothing_seconds", "q_min", "q_star_min", "q_mean",
            "n_invalid"] + COLUMNS[COLUMNS.index("degree"):]
@@ -25,6 +26,13 @@ def results_row(**fields):
                condition_number="377.4", e_max="9.49379", n_dofs="9", condition_method="dense")
     row.update(fields)
     return row
+
+
+def without_columns(path, names):
+    """Takes columns out of a CSV file, as older versions and other studies lack them."""
+    with open(path, newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    write_csv(path, [name for name in rows[0] if name not in names], rows)
 
 
 def write_csv(path, header, rows):

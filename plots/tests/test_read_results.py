@@ -13,7 +13,7 @@ from plots.__main__ import main
 from plots.mesh_geometry import boundary_loops, triangles_of
 from plots.read_results import ResultsError, read_results
 from plots.read_vtu import read_vtu
-from plots.tests.synthetic_results import write_results, write_vtu
+from plots.tests.synthetic_results import write_csv, write_results, write_vtu
 
 
 class InFolder(unittest.TestCase):
@@ -69,6 +69,12 @@ class ReadResults(InFolder):
         self.assertEqual(results.degrees, ("1", "2"))
         self.assertEqual(results.title("getme"), "GETMe")
         self.assertEqual(results.title("own"), "own")
+
+    def test_order_of_columns_does_not_matter(self):
+        folder = write_results(self.folder / "r")
+        before = read_results(folder).summary.records()
+        write_csv(folder / "summary.csv", sorted(before[0]), before)
+        self.assertEqual(read_results(folder).summary.records(), before)
 
     def test_files_that_may_be_absent(self):
         folder = write_results(self.folder / "r")

@@ -8,7 +8,7 @@ from plots.printed_values import THESIS_FOLDER, read_printed_tables
 from plots.read_results import read_results, read_rows
 from plots.table_formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
 from plots.tables import escape_tex, make_tables
-from plots.tests.synthetic_results import write_results
+from plots.tests.synthetic_results import without_columns, write_results
 from plots.tests.test_read_results import InFolder
 
 
@@ -45,6 +45,27 @@ class Tables(InFolder):
         text = as_text(tables["table_6_2_solver"])
         self.assertIn("7.39e+02ᵃ  -48.9", text)
         self.assertIn("stand-ins", text)
+
+    def test_volume_study_beside_its_tables(self):
+        tables = self.tables(study="volume", meshes=("tet", "hex"))
+        self.assertEqual(list(tables)[:4], ["table_6_5_smoothing", "table_6_6_solver", "table_6_7_errors",
+                                            "table_6_8_thresholds"])
+        quality = next(g for g in tables["table_6_5_smoothing"].groups if g.heading.text == "q_min")
+        self.assertEqual([cell.text for cell in quality.cells[2]], ["0.2046", "invalid", "–"])
+        solver = tables["table_6_6_solver"]
+        self.assertIn("with AMG", [group.heading.text for group in solver.groups])
+        # What the print leaves empty has the mark of the note that says why.
+        self.assertEqual([(c.text, c.mark) for c in solver.groups[0].cells[2][1:]], [("–", "a"), ("–", "")])
+        for name in ("table_6_5_smoothing", "table_6_6_solver", "table_6_7_errors"):
+            self.assertIn("Not comparable: digits", as_text(tables[name]).replace("\n  ", " "))
+
+    def test_columns_that_other_versions_lack(self):
+        folder = write_results(self.folder / "old")
+        absent = ("condition_residual", "amg_cg_iterations", "amg_setup_seconds", "amg_cg_seconds")
+        for name in ("iterations.csv", "summary.csv"):
+            without_columns(folder / name, absent)
+        headings = [group.heading.text for group in self.tables_of("old", "solver").groups]
+        self.assertEqual(headings, ["cond(A)", "CG iterations", "with Jacobi", "Time (s)"])
 
     def test_text_is_aligned_and_fits(self):
         for table in self.tables(meshes=("tri", "quad")).values():

@@ -103,9 +103,9 @@ class Rendering(InFolder):
         with mock.patch.dict(os.environ, {"DISPLAY": ":4321"}):
             with virtual_display():
                 number = os.environ["DISPLAY"].removeprefix(":")
-                self.assertTrue(os.path.exists(f"/tmp/.X11-unix/X{number}"))
+                self.assertTrue(os.path.exists(f"/tmp/.X{number}-lock"))
             self.assertEqual(os.environ["DISPLAY"], ":4321")
-        self.assertFalse(os.path.exists(f"/tmp/.X11-unix/X{number}"))
+        self.assertFalse(os.path.exists(f"/tmp/.X{number}-lock"))
 
     def test_a_crash_is_one_sentence(self):
         with mock.patch("plots.render_volume.draw_scene", os._exit):
