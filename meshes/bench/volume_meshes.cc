@@ -6,6 +6,7 @@
 
 #include "meshes/distortion/distort.h"
 #include "meshes/generators/domains.h"
+#include "meshes/generators/sweep.h"
 #include "meshes/io/gmsh_session.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/tests/volume_meshes.h"
@@ -13,24 +14,6 @@
 namespace smoothfem::bench {
 
 namespace {
-
-/// Each quadrilateral of a planar mesh becomes a column of n_layers hexahedra.
-VolumeMesh sweep(const PlanarMesh& mesh, std::uint32_t n_layers, double height) {
-  const auto n = static_cast<NodeIndex>(mesh.n_nodes());
-  std::vector<Point<3>> x;
-  CompressedRows<NodeIndex> cells;
-  for (std::uint32_t layer = 0; layer <= n_layers; ++layer)
-    for (const auto& p : mesh.coordinates()) x.emplace_back(p.x(), p.y(), height * layer);
-  for (std::uint32_t layer = 0; layer < n_layers; ++layer)
-    for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
-      const auto q = mesh.topology().cell_nodes(c);
-      const NodeIndex below = layer * n, above = below + n;
-      cells.append(std::array<NodeIndex, 8>{below + q[0], below + q[1], below + q[2], below + q[3],
-                                            above + q[0], above + q[1], above + q[2],
-                                            above + q[3]});
-    }
-  return test::make_volume_mesh(x, cells);
-}
 
 void generate_bored_cube(const std::filesystem::path& path) {
   std::cerr << "generating " << path << '\n';
@@ -71,9 +54,12 @@ DistortionParameters sweeps(int n) {
 }  // namespace
 
 VolumeMesh swept_gear(bool distorted) {
-  const PlanarMesh gear =
-      find_domain("gear").generate({.element_type = ElementType::quadrilateral});
-  VolumeMesh mesh = sweep(gear, 11, 0.2);
+  const auto gear = std::get<PlanarMesh>(
+      find_domain("gear").generate({.element_type = ElementType::quadrilateral}));
+  std::vector<double> heights;
+  for (int layer = 0; layer <= 11; ++layer) heights.push_back(0.2 * layer);
+  const VolumeCells swept = sweep({gear.coordinates(), gear.topology().cells()}, heights);
+  VolumeMesh mesh = test::make_volume_mesh(swept.coordinates, swept.cells);
   if (!distorted) return mesh;
   return kept("swept_gear_distorted.vtu", [&](const auto& path) {
     distort_within(mesh, 0.9, sweeps(1));

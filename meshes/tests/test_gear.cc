@@ -192,11 +192,14 @@ TEST(QuadSplit, BoundaryMidpointsAreWhereTheyAreWanted) {
 }
 
 TEST(Domains, AreFoundByName) {
-  const PlanarMesh mesh =
+  const AnyMesh mesh =
       find_domain("gear").generate({.element_type = ElementType::quadrilateral, .edge_scale = 3.0});
-  EXPECT_EQ(mesh.topology().boundary_facets().size(), 326u);
+  EXPECT_EQ(std::get<PlanarMesh>(mesh).topology().boundary_facets().size(), 326u);
   EXPECT_THAT(input_error_of([] { find_domain("bolt"); }),
               HasSubstr("there is no domain 'bolt'; use one of gear"));
+  EXPECT_THAT(input_error_of(
+                  [] { find_domain("gear").generate({.element_type = ElementType::hexahedron}); }),
+              HasSubstr("choose one of triangle, quadrilateral"));
 }
 
 }  // namespace

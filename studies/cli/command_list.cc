@@ -60,8 +60,12 @@ void list_studies(const std::filesystem::path& folder) {
 
 void list_the_rest() {
   std::printf("\nDOMAINS (generate NAME, 'domain' in study files)\n\n");
-  for (const auto& domain : domains())
-    std::printf("  %-16s %s\n", domain.name.c_str(), domain.description.c_str());
+  for (const auto& domain : domains()) {
+    std::vector<std::string> types;
+    for (const ElementType type : domain.element_types) types.emplace_back(name_of(type));
+    std::printf("  %-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
+                joined(types).c_str());
+  }
   std::printf("\nSOLUTIONS ('solution' in study files)\n\n");
   for (const auto& solution : manufactured_solutions())
     std::printf("  %-16s u = %s (%s)\n", solution.name.c_str(), solution.formula.c_str(),

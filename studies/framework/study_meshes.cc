@@ -45,10 +45,10 @@ PlanarMesh make_mesh(const StudyMesh& description, double edge_scale,
                      " has neither a file nor a domain; set one of them in its subsection");
   origin = "generated " + description.domain + " of " +
            std::string(name_of(description.element_type)) + "s";
-  return distorted(find_domain(description.domain)
-                       .generate({.element_type = description.element_type,
-                                  .edge_scale = edge_scale,
-                                  .seed = description.seed}),
+  return distorted(std::get<PlanarMesh>(find_domain(description.domain)
+                                            .generate({.element_type = description.element_type,
+                                                       .edge_scale = edge_scale,
+                                                       .seed = description.seed})),
                    description, origin);
 }
 

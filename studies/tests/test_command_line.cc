@@ -338,6 +338,25 @@ TEST_F(CommandLine, GeneratesAndDistorts) {
   }
 }
 
+TEST_F(CommandLine, GeneratesAndDistortsVolumeMeshes) {
+  for (const std::string elements : {"tetrahedra", "hexahedra"}) {
+    const Outcome outcome = smoothfem({"generate", "flange", "-o", "out.vtu", "--elements",
+                                       elements, "--edge-scale", "3", "--distort-to", "0.6"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(elements), std::string::npos);
+    const auto json = nlohmann::json::parse(smoothfem({"quality", "out.vtu", "--json"}).out);
+    EXPECT_NEAR(json.at("q_mean").get<double>(), 0.6, 1e-4);
+    EXPECT_EQ(json.at("n_invalid"), 0);
+    EXPECT_EQ(json.at("cells").size(), 1u) << "all of one type";
+  }
+  const Outcome usual = smoothfem({"generate", "flange", "-o", "out.vtu", "--edge-scale", "4"});
+  EXPECT_NE(usual.out.find("tetrahedra"), std::string::npos) << "the domain's first type";
+  const Outcome planar =
+      smoothfem({"generate", "flange", "-o", "no.vtu", "--elements", "triangles"});
+  EXPECT_EQ(planar.exit_code, 2);
+  EXPECT_NE(planar.err.find("tetrahedron, hexahedron"), std::string::npos) << planar.err;
+}
+
 const std::string own_study = R"(
 set title   = My square
 set meshes  = mine

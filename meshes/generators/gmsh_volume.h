@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "meshes/generators/sweep.h"
+
+namespace smoothfem {
+
+/// A round cylinder whose axis is parallel to z.
+struct Cylinder {
+  Point<2> centre;
+  double radius, bottom, top;
+};
+
+/// How long the edges shall be, in units of the coordinates.
+struct EdgeLengths {
+  double boundary;  ///< on curves and surfaces
+  double inside;    ///< between cells' nodes inside the solid
+};
+
+/// Meshes the union of some cylinders without others with tetrahedra by Gmsh (Delaunay, one
+/// thread). Curves are divided into equal edges, circles into a multiple of four of them from the
+/// positive x direction on, so the extremes in x and y are nodes; boundary nodes lie on the
+/// cylinders and planes. Throws InputError with Gmsh's words if it cannot.
+VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed,
+                       const EdgeLengths& lengths);
+
+}  // namespace smoothfem

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "meshes/generators/gmsh_planar.h"
+
+namespace smoothfem {
+
+/// Cells while a volume mesh is being made: nodes and rows of them in the order of
+/// volume_elements.h.
+struct VolumeCells {
+  std::vector<Point<3>> coordinates;
+  CompressedRows<NodeIndex> cells;
+};
+
+/// Sweeps quadrilaterals along z: cell c of the base becomes a column of n_layers(c) hexahedra,
+/// the first between heights[0] and heights[1]. base: quadrilaterals only, counterclockwise.
+/// heights: ascending. n_layers: from 1 to heights.size() - 1; where neighbours differ, the solid
+/// has a step. Nodes and cells run level by level, in a level as in the base.
+VolumeCells sweep(const PlanarCells& base, const std::vector<double>& heights,
+                  const std::function<std::size_t(CellIndex)>& n_layers);
+
+/// Each cell swept through all the heights.
+VolumeCells sweep(const PlanarCells& base, const std::vector<double>& heights);
+
+}  // namespace smoothfem
