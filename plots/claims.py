@@ -147,7 +147,16 @@ def as_markdown(outcomes, results):
         cells = (claim["id"], claim["section"], claim["statement"], claim["criterion"],
                  outcome.printed, outcome.ours, verdict)
         lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
+    lines += known_reasons(outcomes)
     return "\n".join(lines) + "\n"
+
+
+def known_reasons(outcomes):
+    """Why claims may not hold, where it is known, as lines below the table."""
+    claims = [o.claim for o in outcomes if o.verdict == FAILS and "note" in o.claim]
+    notes = dict.fromkeys(claim["note"] for claim in claims)
+    lines = [f"- {', '.join(c['id'] for c in claims if c['note'] == note)}: {note}" for note in notes]
+    return ["", "Known reasons for what does not hold:", "", *lines] if lines else []
 
 
 def caveats(results):

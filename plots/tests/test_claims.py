@@ -152,3 +152,7 @@ class ClaimsOfTheThesis(InFolder):
         text = as_markdown(outcomes, results)
         for verdict in (FAILS, UNKNOWN):
             self.assertEqual(text.count(f"**{verdict}**"), sum(o.verdict == verdict for o in outcomes))
+        reasons = text.partition("Known reasons")[2]
+        for outcome in outcomes:
+            self.assertEqual(outcome.claim["id"] in re.findall(r"[GV]\d+", reasons),
+                             outcome.verdict == FAILS and "note" in outcome.claim)
