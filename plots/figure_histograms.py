@@ -5,7 +5,6 @@ import matplotlib.pyplot as pyplot
 import numpy as np
 from matplotlib.ticker import StrMethodFormatter
 
-from . import style
 from .figure_history import FOOT, HEAD, INITIAL_DASHES, draw_legend, figure_size, method_order
 from .read_results import INITIAL
 
