@@ -7,24 +7,30 @@
 
 namespace smoothfem {
 
-/// How the right-hand side is made from f.
+/// How the right-hand side b comes from f.
 enum class Load {
-  nodal,       ///< b = M f_h, f interpolated at the dofs (the thesis' protocol)
-  quadrature,  ///< b_i = integral of f phi_i by quadrature (the textbook's Galerkin load)
+  nodal,      ///< b = M f_h, f_h the nodal interpolant of f: what the thesis prints
+  quadrature  ///< b_i = integral of f phi_i: the textbook's Galerkin load
 };
 
-/// The linear system of the free dofs after the boundary values are eliminated.
+/// The Poisson problem's linear system for this rank's free dofs; boundary values are eliminated.
 struct PoissonSystem {
-  SparseMatrix matrix;              ///< symmetric positive definite, n_free x n_free
-  Eigen::VectorXd right_hand_side;  ///< n_free
-  Eigen::VectorXd exact;            ///< u at all dofs; its boundary entries are the boundary values
+  SparseMatrix matrix;              ///< the pattern's: of a symmetric positive definite matrix
+  Eigen::VectorXd right_hand_side;  ///< n_own
+  Eigen::VectorXd exact;            ///< u at all local dofs; where they are not free, the boundary
+                                    ///< values
+  /// Cells of this rank whose mapping is folded at a quadrature point: the corners of a hexahedron
+  /// may all be fine while its inside is not, and then the matrix may be indefinite.
+  std::size_t n_folded_cells = 0;
 };
 
 /// A system with the space's pattern, to be filled again and again.
-PoissonSystem make_system(const FiniteElementSpace& space);
+template <int dim>
+PoissonSystem make_system(const FiniteElementSpace<dim>& space);
 
-/// Fills the system for a mesh with these node coordinates, all of whose cells are valid.
-void assemble(const FiniteElementSpace& space, const std::vector<Point<2>>& coordinates,
-              const ManufacturedSolution& solution, Load load, PoissonSystem& system);
+/// Fills the system for a mesh whose cells are all valid. x: coordinates of the local nodes.
+template <int dim>
+void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
+              const ManufacturedSolution<dim>& solution, Load load, PoissonSystem& system);
 
 }  // namespace smoothfem

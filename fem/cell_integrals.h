@@ -1,112 +1,197 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "fem/finite_element_space.h"
 #include "smoothing/mesh/lanes.h"
 
 namespace smoothfem {
 
-/// A straight-sided cell's mapping at one quadrature point.
-template <class Real>
-struct MappedPoint {
-  Vector2<Real> place;
-  Real weight;  ///< quadrature weight times the Jacobian's determinant
-  Vector2<Real> row_x,
-      row_y;  ///< rows of the inverse transposed Jacobian: gradients are multiplied
+/// The columns of a Jacobian, its determinant, and the rows of the inverse: the gradient of a
+/// function with the reference gradient r is the sum of r_k dual_k.
+template <int dim, class Real>
+struct Jacobian {
+  std::array<Vector<dim, Real>, dim> dual;
+  Real determinant;
 
-  SMOOTHFEM_INLINE Vector2<Real> gradient(const double* reference) const {
-    return {reference[0] * row_x.x + reference[1] * row_x.y,
-            reference[0] * row_y.x + reference[1] * row_y.y};
+  SMOOTHFEM_INLINE explicit Jacobian(const std::array<Vector<2, Real>, 2>& columns) {
+    determinant = cross(columns[0], columns[1]);
+    const Real inverse = 1.0 / determinant;
+    dual[0] = {inverse * columns[1].y, -inverse * columns[1].x};
+    dual[1] = {-inverse * columns[0].y, inverse * columns[0].x};
+  }
+  SMOOTHFEM_INLINE explicit Jacobian(const std::array<Vector<3, Real>, 3>& columns) {
+    const auto normal = cross(columns[1], columns[2]);
+    determinant = dot(columns[0], normal);
+    const Real inverse = 1.0 / determinant;
+    dual[0] = inverse * normal;
+    dual[1] = inverse * cross(columns[2], columns[0]);
+    dual[2] = inverse * cross(columns[0], columns[1]);
+  }
+
+  SMOOTHFEM_INLINE Vector<dim, Real> gradient(const double* reference) const {
+    auto sum = reference[0] * dual[0];
+    for (int d = 1; d < dim; ++d) sum = sum + reference[d] * dual[d];
+    return sum;
   }
 };
 
+/// A straight-sided cell's mapping at one quadrature point.
+template <int dim, class Real>
+struct MappedPoint {
+  Vector<dim, Real> place;
+  Jacobian<dim, Real> jacobian;
+  Real weight;  ///< quadrature weight times the Jacobian's determinant
+};
+
 /// vertices: of the cell in the element's order. q: number of the point in the table.
-template <std::size_t n_vertices, class Real>
-SMOOTHFEM_INLINE MappedPoint<Real> map_point(
+template <int dim, class Real, std::size_t n_vertices>
+SMOOTHFEM_INLINE MappedPoint<dim, Real> map_point(
     const QuadratureTable& table, std::size_t q,
-    const std::array<Vector2<Real>, n_vertices>& vertices) {
-  Vector2<Real> place{}, column0{}, column1{};
+    const std::array<Vector<dim, Real>, n_vertices>& vertices) {
+  Vector<dim, Real> place{};
+  std::array<Vector<dim, Real>, dim> columns{};
   for (std::size_t v = 0; v < n_vertices; ++v) {
-    const double* gradient = &table.geometry_gradient[2 * (q * n_vertices + v)];
+    const double* gradient = &table.geometry_gradient[dim * (q * n_vertices + v)];
     place = place + table.geometry[q * n_vertices + v] * vertices[v];
-    column0 = column0 + gradient[0] * vertices[v];
-    column1 = column1 + gradient[1] * vertices[v];
+    for (int d = 0; d < dim; ++d) columns[d] = columns[d] + gradient[d] * vertices[v];
   }
-  const Real determinant = cross(column0, column1);
-  const Real inverse = 1.0 / determinant;
-  return {place,
-          table.weights[q] * determinant,
-          {inverse * column1.y, -inverse * column0.y},
-          {-inverse * column1.x, inverse * column0.x}};
+  const Jacobian<dim, Real> jacobian(columns);
+  return {place, jacobian, table.weights[q] * jacobian.determinant};
 }
 
-/// Upper triangles, row by row, of a cell's stiffness and mass matrix.
+/// A cell's stiffness matrix, upper triangle row by row, and its load: the mass matrix times the
+/// values of f at the dofs.
 template <std::size_t n_dofs, class Real>
-struct CellMatrices {
+struct CellIntegrals {
   static constexpr std::size_t n_entries = n_dofs * (n_dofs + 1) / 2;
-  std::array<Real, n_entries> stiffness, mass;
+  std::array<Real, n_entries> stiffness;
+  std::array<Real, n_dofs> load;
+  Real smallest_determinant;  ///< of the mapping, at the points where it was taken
 
-  template <std::size_t n_vertices>
-  SMOOTHFEM_INLINE void compute(const QuadratureTable& table,
-                                const std::array<Vector2<Real>, n_vertices>& vertices) {
+  template <int dim, std::size_t n_vertices>
+  SMOOTHFEM_INLINE void compute(const ReferenceElement& element,
+                                const std::array<Vector<dim, Real>, n_vertices>& vertices,
+                                const std::array<Real, n_dofs>& f) {
+    if constexpr (n_vertices == dim + 1)
+      compute_affine<dim>(element, vertices, f);
+    else
+      compute_by_quadrature<dim, n_vertices>(element, vertices, f);
+  }
+
+ private:
+  /// Simplices: one mapping for the whole cell.
+  template <int dim>
+  SMOOTHFEM_INLINE void compute_affine(const ReferenceElement& element,
+                                       const std::array<Vector<dim, Real>, dim + 1>& vertices,
+                                       const std::array<Real, n_dofs>& f) {
+    std::array<Vector<dim, Real>, dim> columns;
+    for (int d = 0; d < dim; ++d) columns[d] = vertices[d + 1] - vertices[0];
+    const Jacobian<dim, Real> jacobian(columns);
+    smallest_determinant = jacobian.determinant;
+    std::array<Real, dim*(dim + 1) / 2> metric;
+    for (int a = 0, k = 0; a < dim; ++a)
+      for (int b = a; b < dim; ++b, ++k)
+        metric[k] = jacobian.determinant * dot(jacobian.dual[a], jacobian.dual[b]);
+    for (std::size_t p = 0; p < n_entries; ++p) {
+      Real sum = element.affine.stiffness[p] * metric[0];
+      for (std::size_t k = 1; k < metric.size(); ++k)
+        sum += element.affine.stiffness[k * n_entries + p] * metric[k];
+      stiffness[p] = sum;
+    }
+    load.fill(Real{});
+    for (std::size_t i = 0, p = 0; i < n_dofs; ++i)
+      for (std::size_t j = i; j < n_dofs; ++j, ++p) {
+        const Real mass = element.affine.mass[p] * jacobian.determinant;
+        load[i] += mass * f[j];
+        if (i != j) load[j] += mass * f[i];
+      }
+  }
+
+  /// Other cells: by quadrature.
+  template <int dim, std::size_t n_vertices>
+  SMOOTHFEM_INLINE void compute_by_quadrature(
+      const ReferenceElement& element, const std::array<Vector<dim, Real>, n_vertices>& vertices,
+      const std::array<Real, n_dofs>& f) {
+    const QuadratureTable& table = element.matrices;
     stiffness.fill(Real{});
-    mass.fill(Real{});
+    load.fill(Real{});
+    smallest_determinant = Real{} + std::numeric_limits<double>::infinity();
     for (std::size_t q = 0; q < table.n_points; ++q) {
-      const auto mapped = map_point(table, q, vertices);
+      const auto mapped = map_point<dim, Real>(table, q, vertices);
+      const Real determinant = mapped.jacobian.determinant;
+      smallest_determinant =
+          determinant < smallest_determinant ? determinant : smallest_determinant;
       const double* shape = &table.shape[q * n_dofs];
-      std::array<Vector2<Real>, n_dofs> gradients;
-      for (std::size_t i = 0; i < n_dofs; ++i)
-        gradients[i] = mapped.gradient(&table.shape_gradient[2 * (q * n_dofs + i)]);
+      std::array<Vector<dim, Real>, n_dofs> gradients;
+      Real f_here{};
+      for (std::size_t i = 0; i < n_dofs; ++i) {
+        gradients[i] = mapped.jacobian.gradient(&table.shape_gradient[dim * (q * n_dofs + i)]);
+        f_here += shape[i] * f[i];
+      }
+      const Real weighted_f = mapped.weight * f_here;
       for (std::size_t i = 0, p = 0; i < n_dofs; ++i) {
         const auto weighted_gradient = mapped.weight * gradients[i];
-        const Real weighted_shape = shape[i] * mapped.weight;
-        for (std::size_t j = i; j < n_dofs; ++j, ++p) {
+        load[i] += shape[i] * weighted_f;
+        for (std::size_t j = i; j < n_dofs; ++j, ++p)
           stiffness[p] += dot(weighted_gradient, gradients[j]);
-          mass[p] += shape[j] * weighted_shape;
-        }
       }
     }
   }
 };
 
 /// Up to n_lanes cells of one element, worked on together; missing ones repeat the last.
-template <std::size_t n_vertices>
+template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 struct CellBatch {
-  std::array<std::uint32_t, n_lanes> cells;
+  std::array<std::size_t, n_lanes> cells;
   std::size_t size;
-  std::array<Vector2<Lanes>, n_vertices> vertices;
+  std::array<Vector<dim, Lanes>, n_vertices> vertices;
+  std::array<Lanes, n_dofs> load;  ///< f at the dofs
 
-  CellBatch(const FiniteElementSpace& space, const std::vector<Point<2>>& x,
-            const std::uint32_t* first, std::size_t count)
-      : size(count) {
+  /// x: local nodes' coordinates. nodal_load: f at all local dofs.
+  SMOOTHFEM_INLINE CellBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
+                             const Eigen::VectorXd& nodal_load, std::size_t first)
+      : size(std::min(n_lanes, group.n_cells() - first)) {
+    std::array<const NodeIndex*, n_lanes> rows;
     for (std::size_t l = 0; l < n_lanes; ++l) {
-      cells[l] = first[l < count ? l : count - 1];
-      const auto nodes = space.cell_vertices[cells[l]];
-      for (std::size_t v = 0; v < n_vertices; ++v) {
-        vertices[v].x[l] = x[nodes[v]].x();
-        vertices[v].y[l] = x[nodes[v]].y();
-      }
+      cells[l] = first + std::min(l, size - 1);
+      rows[l] = &group.vertices[cells[l] * n_vertices];
     }
+    for (std::size_t v = 0; v < n_vertices; ++v)
+      vertices[v] =
+          gather_corner<dim>([&](NodeIndex node) -> const Point<dim>& { return x[node]; }, rows, v);
+    for (std::size_t i = 0; i < n_dofs; ++i)
+      for (std::size_t l = 0; l < n_lanes; ++l)
+        load[i][l] = nodal_load[group.dofs[cells[l] * n_dofs + i]];
   }
 };
 
-/// Calls visit.operator()<n_dofs, n_vertices>(element, cells) for the cells of each element there
-/// are.
-template <class Visit>
-void for_each_element(const FiniteElementSpace& space, const Visit& visit) {
-  const bool linear = space.degree == 1;
-  if (!space.triangle_cells.empty()) {
-    if (linear)
-      visit.template operator()<3, 3>(space.triangle, space.triangle_cells);
+/// A cell's vertices, one cell at a time.
+template <int dim, std::size_t n_vertices>
+std::array<Vector<dim, double>, n_vertices> cell_vertices(const ElementCells& group,
+                                                          std::size_t cell,
+                                                          const std::vector<Point<dim>>& x) {
+  std::array<Vector<dim, double>, n_vertices> vertices;
+  for (std::size_t v = 0; v < n_vertices; ++v)
+    vertices[v] = vector_of(x[group.vertices[cell * n_vertices + v]]);
+  return vertices;
+}
+
+/// Calls visit.operator()<n_dofs, n_vertices>(group) for the cells of each element there are.
+template <int dim, class Visit>
+void for_each_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
+  constexpr std::size_t n_simplex = dim + 1, n_tensor = dim == 2 ? 4 : 8;
+  for (const auto& group : space.groups) {
+    const bool simplex = group.element.n_vertices == n_simplex;
+    if (simplex && space.degree == 1)
+      visit.template operator()<n_simplex, n_simplex>(group);
+    else if (simplex)
+      visit.template operator()<dim == 2 ? 6 : 10, n_simplex>(group);
+    else if (space.degree == 1)
+      visit.template operator()<n_tensor, n_tensor>(group);
     else
-      visit.template operator()<6, 3>(space.triangle, space.triangle_cells);
-  }
-  if (!space.quadrilateral_cells.empty()) {
-    if (linear)
-      visit.template operator()<4, 4>(space.quadrilateral, space.quadrilateral_cells);
-    else
-      visit.template operator()<9, 4>(space.quadrilateral, space.quadrilateral_cells);
+      visit.template operator()<dim == 2 ? 9 : 27, n_tensor>(group);
   }
 }
 

@@ -1,180 +1,149 @@
 #include "fem/finite_element_space.h"
 
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
-#include <deal.II/hp/fe_collection.h>
-
 #include <algorithm>
-#include <array>
-#include <set>
+
+#include "fem/numbered_dofs.h"
 
 namespace smoothfem {
 
 namespace {
 
-constexpr unsigned int simplex_index = 0, quadrilateral_index = 1;
+constexpr auto absent = FiniteElementSpace<2>::absent;
 
-/// A triangulation with the mesh's cells in the mesh's order, except that cells may be rotated.
-void fill_triangulation(const PlanarMesh& mesh, dealii::Triangulation<2>& triangulation) {
-  std::vector<dealii::Point<2>> vertices;
-  for (const auto& p : mesh.coordinates()) vertices.emplace_back(p.x(), p.y());
-  std::vector<dealii::CellData<2>> cells;
-  bool all_quadrilaterals = true;
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
-    const auto nodes = mesh.topology().cell_nodes(c);
-    if (nodes.size() > 4)
-      throw CellError(c, "has " + std::to_string(nodes.size()) +
-                             " nodes; finite elements are solved on triangles and quadrilaterals "
-                             "only, so split the polygons first");
-    dealii::CellData<2> cell(static_cast<unsigned int>(nodes.size()));
-    std::copy(nodes.begin(), nodes.end(), cell.vertices.begin());
-    // deal.II lists a quadrilateral's nodes in lexicographic order, not around it.
-    if (nodes.size() == 4) std::swap(cell.vertices[2], cell.vertices[3]);
-    all_quadrilaterals &= nodes.size() == 4;
-    cells.push_back(cell);
-  }
-  if (all_quadrilaterals) dealii::GridTools::consistently_order_cells(cells);
-  triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
-}
-
-void number_dofs(dealii::DoFHandler<2>& dofs, const dealii::hp::FECollection<2>& elements) {
-  for (const auto& cell : dofs.active_cell_iterators())
-    cell->set_active_fe_index(cell->reference_cell().is_simplex() ? simplex_index
-                                                                  : quadrilateral_index);
-  dofs.distribute_dofs(elements);
-}
-
-void read_cells(const dealii::DoFHandler<2>& dofs, FiniteElementSpace& space) {
-  std::vector<dealii::types::global_dof_index> indices;
-  std::vector<NodeIndex> vertices;
-  for (const auto& cell : dofs.active_cell_iterators()) {
-    const bool is_triangle = cell->reference_cell().is_simplex();
-    indices.resize((is_triangle ? space.triangle : space.quadrilateral).n_dofs);
-    cell->get_dof_indices(indices);
-    vertices.clear();
-    for (const unsigned int v : cell->vertex_indices()) vertices.push_back(cell->vertex_index(v));
-    (is_triangle ? space.triangle_cells : space.quadrilateral_cells)
-        .push_back(static_cast<std::uint32_t>(space.cell_dofs.size()));
-    space.cell_vertices.append(vertices);
-    space.cell_dofs.append(indices);
-  }
-}
-
-/// The nodes around each dof, from any cell that has it; their weights are all the same.
-void locate_dofs(FiniteElementSpace& space) {
-  std::vector<std::vector<NodeIndex>> nodes(space.n_dofs);
-  for (std::size_t c = 0; c < space.cell_dofs.size(); ++c) {
-    const auto& element = space.element_of(c);
-    for (std::size_t i = 0; i < element.n_dofs; ++i) {
-      auto& row = nodes[space.cell_dofs[c][i]];
+/// The nodes around each local dof, from any cell that has it; their weights are all the same.
+template <int dim>
+void locate_dofs(FiniteElementSpace<dim>& space) {
+  std::vector<std::vector<NodeIndex>> nodes(space.n_local);
+  for (const auto& group : space.groups) {
+    const auto& element = group.element;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+      auto& row = nodes[group.dofs[k]];
       if (!row.empty()) continue;
+      const std::size_t cell = k / element.n_dofs, i = k % element.n_dofs;
       for (std::size_t v = 0; v < element.n_vertices; ++v)
         if (element.support[i * element.n_vertices + v] > 1e-12)
-          row.push_back(space.cell_vertices[c][v]);
+          row.push_back(group.vertices[cell * element.n_vertices + v]);
       std::sort(row.begin(), row.end());
     }
   }
-  for (const auto& row : nodes) space.dof_nodes.append(row);
-}
-
-/// Dofs at boundary nodes and, for degree 2, in the middle of boundary edges are not free.
-void number_free_dofs(const Topology& topology, FiniteElementSpace& space) {
-  std::set<std::array<NodeIndex, 2>> boundary;
-  const auto& edges = topology.boundary_facets();
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    boundary.insert({std::min(edges[e][0], edges[e][1]), std::max(edges[e][0], edges[e][1])});
-  space.free_number.assign(space.n_dofs, FiniteElementSpace::absent);
-  space.vertex_dof.assign(topology.n_nodes(), FiniteElementSpace::absent);
-  for (std::uint32_t dof = 0; dof < space.n_dofs; ++dof) {
-    const auto nodes = space.dof_nodes[dof];
-    if (nodes.size() == 1) space.vertex_dof[nodes[0]] = dof;
-    const bool on_boundary = (nodes.size() == 1 && topology.on_boundary()[nodes[0]]) ||
-                             (nodes.size() == 2 && boundary.contains({nodes[0], nodes[1]}));
-    if (on_boundary) continue;
-    space.free_number[dof] = static_cast<std::uint32_t>(space.free_dofs.size());
-    space.free_dofs.push_back(dof);
+  space.vertex_dof.assign(space.nodes.size(), absent);
+  for (std::uint32_t dof = 0; dof < nodes.size(); ++dof) {
+    space.dof_nodes.append(nodes[dof]);
+    if (nodes[dof].size() == 1) space.vertex_dof[nodes[dof][0]] = dof;
   }
-  space.n_free = space.free_dofs.size();
-  if (space.n_free == 0)
-    throw InputError(
-        "no unknown is left for the finite element solution: every node of the mesh is on its "
-        "boundary, so refine the mesh or take degree 2");
 }
 
-void build_pattern(FiniteElementSpace& space) {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto for_each_pair = [&](const auto& visit) {
-    for (std::size_t c = 0; c < space.cell_dofs.size(); ++c)
-      for (const std::uint32_t i : space.cell_dofs[c])
-        for (const std::uint32_t j : space.cell_dofs[c])
-          visit(c, space.free_number[i], space.free_number[j]);
-  };
-  constexpr auto absent = FiniteElementSpace::absent;
-  for_each_pair([&](std::size_t, std::uint32_t i, std::uint32_t j) {
-    if (i != absent && j != absent) entries.emplace_back(i, j, 0.0);
-  });
-  const auto n = static_cast<Eigen::Index>(space.n_free);
-  space.pattern.resize(n, n);
-  space.pattern.setFromTriplets(entries.begin(), entries.end());
+/// For each of this rank's equations the cells (group, number) that contribute to it.
+template <int dim>
+std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> cells_of_rows(
+    const FiniteElementSpace<dim>& space) {
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> cells(space.n_own);
+  for (std::uint32_t g = 0; g < space.groups.size(); ++g) {
+    const auto& group = space.groups[g];
+    for (std::size_t k = 0; k < group.dofs.size(); ++k)
+      if (group.dofs[k] < space.n_own)
+        cells[group.dofs[k]].emplace_back(g, static_cast<std::uint32_t>(k / group.element.n_dofs));
+  }
+  return cells;
+}
 
-  std::vector<std::size_t> offsets{0};
-  std::vector<std::uint32_t> places;
-  for (std::size_t c = 0; c < space.cell_dofs.size(); ++c)
-    offsets.push_back(offsets.back() + space.cell_dofs[c].size() * space.cell_dofs[c].size());
-  places.reserve(offsets.back());
+template <int dim>
+void build_pattern(FiniteElementSpace<dim>& space) {
+  const auto cells = cells_of_rows(space);
+  std::vector<int> starts{0}, columns;
+  std::vector<std::uint32_t> row;
+  for (std::size_t i = 0; i < space.n_own; ++i) {
+    row.clear();
+    for (const auto& [g, c] : cells[i]) {
+      const auto& group = space.groups[g];
+      const auto* dofs = &group.dofs[c * group.element.n_dofs];
+      std::copy_if(dofs, dofs + group.element.n_dofs, std::back_inserter(row),
+                   [&](std::uint32_t dof) { return dof < space.n_columns; });
+    }
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    columns.insert(columns.end(), row.begin(), row.end());
+    starts.push_back(static_cast<int>(columns.size()));
+  }
+  const std::vector<double> zeros(columns.size(), 0.0);
+  space.pattern = Eigen::Map<const SparseMatrix>(
+      static_cast<Eigen::Index>(space.n_own), static_cast<Eigen::Index>(space.n_columns),
+      static_cast<Eigen::Index>(columns.size()), starts.data(), columns.data(), zeros.data());
+}
+
+template <int dim>
+void find_places(FiniteElementSpace<dim>& space) {
   const int* starts = space.pattern.outerIndexPtr();
   const int* columns = space.pattern.innerIndexPtr();
-  for_each_pair([&](std::size_t, std::uint32_t i, std::uint32_t j) {
-    places.push_back(i == absent || j == absent
-                         ? absent
-                         : static_cast<std::uint32_t>(std::lower_bound(columns + starts[i],
-                                                                       columns + starts[i + 1],
-                                                                       static_cast<int>(j)) -
-                                                      columns));
-  });
-  space.matrix_places = {std::move(offsets), std::move(places)};
+  for (auto& group : space.groups) {
+    const std::size_t n = group.element.n_dofs;
+    group.places.reserve(group.n_cells() * n * n);
+    for (std::size_t first = 0; first < group.dofs.size(); first += n)
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) {
+          const std::uint32_t row = group.dofs[first + i], column = group.dofs[first + j];
+          const bool stored = row < space.n_own && column < space.n_columns;
+          group.places.push_back(
+              stored ? static_cast<std::uint32_t>(std::lower_bound(columns + starts[row],
+                                                                   columns + starts[row + 1],
+                                                                   static_cast<int>(column)) -
+                                                  columns)
+                     : absent);
+        }
+  }
 }
 
 }  // namespace
 
-std::vector<Point<2>> FiniteElementSpace::dof_points(
-    const std::vector<Point<2>>& coordinates) const {
-  std::vector<Point<2>> points(n_dofs);
-  for (std::size_t dof = 0; dof < n_dofs; ++dof) {
-    Point<2> sum = Point<2>::Zero();
-    for (const NodeIndex node : dof_nodes[dof]) sum += coordinates[node];
+template <int dim>
+std::vector<Point<dim>> FiniteElementSpace<dim>::local_coordinates(
+    const std::vector<Point<dim>>& coordinates) const {
+  std::vector<Point<dim>> of_ranks;
+  of_ranks.reserve(nodes_of_ranks.size());
+  for (const NodeIndex node : nodes_of_ranks) of_ranks.push_back(coordinates[node]);
+  return ranks.scatter(of_ranks, nodes.size());
+}
+
+template <int dim>
+std::vector<Point<dim>> FiniteElementSpace<dim>::dof_points(
+    const std::vector<Point<dim>>& local_coordinates) const {
+  std::vector<Point<dim>> points(n_local);
+  for (std::size_t dof = 0; dof < n_local; ++dof) {
+    Point<dim> sum = Point<dim>::Zero();
+    for (const NodeIndex node : dof_nodes[dof]) sum += local_coordinates[node];
     points[dof] = sum / static_cast<double>(dof_nodes[dof].size());
   }
   return points;
 }
 
-std::shared_ptr<const FiniteElementSpace> make_finite_element_space(const PlanarMesh& mesh,
-                                                                    int degree,
-                                                                    int n_quadrilateral_points) {
+template <int dim>
+std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
+    const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks) {
   if (degree != 1 && degree != 2)
     throw InputError("finite elements of degree " + std::to_string(degree) +
                      " are not available; choose 1 or 2");
-  auto space = std::make_shared<FiniteElementSpace>();
+  auto space = std::make_shared<FiniteElementSpace<dim>>();
   space->degree = degree;
-  space->triangle = make_reference_element(ElementType::triangle, degree, n_quadrilateral_points);
-  space->quadrilateral =
-      make_reference_element(ElementType::quadrilateral, degree, n_quadrilateral_points);
-
-  dealii::Triangulation<2> triangulation;
-  fill_triangulation(mesh, triangulation);
-  const dealii::hp::FECollection<2> elements{dealii::FE_SimplexP<2>(degree),
-                                             dealii::FE_Q<2>(degree)};
-  dealii::DoFHandler<2> dofs(triangulation);
-  number_dofs(dofs, elements);
-  space->n_dofs = dofs.n_dofs();
-  read_cells(dofs, *space);
+  space->ranks = ranks;
+  number_dofs(mesh, tensor_points, *space);
+  if (space->n_free == 0)
+    throw InputError(
+        "no unknown is left for the finite element solution: every node of the mesh is on its "
+        "boundary, so refine the mesh or take degree 2");
+  space->nodes_of_ranks = ranks.gather(space->nodes);
   locate_dofs(*space);
-  number_free_dofs(mesh.topology(), *space);
   build_pattern(*space);
+  find_places(*space);
   return space;
 }
+
+template struct FiniteElementSpace<2>;
+template struct FiniteElementSpace<3>;
+template std::shared_ptr<const FiniteElementSpace<2>> make_finite_element_space(const Mesh<2>*, int,
+                                                                                const TensorPoints&,
+                                                                                const Ranks&);
+template std::shared_ptr<const FiniteElementSpace<3>> make_finite_element_space(const Mesh<3>*, int,
+                                                                                const TensorPoints&,
+                                                                                const Ranks&);
 
 }  // namespace smoothfem

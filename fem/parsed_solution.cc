@@ -10,70 +10,95 @@ namespace smoothfem {
 
 namespace {
 
-/// One expression (or several, separated by semicolons) in x and y. The parser keeps state while it
-/// evaluates, so one evaluation at a time.
+/// One expression (or several, separated by semicolons) in x and y, in space also in z. The parser
+/// keeps state while it evaluates, so one evaluation at a time.
+template <int dim>
 class Expression {
  public:
   Expression(const std::string& text, unsigned int n_components)
-      : parser_(std::make_shared<dealii::FunctionParser<2>>(n_components)),
+      : parser_(std::make_shared<dealii::FunctionParser<dim>>(n_components)),
         lock_(std::make_shared<std::mutex>()) {
     try {
-      parser_->initialize("x,y", text, {{"pi", dealii::numbers::PI}});
-      (void)component(Point<2>(0.5, 0.25), 0);  // deal.II parses at the first evaluation
+      parser_->initialize(dim == 2 ? "x,y" : "x,y,z", text, {{"pi", dealii::numbers::PI}});
+      (void)component(Point<dim>::Constant(0.25), 0);  // deal.II parses at the first evaluation
     } catch (const std::exception&) {
       throw InputError("the solution's expression '" + text + "' cannot be read: it needs " +
-                       std::to_string(n_components) +
-                       " formula(s) in x and y, separated by ';', such as sin(pi*x)*y^2");
+                       std::to_string(n_components) + " formula(s) in x" +
+                       (dim == 2 ? " and y" : ", y and z") +
+                       ", separated by ';', such as sin(pi*x)*y^2");
     }
   }
 
-  double component(const Point<2>& p, unsigned int index) const {
+  double component(const Point<dim>& p, unsigned int index) const {
+    dealii::Point<dim> point;
+    for (int d = 0; d < dim; ++d) point[d] = p[d];
     const std::lock_guard guard(*lock_);
-    return parser_->value(dealii::Point<2>(p.x(), p.y()), index);
+    return parser_->value(point, index);
   }
 
  private:
-  std::shared_ptr<dealii::FunctionParser<2>> parser_;
+  std::shared_ptr<dealii::FunctionParser<dim>> parser_;
   std::shared_ptr<std::mutex> lock_;
 };
 
+template <int dim>
+std::string place_text(const Point<dim>& p) {
+  std::string text;
+  for (int d = 0; d < dim; ++d) text += (d == 0 ? "(" : ", ") + std::to_string(p[d]);
+  return text + ")";
+}
+
 /// Central differences of u against the given derivatives. Their error at this step is some 1e-6 of
 /// the size of the third and fourth derivatives; a wrong sign or factor is off by far more.
-void check_derivatives(const ManufacturedSolution& s, const std::vector<Point<2>>& sample) {
+template <int dim>
+void check_derivatives(const ManufacturedSolution<dim>& s, const std::vector<Point<dim>>& sample) {
   constexpr double h = 1e-3, allowed = 1e-2;
   for (const auto& p : sample) {
-    const Point<2> dx(h, 0.0), dy(0.0, h);
-    const double u = s.value(p), right = s.value(p + dx), left = s.value(p - dx),
-                 up = s.value(p + dy), down = s.value(p - dy);
-    const Point<2> slope((right - left) / (2 * h), (up - down) / (2 * h));
-    const double load = -(right + left + up + down - 4 * u) / (h * h);
+    const double u = s.value(p);
+    Point<dim> slope;
+    double laplacian = 0.0;
+    for (int d = 0; d < dim; ++d) {
+      const Point<dim> step = h * Point<dim>::Unit(d);
+      const double ahead = s.value(p + step), behind = s.value(p - step);
+      slope[d] = (ahead - behind) / (2 * h);
+      laplacian += (ahead + behind - 2 * u) / (h * h);
+    }
     const double round_off = 1e-15 * std::abs(u) / (h * h);
-    const std::string at = " at (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ")";
-    if (!((s.gradient(p) - slope).norm() <= allowed * (slope.norm() + 1.0)))
+    const std::string at = " at " + place_text(p);
+    if (!((s.value_and_gradient(p).gradient - slope).norm() <= allowed * (slope.norm() + 1.0)))
       throw InputError("the gradient given for the solution is not that of its value" + at +
                        ": correct 'gradient' or 'value'");
-    if (!(std::abs(s.load(p) - load) <= allowed * (std::abs(load) + 1.0) + round_off))
+    if (!(std::abs(s.load(p) + laplacian) <= allowed * (std::abs(laplacian) + 1.0) + round_off))
       throw InputError("the load given for the solution is not -laplace(value)" + at +
-                       ": there it should be near " + std::to_string(load));
+                       ": there it should be near " + std::to_string(-laplacian));
   }
 }
 
 }  // namespace
 
-ManufacturedSolution parsed_solution(const std::string& value, const std::string& gradient,
-                                     const std::string& load, const std::vector<Point<2>>& sample) {
-  const Expression u(value, 1), grad(gradient, 2), f(load, 1);
-  ManufacturedSolution solution{.name = "expression",
-                                .formula = value,
-                                .source = "the study file",
-                                .value = [u](const Point<2>& p) { return u.component(p, 0); },
-                                .gradient =
-                                    [grad](const Point<2>& p) {
-                                      return Point<2>(grad.component(p, 0), grad.component(p, 1));
-                                    },
-                                .load = [f](const Point<2>& p) { return f.component(p, 0); }};
+template <int dim>
+ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::string& gradient,
+                                          const std::string& load,
+                                          const std::vector<Point<dim>>& sample) {
+  const Expression<dim> u(value, 1), grad(gradient, dim), f(load, 1);
+  ManufacturedSolution<dim> solution{
+      .name = "expression",
+      .formula = value,
+      .source = "the study file",
+      .value = [u](const Point<dim>& p) { return u.component(p, 0); },
+      .value_and_gradient = [u, grad](const Point<dim>& p) -> ValueAndGradient<dim> {
+        Point<dim> slope;
+        for (int d = 0; d < dim; ++d) slope[d] = grad.component(p, static_cast<unsigned int>(d));
+        return {u.component(p, 0), slope};
+      },
+      .load = [f](const Point<dim>& p) { return f.component(p, 0); }};
   check_derivatives(solution, sample);
   return solution;
 }
+
+template ManufacturedSolution<2> parsed_solution(const std::string&, const std::string&,
+                                                 const std::string&, const std::vector<Point<2>>&);
+template ManufacturedSolution<3> parsed_solution(const std::string&, const std::string&,
+                                                 const std::string&, const std::vector<Point<3>>&);
 
 }  // namespace smoothfem

@@ -1,5 +1,7 @@
 #include "fem/poisson_solver.h"
 
+#include <chrono>
+
 #include "fem/assembly.h"
 #include "fem/condition_number.h"
 #include "fem/conjugate_gradients.h"
@@ -7,103 +9,201 @@
 
 namespace smoothfem {
 
-struct PoissonSolver::Workspace {
-  std::shared_ptr<const FiniteElementSpace> space;
+template <int dim>
+struct PoissonSolver<dim>::Workspace {
+  std::shared_ptr<const FiniteElementSpace<dim>> space;
+  std::size_t n_mesh_nodes;  ///< on the root
   PoissonSystem system;
-  SlicedMatrix sliced;  ///< the system's matrix, for products
-  ConditionNumberSolver condition_solver;
+  SlicedMatrix sliced;                       ///< the system's matrix, for products
+  std::unique_ptr<TrilinosMatrix> trilinos;  ///< made when first needed
+  CholeskyConditionNumber cholesky;
+  IterativeConditionNumber iterative;
   Eigen::VectorXd free_solution, discrete;
 
-  explicit Workspace(std::shared_ptr<const FiniteElementSpace> shared)
-      : space(std::move(shared)), system(make_system(*space)), sliced(system.matrix) {}
+  Workspace(std::shared_ptr<const FiniteElementSpace<dim>> shared, std::size_t n_nodes)
+      : space(std::move(shared)),
+        n_mesh_nodes(n_nodes),
+        system(make_system(*space)),
+        sliced(system.matrix, space->ranks, space->halo) {}
+
+  /// Sets multigrid up for the present matrix; returns the time it took.
+  double set_up_multigrid() {
+    if (!trilinos) trilinos = std::make_unique<TrilinosMatrix>(*space);
+    trilinos->set_values(system.matrix);
+    const auto started = std::chrono::steady_clock::now();
+    trilinos->set_up_multigrid();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  }
+
+  bool is_tiny() const { return space->n_free <= dense_limit; }
+  bool needs_multigrid() const { return !is_tiny() && (dim == 3 || space->ranks.size() > 1); }
+
+  /// Multigrid has been set up if it is needed.
+  ConditionNumber verified_condition_number() {
+    if (is_tiny())
+      return dense_condition_number(system.matrix, space->column_numbers, space->n_free,
+                                    space->ranks);
+    return needs_multigrid() ? iterative.compute(*trilinos) : cholesky.compute(system.matrix);
+  }
 };
 
-PoissonSolver::PoissonSolver(const PlanarMesh& mesh, const PoissonOptions& options)
+template <int dim>
+PoissonSolver<dim>::PoissonSolver(const Mesh<dim>* mesh, const PoissonOptions& options,
+                                  const Ranks& ranks)
     : options_(options),
       work_(std::make_unique<Workspace>(
-          make_finite_element_space(mesh, options.degree, options.n_quadrilateral_points))) {}
+          make_finite_element_space(mesh, options.degree, options.tensor_points, ranks),
+          mesh == nullptr ? 0 : mesh->n_nodes())) {}
 
-PoissonSolver::PoissonSolver(const PoissonSolver& other)
-    : options_(other.options_), work_(std::make_unique<Workspace>(other.work_->space)) {}
+template <int dim>
+PoissonSolver<dim>::PoissonSolver(const PoissonSolver& other)
+    : options_(other.options_),
+      work_(std::make_unique<Workspace>(other.work_->space, other.work_->n_mesh_nodes)) {}
 
-PoissonSolver::~PoissonSolver() = default;
+template <int dim>
+PoissonSolver<dim>::~PoissonSolver() = default;
 
 namespace {
 
 /// Sum of the squares of the boundary values: what they add to |b|^2 as identity rows.
-double boundary_square_sum(const FiniteElementSpace& space, const Eigen::VectorXd& exact) {
-  double sum = 0.0;
-  for (std::size_t dof = 0; dof < space.n_dofs; ++dof)
-    if (space.free_number[dof] == FiniteElementSpace::absent) {
-      const double g = exact[static_cast<Eigen::Index>(dof)];
-      sum += g * g;
-    }
-  return sum;
+template <int dim>
+double boundary_square_sum(const FiniteElementSpace<dim>& space, const Eigen::VectorXd& exact) {
+  return space.ranks.sum(exact
+                             .segment(static_cast<Eigen::Index>(space.n_columns),
+                                      static_cast<Eigen::Index>(space.n_own_boundary))
+                             .squaredNorm());
+}
+
+void add_remark(const std::string& remark, SolutionRecord& record) {
+  record.status = record.status == "ok" ? remark : record.status + "; " + remark;
 }
 
 void record_condition_number(const ConditionNumber& condition, SolutionRecord& record) {
   record.lambda_min = condition.lambda_min;
   record.lambda_max = condition.lambda_max;
   record.condition_number = condition.value();
-  record.condition_method = ConditionNumberSolver::method;
-  if (!condition.verified) record.status = "condition number not verified";
+  record.condition_method = condition.method;
+  record.condition_residual = condition.residual();
 }
 
-}  // namespace
-
-SolutionRecord PoissonSolver::solve(const PlanarMesh& mesh, const ManufacturedSolution& solution) {
-  auto& [space, system, sliced, condition_solver, free_solution, discrete] = *work_;
-  SolutionRecord record{.degree = options_.degree,
-                        .n_dofs = space->n_dofs,
-                        .n_free = space->n_free,
-                        .condition_method = "none",
-                        .status = "ok"};
-  assemble(*space, mesh.coordinates(), solution,
-           options_.galerkin_load ? Load::quadrature : Load::nodal, system);
-  if (options_.condition_number)
-    record_condition_number(condition_solver.compute(system.matrix), record);
-
-  sliced.set_values(system.matrix);
-  const double offset = options_.boundary_in_norm ? boundary_square_sum(*space, system.exact) : 0.0;
-  const auto max_iterations = static_cast<std::size_t>(options_.max_cg_iterations_per_dof *
-                                                       static_cast<double>(space->n_free));
-  const auto run = [&](Preconditioner preconditioner) {
-    return conjugate_gradients(sliced, system.right_hand_side, free_solution, options_.cg_tolerance,
-                               max_iterations, preconditioner, offset);
-  };
-  if (options_.jacobi_cg) {
-    const auto jacobi = run(Preconditioner::jacobi);
-    record.jacobi_cg_iterations = jacobi.iterations;
-    record.jacobi_cg_seconds = jacobi.seconds;
-  }
-  const auto cg = run(Preconditioner::none);  // last: its solution is the one whose errors count
-  record.cg_iterations = cg.iterations;
-  record.cg_seconds = cg.seconds;
-  record.cg_converged = cg.converged;
-  if (!cg.converged) record.status = "CG stopped at its limit of iterations";
-
-  discrete = system.exact;
-  for (std::size_t i = 0; i < space->n_free; ++i)
-    discrete[space->free_dofs[i]] = free_solution[static_cast<Eigen::Index>(i)];
-  const ErrorNorms norms =
-      error_norms(*space, mesh.coordinates(), solution, system.exact, discrete);
+void record_errors(const ErrorNorms& norms, SolutionRecord& record) {
   record.e_max = norms.e_max;
   record.e_mean = norms.e_mean;
   record.e_l2 = norms.e_l2;
   record.e_h1 = norms.e_h1;
   record.l2_error = norms.l2_error;
   record.h1_error = norms.h1_error;
+}
+
+void record_conjugate_gradients(const ConjugateGradientsResult& cg, SolutionRecord& record) {
+  record.cg_iterations = cg.iterations;
+  record.cg_seconds = cg.seconds;
+  record.cg_converged = cg.end == ConjugateGradientsEnd::converged;
+  if (cg.end == ConjugateGradientsEnd::iteration_limit)
+    add_remark("CG stopped at its limit of iterations", record);
+  if (cg.end == ConjugateGradientsEnd::time_limit)
+    add_remark("CG stopped at its limit of time", record);
+}
+
+}  // namespace
+
+template <int dim>
+SolutionRecord PoissonSolver<dim>::solve(const std::vector<Point<dim>>& coordinates,
+                                         const ManufacturedSolution<dim>& solution,
+                                         bool is_result) {
+  auto& work = *work_;
+  const auto& space = *work.space;
+  SolutionRecord record{.degree = options_.degree,
+                        .n_dofs = space.n_dofs,
+                        .n_free = space.n_free,
+                        .condition_method = "none",
+                        .status = "ok"};
+  const auto asked_for = [&](Recorded what) {
+    return what == Recorded::always || (what == Recorded::results && is_result);
+  };
+  const bool with_multigrid_cg = asked_for(options_.multigrid_cg);
+  const bool verified = options_.condition_number == ConditionNumberMethod::verified ||
+                        (options_.condition_number == ConditionNumberMethod::lanczos && is_result);
+  const auto x = space.local_coordinates(coordinates);
+  assemble(space, x, solution, options_.galerkin_load ? Load::quadrature : Load::nodal,
+           work.system);
+  if (const std::size_t n = space.ranks.sum(work.system.n_folded_cells); n > 0)
+    add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") + " folded inside", record);
+  work.sliced.set_values(work.system.matrix);
+
+  const ConjugateGradientsOptions cg_options{
+      .tolerance = options_.cg_tolerance,
+      .norm_offset =
+          options_.boundary_in_norm ? boundary_square_sum(space, work.system.exact) : 0.0,
+      .max_iterations = static_cast<std::size_t>(options_.max_cg_iterations_per_dof *
+                                                 static_cast<double>(space.n_free)),
+      .max_seconds = options_.max_cg_seconds};
+  const auto run = [&](const Preconditioner& preconditioner) {
+    return conjugate_gradients(work.sliced, work.system.right_hand_side, work.free_solution,
+                               cg_options, preconditioner);
+  };
+  if (asked_for(options_.jacobi_cg)) {
+    const auto jacobi = run(jacobi_preconditioner(work.sliced));
+    record.jacobi_cg_iterations = jacobi.iterations;
+    record.jacobi_cg_seconds = jacobi.seconds;
+  }
+  if (with_multigrid_cg || (verified && work.needs_multigrid()))
+    record.amg_setup_seconds = work.set_up_multigrid();
+  if (with_multigrid_cg) {
+    const auto multigrid = run([&](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+      work.trilinos->apply_multigrid(r, z);
+    });
+    record.amg_cg_iterations = multigrid.iterations;
+    record.amg_cg_seconds = multigrid.seconds;
+  }
+  const auto cg = run({});  // last: its solution is the one whose errors count
+  record_conjugate_gradients(cg, record);
+
+  if (options_.condition_number != ConditionNumberMethod::none) {
+    const auto lanczos = lanczos_condition_number(cg.lanczos);
+    record_condition_number(
+        verified ? better_of(work.verified_condition_number(), lanczos) : lanczos, record);
+    if (verified && !(record.condition_residual <= verified_residual))
+      add_remark("condition number not verified", record);
+  }
+
+  work.discrete = work.system.exact;
+  work.discrete.head(work.free_solution.size()) = work.free_solution;
+  record_errors(error_norms(space, x, solution, work.system.exact, work.discrete), record);
   return record;
 }
 
-std::vector<double> PoissonSolver::nodal_errors() const {
-  std::vector<double> errors(work_->space->vertex_dof.size(), 0.0);
-  for (std::size_t node = 0; node < errors.size(); ++node) {
-    const std::uint32_t dof = work_->space->vertex_dof[node];
-    if (dof != FiniteElementSpace::absent)
-      errors[node] = std::abs(work_->system.exact[dof] - work_->discrete[dof]);
+template <int dim>
+std::vector<double> PoissonSolver<dim>::nodal_errors() const {
+  const auto& space = *work_->space;
+  std::vector<double> local(space.nodes.size(), 0.0);
+  for (std::size_t node = 0; node < local.size(); ++node) {
+    const std::uint32_t dof = space.vertex_dof[node];
+    if (dof != space.absent)
+      local[node] = std::abs(work_->system.exact[dof] - work_->discrete[dof]);
   }
+  // Nodes that several ranks have come several times, with the same value.
+  const auto of_ranks = space.ranks.gather(local);
+  std::vector<double> errors(work_->n_mesh_nodes, 0.0);
+  for (std::size_t k = 0; k < of_ranks.size(); ++k) errors[space.nodes_of_ranks[k]] = of_ranks[k];
   return errors;
 }
+
+template <int dim>
+std::vector<double> PoissonSolver<dim>::eigenvectors() const {
+  return work_->space->ranks.gather(work_->iterative.eigenvectors());
+}
+
+template <int dim>
+void PoissonSolver<dim>::set_eigenvectors(const std::vector<double>& eigenvectors) {
+  const auto& space = *work_->space;
+  bool fits = eigenvectors.size() == 2 * space.n_free;
+  space.ranks.broadcast(fits);
+  work_->iterative.set_eigenvectors(fits ? space.ranks.scatter(eigenvectors, 2 * space.n_own)
+                                         : std::vector<double>());
+}
+
+template class PoissonSolver<2>;
+template class PoissonSolver<3>;
 
 }  // namespace smoothfem

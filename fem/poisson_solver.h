@@ -1,26 +1,40 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "fem/finite_element_space.h"
 #include "fem/manufactured_solution.h"
-#include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
 
+/// For which meshes of a study something is computed.
+enum class Recorded { never, results, always };
+
+/// How condition numbers of records come about.
+enum class ConditionNumberMethod {
+  none,
+  lanczos,  ///< from the Lanczos numbers of the CG run: costs nothing, a little low
+  verified  ///< eigenpairs whose residuals are recomputed
+};
+
 /// What a finite element record measures and how (thesis, Section 6.1).
 struct PoissonOptions {
-  int degree = 1;                  ///< of the Lagrange elements: 1 or 2
-  bool galerkin_load = false;      ///< load by quadrature in place of the thesis' nodal one
-  int n_quadrilateral_points = 8;  ///< Gauss points a direction; 8 agree with the print to 0.2 %
-  double cg_tolerance = 1e-8;      ///< on |r| / |b|
+  int degree = 1;              ///< of the Lagrange elements: 1 or 2
+  bool galerkin_load = false;  ///< load by quadrature in place of the thesis' nodal one
+  TensorPoints tensor_points;
+  double cg_tolerance = 1e-8;  ///< on |r| / |b|
   /// Take the boundary values into |b|, as if their equations were identity rows of the full
   /// system.
   bool boundary_in_norm = false;
   double max_cg_iterations_per_dof = 10.0;  ///< against matrices that rounding makes singular
-  bool condition_number = true;
-  bool jacobi_cg = true;
+  double max_cg_seconds = std::numeric_limits<double>::infinity();  ///< of each run of CG
+  /// Of every record; initial and resulting meshes have verified ones unless it is none.
+  ConditionNumberMethod condition_number = ConditionNumberMethod::verified;
+  Recorded jacobi_cg = Recorded::always;
+  Recorded multigrid_cg = Recorded::never;
 };
 
 /// The finite element numbers of one mesh: a row of the results.
@@ -28,9 +42,10 @@ struct SolutionRecord {
   int degree = 0;
   std::size_t n_dofs = 0, n_free = 0;
   double condition_number = 0.0, lambda_min = 0.0, lambda_max = 0.0;
-  std::string condition_method;  ///< "none" where it was not asked for
-  std::size_t cg_iterations = 0, jacobi_cg_iterations = 0;
-  double cg_seconds = 0.0, jacobi_cg_seconds = 0.0;
+  std::string condition_method;     ///< "none" where it was not asked for
+  double condition_residual = 0.0;  ///< see ConditionNumber::residual
+  std::size_t cg_iterations = 0, jacobi_cg_iterations = 0, amg_cg_iterations = 0;
+  double cg_seconds = 0.0, jacobi_cg_seconds = 0.0, amg_setup_seconds = 0.0, amg_cg_seconds = 0.0;
   bool cg_converged = false;
   double e_max = 0.0, e_mean = 0.0, e_l2 = 0.0, e_h1 = 0.0;  ///< the thesis' protocol
   double l2_error = 0.0, h1_error = 0.0;                     ///< true errors by quadrature
@@ -39,19 +54,32 @@ struct SolutionRecord {
 
 /// Solves -laplace(u) = f with Dirichlet boundary values for meshes of one topology. What depends
 /// on the topology alone is done once, at construction; copies share it, and are independent in all
-/// else, so each thread takes its own.
+/// else, so each thread takes its own. Several processes share the work; all calls are collective.
+template <int dim>
 class PoissonSolver {
  public:
-  /// mesh: any mesh of the topology. Throws InputError as make_finite_element_space does.
-  PoissonSolver(const PlanarMesh& mesh, const PoissonOptions& options);
+  /// mesh: any mesh of the topology, on the root; null elsewhere. Throws InputError as
+  /// make_finite_element_space does.
+  PoissonSolver(const Mesh<dim>* mesh, const PoissonOptions& options, const Ranks& ranks = {});
   PoissonSolver(const PoissonSolver& other);
   ~PoissonSolver();
 
-  /// mesh: of the topology given at construction, all cells valid.
-  SolutionRecord solve(const PlanarMesh& mesh, const ManufacturedSolution& solution);
+  /// coordinates: on the root, of all nodes of a mesh of the topology, all of whose cells are
+  /// valid. is_result: an initial or resulting mesh of a study, with all that is recorded for
+  /// those.
+  SolutionRecord solve(const std::vector<Point<dim>>& coordinates,
+                       const ManufacturedSolution<dim>& solution, bool is_result = true);
 
-  /// |u - u_h| of the last solve at each mesh node; 0 at nodes that no cell uses.
+  /// On the root: |u - u_h| of the last solve at each mesh node; 0 at nodes that no cell uses.
+  /// Collective.
   std::vector<double> nodal_errors() const;
+
+  /// On the root: what the next verified condition number starts from; empty if it starts from
+  /// nothing. Its order depends on the number of ranks. Collective.
+  std::vector<double> eigenvectors() const;
+  /// eigenvectors: on the root, of a solver for the same topology, degree and number of ranks; of
+  /// another size they are ignored. Collective.
+  void set_eigenvectors(const std::vector<double>& eigenvectors);
 
  private:
   struct Workspace;

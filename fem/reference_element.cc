@@ -12,25 +12,31 @@ namespace smoothfem {
 
 namespace {
 
-std::unique_ptr<dealii::FiniteElement<2>> lagrange_element(ElementType type, int degree) {
-  if (type == ElementType::triangle) return std::make_unique<dealii::FE_SimplexP<2>>(degree);
-  return std::make_unique<dealii::FE_Q<2>>(degree);
+bool is_simplex(ElementType type) {
+  return type == ElementType::triangle || type == ElementType::tetrahedron;
+}
+
+template <int dim>
+std::unique_ptr<dealii::FiniteElement<dim>> lagrange_element(ElementType type, int degree) {
+  if (is_simplex(type)) return std::make_unique<dealii::FE_SimplexP<dim>>(degree);
+  return std::make_unique<dealii::FE_Q<dim>>(degree);
 }
 
 /// Appends values and gradients of all shape functions at one point.
-void append_shapes(const dealii::FiniteElement<2>& element, const dealii::Point<2>& point,
+template <int dim>
+void append_shapes(const dealii::FiniteElement<dim>& element, const dealii::Point<dim>& point,
                    std::vector<double>& values, std::vector<double>& gradients) {
   for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i) {
     values.push_back(element.shape_value(i, point));
     const auto gradient = element.shape_grad(i, point);
-    gradients.push_back(gradient[0]);
-    gradients.push_back(gradient[1]);
+    for (int d = 0; d < dim; ++d) gradients.push_back(gradient[d]);
   }
 }
 
-QuadratureTable make_table(const dealii::FiniteElement<2>& element,
-                           const dealii::FiniteElement<2>& geometry,
-                           const dealii::Quadrature<2>& rule) {
+template <int dim>
+QuadratureTable make_table(const dealii::FiniteElement<dim>& element,
+                           const dealii::FiniteElement<dim>& geometry,
+                           const dealii::Quadrature<dim>& rule) {
   // deal.II 9.4 gives empty rules for degrees it does not know, without a word in Release.
   if (rule.size() == 0) throw std::logic_error("empty quadrature rule");
   QuadratureTable table;
@@ -43,29 +49,76 @@ QuadratureTable make_table(const dealii::FiniteElement<2>& element,
   return table;
 }
 
-}  // namespace
+/// table: of a rule that is exact for products of two shape functions.
+AffineTable make_affine_table(const QuadratureTable& table, std::size_t n_dofs, std::size_t dim) {
+  AffineTable affine;
+  const auto integrate = [&](const auto& integrand, std::vector<double>& entries) {
+    for (std::size_t i = 0; i < n_dofs; ++i)
+      for (std::size_t j = i; j < n_dofs; ++j) {
+        double sum = 0.0;
+        for (std::size_t q = 0; q < table.n_points; ++q)
+          sum += table.weights[q] * integrand(q * n_dofs + i, q * n_dofs + j);
+        entries.push_back(sum);
+      }
+  };
+  integrate([&](std::size_t i, std::size_t j) { return table.shape[i] * table.shape[j]; },
+            affine.mass);
+  const auto& gradient = table.shape_gradient;
+  for (std::size_t a = 0; a < dim; ++a)
+    for (std::size_t b = a; b < dim; ++b)
+      integrate(
+          [&](std::size_t i, std::size_t j) {
+            const double ab = gradient[dim * i + a] * gradient[dim * j + b];
+            return a == b ? ab : ab + gradient[dim * i + b] * gradient[dim * j + a];
+          },
+          affine.stiffness);
+  return affine;
+}
 
-ReferenceElement make_reference_element(ElementType type, int degree, int n_quadrilateral_points) {
-  const auto element = lagrange_element(type, degree);
-  const auto geometry = lagrange_element(type, 1);
+/// Of degree 5: exact for products of two shape functions of degree 2.
+template <int dim>
+dealii::Quadrature<dim> matrix_rule() {
+  return dealii::QGaussSimplex<dim>(3);
+}
+
+template <int dim>
+dealii::Quadrature<dim> error_rule(int degree) {
+  if constexpr (dim == 2)
+    return dealii::QWitherdenVincentSimplex<2>(6);  // degree 11
+  else
+    return dealii::QWitherdenVincentSimplex<3>(degree == 1 ? 3 : 4);  // degree 5 or 7
+}
+
+template <int dim>
+ReferenceElement make_element(ElementType type, int degree, int n_tensor_points) {
+  const auto element = lagrange_element<dim>(type, degree);
+  const auto geometry = lagrange_element<dim>(type, 1);
   ReferenceElement reference{.type = type,
                              .n_vertices = geometry->n_dofs_per_cell(),
                              .n_dofs = element->n_dofs_per_cell(),
                              .support = {},
+                             .affine = {},
                              .matrices = {},
                              .errors = {}};
   for (const auto& point : element->get_unit_support_points())
     for (unsigned int v = 0; v < geometry->n_dofs_per_cell(); ++v)
       reference.support.push_back(geometry->shape_value(v, point));
-  if (type == ElementType::triangle) {
-    // Seven points, degree 5: exact for products of two shape functions of degree 2.
-    reference.matrices = make_table(*element, *geometry, dealii::QGaussSimplex<2>(3));
-    reference.errors = make_table(*element, *geometry, dealii::QWitherdenVincentSimplex<2>(6));
+  if (is_simplex(type)) {
+    reference.matrices = make_table<dim>(*element, *geometry, matrix_rule<dim>());
+    reference.affine = make_affine_table(reference.matrices, reference.n_dofs, dim);
+    reference.errors = make_table<dim>(*element, *geometry, error_rule<dim>(degree));
   } else {
-    reference.matrices = make_table(*element, *geometry, dealii::QGauss<2>(n_quadrilateral_points));
+    reference.matrices = make_table<dim>(*element, *geometry, dealii::QGauss<dim>(n_tensor_points));
     reference.errors = reference.matrices;
   }
   return reference;
+}
+
+}  // namespace
+
+ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points) {
+  return dimension_of(type) == 2 ? make_element<2>(type, degree, n_tensor_points)
+                                 : make_element<3>(type, degree, n_tensor_points);
 }
 
 }  // namespace smoothfem

@@ -8,12 +8,21 @@
 namespace smoothfem {
 
 /// Values at the points of one quadrature rule on a reference cell. All arrays run over the points
-/// first, then over the dofs (or vertices); gradients have two entries each.
+/// first, then over the dofs (or vertices); gradients have an entry for each dimension.
 struct QuadratureTable {
   std::size_t n_points = 0;
   std::vector<double> weights;
   std::vector<double> shape, shape_gradient;        ///< of the finite element
   std::vector<double> geometry, geometry_gradient;  ///< of the straight-sided mapping (degree 1)
+};
+
+/// Integrals over the reference simplex: its mapping is affine, so those over a cell are
+/// combinations of them. Upper triangles, row by row.
+struct AffineTable {
+  std::vector<double> mass;  ///< of phi_i phi_j
+  /// For each pair of directions a <= b, in the order 00, 01, 11 or 00, 01, 02, 11, 12, 22: of
+  /// d_a phi_i d_b phi_j, and where a < b of d_b phi_i d_a phi_j too.
+  std::vector<double> stiffness;
 };
 
 /// A Lagrange element on its reference cell. Vertices and dofs are in deal.II's order.
@@ -23,13 +32,16 @@ struct ReferenceElement {
   std::size_t n_dofs = 0;
   /// Geometry shape functions at the dofs' support points, n_dofs x n_vertices: where a dof is.
   std::vector<double> support;
-  QuadratureTable matrices;  ///< for stiffness, mass and load
+  AffineTable affine;        ///< simplices: stiffness, mass and load
+  QuadratureTable matrices;  ///< other cells: stiffness, mass and load; all: load by quadrature
   QuadratureTable errors;    ///< for norms and errors
 };
 
-/// Degree 1 or 2 on triangles (3/6 nodes) or quadrilaterals (4/9 nodes). Triangles: matrices exact,
-/// errors by a rule of degree 11. Quadrilaterals: tensor Gauss rule with n_quadrilateral_points a
-/// direction for both; the stiffness of a distorted quadrilateral is rational, so no rule is exact.
-ReferenceElement make_reference_element(ElementType type, int degree, int n_quadrilateral_points);
+/// Degree 1 or 2 on triangles (3/6 nodes), quadrilaterals (4/9), tetrahedra (4/10) or hexahedra
+/// (8/27). Simplices: matrices exact; errors by a rule of degree 11 on triangles, of degree 5 (for
+/// elements of degree 1) or 7 (degree 2) on tetrahedra. Other cells: tensor Gauss rule with
+/// n_tensor_points a direction for all; the stiffness of a distorted cell is rational, so no rule
+/// is exact.
+ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
 
 }  // namespace smoothfem

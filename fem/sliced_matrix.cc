@@ -31,8 +31,13 @@ std::vector<std::uint32_t> rows_by_length(const SparseMatrix& matrix) {
 
 }  // namespace
 
-SlicedMatrix::SlicedMatrix(const SparseMatrix& matrix)
-    : size_(matrix.rows()), rows_(rows_by_length(matrix)), offsets_{0} {
+SlicedMatrix::SlicedMatrix(const SparseMatrix& matrix, const Ranks& ranks, const Halo& halo)
+    : ranks_(ranks),
+      halo_(halo),
+      n_rows_(matrix.rows()),
+      n_columns_(matrix.cols()),
+      rows_(rows_by_length(matrix)),
+      offsets_{0} {
   const int* starts = matrix.outerIndexPtr();
   const int* columns = matrix.innerIndexPtr();
   for (std::size_t slice = 0; slice < rows_.size(); slice += n_lanes) {
@@ -59,20 +64,30 @@ void SlicedMatrix::set_values(const SparseMatrix& matrix) {
   diagonal_ = matrix.diagonal();
 }
 
+double SlicedMatrix::multiply(Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  halo_.update(x);
+  return multiply_rows(x.data(), y.data());
+}
+
 SMOOTHFEM_VECTOR_CLONES
-void SlicedMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  const double* in = x.data();
-  double* out = y.data();
+double SlicedMatrix::multiply_rows(const double* x, double* y) const {
+  Lanes product{};
+  std::size_t n_left = static_cast<std::size_t>(n_rows_);  // the last slice may repeat its last row
   for (std::size_t slice = 0; slice + 1 < offsets_.size(); ++slice) {
     Lanes sum{};
     for (std::size_t p = offsets_[slice]; p < offsets_[slice + 1]; p += n_lanes) {
-      const double* v = &values_[p];
       const std::uint32_t* c = &columns_[p];
-      sum += Lanes{v[0], v[1], v[2], v[3]} * Lanes{in[c[0]], in[c[1]], in[c[2]], in[c[3]]};
+      sum += load_lanes(&values_[p]) * Lanes{x[c[0]], x[c[1]], x[c[2]], x[c[3]]};
     }
     const std::uint32_t* rows = &rows_[slice * n_lanes];
-    for (std::size_t l = 0; l < n_lanes; ++l) out[rows[l]] = sum[l];
+    const std::size_t n_here = std::min(n_left, n_lanes);
+    for (std::size_t l = 0; l < n_here; ++l) {
+      y[rows[l]] = sum[l];
+      product[l] += sum[l] * x[rows[l]];
+    }
+    n_left -= n_here;
   }
+  return (product[0] + product[1]) + (product[2] + product[3]);
 }
 
 }  // namespace smoothfem

@@ -5,28 +5,38 @@
 #include <vector>
 
 #include "fem/finite_element_space.h"
+#include "fem/ranks.h"
 
 namespace smoothfem {
 
-/// A sparse matrix laid out for fast products: n_lanes rows of similar length at a time (sliced
-/// ELLPACK). Rows of finite element matrices are so short that a product row by row waits for its
-/// own sums; this one is about twice as fast, and adds up each row in the order of its columns.
+/// This rank's rows of a square sparse matrix laid out for fast products: n_lanes rows of similar
+/// length at a time (sliced ELLPACK). Rows of finite element matrices are so short that a product
+/// row by row waits for its own sums; this one is about twice as fast, and adds up each row in the
+/// order of its columns.
 class SlicedMatrix {
  public:
-  /// Takes pattern and values.
-  explicit SlicedMatrix(const SparseMatrix& matrix);
+  /// Takes pattern and values. matrix: rows of this rank, with the columns of `halo`.
+  explicit SlicedMatrix(const SparseMatrix& matrix, const Ranks& ranks = {}, const Halo& halo = {});
 
   /// Takes the values of a matrix with the same pattern.
   void set_values(const SparseMatrix& matrix);
 
-  Eigen::Index size() const { return size_; }
+  Eigen::Index n_rows() const { return n_rows_; }
+  Eigen::Index n_columns() const { return n_columns_; }
+  const Ranks& ranks() const { return ranks_; }
+  const Halo& halo() const { return halo_; }
   const Eigen::VectorXd& diagonal() const { return diagonal_; }
 
-  /// y = A x; sizes as the matrix, no overlap.
-  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  /// y = A x; x: n_columns entries, of which those of other ranks are fetched here; y: n_rows, no
+  /// overlap. Returns this rank's part of x . y. Collective.
+  double multiply(Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
  private:
-  Eigen::Index size_;
+  double multiply_rows(const double* x, double* y) const;
+
+  Ranks ranks_;
+  Halo halo_;
+  Eigen::Index n_rows_, n_columns_;
   std::vector<std::uint32_t> rows_;     ///< the rows of each slice; padding repeats the last row
   std::vector<std::size_t> offsets_;    ///< where each slice begins in the arrays below
   std::vector<std::uint32_t> columns_;  ///< lane by lane; padding points at column 0

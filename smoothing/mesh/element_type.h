@@ -39,6 +39,11 @@ constexpr std::string_view name_of(ElementType type) {
   return "unknown";
 }
 
+/// Of the cell: 2 or 3.
+constexpr int dimension_of(ElementType type) {
+  return type <= ElementType::polygon ? 2 : 3;
+}
+
 /// True if a cell of a mesh of this dimension (2 or 3) can have n_nodes nodes.
 constexpr bool is_cell_size(int dim, std::size_t n_nodes) {
   return dim == 2 ? n_nodes >= 3 : (n_nodes >= 4 && n_nodes <= 6) || n_nodes == 8;

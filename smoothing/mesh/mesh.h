@@ -54,4 +54,10 @@ using PlanarMesh = Mesh<2>;
 using VolumeMesh = Mesh<3>;
 using AnyMesh = std::variant<PlanarMesh, VolumeMesh>;
 
+/// visit.operator()<dim>() for a dimension that is known only now: 2 or 3.
+template <class Visit>
+decltype(auto) with_dimension(int dim, const Visit& visit) {
+  return dim == 2 ? visit.template operator()<2>() : visit.template operator()<3>();
+}
+
 }  // namespace smoothfem

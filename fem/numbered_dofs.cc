@@ -1,0 +1,363 @@
+#include "fem/numbered_dofs.h"
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/grid/tria_description.h>
+#include <deal.II/hp/fe_collection.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <numeric>
+
+namespace smoothfem {
+
+namespace {
+
+constexpr auto absent = FiniteElementSpace<2>::absent;
+constexpr unsigned int simplex_index = 0, tensor_index = 1;
+
+/// The types of element that a mesh of this dimension can be solved on.
+template <int dim>
+constexpr std::array element_types =
+    dim == 2 ? std::array{ElementType::triangle, ElementType::quadrilateral}
+             : std::array{ElementType::tetrahedron, ElementType::hexahedron};
+
+/// A triangulation with the mesh's cells in the mesh's order, except that planar cells may be
+/// rotated.
+template <int dim>
+void fill_triangulation(const Mesh<dim>& mesh, dealii::Triangulation<dim>& triangulation) {
+  std::vector<dealii::Point<dim>> vertices;
+  for (const auto& p : mesh.coordinates()) {
+    vertices.emplace_back();
+    for (int d = 0; d < dim; ++d) vertices.back()[d] = p[d];
+  }
+  std::vector<dealii::CellData<dim>> cells;
+  bool all_quadrilaterals = dim == 2;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    const auto nodes = mesh.topology().cell_nodes(c);
+    dealii::CellData<dim> cell(static_cast<unsigned int>(nodes.size()));
+    std::copy(nodes.begin(), nodes.end(), cell.vertices.begin());
+    // deal.II lists the nodes of quadrilaterals and hexahedra in lexicographic order.
+    const bool tensor = mesh.topology().cell_type(c) == element_types<dim>[tensor_index];
+    for (std::size_t k = 2; tensor && k < nodes.size(); k += 4)
+      std::swap(cell.vertices[k], cell.vertices[k + 1]);
+    all_quadrilaterals &= tensor;
+    cells.push_back(cell);
+  }
+  if (all_quadrilaterals) dealii::GridTools::consistently_order_cells(cells);
+  triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+}
+
+/// Cells and nodes get other numbers on each rank, but a vertex keeps its place. So each one's
+/// first coordinate becomes its number, before the triangulation is dealt out.
+template <int dim>
+void write_numbers_into_vertices(dealii::Triangulation<dim>& triangulation) {
+  for (const auto& cell : triangulation.active_cell_iterators())
+    for (const unsigned int v : cell->vertex_indices()) {
+      dealii::Point<dim> number;
+      number[0] = cell->vertex_index(v);
+      cell->vertex(v) = number;
+    }
+}
+
+/// One process: the mesh's own nodes. Several: a part for each, of about the same size, of which
+/// the root alone has ever seen the whole.
+template <int dim>
+std::unique_ptr<dealii::Triangulation<dim>> make_triangulation(const Mesh<dim>* mesh,
+                                                               const Ranks& ranks) {
+  if (ranks.size() == 1) {
+    auto triangulation = std::make_unique<dealii::Triangulation<dim>>();
+    fill_triangulation(*mesh, *triangulation);
+    return triangulation;
+  }
+  const auto n_ranks = static_cast<unsigned int>(ranks.size());
+  const auto description =
+      dealii::TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<
+          dim, dim>([&](dealii::Triangulation<dim>& whole) { fill_triangulation(*mesh, whole); },
+                    [&](dealii::Triangulation<dim>& whole, const MPI_Comm&, const unsigned int) {
+                      dealii::GridTools::partition_triangulation(n_ranks, whole);
+                      write_numbers_into_vertices(whole);
+                    },
+                    ranks.communicator(), n_ranks);
+  auto triangulation = std::make_unique<dealii::parallel::fullydistributed::Triangulation<dim>>(
+      ranks.communicator());
+  triangulation->create_triangulation(description);
+  return triangulation;
+}
+
+template <int dim>
+void distribute_dofs(dealii::DoFHandler<dim>& dofs, int degree) {
+  const dealii::FE_SimplexP<dim> simplex(degree);
+  const dealii::FE_Q<dim> tensor(degree);
+  if constexpr (dim == 2) {
+    for (const auto& cell : dofs.active_cell_iterators())
+      cell->set_active_fe_index(cell->reference_cell().is_simplex() ? simplex_index : tensor_index);
+    dofs.distribute_dofs(dealii::hp::FECollection<dim>{simplex, tensor});
+  } else {
+    if (dofs.get_triangulation().begin_active()->reference_cell().is_simplex())
+      dofs.distribute_dofs(simplex);
+    else
+      dofs.distribute_dofs(tensor);
+    dealii::DoFRenumbering::Cuthill_McKee(dofs);
+  }
+}
+
+/// Reads deal.II's numbering into a space.
+template <int dim>
+class SpaceReader {
+ public:
+  SpaceReader(const dealii::DoFHandler<dim>& dofs, bool vertices_hold_numbers,
+              FiniteElementSpace<dim>& space)
+      : dofs_(dofs), vertices_hold_numbers_(vertices_hold_numbers), space_(space) {
+    const auto& own = dofs.locally_owned_dofs();  // contiguous
+    n_own_dofs_ = own.n_elements();
+    first_ = n_own_dofs_ > 0 ? own.nth_index_in_set(0) : 0;
+  }
+
+  void read() {
+    space_.n_dofs = dofs_.n_dofs();
+    find_others();
+    number_free_dofs();
+    number_local_dofs();
+    read_cells();
+    std::erase_if(space_.groups, [](const auto& group) { return group.n_cells() == 0; });
+  }
+
+ private:
+  using Index = dealii::types::global_dof_index;
+  using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+  static constexpr double boundary = -1.0;
+
+  bool is_own(Index dof) const { return dof >= first_ && dof - first_ < n_own_dofs_; }
+
+  ElementCells& group_of(const Cell& cell) const {
+    return space_.groups[cell->reference_cell().is_simplex() ? simplex_index : tensor_index];
+  }
+
+  /// visit(cell, its dofs) for this rank's own cells, or for those around them.
+  template <class Visit>
+  void for_each_cell(bool own, const Visit& visit) const {
+    std::vector<Index> indices;
+    for (const auto& cell : dofs_.active_cell_iterators()) {
+      if (cell->is_artificial() || cell->is_ghost() == own) continue;
+      indices.resize(cell->get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(indices);
+      visit(cell, indices);
+    }
+  }
+
+  /// A cell around needs to be known if it contributes to an equation here. (A dof of a boundary
+  /// will do, it only makes the parts overlap a little more.)
+  bool contributes(const std::vector<Index>& indices) const {
+    return std::any_of(indices.begin(), indices.end(), [&](Index dof) { return is_own(dof); });
+  }
+
+  /// The dofs of other ranks on the cells here, ascending.
+  void find_others() {
+    const auto collect = [&](const Cell&, const std::vector<Index>& indices) {
+      std::copy_if(indices.begin(), indices.end(), std::back_inserter(others_),
+                   [&](Index dof) { return !is_own(dof); });
+    };
+    for_each_cell(true, collect);
+    for_each_cell(false, [&](const Cell& cell, const std::vector<Index>& indices) {
+      if (contributes(indices)) collect(cell, indices);
+    });
+    std::sort(others_.begin(), others_.end());
+    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+  }
+
+  /// Own dofs first, then the others.
+  std::size_t position(Index dof) const {
+    if (is_own(dof)) return dof - first_;
+    return n_own_dofs_ +
+           static_cast<std::size_t>(std::lower_bound(others_.begin(), others_.end(), dof) -
+                                    others_.begin());
+  }
+
+  /// The cell's dofs in one of its faces: those whose place is a mean of the face's vertices.
+  static std::vector<unsigned int> face_dofs(const ReferenceElement& element, const Cell& cell,
+                                             unsigned int face) {
+    std::vector<bool> in_face(element.n_vertices, false);
+    const auto reference = cell->reference_cell();
+    for (const unsigned int k : cell->face(face)->vertex_indices())
+      in_face[reference.face_to_cell_vertices(face, k, 1)] = true;
+    std::vector<unsigned int> dofs;
+    for (unsigned int i = 0; i < element.n_dofs; ++i) {
+      double share = 0.0;
+      for (std::size_t v = 0; v < element.n_vertices; ++v)
+        if (in_face[v]) share += element.support[i * element.n_vertices + v];
+      if (share > 1.0 - 1e-12) dofs.push_back(i);
+    }
+    return dofs;
+  }
+
+  /// A cell of another rank may have faces that only seem to be on the boundary, because nothing
+  /// is known behind them; but those have no own dof.
+  std::vector<bool> own_boundary_dofs() const {
+    std::vector<bool> on_boundary(n_own_dofs_, false);
+    const auto mark = [&](const Cell& cell, const std::vector<Index>& indices) {
+      for (const unsigned int f : cell->face_indices()) {
+        if (!cell->face(f)->at_boundary()) continue;
+        for (const unsigned int i : face_dofs(group_of(cell).element, cell, f))
+          if (is_own(indices[i])) on_boundary[indices[i] - first_] = true;
+      }
+    };
+    for_each_cell(true, mark);
+    for_each_cell(false, mark);
+    return on_boundary;
+  }
+
+  /// Free dofs are numbered rank by rank; every rank learns the numbers of those it has.
+  void number_free_dofs() {
+    const auto on_boundary = own_boundary_dofs();
+    space_.n_own =
+        static_cast<std::size_t>(std::count(on_boundary.begin(), on_boundary.end(), false));
+    space_.n_own_boundary = n_own_dofs_ - space_.n_own;
+    space_.n_free = space_.ranks.sum(space_.n_own);
+    first_number_ = space_.ranks.sum_before(space_.n_own);
+    std::size_t next = first_number_;
+    numbers_.resize(static_cast<Eigen::Index>(n_own_dofs_ + others_.size()));
+    for (std::size_t dof = 0; dof < n_own_dofs_; ++dof)
+      numbers_[static_cast<Eigen::Index>(dof)] =
+          on_boundary[dof] ? boundary : static_cast<double>(next++);
+    Halo(space_.ranks, dofs_.n_dofs(), first_, n_own_dofs_, {others_.begin(), others_.end()})
+        .update(numbers_);
+  }
+
+  /// Own free dofs, free dofs of others (ascending numbers), boundary dofs.
+  void number_local_dofs() {
+    auto& columns = space_.column_numbers;
+    for (std::size_t i = 0; i < space_.n_own; ++i) columns.push_back(first_number_ + i);
+    const double first = static_cast<double>(first_number_);
+    const double last = static_cast<double>(first_number_ + space_.n_own);
+    for (const double number : numbers_)
+      if (number != boundary && (number < first || number >= last))
+        columns.push_back(static_cast<std::size_t>(number));
+    const auto ghosts = columns.begin() + static_cast<std::ptrdiff_t>(space_.n_own);
+    std::sort(ghosts, columns.end());
+    space_.n_columns = space_.n_local = columns.size();
+    for (const double number : numbers_) {
+      const auto n = static_cast<std::size_t>(number);
+      if (number == boundary)
+        local_.push_back(static_cast<std::uint32_t>(space_.n_local++));
+      else if (number >= first && number < last)
+        local_.push_back(static_cast<std::uint32_t>(n - first_number_));
+      else
+        local_.push_back(static_cast<std::uint32_t>(std::lower_bound(ghosts, columns.end(), n) -
+                                                    columns.begin()));
+    }
+    space_.halo =
+        Halo(space_.ranks, space_.n_free, first_number_, space_.n_own, {ghosts, columns.end()});
+  }
+
+  /// Nodes are taken over with their numbers by one process, and numbered as cells come by several.
+  std::uint32_t local_node(const Cell& cell, unsigned int v) {
+    if (!vertices_hold_numbers_) return static_cast<std::uint32_t>(cell->vertex_index(v));
+    auto& local = local_nodes_[cell->vertex_index(v)];
+    if (local == absent) {
+      local = static_cast<std::uint32_t>(space_.nodes.size());
+      space_.nodes.push_back(static_cast<NodeIndex>(cell->vertex(v)[0]));
+    }
+    return local;
+  }
+
+  void read_cells() {
+    const std::size_t n_vertices = dofs_.get_triangulation().n_vertices();
+    if (vertices_hold_numbers_) {
+      local_nodes_.assign(n_vertices, absent);
+    } else {
+      space_.nodes.resize(n_vertices);
+      std::iota(space_.nodes.begin(), space_.nodes.end(), NodeIndex{0});
+    }
+    const auto append = [&](const Cell& cell, const std::vector<Index>& indices) {
+      auto& group = group_of(cell);
+      for (const unsigned int v : cell->vertex_indices())
+        group.vertices.push_back(local_node(cell, v));
+      for (const Index dof : indices) group.dofs.push_back(local_[position(dof)]);
+    };
+    for_each_cell(true, append);
+    for (auto& group : space_.groups) group.n_own = group.n_cells();
+    for_each_cell(false, [&](const Cell& cell, const std::vector<Index>& indices) {
+      if (contributes(indices)) append(cell, indices);
+    });
+  }
+
+  const dealii::DoFHandler<dim>& dofs_;
+  bool vertices_hold_numbers_;
+  FiniteElementSpace<dim>& space_;
+  Index first_ = 0;
+  std::size_t n_own_dofs_ = 0, first_number_ = 0;
+  std::vector<Index> others_;
+  Eigen::VectorXd numbers_;           ///< among all free dofs, or `boundary`; at `position`
+  std::vector<std::uint32_t> local_;  ///< at `position`
+  std::vector<std::uint32_t> local_nodes_;
+};
+
+}  // namespace
+
+template <int dim>
+void require_finite_elements(const Topology& topology) {
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+    const ElementType type = topology.cell_type(c);
+    if (type == ElementType::polygon)
+      throw CellError(c, "has " + std::to_string(topology.cell_nodes(c).size()) +
+                             " nodes; finite elements are solved on triangles and quadrilaterals "
+                             "only, so split the polygons first");
+    if (type == ElementType::pyramid || type == ElementType::prism)
+      throw CellError(c, "is a " + std::string(name_of(type)) +
+                             "; finite elements are solved on meshes of tetrahedra or of "
+                             "hexahedra only, so split the cells to tetrahedra first");
+    if (dim == 3 && type != topology.cell_type(0))
+      throw CellError(c, "is a " + std::string(name_of(type)) +
+                             " among cells of another type; "
+                             "finite elements are solved on meshes of tetrahedra or of hexahedra "
+                             "only");
+  }
+}
+
+template void require_finite_elements<2>(const Topology&);
+template void require_finite_elements<3>(const Topology&);
+
+namespace {
+
+/// The root alone sees what is wrong with a mesh, but all have to stop: the others would wait for
+/// it for ever.
+template <int dim>
+void require_on_all_ranks(const Mesh<dim>* mesh, const Ranks& ranks) {
+  std::exception_ptr error;
+  try {
+    if (mesh != nullptr) require_finite_elements<dim>(mesh->topology());
+  } catch (const InputError&) {
+    error = std::current_exception();
+  }
+  bool refused = error != nullptr;
+  ranks.broadcast(refused);
+  if (error) std::rethrow_exception(error);
+  if (refused) throw InputError("the mesh cannot be solved on; the first process says why");
+}
+
+}  // namespace
+
+template <int dim>
+void number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,
+                 FiniteElementSpace<dim>& space) {
+  require_on_all_ranks(mesh, space.ranks);
+  const int n_points = dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron;
+  for (const ElementType type : element_types<dim>)
+    space.groups.emplace_back().element = make_reference_element(type, space.degree, n_points);
+  const auto triangulation = make_triangulation(mesh, space.ranks);
+  dealii::DoFHandler<dim> dofs(*triangulation);
+  distribute_dofs(dofs, space.degree);
+  SpaceReader<dim>(dofs, space.ranks.size() > 1, space).read();
+}
+
+template void number_dofs(const Mesh<2>*, const TensorPoints&, FiniteElementSpace<2>&);
+template void number_dofs(const Mesh<3>*, const TensorPoints&, FiniteElementSpace<3>&);
+
+}  // namespace smoothfem

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace smoothfem {
+
+/// The processes that work together on one finite element problem. One process alone needs no MPI:
+/// nothing is called, so that several threads may each have their own.
+class Ranks {
+ public:
+  /// This process alone.
+  Ranks() = default;
+  /// All processes of a communicator; MPI must have been initialized.
+  explicit Ranks(MPI_Comm communicator);
+
+  int size() const { return size_; }
+  int rank() const { return rank_; }
+  bool is_root() const { return rank_ == 0; }
+  /// MPI_COMM_SELF for one process.
+  MPI_Comm communicator() const { return communicator_; }
+
+  /// Sums and the largest over all ranks, the same on each.
+  void sum(std::span<double> values) const;
+  double sum(double value) const;
+  std::size_t sum(std::size_t value) const;
+  double max(double value) const;
+  /// Sum over the ranks before this one.
+  std::size_t sum_before(std::size_t value) const;
+  /// The root's value to all.
+  template <class T>
+  void broadcast(T& value) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    broadcast_bytes(&value, sizeof(T));
+  }
+  /// All ranks' values one after the other, on the root; empty elsewhere.
+  template <class T>
+  std::vector<T> gather(const std::vector<T>& values) const {
+    if (size_ == 1) return values;
+    const std::vector<int> counts = gather_counts(values.size());
+    std::vector<T> all(static_cast<std::size_t>(std::accumulate(counts.begin(), counts.end(), 0L)));
+    gather_items(values.data(), counts, sizeof(T), all.data(), values.size());
+    return all;
+  }
+  /// The reverse: from the root's values, one rank's after the other's, n_values for this one.
+  template <class T>
+  std::vector<T> scatter(const std::vector<T>& all, std::size_t n_values) const {
+    if (size_ == 1) return all;
+    std::vector<T> values(n_values);
+    scatter_items(all.data(), gather_counts(n_values), sizeof(T), values.data(), n_values);
+    return values;
+  }
+
+ private:
+  void broadcast_bytes(void* bytes, std::size_t n_bytes) const;
+  /// Every rank's count, on the root.
+  std::vector<int> gather_counts(std::size_t n_values) const;
+  void gather_items(const void* values, const std::vector<int>& counts, std::size_t item_size,
+                    void* all, std::size_t n_values) const;
+  void scatter_items(const void* all, const std::vector<int>& counts, std::size_t item_size,
+                     void* values, std::size_t n_values) const;
+
+  MPI_Comm communicator_ = MPI_COMM_SELF;
+  int size_ = 1, rank_ = 0;
+};
+
+/// How the entries of a distributed vector are shared: each rank holds its own ones, and behind
+/// them copies of those of other ranks that its equations contain.
+class Halo {
+ public:
+  /// One process: nothing to exchange.
+  Halo() = default;
+  /// Collective. This rank's own entries have the numbers first_own .. first_own + n_own - 1 of
+  /// n_total; ghosts: ascending numbers of others.
+  Halo(const Ranks& ranks, std::size_t n_total, std::size_t first_own, std::size_t n_own,
+       const std::vector<std::size_t>& ghosts);
+
+  /// Fetches the copies from their owners. values: n_own + number of ghosts. Collective.
+  void update(Eigen::VectorXd& values) const;
+
+ private:
+  struct Partition;
+  std::shared_ptr<const Partition> partition_;  ///< empty: one process
+};
+
+}  // namespace smoothfem

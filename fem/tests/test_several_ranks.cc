@@ -1,0 +1,170 @@
+// Run by mpirun: records must not depend on the number of processes. Each rank runs every test,
+// the root alone reports.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "fem/poisson_solver.h"
+#include "fem/tests/unit_mesh.h"
+
+namespace smoothfem {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const Ranks& all_ranks() {
+  static const Ranks ranks(MPI_COMM_WORLD);
+  return ranks;
+}
+
+/// What the root passes.
+template <int dim>
+const Mesh<dim>* on_root(const Mesh<dim>& mesh) {
+  return all_ranks().is_root() ? &mesh : nullptr;
+}
+
+void expect_relative(double value, double expected, double tolerance, const char* what) {
+  EXPECT_NEAR(value / expected, 1.0, tolerance) << what;
+}
+
+/// Iteration counts hang on rounding.
+void expect_close(std::size_t value, std::size_t expected) {
+  const double difference = std::abs(static_cast<double>(value) - static_cast<double>(expected));
+  EXPECT_LE(difference, std::max(1.0, 0.01 * static_cast<double>(expected)));
+}
+
+void expect_same(const SolutionRecord& record, const SolutionRecord& alone) {
+  EXPECT_EQ(record.n_dofs, alone.n_dofs);
+  EXPECT_EQ(record.n_free, alone.n_free);
+  EXPECT_EQ(record.status, alone.status);
+  EXPECT_TRUE(record.cg_converged);
+  expect_relative(record.e_max, alone.e_max, 1e-8, "e_max");
+  expect_relative(record.e_mean, alone.e_mean, 1e-8, "e_mean");
+  expect_relative(record.e_l2, alone.e_l2, 1e-8, "e_l2");
+  expect_relative(record.e_h1, alone.e_h1, 1e-8, "e_h1");
+  expect_relative(record.l2_error, alone.l2_error, 1e-8, "l2_error");
+  expect_relative(record.h1_error, alone.h1_error, 1e-8, "h1_error");
+  expect_relative(record.condition_number, alone.condition_number, 1e-6, "condition number");
+  EXPECT_LE(record.condition_residual, 1e-6);
+  expect_close(record.cg_iterations, alone.cg_iterations);
+  expect_close(record.jacobi_cg_iterations, alone.jacobi_cg_iterations);
+}
+
+class SeveralRanksTest : public testing::TestWithParam<Case> {
+ protected:
+  /// The CG iterates of two runs agree to 1e-8 only if they are converged further than that.
+  static PoissonOptions options() {
+    PoissonOptions options;
+    options.degree = GetParam().degree;
+    options.cg_tolerance = 1e-14;
+    return options;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Elements, SeveralRanksTest, testing::ValuesIn(all_cases()),
+                         [](const auto& info) { return name_of(info.param); });
+
+TEST_P(SeveralRanksTest, RecordAndNodalErrorsAreThoseOfOneProcess) {
+  for (const bool galerkin : {false, true})
+    GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
+      const auto& solution = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
+      auto both = options();
+      both.galerkin_load = both.boundary_in_norm = galerkin;
+      PoissonSolver<dim> solver(on_root(mesh), both, all_ranks());
+      const auto record = solver.solve(mesh.coordinates(), solution);
+      const auto errors = solver.nodal_errors();
+      if (!all_ranks().is_root()) {
+        EXPECT_TRUE(errors.empty());
+        return;
+      }
+      PoissonSolver<dim> single(&mesh, both);
+      expect_same(record, single.solve(mesh.coordinates(), solution));
+      const auto expected = single.nodal_errors();
+      ASSERT_EQ(errors.size(), expected.size());
+      for (std::size_t i = 0; i < errors.size(); ++i)
+        EXPECT_NEAR(errors[i], expected[i], 1e-8 * record.e_max);
+    });
+}
+
+TEST_P(SeveralRanksTest, AllRanksHaveTheSameRecord) {
+  GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
+    const auto record = PoissonSolver<dim>(on_root(mesh), options(), all_ranks())
+                            .solve(mesh.coordinates(), manufactured_solution<dim>("sine"));
+    std::array numbers{record.condition_number, record.e_max, record.e_h1, record.l2_error,
+                       static_cast<double>(record.cg_iterations)};
+    const auto own = numbers;
+    all_ranks().broadcast(numbers);
+    EXPECT_EQ(own, numbers);
+  });
+}
+
+TEST_P(SeveralRanksTest, EigenvectorsSurviveTheWayThroughTheRoot) {
+  GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
+    PoissonSolver<dim> solver(on_root(mesh), options(), all_ranks());
+    const auto& solution = manufactured_solution<dim>("sine");
+    const auto first = solver.solve(mesh.coordinates(), solution);
+    const auto vectors = solver.eigenvectors();
+    // Planar meshes on one process, and few dofs, need none.
+    const bool kept = first.condition_method == "krylov-schur+lobpcg";
+    EXPECT_EQ(vectors.size(), all_ranks().is_root() && kept ? 2 * first.n_free : 0);
+    PoissonSolver<dim> next(on_root(mesh), options(), all_ranks());
+    next.set_eigenvectors(vectors);
+    EXPECT_EQ(next.eigenvectors(), vectors);
+    const auto second = next.solve(mesh.coordinates(), solution);
+    EXPECT_LE(second.condition_residual, 1e-6);
+    expect_relative(second.condition_number, first.condition_number, 1e-9, "condition number");
+    next.set_eigenvectors(std::vector<double>(all_ranks().is_root() ? 3 : 0, 1.0));
+    EXPECT_TRUE(next.eigenvectors().empty());
+  });
+}
+
+TEST(SeveralRanks, FewDofsAreEnoughForEachRank) {
+  // More ranks than make sense: some have no free dof.
+  const auto mesh = unit_cube(2, Cells::hexahedra, 0.0);
+  const auto record = PoissonSolver<3>(on_root(mesh), PoissonOptions{}, all_ranks())
+                          .solve(mesh.coordinates(), manufactured_solution<3>("quadratic"));
+  EXPECT_EQ(record.n_free, 1U);
+  EXPECT_NEAR(record.condition_number, 1.0, 1e-14);
+  EXPECT_EQ(record.condition_method, "dense");
+}
+
+TEST(SeveralRanks, LimitOfTimeStopsAllRanksTogether) {
+  const auto mesh = unit_cube(6, Cells::hexahedra, 0.2);
+  PoissonOptions options;
+  options.max_cg_seconds = 0.0;
+  const auto record = PoissonSolver<3>(on_root(mesh), options, all_ranks())
+                          .solve(mesh.coordinates(), manufactured_solution<3>("volume"));
+  EXPECT_EQ(record.cg_iterations, 1U);
+  EXPECT_THAT(record.status, HasSubstr("CG stopped at its limit of time"));
+}
+
+TEST(SeveralRanks, AllRanksRefuseTogether) {
+  const auto make = [](const VolumeMesh& mesh) {
+    const PoissonSolver<3> solver(on_root(mesh), PoissonOptions{}, all_ranks());
+  };
+  EXPECT_THAT([&] { make(unit_cube(1, Cells::tetrahedra, 0.0)); },
+              ThrowsMessage<InputError>(HasSubstr("no unknown")));
+  EXPECT_THROW(make(test::box_mesh(2, 2, 2, test::BoxCells::pyramids)), InputError);
+  EXPECT_THROW(make(test::box_mesh(2, 2, 4, test::BoxCells::mixed)), InputError);
+}
+
+}  // namespace
+}  // namespace smoothfem
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  testing::InitGoogleTest(&argc, argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  auto& listeners = testing::UnitTest::GetInstance()->listeners();
+  if (rank > 0) delete listeners.Release(listeners.default_result_printer());
+  int failed = RUN_ALL_TESTS(), failed_anywhere = 0;
+  MPI_Allreduce(&failed, &failed_anywhere, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  if (rank == 0 && failed_anywhere != failed) std::cout << "a test failed on another rank\n";
+  MPI_Finalize();
+  return failed_anywhere;
+}

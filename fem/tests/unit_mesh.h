@@ -1,0 +1,105 @@
+#pragma once
+
+#include <memory>
+
+#include "smoothing/tests/volume_meshes.h"
+
+namespace smoothfem {
+
+enum class Cells { triangles, quadrilaterals, mixed, tetrahedra, hexahedra };
+
+constexpr int dimension_of(Cells cells) {
+  return cells >= Cells::tetrahedra ? 3 : 2;
+}
+
+/// n x n squares on [0, 1]^2, each one quadrilateral or two triangles (mixed: every other square).
+/// Inner nodes are moved by `amount` edge lengths in directions that vary from node to node.
+inline PlanarMesh unit_square(std::size_t n, Cells kind, double amount) {
+  std::vector<Point<2>> points;
+  const double h = 1.0 / static_cast<double>(n);
+  for (std::size_t j = 0; j <= n; ++j)
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double x = static_cast<double>(i), y = static_cast<double>(j);
+      const bool inner = i > 0 && j > 0 && i < n && j < n;
+      const double move = inner ? amount : 0.0;
+      points.emplace_back(h * (x + move * std::sin(3.0 * x + 5.0 * y)),
+                          h * (y + move * std::cos(4.0 * x - 2.0 * y)));
+    }
+  CompressedRows<NodeIndex> cells;
+  for (NodeIndex j = 0; j < n; ++j)
+    for (NodeIndex i = 0; i < n; ++i) {
+      const auto width = static_cast<NodeIndex>(n) + 1;
+      const NodeIndex a = j * width + i, b = a + 1, c = b + width, d = a + width;
+      if (kind == Cells::quadrilaterals || (kind == Cells::mixed && (i + j) % 2 == 0)) {
+        cells.append(std::vector{a, b, c, d});
+      } else {
+        cells.append(std::vector{a, b, c});
+        cells.append(std::vector{a, c, d});
+      }
+    }
+  const std::size_t n_nodes = points.size();
+  return {std::make_shared<Topology>(2, n_nodes, std::move(cells)), std::move(points)};
+}
+
+/// n x n x n cubes on [0, 1]^3, each one hexahedron or six tetrahedra. Inner nodes are moved at
+/// random, by up to `amount` edge lengths in each direction.
+inline VolumeMesh unit_cube(std::size_t n, Cells kind, double amount) {
+  const auto size = static_cast<std::uint32_t>(n);
+  VolumeMesh mesh = test::box_mesh(
+      size, size, size,
+      kind == Cells::tetrahedra ? test::BoxCells::tetrahedra : test::BoxCells::hexahedra);
+  if (amount > 0.0) test::distort(mesh, amount, 1);
+  for (auto& p : mesh.coordinates()) p /= static_cast<double>(n);
+  return mesh;
+}
+
+/// dim: that of the cells.
+template <int dim>
+Mesh<dim> unit_mesh(std::size_t n, Cells kind, double amount) {
+  if constexpr (dim == 2)
+    return unit_square(n, kind, amount);
+  else
+    return unit_cube(n, kind, amount);
+}
+
+/// An element of finite elements, for tests with this parameter.
+struct Case {
+  Cells cells;
+  int degree;
+
+  /// Calls body.operator()<dim>(mesh) with the unit mesh of these cells: n_planar or n_volume of
+  /// them a direction.
+  template <class Body>
+  void on_mesh(std::size_t n_planar, std::size_t n_volume, double amount, const Body& body) const {
+    with_dimension(dimension_of(cells), [&]<int dim>() {
+      body(unit_mesh<dim>(dim == 2 ? n_planar : n_volume, cells, amount));
+    });
+  }
+};
+
+/// For ParamInfo, and for what a failure prints.
+inline std::string name_of(const Case& c) {
+  const char* cells[] = {"triangles", "quadrilaterals", "mixed", "tetrahedra", "hexahedra"};
+  return std::string(cells[static_cast<int>(c.cells)]) + "_degree_" + std::to_string(c.degree);
+}
+inline void PrintTo(const Case& c, std::ostream* out) {
+  *out << name_of(c);
+}
+
+/// Every kind of cells with both degrees.
+inline std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (const Cells cells :
+       {Cells::triangles, Cells::quadrilaterals, Cells::mixed, Cells::tetrahedra, Cells::hexahedra})
+    for (const int degree : {1, 2}) cases.push_back({cells, degree});
+  return cases;
+}
+
+/// Those of volume meshes.
+inline std::vector<Case> volume_cases() {
+  auto cases = all_cases();
+  std::erase_if(cases, [](const Case& c) { return dimension_of(c.cells) == 2; });
+  return cases;
+}
+
+}  // namespace smoothfem
