@@ -70,9 +70,14 @@ ConjugateGradientsResult conjugate_gradients(const SlicedMatrix& matrix, const E
   ranks.sum(start);
   double residual = start[0], rho = start[1], previous_alpha = 0.0, beta = 0.0;
   const double goal = options.tolerance * options.tolerance * (residual + options.norm_offset);
-  bool out_of_time = false;
+  bool out_of_time = false, indefinite = false;
   while (residual > goal && result.iterations < options.max_iterations && !out_of_time) {
-    const double alpha = rho / ranks.sum(matrix.multiply(p, q));
+    const double curvature = ranks.sum(matrix.multiply(p, q));
+    if (options.stop_if_indefinite && !(curvature > 0.0 && rho > 0.0)) {
+      indefinite = true;
+      break;
+    }
+    const double alpha = rho / curvature;
     ++result.iterations;
     // T_kk = 1/alpha_k + beta_{k-1}/alpha_{k-1}, T_k,k+1 = sqrt(beta_k)/alpha_k.
     result.lanczos.diagonal.push_back(1.0 / alpha +
@@ -93,6 +98,7 @@ ConjugateGradientsResult conjugate_gradients(const SlicedMatrix& matrix, const E
   }
   matrix.halo().update(x);
   result.end = !(residual > goal) ? ConjugateGradientsEnd::converged
+               : indefinite       ? ConjugateGradientsEnd::indefinite
                : out_of_time      ? ConjugateGradientsEnd::time_limit
                                   : ConjugateGradientsEnd::iteration_limit;
   result.seconds = seconds();

@@ -16,7 +16,7 @@ struct LanczosMatrix {
   std::vector<double> off_diagonal;  ///< as many; the last one leads to the next step
 };
 
-enum class ConjugateGradientsEnd { converged, iteration_limit, time_limit };
+enum class ConjugateGradientsEnd { converged, iteration_limit, time_limit, indefinite };
 
 /// What one run of conjugate gradients did.
 struct ConjugateGradientsResult {
@@ -32,6 +32,10 @@ struct ConjugateGradientsOptions {
   double norm_offset = 0.0;
   std::size_t max_iterations = std::numeric_limits<std::size_t>::max();
   double max_seconds = std::numeric_limits<double>::infinity();
+  /// End at the first direction p with p . A p <= 0, or residual with r . M^-1 r < 0: the matrix
+  /// (or the preconditioner) is not positive definite, and nothing tells that the iteration will
+  /// end.
+  bool stop_if_indefinite = false;
 };
 
 /// z = M^-1 r for this rank's entries; collective.

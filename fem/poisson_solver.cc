@@ -81,7 +81,7 @@ void add_remark(const std::string& remark, SolutionRecord& record) {
 void record_condition_number(const ConditionNumber& condition, SolutionRecord& record) {
   record.lambda_min = condition.lambda_min;
   record.lambda_max = condition.lambda_max;
-  record.condition_number = condition.value();
+  if (condition.lambda_min > 0.0) record.condition_number = condition.value();
   record.condition_method = condition.method;
   record.condition_residual = condition.residual();
 }
@@ -103,6 +103,17 @@ void record_conjugate_gradients(const ConjugateGradientsResult& cg, SolutionReco
     add_remark("CG stopped at its limit of iterations", record);
   if (cg.end == ConjugateGradientsEnd::time_limit)
     add_remark("CG stopped at its limit of time", record);
+}
+
+/// Of a run whose solution is not used; what has not converged has no cost.
+void record_cost(const std::string& name, const ConjugateGradientsResult& run,
+                 std::size_t& iterations, double& seconds, SolutionRecord& record) {
+  if (run.end == ConjugateGradientsEnd::converged) {
+    iterations = run.iterations;
+    seconds = run.seconds;
+  } else {
+    add_remark("CG with " + name + " did not converge", record);
+  }
 }
 
 }  // namespace
@@ -131,7 +142,7 @@ SolutionRecord PoissonSolver<dim>::solve(const std::vector<Point<dim>>& coordina
     add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") + " folded inside", record);
   work.sliced.set_values(work.system.matrix);
 
-  const ConjugateGradientsOptions cg_options{
+  ConjugateGradientsOptions cg_options{
       .tolerance = options_.cg_tolerance,
       .norm_offset =
           options_.boundary_in_norm ? boundary_square_sum(space, work.system.exact) : 0.0,
@@ -142,10 +153,11 @@ SolutionRecord PoissonSolver<dim>::solve(const std::vector<Point<dim>>& coordina
     return conjugate_gradients(work.sliced, work.system.right_hand_side, work.free_solution,
                                cg_options, preconditioner);
   };
+  // Preconditioned runs show what a solution costs, if there is one.
+  cg_options.stop_if_indefinite = true;
   if (asked_for(options_.jacobi_cg)) {
     const auto jacobi = run(jacobi_preconditioner(work.sliced));
-    record.jacobi_cg_iterations = jacobi.iterations;
-    record.jacobi_cg_seconds = jacobi.seconds;
+    record_cost("Jacobi", jacobi, record.jacobi_cg_iterations, record.jacobi_cg_seconds, record);
   }
   if (with_multigrid_cg || (verified && work.needs_multigrid()))
     record.amg_setup_seconds = work.set_up_multigrid();
@@ -153,10 +165,10 @@ SolutionRecord PoissonSolver<dim>::solve(const std::vector<Point<dim>>& coordina
     const auto multigrid = run([&](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
       work.trilinos->apply_multigrid(r, z);
     });
-    record.amg_cg_iterations = multigrid.iterations;
-    record.amg_cg_seconds = multigrid.seconds;
+    record_cost("multigrid", multigrid, record.amg_cg_iterations, record.amg_cg_seconds, record);
   }
-  const auto cg = run({});  // last: its solution is the one whose errors count
+  cg_options.stop_if_indefinite = false;  // as the thesis: its iterate is what counts
+  const auto cg = run({});                // last: its solution is the one whose errors count
   record_conjugate_gradients(cg, record);
 
   if (options_.condition_number != ConditionNumberMethod::none) {

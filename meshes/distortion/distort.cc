@@ -1,11 +1,13 @@
 #include "meshes/distortion/distort.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "meshes/distortion/counter_random.h"
 #include "smoothing/mesh/input_error.h"
+#include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
 
@@ -63,7 +65,7 @@ class Distortion {
 
   /// Moves further nodes, one after the other, until the mean quality, at present above the target,
   /// has fallen to it; the last one stops on its way. The places that keep a node's cells valid are
-  /// convex, because each corner's determinant is linear in the node's coordinates, so the way is
+  /// convex, because the Jacobian at each point is linear in the node's coordinates, so the way is
   /// valid. False if the target is not reached.
   bool finish(double target, double radius) {
     const auto n_cells = static_cast<double>(mesh_.n_cells());
@@ -120,7 +122,20 @@ class Distortion {
     return worst;
   }
 
-  /// Mean quality of a node's cells; 0 if one is invalid.
+  /// Finite elements are solved on distorted meshes, so hexahedra have to be more than valid at
+  /// their corners.
+  bool is_folded(CellIndex cell) const {
+    if constexpr (dim == 3) {
+      const auto nodes = mesh_.topology().cell_nodes(cell);
+      if (nodes.size() != 8) return false;
+      std::array<Point<3>, 8> corners;
+      for (std::size_t k = 0; k < 8; ++k) corners[k] = mesh_.coordinates()[nodes[k]];
+      return !has_positive_mapping(corners);
+    }
+    return false;
+  }
+
+  /// Mean quality of a node's cells; 0 if one is invalid or folded.
   double quality_around(NodeIndex node) const {
     double sum = 0.0;
     const auto cells = mesh_.topology().node_cells(node);
@@ -129,6 +144,8 @@ class Distortion {
       if (!(quality > 0.0)) return 0.0;
       sum += quality;
     }
+    if (std::any_of(cells.begin(), cells.end(), [&](CellIndex cell) { return is_folded(cell); }))
+      return 0.0;
     return sum / static_cast<double>(cells.size());
   }
 

@@ -154,8 +154,9 @@ class SmoothingRun {
       const MeshQuality before = quality_;
       clock_.start();
       const StepReport report = guarded_step(smoother, rule);
-      n_without_best =
-          best.offer(state_.mesh.coordinates(), quality_, report) ? 0 : n_without_best + 1;
+      const bool is_best = best.offer(state_.mesh.coordinates(), quality_, report);
+      n_without_best = is_best ? 0 : n_without_best + 1;
+      if (is_best || rule.result == ResultMesh::last) result_record_ = n_records_;
       clock_.stop();
       complete_quality(rule, report);
       result.iterations += report.n_counted;
@@ -172,7 +173,7 @@ class SmoothingRun {
 
   SmoothingResult finish(std::vector<StageResult> stages) {
     users_mesh_.coordinates() = users_mesh().coordinates();
-    return {std::move(stages), clock_.seconds(), quality_};
+    return {std::move(stages), clock_.seconds(), quality_, result_record_};
   }
 
  private:
@@ -266,7 +267,7 @@ class SmoothingRun {
   MeshQuality quality_;
   double mean_edge_length_ = 0.0;
   std::vector<Point<dim>> previous_;
-  std::size_t n_records_ = 0;
+  std::size_t n_records_ = 0, result_record_ = 0;
 };
 
 }  // namespace

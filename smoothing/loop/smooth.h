@@ -34,7 +34,8 @@ struct StageResult {
 struct SmoothingResult {
   std::vector<StageResult> stages;
   double smoothing_seconds = 0.0;
-  MeshQuality quality;  ///< of the resulting mesh
+  MeshQuality quality;            ///< of the resulting mesh
+  std::size_t result_record = 0;  ///< the record whose mesh is the result
 
   /// As in the thesis' tables: "40/2800", one number a stage.
   std::string iterations_text() const;

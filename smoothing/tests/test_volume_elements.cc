@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/smoothers/element_regularization.h"
 #include "smoothing/tests/volume_meshes.h"
@@ -429,6 +430,60 @@ TEST(VolumeLanes, AreTheSameAsSingleCells) {
     check.operator()<6>();
     check.operator()<8>();
   }
+}
+
+const std::array<Point<3>, 8> unit_cube{
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+
+TEST(HexahedronMapping, IsPositiveForACubeAndNotForItsMirrorImage) {
+  EXPECT_TRUE(has_positive_mapping(unit_cube));
+  auto mirrored = unit_cube;
+  for (auto& p : mirrored) p.x() = -p.x();
+  EXPECT_FALSE(has_positive_mapping(mirrored));
+}
+
+/// The trilinear mapping as a product of linear factors, differentiated by differences (exact for
+/// linear functions of each coordinate).
+double jacobian_at(const std::array<Point<3>, 8>& corners, const Point<3>& at) {
+  const auto map = [&](const Point<3>& xi) {
+    Point<3> sum = Point<3>::Zero();
+    for (int v = 0; v < 8; ++v) {
+      double weight = 1.0;
+      for (int d = 0; d < 3; ++d) weight *= unit_cube[v][d] > 0.5 ? xi[d] : 1.0 - xi[d];
+      sum += weight * corners[v];
+    }
+    return sum;
+  };
+  Eigen::Matrix3d jacobian;
+  for (int d = 0; d < 3; ++d) jacobian.col(d) = map(at + Point<3>::Unit(d)) - map(at);
+  return jacobian.determinant();
+}
+
+TEST(HexahedronMapping, PositiveMeansPositiveAtEveryPoint) {
+  test::Random random(5);
+  int n_positive = 0, n_folded_inside = 0;
+  for (int i = 0; i < 400; ++i) {
+    auto corners = unit_cube;
+    for (auto& p : corners)
+      for (int d = 0; d < 3; ++d) p[d] += 0.45 * random();
+    double smallest = 1.0, smallest_at_corners = 1.0;
+    constexpr int n = 10;
+    for (int a = 0; a <= n; ++a)
+      for (int b = 0; b <= n; ++b)
+        for (int c = 0; c <= n; ++c) {
+          const double value = jacobian_at(corners, Point<3>(a, b, c) / n);
+          smallest = std::min(smallest, value);
+          if (a % n == 0 && b % n == 0 && c % n == 0)
+            smallest_at_corners = std::min(smallest_at_corners, value);
+        }
+    if (has_positive_mapping(corners)) {
+      ++n_positive;
+      EXPECT_GT(smallest, 0.0);
+    }
+    n_folded_inside += smallest_at_corners > 0.0 && smallest <= 0.0;
+  }
+  EXPECT_GT(n_positive, 50);
+  EXPECT_GT(n_folded_inside, 0);  // the case it is there for
 }
 
 }  // namespace

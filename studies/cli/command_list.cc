@@ -54,7 +54,7 @@ void list_studies(const std::filesystem::path& folder) {
     if (entry.path().extension() == ".prm") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const auto& file : files)
-    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_study(file, false).title.c_str(),
+    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_study(file).title.c_str(),
                 file.c_str());
 }
 
@@ -67,9 +67,13 @@ void list_the_rest() {
                 joined(types).c_str());
   }
   std::printf("\nSOLUTIONS ('solution' in study files)\n\n");
-  for (const auto& solution : manufactured_solutions())
-    std::printf("  %-16s u = %s (%s)\n", solution.name.c_str(), solution.formula.c_str(),
-                solution.source.c_str());
+  for (const int dimension : {2, 3})
+    with_dimension(dimension, [&]<int dim>() {
+      for (const auto& solution : manufactured_solutions<dim>())
+        std::printf("  %-16s %s u = %s (%s)\n", solution.name.c_str(),
+                    dim == 2 ? "planar:" : "volume:", solution.formula.c_str(),
+                    solution.source.c_str());
+    });
   std::printf("\nFORMATS\n\n");
   for (const auto& format : mesh_formats())
     std::printf("  %-8s %s: %s\n", format.extension.c_str(), format.name.c_str(),

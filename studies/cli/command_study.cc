@@ -1,7 +1,13 @@
+#include <mpi.h>
+
 #include <atomic>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <thread>
 
 #include "studies/cli/commands.h"
 #include "studies/framework/run_study.h"
@@ -11,7 +17,10 @@ namespace smoothfem {
 namespace {
 
 struct Arguments {
-  std::filesystem::path file;
+  std::string study;
+  std::string scale;
+  bool quick = false;
+  bool print_ranks = false;
   StudyOptions options;
 };
 
@@ -23,31 +32,102 @@ void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+bool started_by_mpirun() {
+  for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
+    if (std::getenv(variable) != nullptr) return true;
+  return false;
+}
+
+/// MPI for as long as it lives. A process that nobody has started by mpirun needs it for Trilinos
+/// only, in volume studies.
+class Mpi {
+ public:
+  Mpi() {
+    int provided = 0;  // the root's calls come from one thread at a time
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+  }
+  ~Mpi() { MPI_Finalize(); }
+  Mpi(const Mpi&) = delete;
+};
+
+Study read(const Arguments& arguments) {
+  return read_study(find_study(arguments.study), arguments.quick ? "quick" : arguments.scale);
+}
+
+void run(Arguments& arguments, std::optional<Mpi>& mpi) {
+  StudyOptions& options = arguments.options;
+  if (options.ranks.is_root()) {
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    options.interrupted = &interrupted;
+  } else {  // the root ends the run
+    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGTERM, SIG_IGN);
+  }
+  const Study study = read(arguments);
+  if (study.dimension == 3 && !mpi) {
+    mpi.emplace();
+    options.ranks = Ranks(MPI_COMM_WORLD);
+  }
+  if (options.out.empty()) options.out = std::filesystem::path("results") / study.name;
+  run_study(study, options);
+}
+
+void run_on_all_ranks(Arguments& arguments) {
+  std::optional<Mpi> mpi;
+  if (started_by_mpirun()) {
+    mpi.emplace();
+    arguments.options.ranks = Ranks(MPI_COMM_WORLD);
+  }
+  try {
+    run(arguments, mpi);
+  } catch (const InputError&) {
+    if (arguments.options.ranks.is_root()) throw;
+    mpi.reset();
+    std::exit(2);  // all ranks find the same fault; the root says it
+  }
+}
+
+/// Processes pay where the finite elements of volume meshes are to be shared.
+void print_ranks(const Arguments& arguments) {
+  const Study study = read(arguments);
+  const bool pays = study.dimension == 3 && !study.degrees.empty();
+  std::printf("%u\n", pays ? std::max(1U, std::thread::hardware_concurrency()) : 1U);
+}
+
 }  // namespace
 
 void add_study_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("study", "run a study file: CSV tables and meshes");
-  command->add_option("file", arguments->file, "study file (.prm)")->required();
+  auto* command = app.add_subcommand(
+      "study", "run a study: CSV tables and meshes. Goes on where an interrupted run was");
+  command->add_option("study", arguments->study, "study file (.prm), or name of a built-in study")
+      ->required();
   command->add_option("--out", arguments->options.out,
                       "folder for the results (results/NAME unless given)");
   command->add_option("--mesh-dir", arguments->options.mesh_dir,
                       "folder with the published meshes that the study names");
   command
       ->add_option("--threads", arguments->options.n_threads,
-                   "threads for the finite elements (all cores unless given)")
+                   "threads for the finite elements of planar meshes (all cores unless given)")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--quick", arguments->options.quick,
-                    "the study's quick variant: smaller meshes, every k-th record");
+  command
+      ->add_option("--smoothing-threads", arguments->options.smoothing_threads,
+                   "threads for smoothing; one gives times that compare with the thesis'")
+      ->check(CLI::Range(1, 1024));
+  auto* scale = command->add_option("--scale", arguments->scale,
+                                    "one of the study's scales: other sizes, other records");
+  command->add_flag("--quick", arguments->quick, "the same as --scale quick")->excludes(scale);
+  command->add_flag("--force", arguments->options.force,
+                    "start anew; the folder of an earlier run is kept under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");
+  command->add_flag("--print-ranks", arguments->print_ranks,
+                    "only print how many processes pay for this study on this machine");
   command->callback([arguments] {
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
-    arguments->options.interrupted = &interrupted;
-    const Study study = read_study(arguments->file, arguments->options.quick);
-    if (arguments->options.out.empty())
-      arguments->options.out = std::filesystem::path("results") / study.name;
-    run_study(study, arguments->options);
+    if (arguments->print_ranks)
+      print_ranks(*arguments);
+    else
+      run_on_all_ranks(*arguments);
   });
 }
 

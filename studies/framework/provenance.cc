@@ -1,6 +1,5 @@
 #include "studies/framework/provenance.h"
 
-#include <openssl/evp.h>
 #include <sys/utsname.h>
 
 #include <Spectra/Util/Version.h>
@@ -19,35 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string sha256_of_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return "";
-  std::ostringstream content;
-  content << stream.rdbuf();
-  const std::string bytes = content.str();
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned int length = 0;
-  EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr);
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    constexpr const char* digits = "0123456789abcdef";
-    text += {digits[digest[i] >> 4], digits[digest[i] & 15]};
-  }
-  return text;
-}
-
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
     if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
   return "unknown";
-}
-
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
 }
 
 Json describe_program() {
@@ -62,29 +37,31 @@ Json describe_program() {
           {"libraries", libraries}};
 }
 
-Json describe_machine(unsigned int n_threads) {
+Json describe_machine(const RunFacts& facts) {
   utsname system{};
   uname(&system);
   return {{"cpu", cpu_model()},
           {"system", std::string(system.sysname) + " " + system.release},
-          {"smoothing_threads", 1},
-          {"finite_element_threads", n_threads},
-          {"ranks", 1}};
+          {"smoothing_threads", facts.options.smoothing_threads},
+          {"finite_element_threads", facts.study.dimension == 2 ? facts.n_threads : 1U},
+          {"ranks", facts.options.ranks.size()}};
 }
 
 Json describe_meshes(const RunFacts& facts) {
   Json meshes = Json::array();
-  for (const auto& prepared : facts.meshes) {
-    const std::string file = "meshes/" + prepared.description.name + "_initial.mesh";
-    meshes.push_back({{"name", prepared.description.name},
-                      {"title", prepared.description.title},
-                      {"origin", prepared.origin},
-                      {"published", prepared.published},
-                      {"seed", prepared.description.seed},
-                      {"n_nodes", prepared.mesh.n_nodes()},
-                      {"n_cells", prepared.mesh.n_cells()},
-                      {"q_min", prepared.quality.q_min},
-                      {"q_mean", prepared.quality.q_mean},
+  for (const auto& mesh : facts.meshes) {
+    const std::string file = "meshes/" + mesh.description.name + "_initial.mesh";
+    meshes.push_back({{"name", mesh.description.name},
+                      {"title", mesh.description.title},
+                      {"dimension", facts.study.dimension},
+                      {"origin", mesh.origin},
+                      {"source_sha256", mesh.source_sha256},
+                      {"published", mesh.published},
+                      {"seed", mesh.description.seed},
+                      {"n_nodes", mesh.n_nodes},
+                      {"n_cells", mesh.n_cells},
+                      {"q_min", mesh.quality.q_min},
+                      {"q_mean", mesh.quality.q_mean},
                       {"file", file},
                       {"sha256", sha256_of_file(facts.options.out / file)}});
   }
@@ -100,18 +77,42 @@ Json json_value(const Parameter& parameter) {
 
 Json describe_methods(const Study& study) {
   Json methods = Json::array();
-  for (const auto& entry : study.methods) {
-    Method<2> method = entry.make();
-    Json parameters;
-    for (const auto& parameter : method.parameters())
-      parameters[parameter.name] = json_value(parameter);
-    methods.push_back({{"name", entry.name},
-                       {"title", entry.title},
-                       {"type", entry.type},
-                       {"citation", method.info.source},
-                       {"parameters", parameters}});
-  }
+  with_dimension(study.dimension, [&]<int dim>() {
+    for (const auto& entry : study.methods) {
+      Method<dim> method = entry.make<dim>();
+      Json parameters;
+      for (const auto& parameter : method.parameters())
+        parameters[parameter.name] = json_value(parameter);
+      methods.push_back({{"name", entry.name},
+                         {"title", entry.title},
+                         {"type", entry.type},
+                         {"citation", method.info.source},
+                         {"parameters", parameters}});
+    }
+  });
   return methods;
+}
+
+/// The sessions before, and this one.
+Json describe_sessions(const RunFacts& facts) {
+  Json sessions =
+      facts.earlier_sessions.empty() ? Json::array() : Json::parse(facts.earlier_sessions);
+  Json seconds = Json::object();
+  for (const auto& [phase, value] : facts.seconds) seconds[phase] = value;
+  sessions.push_back({{"started", facts.started},
+                      {"commit", SMOOTHFEM_COMMIT},
+                      {"uncommitted_changes", SMOOTHFEM_DIRTY},
+                      {"machine", describe_machine(facts)},
+                      {"seconds", seconds}});
+  return sessions;
+}
+
+Json seconds_of(const Json& sessions) {
+  std::map<std::string, double> sums;
+  for (const auto& session : sessions)
+    for (const auto& [phase, value] : session.at("seconds").items())
+      sums[phase] += value.get<double>();
+  return sums;
 }
 
 }  // namespace
@@ -135,18 +136,63 @@ std::string provenance_json(const RunFacts& facts) {
   json["study_title"] = facts.study.title;
   json["status"] = facts.status;
   json["written"] = now_utc();
-  json["quick"] = facts.options.quick;
+  json["scale"] = facts.study.scale.empty() ? "default" : facts.study.scale;
+  json["quick"] = facts.study.scale == "quick";
   json["program"] = describe_program();
-  json["machine"] = describe_machine(facts.n_threads);
+  json["machine"] = describe_machine(facts);
   json["meshes"] = describe_meshes(facts);
   json["methods"] = describe_methods(facts.study);
   Json parameters;
   for (const auto& [key, value] : facts.study.parameters) parameters[key] = value;
   json["parameters"] = parameters;
-  Json seconds;
-  for (const auto& [phase, value] : facts.seconds) seconds[phase] = value;
-  json["seconds"] = seconds;
+  json["settings"] = settings_of(facts.study, facts.meshes);
+  json["sessions"] = describe_sessions(facts);
+  json["seconds"] = seconds_of(json["sessions"]);
   return json.dump(2) + "\n";
+}
+
+EarlierRun read_provenance(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  if (!stream) return {};
+  try {
+    const Json json = Json::parse(stream);
+    EarlierRun run{.status = json.at("status"),
+                   .commit = json.at("program").at("commit"),
+                   .sessions = json.at("sessions").dump(),
+                   .settings = json.at("settings"),
+                   .meshes = {}};
+    for (const auto& mesh : json.at("meshes")) run.meshes[mesh.at("name")] = mesh.at("sha256");
+    return run;
+  } catch (const Json::exception&) {
+    throw InputError(
+        path.string() +
+        " is not what this program writes, so it is not known what the results beside "
+        "it are; start anew with --force, which keeps them under another name, or take "
+        "another --out");
+  }
+}
+
+std::map<std::string, std::string> settings_of(const Study& study,
+                                               const std::vector<MeshFacts>& meshes) {
+  std::map<std::string, std::string> settings(study.parameters.begin(), study.parameters.end());
+  settings["--scale"] = study.scale;
+  for (const auto& mesh : meshes) {
+    settings["source of mesh " + mesh.description.name] = mesh.origin;
+    if (!mesh.source_sha256.empty())
+      settings["content of mesh " + mesh.description.name] = mesh.source_sha256;
+  }
+  return settings;
+}
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+std::string program_commit() {
+  return SMOOTHFEM_COMMIT;
 }
 
 }  // namespace smoothfem

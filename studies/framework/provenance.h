@@ -13,15 +13,39 @@ namespace smoothfem {
 struct RunFacts {
   const Study& study;
   const StudyOptions& options;
-  const std::vector<PreparedMesh>& meshes;
+  std::vector<MeshFacts> meshes;
   unsigned int n_threads;
   std::string status;                     ///< "running", "interrupted" or "complete"
-  std::map<std::string, double> seconds;  ///< time split
+  std::string started;                    ///< of this session
+  std::map<std::string, double> seconds;  ///< time split of this session
+  std::string earlier_sessions;  ///< those of an earlier provenance of this run; empty: none
 };
 
 /// provenance.json as text: commit, compiler, versions, machine, seeds, SHA-256 of every initial
-/// mesh (of its polygonal text form in `meshes/`), effective parameters, time split.
+/// mesh (of its text form in `meshes/`), effective parameters, and the time split, of each session
+/// that has worked on the results and of all together.
 std::string provenance_json(const RunFacts& facts);
+
+/// What an earlier run has left in its folder.
+struct EarlierRun {
+  std::string status;
+  std::string commit;
+  std::string sessions;                         ///< for RunFacts
+  std::map<std::string, std::string> settings;  ///< everything that determines the rows
+  std::map<std::string, std::string> meshes;    ///< name -> SHA-256 of its text form
+};
+/// Throws InputError if the file is not a provenance; an empty status if there is none.
+EarlierRun read_provenance(const std::filesystem::path& path);
+
+/// The same settings of this run; without `meshes` their sources are not among them yet.
+std::map<std::string, std::string> settings_of(const Study& study,
+                                               const std::vector<MeshFacts>& meshes);
+
+/// The present time (UTC), as in provenance.json.
+std::string now_utc();
+
+/// The commit that this program was built from.
+std::string program_commit();
 
 /// One line a library: name and version, for the command line.
 std::map<std::string, std::string> library_versions();

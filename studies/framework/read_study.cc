@@ -68,12 +68,55 @@ void parse(ParameterHandler& p, const std::string& text, const std::filesystem::
   }
 }
 
-std::vector<std::string> method_labels(const std::string& list) {
+std::vector<std::string> method_labels(const std::string& list, int dimension) {
   if (list != "all") return split_list(list);
   std::vector<std::string> names;
   for (const auto& info : method_catalogue())
-    if (takes_meshes<2>(info.name)) names.push_back(info.name);
+    if (with_dimension(dimension, [&]<int dim>() { return takes_meshes<dim>(info.name); }))
+      names.push_back(info.name);
   return names;
+}
+
+ElementType element_type_of(const std::string& plural) {
+  for (const auto& [name, type] : {std::pair("triangles", ElementType::triangle),
+                                   std::pair("quadrilaterals", ElementType::quadrilateral),
+                                   std::pair("tetrahedra", ElementType::tetrahedron)})
+    if (plural == name) return type;
+  return ElementType::hexahedron;
+}
+
+Recorded recorded(const std::string& text) {
+  return text == "never"     ? Recorded::never
+         : text == "results" ? Recorded::results
+                             : Recorded::always;
+}
+
+ConditionNumberMethod condition_number_method(const std::string& text) {
+  return text == "none"      ? ConditionNumberMethod::none
+         : text == "lanczos" ? ConditionNumberMethod::lanczos
+                             : ConditionNumberMethod::verified;
+}
+
+/// "1, getme-sequential: 10".
+RecordEvery read_record_every(const std::string& text, const std::string& file) {
+  const auto fail = [&] [[noreturn]] () {
+    throw InputError(file + ": 'record every' is '" + text +
+                     "', but it takes a number above 0, and 'STAGE: number' for stages that are "
+                     "recorded otherwise");
+  };
+  RecordEvery result;
+  for (const auto& item : split_list(text)) {
+    static const std::regex form("(?:([A-Za-z0-9._-]+)\\s*:\\s*)?([1-9][0-9]{0,8})");
+    std::smatch match;
+    if (!std::regex_match(item, match, form)) fail();
+    const int every = std::stoi(match[2].str());
+    if (match[1].matched)
+      result.stages[match[1].str()] = every;
+    else
+      result.usually = every;
+  }
+  if (split_list(text).empty()) fail();
+  return result;
 }
 
 void check_label(const std::string& label, const std::string& what, const std::string& file) {
@@ -100,23 +143,26 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
                  .title = p.get("title"),
                  .file = p.get("file"),
                  .domain = p.get("domain"),
-                 .element_type = p.get("elements") == "triangles" ? ElementType::triangle
-                                                                  : ElementType::quadrilateral,
+                 .element_type = element_type_of(p.get("elements")),
                  .published_file = p.get("published file"),
                  .distort_to_q_mean = p.get_double("distort to"),
+                 .distortion_candidates = static_cast<int>(p.get_integer("distortion candidates")),
+                 .distortion_sweeps = static_cast<int>(p.get_integer("distortion sweeps")),
                  .seed = static_cast<std::uint64_t>(p.get_integer("seed"))};
   if (!mesh.file.empty() && mesh.file.is_relative()) mesh.file = folder / mesh.file;
   return mesh;
 }
 
-StudyMethod read_method_section(ParameterHandler& p, const std::string& name) {
+StudyMethod read_method_section(ParameterHandler& p, int dimension, const std::string& name) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name, .type = p.get("type"), .title = p.get("title"), .settings = {}};
-  Method<2> defaults = make_method<2>(method.type);
-  for (const auto& parameter : defaults.parameters())
-    if (p.get(parameter.name) != value_text(parameter))
-      method.settings.emplace_back(parameter.name, p.get(parameter.name));
-  (void)method.make();  // throws for values out of range
+  with_dimension(dimension, [&]<int dim>() {
+    Method<dim> defaults = make_method<dim>(method.type);
+    for (const auto& parameter : defaults.parameters())
+      if (p.get(parameter.name) != value_text(parameter))
+        method.settings.emplace_back(parameter.name, p.get(parameter.name));
+    (void)method.make<dim>();  // throws for values out of range
+  });
   return method;
 }
 
@@ -131,7 +177,7 @@ std::vector<int> read_degrees(const std::string& list, const std::string& file) 
   return degrees;
 }
 
-void read_problem(ParameterHandler& p, const std::string& file, bool quick, Study& study) {
+void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
   study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
   study.write_series = p.get_bool("write series");
@@ -142,32 +188,52 @@ void read_problem(ParameterHandler& p, const std::string& file, bool quick, Stud
   {
     const Subsection subsection(p, "finite elements");
     study.finite_elements.galerkin_load = p.get("load") == "quadrature";
-    study.finite_elements.n_quadrilateral_points =
-        static_cast<int>(p.get_integer("quadrilateral points"));
+    study.finite_elements.tensor_points = {static_cast<int>(p.get_integer("quadrilateral points")),
+                                           static_cast<int>(p.get_integer("hexahedron points"))};
     study.finite_elements.cg_tolerance = p.get_double("cg tolerance");
     study.finite_elements.boundary_in_norm = p.get_bool("boundary in norm");
-    study.finite_elements.condition_number = p.get_bool("condition number");
-    study.finite_elements.jacobi_cg = p.get_bool("jacobi cg");
+    if (p.get_double("cg seconds") > 0.0)
+      study.finite_elements.max_cg_seconds = p.get_double("cg seconds");
+    study.finite_elements.condition_number = condition_number_method(p.get("condition number"));
+    study.finite_elements.jacobi_cg = recorded(p.get("jacobi cg"));
+    study.finite_elements.multigrid_cg = recorded(p.get("multigrid cg"));
   }
   {
     const Subsection subsection(p, "thresholds");
     study.thresholds = {p.get("reference"), p.get_double("margin")};
   }
-  const auto read_scale = [&] {
-    study.record_every = static_cast<int>(p.get_integer("record every"));
-    study.edge_scale = p.get_double("edge scale");
-  };
-  if (quick) {
-    const Subsection subsection(p, "quick");
-    read_scale();
-  } else {
-    read_scale();
+  study.record_every = read_record_every(p.get("record every"), file);
+  study.edge_scale = p.get_double("edge scale");
+}
+
+/// What the study's scale changes.
+void read_scale(ParameterHandler& p, const std::string& file, Study& study) {
+  const Subsection subsection(p, "scale " + study.scale);
+  if (!p.get("record every").empty())
+    study.record_every = read_record_every(p.get("record every"), file);
+  if (const double edge_scale = p.get_double("edge scale"); edge_scale > 0.0) {
+    if (edge_scale < 1.0)
+      throw InputError(file + ": the scale " + study.scale + " has the edge scale " +
+                       p.get("edge scale") + ", but edges cannot get shorter than 1");
+    study.edge_scale = edge_scale;
   }
+  if (const long runs = p.get_integer("timing runs"); runs > 0)
+    study.timing_runs = static_cast<int>(runs);
+}
+
+void require_scale(const std::string& scale, const std::vector<std::string>& known,
+                   const std::string& file) {
+  if (scale.empty() || std::find(known.begin(), known.end(), scale) != known.end()) return;
+  throw InputError(file + ": the study has no scale '" + scale + "'; " +
+                   (known.empty() ? "it has one size only: leave --scale out"
+                                  : choose_one_of(known) + ", or leave --scale out"));
 }
 
 /// Whether what the study names is there; better now than after the first mesh is generated.
 void check_names(const Study& study) {
-  if (study.solution.name != "expression") (void)manufactured_solution(study.solution.name);
+  if (study.solution.name != "expression")
+    with_dimension(study.dimension,
+                   [&]<int dim>() { (void)manufactured_solution<dim>(study.solution.name); });
   for (const auto& mesh : study.meshes)
     if (!mesh.domain.empty()) (void)find_domain(mesh.domain);
 }
@@ -215,13 +281,24 @@ std::vector<std::pair<std::string, std::string>> effective_parameters(ParameterH
 
 }  // namespace
 
-Method<2> StudyMethod::make() const {
-  Method<2> method = make_method<2>(type);
+template <int dim>
+Method<dim> StudyMethod::make() const {
+  Method<dim> method = make_method<dim>(type);
   for (const auto& [parameter, value] : settings) method.set(parameter, value);
   return method;
 }
+template Method<2> StudyMethod::make() const;
+template Method<3> StudyMethod::make() const;
 
-Study read_study(const std::filesystem::path& file, bool quick) {
+std::filesystem::path find_study(const std::string& path_or_name) {
+  const std::filesystem::path path = path_or_name;
+  if (std::filesystem::exists(path) || path.has_parent_path() || path.has_extension()) return path;
+  const auto built_in =
+      std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / (path_or_name + ".prm");
+  return std::filesystem::exists(built_in) ? built_in : path;
+}
+
+Study read_study(const std::filesystem::path& file, const std::string& scale) {
   const std::string text = read_text(file);
   // Which subsections there are depends on what the file says: first the lists, then the methods'
   // types, then everything, strictly.
@@ -229,39 +306,46 @@ Study read_study(const std::filesystem::path& file, bool quick) {
   declare_lists(lists);
   parse(lists, text, file, true);
   const auto meshes = split_list(lists.get("meshes"));
-  const auto methods = method_labels(lists.get("methods"));
+  const int dimension = static_cast<int>(lists.get_integer("dimension"));
+  const auto methods = method_labels(lists.get("methods"), dimension);
+  const auto scales = split_list(lists.get("scales"));
+  require_scale(scale, scales, file.string());
   check_unique(meshes, "mesh", file.string());
   check_unique(methods, "method", file.string());
 
   ParameterHandler types;
-  for (const auto& method : methods) declare_method(types, method, "");
+  for (const auto& method : methods) declare_method(types, dimension, method, "");
   parse(types, text, file, true);
 
   ParameterHandler p;
   declare_lists(p);
   declare_problem(p);
-  declare_quick(p);
-  for (const auto& mesh : meshes) declare_mesh(p, mesh);
+  for (const auto& name : scales) declare_scale(p, name);
+  for (const auto& mesh : meshes) declare_mesh(p, dimension, mesh);
   for (const auto& method : methods) {
     std::string type;
     {
       const Subsection subsection(types, "method " + method);
       type = types.get("type");
     }
-    in_file(file, [&] { declare_method(p, method, type); });
+    in_file(file, [&] { declare_method(p, dimension, method, type); });
   }
   parse(p, text, file, false);
 
   Study study;
   study.name = file.stem().string();
   study.title = p.get("title");
+  study.scale = scale;
+  study.dimension = dimension;
   check_label(study.name, "study", file.string());
   if (study.title.empty()) study.title = study.name;
   for (const auto& mesh : meshes)
     study.meshes.push_back(read_mesh_section(p, mesh, file.parent_path()));
   for (const auto& method : methods)
-    study.methods.push_back(in_file(file, [&] { return read_method_section(p, method); }));
-  read_problem(p, file.string(), quick, study);
+    study.methods.push_back(
+        in_file(file, [&] { return read_method_section(p, dimension, method); }));
+  read_problem(p, file.string(), study);
+  if (!scale.empty()) read_scale(p, file.string(), study);
   in_file(file, [&] { check_names(study); });
   check_thresholds(study, file.string());
   study.parameters = effective_parameters(p);

@@ -44,11 +44,11 @@ class CsvText {
 };
 
 constexpr const char* solution_columns =
-    "degree,n_dofs,n_free,condition_number,condition_method,lambda_min,lambda_max,cg_iterations,"
-    "cg_seconds,cg_converged,jacobi_cg_iterations,jacobi_cg_seconds,e_max,e_mean,e_l2,e_h1,l2_"
-    "error,"
-    "h1_error,status";
-constexpr int n_solution_numbers = 17;  ///< between degree and status
+    "degree,n_dofs,n_free,condition_number,condition_method,lambda_min,lambda_max,"
+    "condition_residual,cg_iterations,cg_seconds,cg_converged,jacobi_cg_iterations,"
+    "jacobi_cg_seconds,amg_cg_iterations,amg_setup_seconds,amg_cg_seconds,e_max,e_mean,e_l2,e_h1,"
+    "l2_error,h1_error,status";
+constexpr int n_solution_numbers = 21;  ///< between degree and status
 
 void add_quality(CsvText& csv, const MeshQuality& quality) {
   csv.number(quality.q_min).number(quality.q_star_min).number(quality.q_mean);
@@ -69,11 +69,16 @@ void add_solution(CsvText& csv, int degree, const std::optional<SolutionRecord>&
   };
   csv.integer(s.n_dofs).integer(s.n_free).number(if_known(s.condition_number));
   csv.field(s.condition_method).number(if_known(s.lambda_min)).number(if_known(s.lambda_max));
+  csv.number(s.condition_number > 0.0 ? std::optional(s.condition_residual) : std::nullopt);
   csv.integer(s.cg_iterations).number(s.cg_seconds).field(s.cg_converged ? "true" : "false");
   if (s.jacobi_cg_iterations > 0)
     csv.integer(s.jacobi_cg_iterations).number(s.jacobi_cg_seconds);
   else
     csv.field("").field("");
+  if (s.amg_cg_iterations > 0)
+    csv.integer(s.amg_cg_iterations).number(s.amg_setup_seconds).number(s.amg_cg_seconds);
+  else
+    csv.field("").field("").field("");
   csv.number(s.e_max).number(s.e_mean).number(s.e_l2).number(s.e_h1);
   csv.number(s.l2_error).number(s.h1_error).field(status);
 }

@@ -1,16 +1,15 @@
 #include "studies/framework/run_study.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <optional>
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
+#include "smoothing/mesh/parallel.h"
 #include "studies/framework/progress.h"
 #include "studies/framework/provenance.h"
+#include "studies/framework/results_folder.h"
+#include "studies/framework/solve_workers.h"
 #include "studies/framework/study_data.h"
 
 namespace smoothfem {
@@ -19,171 +18,186 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Before hours of work, and without leaving a trace: can files be written below this folder?
-void require_writable(const fs::path& folder) {
-  fs::path existing = fs::absolute(folder);
-  while (!fs::exists(existing) && existing.has_relative_path()) existing = existing.parent_path();
-  if (!fs::is_directory(existing))
-    throw InputError("cannot write results to " + folder.string() + ": " + existing.string() +
-                     " is not a folder");
-  if (::access(existing.c_str(), W_OK | X_OK) != 0)
-    throw InputError("cannot write results to " + folder.string() + ": " + std::strerror(errno));
-}
-
+template <int dim>
 class StudyRun {
  public:
   StudyRun(const Study& study, const StudyOptions& options)
       : study_(study),
         options_(options),
+        team_(options.ranks),
         n_threads_(options.n_threads > 0 ? options.n_threads
                                          : std::max(1U, std::thread::hardware_concurrency())),
         progress_(options.quiet),
-        data_{study} {}
+        data_{study, Checkpoint(options.out / "checkpoint")} {}
 
   void run() {
     // Everything the user gave is checked before the first file is written.
     require_writable(options_.out);
-    require_published_files();
+    require_published_files(study_, options_.mesh_dir);
+    if (options_.force) set_aside(options_.out);
+    earlier_ = read_provenance(options_.out / "provenance.json");
+    require_same_settings(earlier_, study_, {}, options_.out);
     timed("meshes", [&] {
       prepare_meshes();
+      require_same_settings(earlier_, study_, mesh_facts(), options_.out);
       data_.solution = make_solution();
-      make_solvers();
     });
+    if (earlier_.status == "complete") return say_complete();
     begin_writing();
     timed("smoothing", [&] { smooth_meshes(); });
     timed("finite_elements", [&] { solve(); });
     timed("writing", [&] { write_results(); });
     write_provenance("complete");
+    data_.checkpoint.remove();
   }
 
  private:
   template <class Work>
   void timed(const std::string& phase, const Work& work) {
-    const auto started = std::chrono::steady_clock::now();
+    phase_ = phase;
+    phase_started_ = std::chrono::steady_clock::now();
     work();
-    seconds_[phase] =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    seconds_[phase] = phase_seconds();
+    phase_.clear();
+  }
+  double phase_seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - phase_started_).count();
   }
 
-  /// --mesh-dir must not be taken for something that it does not do.
-  void require_published_files() const {
-    if (options_.mesh_dir.empty()) return;
-    for (const auto& mesh : study_.meshes)
-      if (!mesh.published_file.empty()) return;
-    throw InputError("--mesh-dir is given, but no mesh of the study " + study_.name +
-                     " names a published file; leave it out or set 'published file' for a mesh");
+  void say_complete() {
+    std::string text = "The results in " + options_.out.string() + " are complete";
+    if (earlier_.commit != program_commit())
+      text += " (by the program at commit " + earlier_.commit + ")";
+    progress_.say(text + ": nothing to do. --force starts anew and keeps them under another name.");
+  }
+
+  std::vector<MeshFacts> mesh_facts() const { return {data_.meshes.begin(), data_.meshes.end()}; }
+
+  fs::path initial_mesh_path(const std::string& mesh) const {
+    return mesh_path(options_.out, mesh, "initial", ".mesh");
   }
 
   void prepare_meshes() {
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
       progress_.update(data_.meshes.size(), description.name);
-      data_.meshes.push_back(prepare_mesh(description, study_.edge_scale, options_.mesh_dir));
+      data_.meshes.push_back(prepare_mesh<dim>(
+          description, study_, options_.mesh_dir,
+          earlier_.status.empty() ? fs::path() : initial_mesh_path(description.name)));
       stop_if_interrupted();
     }
     progress_.end();
   }
 
   /// Expressions are checked at nodes of the first mesh.
-  ManufacturedSolution make_solution() const {
-    if (study_.solution.name != "expression") return manufactured_solution(study_.solution.name);
+  ManufacturedSolution<dim> make_solution() const {
     const auto& points = data_.meshes.front().mesh.coordinates();
-    std::vector<Point<2>> sample;
+    std::vector<Point<dim>> sample;
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
       sample.push_back(points[i]);
-    return parsed_solution(study_.solution.value, study_.solution.gradient, study_.solution.load,
-                           sample);
-  }
-
-  void make_solvers() {
-    for (const auto& prepared : data_.meshes)
-      for (const int degree : study_.degrees) {
-        PoissonOptions options = study_.finite_elements;
-        options.degree = degree;
-        solvers_.emplace_back(prepared.mesh, options);
-      }
+    return study_solution<dim>(study_.solution, sample);
   }
 
   /// The provenance first, so that nobody takes old results for those of this run.
   void begin_writing() {
     writing_ = true;
-    write_provenance("running");
-    for (const auto& prepared : data_.meshes)
-      write_mesh(mesh_path(options_.out, prepared.description.name, "initial", ".mesh"),
-                 prepared.mesh);
+    if (earlier_.status.empty()) {
+      data_.checkpoint.remove();  // of a run whose provenance is gone
+      write_provenance("running");
+      for (const auto& prepared : data_.meshes)
+        write_mesh(initial_mesh_path(prepared.description.name), prepared.mesh);
+    } else {
+      require_same_meshes();
+      progress_.say("Going on where the run in " + options_.out.string() + " was.");
+    }
     write_provenance("running");  // now with the checksums
   }
 
+  /// The files of an interrupted run may have been changed by somebody.
+  void require_same_meshes() {
+    for (const auto& prepared : data_.meshes) {
+      const std::string& name = prepared.description.name;
+      const fs::path path = initial_mesh_path(name);
+      const auto noted = earlier_.meshes.find(name);
+      const bool known = noted != earlier_.meshes.end() && !noted->second.empty();
+      if (!known)  // killed before it was written, or before that was noted
+        write_mesh(path, prepared.mesh);
+      else if (sha256_of_file(path) != noted->second)
+        throw InputError(path.string() +
+                         " has been changed since the run began; start anew with --force, which "
+                         "keeps the folder under another name");
+    }
+  }
+
   void smooth_meshes() {
+    set_n_threads(static_cast<int>(options_.smoothing_threads));
     progress_.begin("Smoothing", data_.meshes.size() * study_.methods.size());
     std::size_t done = 0;
     for (const auto& prepared : data_.meshes) {
       auto& of_mesh = data_.trajectories.emplace_back();
       for (const auto& method : study_.methods) {
         progress_.update(done++, prepared.description.name + ", " + method.title);
-        of_mesh.push_back(
-            record_trajectory(prepared.mesh, method, study_.timing_runs, study_.record_every));
+        of_mesh.push_back(trajectory_of(prepared, method));
         stop_if_interrupted();
       }
     }
     progress_.end();
   }
 
-  SolveTask* add_task(std::size_t mesh, std::size_t degree, std::vector<Point<2>> coordinates,
-                      bool is_result) {
-    PlanarMesh smoothed(data_.meshes[mesh].mesh.shared_topology(), std::move(coordinates));
-    return &data_.tasks.emplace_back(mesh * study_.degrees.size() + degree, std::move(smoothed),
-                                     is_result || study_.write_series);
-  }
-
-  /// Tasks for the initial meshes and for the valid snapshots of every method.
-  void make_tasks() {
-    for (std::size_t m = 0; m < data_.meshes.size(); ++m) {
-      auto& of_mesh = data_.mesh_tasks.emplace_back();
-      for (std::size_t d = 0; d < study_.degrees.size(); ++d)
-        of_mesh.initial.push_back(add_task(m, d, data_.meshes[m].mesh.coordinates(), true));
-      for (const auto& trajectory : data_.trajectories[m]) {
-        auto& of_method = of_mesh.methods.emplace_back();
-        for (const auto& snapshot : trajectory.snapshots) {
-          auto& of_snapshot = of_method.emplace_back();
-          if (trajectory.records[snapshot.record].quality.n_invalid > 0) continue;
-          for (std::size_t d = 0; d < study_.degrees.size(); ++d)
-            of_snapshot.push_back(
-                add_task(m, d, snapshot.coordinates, snapshot.record == trajectory.result_record));
-        }
-      }
-    }
+  Trajectory trajectory_of(const PreparedMesh<dim>& prepared, const StudyMethod& method) {
+    const std::string name = Checkpoint::name(prepared.description.name, method.name);
+    if (auto known = data_.checkpoint.load_trajectory(name)) return *std::move(known);
+    const Trajectory trajectory = record_trajectory<dim>(
+        prepared.mesh, method, study_.timing_runs, study_.record_every,
+        [&](std::size_t record, const std::vector<Point<dim>>& coordinates) {
+          stop_if_interrupted();
+          data_.checkpoint.save_numbers(name, record, numbers_of<dim>(coordinates));
+        });
+    data_.checkpoint.save(name, trajectory);
+    return trajectory;
   }
 
   void solve() {
-    make_tasks();
-    std::vector<SolveTask*> queue;
-    for (auto& task : data_.tasks) queue.push_back(&task);
-    progress_.begin("Finite elements", queue.size());
-    work_off(std::move(queue));
+    make_tasks(data_);
+    std::vector<SolveTask*> open;
+    for (auto& task : data_.tasks)
+      if (!task.done) open.push_back(&task);
+    progress_.begin("Finite elements", data_.tasks.size());
+    work_off(open);
     progress_.end();
   }
 
+  std::vector<SolveQueue::Worker> workers(const std::vector<SolveTask*>& open) {
+    if constexpr (dim == 2)
+      return solve_workers(data_, open, n_threads_);
+    else
+      return solve_workers(data_, open, team_);
+  }
+
   /// Waits for the queue; writes the rows there are every few seconds.
-  void work_off(std::vector<SolveTask*> tasks) {
+  void work_off(const std::vector<SolveTask*>& open) {
     using Clock = std::chrono::steady_clock;
     constexpr auto look = std::chrono::milliseconds(50);
     constexpr auto between_writes = std::chrono::seconds(5);
-    SolveQueue queue(std::move(solvers_), *data_.solution, std::move(tasks), n_threads_);
-    auto last_write = Clock::now();
+    const std::size_t n_known = data_.tasks.size() - open.size();
+    SolveQueue queue(open.size(), workers(open));
+    auto last_write = Clock::now() - between_writes;
     while (!queue.finished()) {
       std::this_thread::sleep_for(look);
       stop_if_interrupted();
-      progress_.update(queue.n_done(), std::to_string(queue.n_done()) + " of " +
-                                           std::to_string(data_.tasks.size()) + " solved");
+      const std::size_t n_done = n_known + queue.n_done();
+      progress_.update(
+          n_done, std::to_string(n_done) + " of " + std::to_string(data_.tasks.size()) + " solved");
       if (Clock::now() - last_write < between_writes) continue;
       write_iterations();
+      write_provenance("running");
       last_write = Clock::now();
     }
     queue.rethrow();
   }
 
-  /// Tasks may be under way on other threads, for a long time: the process ends without them.
+  /// Tasks may be under way on other threads, for a long time: the process ends without them. What
+  /// is done is in the checkpoint.
   void stop_if_interrupted() {
     if (options_.interrupted == nullptr || !*options_.interrupted) return;
     if (!writing_) {
@@ -193,7 +207,8 @@ class StudyRun {
     const auto rows = write_iterations();
     write_provenance("interrupted");
     progress_.say("Interrupted: the " + std::to_string(rows) + " rows finished so far are in " +
-                  (options_.out / "iterations.csv").string() + ".");
+                  (options_.out / "iterations.csv").string() +
+                  "; the same command goes on from here.");
     std::_Exit(130);
   }
 
@@ -217,26 +232,37 @@ class StudyRun {
     progress_.end();
   }
 
-  void write_provenance(const std::string& status) const {
-    write_atomically(
-        options_.out / "provenance.json",
-        provenance_json({study_, options_, data_.meshes, n_threads_, status, seconds_}));
+  void write_provenance(const std::string& status) {
+    auto seconds = seconds_;
+    if (!phase_.empty()) seconds[phase_] = phase_seconds();
+    write_atomically(options_.out / "provenance.json",
+                     provenance_json({study_, options_, mesh_facts(), n_threads_, status, started_,
+                                      seconds, earlier_.sessions}));
   }
 
   const Study& study_;
   const StudyOptions& options_;
+  SolverTeam team_;  ///< the other ranks wait for its orders from the beginning
   unsigned int n_threads_;
   mutable Progress progress_;
-  StudyData data_;
-  std::vector<PoissonSolver> solvers_;  ///< [mesh * number of degrees + degree]
-  bool writing_ = false;                ///< the folder of the results holds files of this run
+  StudyData<dim> data_;
+  EarlierRun earlier_;
+  bool writing_ = false;  ///< the folder of the results holds files of this run
+  const std::string started_ = now_utc();
+  std::string phase_;
+  std::chrono::steady_clock::time_point phase_started_;
   std::map<std::string, double> seconds_;
 };
 
 }  // namespace
 
 void run_study(const Study& study, const StudyOptions& options) {
-  StudyRun(study, options).run();
+  if (study.dimension == 2 && options.ranks.size() > 1)
+    throw InputError("the study " + study.name +
+                     " has planar meshes, whose records are shared among threads, not processes: "
+                     "start it without mpirun");
+  if (!options.ranks.is_root()) return serve_solves(study, options.ranks);
+  with_dimension(study.dimension, [&]<int dim>() { StudyRun<dim>(study, options).run(); });
 }
 
 }  // namespace smoothfem

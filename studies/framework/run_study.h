@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 
+#include "fem/ranks.h"
 #include "studies/framework/study.h"
 
 namespace smoothfem {
@@ -10,18 +11,26 @@ namespace smoothfem {
 struct StudyOptions {
   std::filesystem::path out;       ///< folder of the results; made if it is not there
   std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
-  bool quick = false;              ///< noted in the provenance; read_study has applied it
+  bool force = false;              ///< start anew; the folder of an earlier run is renamed
   bool quiet = false;
-  unsigned int n_threads = 0;  ///< for the finite elements; 0: all cores
+  unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
+  unsigned int smoothing_threads = 1;
+  Ranks ranks{};  ///< that share the finite elements of volume meshes
   /// Set from outside to stop: the rows finished so far are written and the process ends with 130.
   const std::atomic<bool>* interrupted = nullptr;
 };
 
-/// Runs a study: meshes, then smoothing (one method at a time on one thread, nothing else running),
-/// then a finite element record for every iteration (all cores), and writes iterations.csv,
-/// summary.csv, thresholds.csv, provenance.json and the resulting meshes. Every file appears in one
-/// piece; iterations.csv is written anew every few seconds with the rows finished so far. Numbers
-/// do not depend on n_threads. Throws InputError.
+/// Runs a study: meshes, then smoothing (one method at a time, nothing else running), then a finite
+/// element record for every iteration that is to have one (planar meshes: on all cores; volume
+/// meshes: on all ranks), and writes iterations.csv, summary.csv, thresholds.csv, provenance.json
+/// and the resulting meshes. Every file appears in one piece; iterations.csv is written anew every
+/// few seconds with the rows finished so far.
+///
+/// A run that has been killed at any moment goes on where it was when the same study is run into
+/// the same folder, and ends with the same rows, times excepted; a complete one is left as it is.
+/// If anything that determines the rows has changed, InputError says what. Numbers do not depend on
+/// n_threads and smoothing_threads, and on the ranks only as far as the solvers' tolerances.
+/// On ranks other than the root: does their part of the work. Throws InputError.
 void run_study(const Study& study, const StudyOptions& options);
 
 }  // namespace smoothfem

@@ -1,37 +1,28 @@
 #include "studies/framework/solve_queue.h"
 
-#include <optional>
-
 namespace smoothfem {
 
-SolveQueue::SolveQueue(std::vector<PoissonSolver> solvers, const ManufacturedSolution& solution,
-                       std::vector<SolveTask*> tasks, unsigned int n_threads)
-    : solvers_(std::move(solvers)), solution_(solution), tasks_(std::move(tasks)) {
-  for (unsigned int i = 0; i < n_threads; ++i) threads_.emplace_back([this] { work(); });
+SolveQueue::SolveQueue(std::size_t n_tasks, std::vector<Worker> workers)
+    : n_tasks_(n_tasks), workers_(std::move(workers)) {
+  for (const auto& worker : workers_) threads_.emplace_back([&] { work(worker); });
 }
 
 SolveQueue::~SolveQueue() {
-  next_ = tasks_.size();
+  next_ = n_tasks_;
 }
 
 void SolveQueue::rethrow() const {
   if (failed_) std::rethrow_exception(failure_);
 }
 
-void SolveQueue::work() {
-  std::vector<std::optional<PoissonSolver>> own(solvers_.size());
-  for (std::size_t t = next_++; t < tasks_.size(); t = next_++) {
+void SolveQueue::work(const Worker& worker) {
+  for (std::size_t task = next_++; task < n_tasks_; task = next_++) {
     try {
-      SolveTask& task = *tasks_[t];
-      auto& solver = own[task.solver];
-      if (!solver) solver.emplace(solvers_[task.solver]);
-      task.record = solver->solve(task.mesh, solution_);
-      if (task.keep_nodal_errors) task.nodal_errors = solver->nodal_errors();
-      task.done = true;
+      worker(task);
       ++n_done_;
     } catch (...) {
       if (!failed_.exchange(true)) failure_ = std::current_exception();
-      next_ = tasks_.size();
+      next_ = n_tasks_;
       return;
     }
   }

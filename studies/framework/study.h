@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@ struct StudyMesh {
   /// not distorted: published meshes are already.
   std::string published_file;
   double distort_to_q_mean = 0.0;  ///< 0: not distorted
+  int distortion_candidates = 10;  ///< see DistortionParameters
+  int distortion_sweeps = 1;
   std::uint64_t seed = 1;
 };
 
@@ -32,10 +35,11 @@ struct StudyMethod {
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
 
   /// The method with its settings.
-  Method<2> make() const;
+  template <int dim>
+  Method<dim> make() const;
 };
 
-/// Where the manufactured solution comes from: a name, or three expressions.
+/// Where the manufactured solution comes from: a name, or expressions.
 struct StudySolution {
   std::string name;
   std::string value, gradient, load;
@@ -47,26 +51,43 @@ struct StudyThresholds {
   double margin = 0.05;   ///< thresholds are the least errors increased by this share
 };
 
+/// At which iterations finite elements are solved: every k-th of a stage.
+struct RecordEvery {
+  int usually = 1;
+  std::map<std::string, int> stages;  ///< by the stage's name, where it is not as usual
+
+  int of(const std::string& stage) const {
+    const auto found = stages.find(stage);
+    return found == stages.end() ? usually : found->second;
+  }
+};
+
 /// A study as data: which meshes, which methods, which problem, what to record.
 struct Study {
   std::string name;
   std::string title;
+  std::string scale;  ///< the one chosen; empty: as the study file says
+  int dimension = 2;  ///< of the meshes: 2 or 3
   std::vector<StudyMesh> meshes;
   std::vector<StudyMethod> methods;
   std::vector<int> degrees;  ///< of the finite elements; empty: smoothing only
   StudySolution solution;
   PoissonOptions finite_elements;  ///< its degree is not used
   StudyThresholds thresholds;
-  int record_every = 1;       ///< solve at every k-th iteration; initial and resulting mesh always
+  RecordEvery record_every;   ///< initial and resulting mesh and the last of each method always
   int timing_runs = 1;        ///< smoothing times are medians over this many runs
   double edge_scale = 1.0;    ///< generated meshes: edges this much longer
   bool write_series = false;  ///< a VTU series for each mesh and method
   std::vector<std::pair<std::string, std::string>> parameters;  ///< as read, for the provenance
 };
 
-/// Reads a study from a parameter file (deal.II's ParameterHandler format). quick: with the changes
-/// of its subsection `quick`. Throws InputError with file and line for unknown keys and bad values.
-Study read_study(const std::filesystem::path& file, bool quick);
+/// The file of a study: a path, or the name of one of those that come with the program.
+std::filesystem::path find_study(const std::string& path_or_name);
+
+/// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: with the changes
+/// of its subsection `scale NAME`; empty: none. Throws InputError with file and line for unknown
+/// keys and bad values, and for a scale that the study does not have, naming those it has.
+Study read_study(const std::filesystem::path& file, const std::string& scale = {});
 
 /// A commented parameter file with every key and its default, for the methods and meshes named.
 std::string study_template();

@@ -1,15 +1,39 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <list>
+#include <mutex>
 #include <vector>
 
+#include "studies/framework/checkpoint.h"
 #include "studies/framework/results.h"
-#include "studies/framework/solve_queue.h"
 #include "studies/framework/study_meshes.h"
 #include "studies/framework/trajectory.h"
 
 namespace smoothfem {
+
+/// The finite element records of one mesh, method (or the initial mesh) and degree: what is
+/// checkpointed together.
+struct SolveJob {
+  std::string name;          ///< in the checkpoint
+  std::string trajectory;    ///< name of the trajectory; empty: the initial mesh
+  std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
+  std::size_t n_tasks = 0;
+  SolvedRecords solved{};
+  std::chrono::steady_clock::time_point saved{};
+  std::mutex mutex{};  ///< for `solved` and `saved`
+};
+
+/// A finite element record to be made.
+struct SolveTask {
+  SolveJob& job;
+  std::size_t record;  ///< of the trajectory
+  bool is_result;      ///< an initial or resulting mesh
+  SolutionRecord solution{};
+  std::atomic<bool> done{false};  ///< set last: then `solution` may be read by other threads
+};
 
 /// The finite element tasks of one mesh: those of the initial mesh, shared by all methods, and
 /// those of each method's snapshots; one a degree in each list, none where the mesh is invalid.
@@ -19,21 +43,36 @@ struct MeshTasks {
 };
 
 /// What a study has computed so far.
+template <int dim>
 struct StudyData {
   const Study& study;
-  std::vector<PreparedMesh> meshes{};
-  std::optional<ManufacturedSolution> solution{};
+  Checkpoint checkpoint;
+  std::vector<PreparedMesh<dim>> meshes{};
+  std::optional<ManufacturedSolution<dim>> solution{};
   std::vector<std::vector<Trajectory>> trajectories{};  ///< [mesh][method]
-  std::list<SolveTask> tasks{};                         ///< stay where they are
+  std::list<SolveJob> jobs{};                           ///< both stay where they are
+  std::list<SolveTask> tasks{};                         ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
+
+  std::vector<Point<dim>> coordinates_of(const SolveTask& task) const;
 };
+
+/// Makes the jobs and tasks of all trajectories; those that the checkpoint knows are done.
+template <int dim>
+void make_tasks(StudyData<dim>& data);
+
+/// Notes a task's outcome. The checkpoint follows at the end of a job and about every second.
+void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> eigenvectors,
+                 const Checkpoint& checkpoint);
 
 /// Rows for iterations.csv of all records that are done, in the order of meshes, methods, records
 /// and degrees. Safe while tasks are under way.
-std::vector<IterationRow> finished_rows(const StudyData& data);
+template <int dim>
+std::vector<IterationRow> finished_rows(const StudyData<dim>& data);
 
 /// Rows for summary.csv; all tasks must be done.
-std::vector<SummaryRow> summary_rows(const StudyData& data);
+template <int dim>
+std::vector<SummaryRow> summary_rows(const StudyData<dim>& data);
 
 /// Where a method's mesh, or the mesh called `initial`, is written.
 std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,
@@ -41,6 +80,7 @@ std::filesystem::path mesh_path(const std::filesystem::path& out, const std::str
 
 /// Initial and resulting meshes with their fields, and the series if the study asks for them; all
 /// tasks must be done. Throws InputError.
-void write_meshes(const StudyData& data, const std::filesystem::path& out);
+template <int dim>
+void write_meshes(const StudyData<dim>& data, const std::filesystem::path& out);
 
 }  // namespace smoothfem

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "meshes/distortion/distort.h"
 #include "studies/framework/study.h"
 
 namespace smoothfem {
@@ -34,6 +35,10 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
 
 void declare_lists(ParameterHandler& p) {
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
+  p.declare_entry("scales", "", Patterns::Anything(),
+                  "Sizes that --scale can choose, separated by commas; each has a subsection "
+                  "'scale NAME'.");
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Labels of the meshes, separated by commas; each has a subsection 'mesh LABEL'.");
   p.declare_entry(
@@ -42,39 +47,47 @@ void declare_lists(ParameterHandler& p) {
       "may be any registered method with other parameters.");
 }
 
-void declare_mesh(ParameterHandler& p, const std::string& name) {
+void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   const Subsection subsection(p, "mesh " + name);
   p.declare_entry("title", name, Patterns::Anything(), "Title in tables and figures.");
   p.declare_entry("file", "", Patterns::Anything(),
                   "Mesh file, relative to this file; empty: generate.");
   p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
-  p.declare_entry("elements", "triangles", Patterns::Selection("triangles|quadrilaterals"),
+  p.declare_entry("elements", dimension == 2 ? "triangles" : "tetrahedra",
+                  Patterns::Selection("triangles|quadrilaterals|tetrahedra|hexahedra"),
                   "Elements of a generated mesh.");
   p.declare_entry("published file", "", Patterns::Anything(),
                   "File that --mesh-dir looks for in place of the above; not distorted.");
   p.declare_entry("distort to", "0", Patterns::Double(0.0, 1.0),
                   "Mean quality to distort the mesh to; 0: as it is.");
+  p.declare_entry("distortion candidates", std::to_string(usual_candidates(dimension)),
+                  Patterns::Integer(1), "Random places that a node chooses the worst from.");
+  p.declare_entry("distortion sweeps", "1", Patterns::Integer(1), "Times all nodes are moved.");
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
 }
 
 /// The parameters of a method are those it registers, with its own defaults.
-void declare_method(ParameterHandler& p, const std::string& name, const std::string& type) {
+void declare_method(ParameterHandler& p, int dimension, const std::string& name,
+                    const std::string& type) {
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
   if (type.empty()) return;
-  Method<2> method = make_method<2>(type);
-  p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
-                  "Title in tables and figures.");
-  for (const auto& parameter : method.parameters())
-    p.declare_entry(parameter.name, value_text(parameter), *range_of(parameter),
-                    parameter.description);
+  with_dimension(dimension, [&]<int dim>() {
+    Method<dim> method = make_method<dim>(type);
+    p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
+                    "Title in tables and figures.");
+    for (const auto& parameter : method.parameters())
+      p.declare_entry(parameter.name, value_text(parameter), *range_of(parameter),
+                      parameter.description);
+  });
 }
 
 void declare_problem(ParameterHandler& p) {
   p.declare_entry("degrees", "1, 2", Patterns::Anything(),
                   "Degrees of the finite elements; empty: smoothing only.");
-  p.declare_entry("record every", "1", Patterns::Integer(1),
-                  "Solve at every k-th iteration; the initial and the resulting mesh always.");
+  p.declare_entry("record every", "1", Patterns::Anything(),
+                  "Solve at every k-th iteration; the initial, the resulting and the last mesh "
+                  "always. 'k, STAGE: m' has another number for a stage of methods.");
   p.declare_entry("timing runs", "3", Patterns::Integer(1),
                   "Smoothing times are medians over this many runs.");
   p.declare_entry("edge scale", "1", Patterns::Double(1.0),
@@ -85,8 +98,9 @@ void declare_problem(ParameterHandler& p) {
     const Subsection subsection(p, "solution");
     p.declare_entry("name", "gear", Patterns::Anything(),
                     "Solution (see 'list'), or 'expression' for the three below.");
-    p.declare_entry("value", "", Patterns::Anything(), "u as an expression in x and y.");
-    p.declare_entry("gradient", "", Patterns::Anything(), "Its gradient: 'u_x ; u_y'.");
+    p.declare_entry("value", "", Patterns::Anything(), "u as an expression in x and y (and z).");
+    p.declare_entry("gradient", "", Patterns::Anything(),
+                    "Its gradient: 'u_x ; u_y' (and '; u_z').");
     p.declare_entry("load", "", Patterns::Anything(), "f = -laplace(u).");
   }
   {
@@ -95,11 +109,19 @@ void declare_problem(ParameterHandler& p) {
                     "nodal: f interpolated (thesis); quadrature: Galerkin load.");
     p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
                     "Gauss points a direction on quadrilaterals.");
+    p.declare_entry("hexahedron points", "4", Patterns::Integer(1, 20),
+                    "Gauss points a direction on hexahedra.");
     p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "On |r| / |b|.");
     p.declare_entry("boundary in norm", "true", Patterns::Bool(),
                     "Take the boundary values into |b| (the thesis' counts do).");
-    p.declare_entry("condition number", "true", Patterns::Bool(), "Compute it.");
-    p.declare_entry("jacobi cg", "true", Patterns::Bool(), "Also run CG with Jacobi.");
+    p.declare_entry("cg seconds", "0", Patterns::Double(0.0),
+                    "Longest time of each run of CG; 0: none. A run that is cut says so.");
+    p.declare_entry("condition number", "verified", Patterns::Selection("none|lanczos|verified"),
+                    "Of every record; initial and resulting meshes have verified ones if any.");
+    p.declare_entry("jacobi cg", "always", Patterns::Selection("never|results|always"),
+                    "For which meshes to run CG with Jacobi too; results: initial and resulting.");
+    p.declare_entry("multigrid cg", "never", Patterns::Selection("never|results|always"),
+                    "For which meshes to run CG with algebraic multigrid too.");
   }
   const Subsection subsection(p, "thresholds");
   p.declare_entry("reference", "", Patterns::Anything(),
@@ -107,19 +129,22 @@ void declare_problem(ParameterHandler& p) {
   p.declare_entry("margin", "0.05", Patterns::Double(0.0), "Share added to the least errors.");
 }
 
-/// What --quick changes.
-void declare_quick(ParameterHandler& p) {
-  const Subsection subsection(p, "quick");
-  p.declare_entry("record every", "5", Patterns::Integer(1), "In place of the value above.");
-  p.declare_entry("edge scale", "1", Patterns::Double(1.0), "In place of the value above.");
+void declare_scale(ParameterHandler& p, const std::string& name) {
+  const Subsection subsection(p, "scale " + name);
+  p.declare_entry("record every", "", Patterns::Anything(),
+                  "In place of the value above; empty: as it is.");
+  p.declare_entry("edge scale", "0", Patterns::Double(0.0),
+                  "In place of the value above; 0: as it is.");
+  p.declare_entry("timing runs", "0", Patterns::Integer(0),
+                  "In place of the value above; 0: as it is.");
 }
 
 std::string study_template() {
   ParameterHandler p;
   declare_lists(p);
   declare_problem(p);
-  declare_quick(p);
-  declare_mesh(p, "LABEL");
+  declare_scale(p, "NAME");
+  declare_mesh(p, 2, "LABEL");
   std::ostringstream text;
   p.print_parameters(text, ParameterHandler::PRM);
   return text.str();

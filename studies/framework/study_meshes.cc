@@ -1,5 +1,9 @@
 #include "studies/framework/study_meshes.h"
 
+#include <openssl/evp.h>
+
+#include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
@@ -10,57 +14,109 @@ namespace smoothfem {
 
 namespace {
 
-PlanarMesh read_valid_mesh(const std::filesystem::path& path) {
-  const MeshFile file = read_mesh(path);
-  const PlanarMesh& mesh = planar_mesh(file, path);
+template <int dim>
+Mesh<dim> of_dimension(AnyMesh&& mesh, const std::string& name) {
+  if (auto* wanted = std::get_if<Mesh<dim>>(&mesh)) return std::move(*wanted);
+  throw InputError(name + " is a " + (dim == 2 ? "volume" : "planar") +
+                   " mesh, but the study has 'dimension = " + std::to_string(dim) +
+                   "'; set it to " + std::to_string(5 - dim));
+}
+
+template <int dim>
+Mesh<dim> read_valid_mesh(const std::filesystem::path& path) {
+  MeshFile file = read_mesh(path);
+  const Mesh<dim> mesh = of_dimension<dim>(std::move(file.mesh), path.string());
   require_valid(mesh, path.string(), file.cell_lines);
   return mesh;
 }
 
-PlanarMesh distorted(PlanarMesh mesh, const StudyMesh& description, std::string& origin) {
-  if (description.distort_to_q_mean == 0.0) return mesh;
-  DistortionParameters parameters;
-  parameters.target_q_mean = description.distort_to_q_mean;
-  parameters.seed = description.seed;
-  distort(mesh, parameters);
-  std::ostringstream text;
-  text << origin << ", distorted to q_mean " << description.distort_to_q_mean << " with seed "
-       << description.seed;
-  origin = text.str();
-  return mesh;
-}
+/// Where a mesh comes from.
+struct Source {
+  std::filesystem::path file;  ///< empty: generated
+  bool published = false;
+  std::string origin;
+};
 
-PlanarMesh make_mesh(const StudyMesh& description, double edge_scale,
-                     const std::filesystem::path& mesh_dir, std::string& origin) {
-  if (!mesh_dir.empty() && !description.published_file.empty()) {
-    origin = (mesh_dir / description.published_file).string();
-    return read_valid_mesh(origin);
-  }
-  if (!description.file.empty()) {
-    origin = description.file.string();
-    return distorted(read_valid_mesh(description.file), description, origin);
-  }
-  if (description.domain.empty())
+Source source_of(const StudyMesh& description, const std::filesystem::path& mesh_dir) {
+  if (!mesh_dir.empty() && !description.published_file.empty())
+    return {mesh_dir / description.published_file, true,
+            (mesh_dir / description.published_file).string()};
+  std::ostringstream origin;
+  if (!description.file.empty())
+    origin << description.file.string();
+  else if (!description.domain.empty())
+    origin << "generated " << description.domain << " of " << name_of(description.element_type)
+           << "s";
+  else
     throw InputError("mesh " + description.name +
                      " has neither a file nor a domain; set one of them in its subsection");
-  origin = "generated " + description.domain + " of " +
-           std::string(name_of(description.element_type)) + "s";
-  return distorted(std::get<PlanarMesh>(find_domain(description.domain)
-                                            .generate({.element_type = description.element_type,
-                                                       .edge_scale = edge_scale,
-                                                       .seed = description.seed})),
-                   description, origin);
+  if (description.distort_to_q_mean > 0.0)
+    origin << ", distorted to q_mean " << description.distort_to_q_mean << " with seed "
+           << description.seed;
+  return {description.file, false, origin.str()};
+}
+
+template <int dim>
+Mesh<dim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale) {
+  Mesh<dim> mesh = source.file.empty()
+                       ? of_dimension<dim>(find_domain(description.domain)
+                                               .generate({.element_type = description.element_type,
+                                                          .edge_scale = edge_scale,
+                                                          .seed = description.seed}),
+                                           "the domain " + description.domain)
+                       : read_valid_mesh<dim>(source.file);
+  if (source.published || description.distort_to_q_mean == 0.0) return mesh;
+  DistortionParameters parameters;
+  parameters.target_q_mean = description.distort_to_q_mean;
+  parameters.n_candidates = description.distortion_candidates;
+  parameters.n_sweeps = description.distortion_sweeps;
+  parameters.seed = description.seed;
+  distort(mesh, parameters);
+  return mesh;
 }
 
 }  // namespace
 
-PreparedMesh prepare_mesh(const StudyMesh& description, double edge_scale,
-                          const std::filesystem::path& mesh_dir) {
-  std::string origin;
-  PlanarMesh mesh = make_mesh(description, edge_scale, mesh_dir, origin);
-  const MeshQuality quality = mesh_quality(mesh);
-  return {description, std::move(mesh), quality, origin,
-          !mesh_dir.empty() && !description.published_file.empty()};
+template <int dim>
+PreparedMesh<dim> prepare_mesh(const StudyMesh& description, const Study& study,
+                               const std::filesystem::path& mesh_dir,
+                               const std::filesystem::path& kept) {
+  const Source source = source_of(description, mesh_dir);
+  const bool as_read =
+      !source.file.empty() && (source.published || description.distort_to_q_mean == 0.0);
+  Mesh<dim> mesh = !as_read && std::filesystem::exists(kept)
+                       ? read_valid_mesh<dim>(kept)
+                       : make_mesh<dim>(description, source, study.edge_scale);
+  if (!study.degrees.empty()) require_finite_elements<dim>(mesh.topology());
+  MeshFacts facts{.description = description,
+                  .n_nodes = mesh.n_nodes(),
+                  .n_cells = mesh.n_cells(),
+                  .quality = mesh_quality(mesh),
+                  .origin = source.origin,
+                  .published = source.published,
+                  .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file)};
+  return {std::move(facts), std::move(mesh)};
+}
+template PreparedMesh<2> prepare_mesh(const StudyMesh&, const Study&, const std::filesystem::path&,
+                                      const std::filesystem::path&);
+template PreparedMesh<3> prepare_mesh(const StudyMesh&, const Study&, const std::filesystem::path&,
+                                      const std::filesystem::path&);
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return "";
+  std::ostringstream content;
+  content << stream.rdbuf();
+  const std::string bytes = content.str();
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr);
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    constexpr const char* digits = "0123456789abcdef";
+    text += {digits[digest[i] >> 4], digits[digest[i] & 15]};
+  }
+  return text;
 }
 
 }  // namespace smoothfem

@@ -8,18 +8,33 @@
 
 namespace smoothfem {
 
-/// A study's mesh, ready to be smoothed.
-struct PreparedMesh {
+/// What results say about one of a study's meshes.
+struct MeshFacts {
   StudyMesh description;
-  PlanarMesh mesh;
+  std::size_t n_nodes = 0, n_cells = 0;
   MeshQuality quality;
   std::string origin;      ///< file path, or the domain and its distortion
   bool published = false;  ///< read by --mesh-dir: comparable with printed values digit for digit
+  std::string source_sha256;  ///< of the file it was read from; empty if it was generated
+};
+
+/// A study's mesh, ready to be smoothed.
+template <int dim>
+struct PreparedMesh : MeshFacts {
+  Mesh<dim> mesh;
 };
 
 /// Reads or generates, and distorts, one mesh. mesh_dir: folder of published meshes, or empty.
-/// Throws InputError for files and meshes that cannot be used; the mesh returned is valid.
-PreparedMesh prepare_mesh(const StudyMesh& description, double edge_scale,
-                          const std::filesystem::path& mesh_dir);
+/// kept: a file where an earlier run of the same study has put the mesh, taken in place of a
+/// generated or distorted one if it is there. Throws InputError for files and meshes that cannot be
+/// used; the mesh returned is valid and, if finite elements are to be solved on it, of cells they
+/// can have.
+template <int dim>
+PreparedMesh<dim> prepare_mesh(const StudyMesh& description, const Study& study,
+                               const std::filesystem::path& mesh_dir,
+                               const std::filesystem::path& kept);
+
+/// Of a file's content, as hexadecimal digits; empty if it cannot be read.
+std::string sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace smoothfem

@@ -13,44 +13,76 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
+/// Tells for record after record whether it is one of the every k-th of its stage.
+class Schedule {
+ public:
+  explicit Schedule(const RecordEvery& every) : every_(every) {}
+
+  bool is_due(const IterationRecord& record) {
+    if (record.stage != stage_) n_in_stage_ = 0;
+    stage_ = record.stage;
+    return ++n_in_stage_ % static_cast<std::size_t>(every_.of(stage_)) == 0;
+  }
+
+ private:
+  const RecordEvery& every_;
+  std::string stage_;
+  std::size_t n_in_stage_ = 0;
+};
+
 }  // namespace
 
-Trajectory record_trajectory(const PlanarMesh& mesh, const StudyMethod& method, int timing_runs,
-                             int record_every) {
+template <int dim>
+Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, int timing_runs,
+                             const RecordEvery& record_every, const KeepSnapshot<dim>& keep) {
   Trajectory trajectory;
-  std::vector<std::vector<Point<2>>> all;  // coordinates of every record
   std::vector<std::vector<double>> times;
   std::vector<double> totals;
-  const auto keep_all = [&](const IterationRecord& record, const PlanarMesh& now) {
+  Schedule schedule(record_every);
+  std::vector<Point<dim>> last;
+  const auto record_all = [&](const IterationRecord& record, const Mesh<dim>& now) {
     trajectory.records.push_back(record);
-    all.push_back(now.coordinates());
     times.push_back({record.smoothing_seconds});
+    if (record.record == 0) return;
+    if (schedule.is_due(record)) {
+      trajectory.snapshots.push_back(record.record);
+      keep(record.record, now.coordinates());
+    }
+    last = now.coordinates();
   };
-  PlanarMesh smoothed = mesh;
-  Method<2> first = method.make();
-  const auto result = smooth(smoothed, first, keep_all);
+  Mesh<dim> smoothed = mesh;
+  Method<dim> first = method.make<dim>();
+  const SmoothingResult result = smooth(smoothed, first, record_all);
   totals.push_back(result.smoothing_seconds);
   trajectory.iterations_text = result.iterations_text();
   trajectory.quality = result.quality;
+  trajectory.result_record = result.result_record;
+  const auto also = [&](std::size_t record, const std::vector<Point<dim>>& coordinates) {
+    auto& snapshots = trajectory.snapshots;
+    const auto place = std::lower_bound(snapshots.begin(), snapshots.end(), record);
+    if (record == 0 || (place != snapshots.end() && *place == record)) return;
+    snapshots.insert(place, record);
+    keep(record, coordinates);
+  };
+  also(trajectory.result_record, smoothed.coordinates());
+  also(trajectory.records.size() - 1, last);
 
   for (int run = 1; run < timing_runs; ++run) {
-    PlanarMesh again = mesh;
-    Method<2> made = method.make();
-    totals.push_back(smooth(again, made, [&](const IterationRecord& record, const PlanarMesh&) {
+    Mesh<dim> again = mesh;
+    Method<dim> made = method.make<dim>();
+    totals.push_back(smooth(again, made, [&](const IterationRecord& record, const Mesh<dim>&) {
                        times[record.record].push_back(record.smoothing_seconds);
                      }).smoothing_seconds);
   }
   trajectory.smoothing_seconds = median(totals);
   for (std::size_t r = 0; r < trajectory.records.size(); ++r)
     trajectory.records[r].smoothing_seconds = median(times[r]);
-
-  for (std::size_t r = 0; r < all.size(); ++r)
-    if (all[r] == smoothed.coordinates()) trajectory.result_record = r;
-  for (std::size_t r = 1; r < all.size(); ++r)
-    if (r % static_cast<std::size_t>(record_every) == 0 || r == trajectory.result_record ||
-        r + 1 == all.size())
-      trajectory.snapshots.push_back({r, std::move(all[r])});
   return trajectory;
 }
+
+template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, int, const RecordEvery&,
+                                      const KeepSnapshot<2>&);
+template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, int, const RecordEvery&,
+                                      const KeepSnapshot<3>&);
 
 }  // namespace smoothfem

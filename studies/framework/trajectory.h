@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,25 +10,26 @@
 namespace smoothfem {
 
 /// Everything that smoothing one mesh by one method went through: the numbers of every iteration,
-/// and the coordinates of those at which finite elements will be solved.
+/// and which of them finite elements will be solved at.
 struct Trajectory {
-  struct Snapshot {
-    std::size_t record;  ///< index into records
-    std::vector<Point<2>> coordinates;
-  };
-
   std::vector<IterationRecord> records;  ///< the initial mesh first
-  std::vector<Snapshot> snapshots;       ///< ascending records
-  std::size_t result_record = 0;         ///< whose mesh is the method's result
-  std::string iterations_text;           ///< "40/2800"
-  double smoothing_seconds = 0.0;        ///< of the whole run
-  MeshQuality quality;                   ///< of the result
+  std::vector<std::size_t> snapshots;  ///< ascending indices into records, without the initial mesh
+  std::size_t result_record = 0;       ///< whose mesh is the method's result
+  std::string iterations_text;         ///< "40/2800"
+  double smoothing_seconds = 0.0;      ///< of the whole run
+  MeshQuality quality;                 ///< of the result
 };
 
-/// Runs a method timing_runs times on copies of the mesh, on this thread alone, and keeps the
-/// median of the accumulated times of each record; the meshes are the same every time. Snapshots:
-/// every record_every-th record but the initial one, the result and the last.
-Trajectory record_trajectory(const PlanarMesh& mesh, const StudyMethod& method, int timing_runs,
-                             int record_every);
+/// Puts the mesh of a record away.
+template <int dim>
+using KeepSnapshot =
+    std::function<void(std::size_t record, const std::vector<Point<dim>>& coordinates)>;
+
+/// Runs a method timing_runs times on copies of the mesh and keeps the median of the accumulated
+/// times of each record; the meshes are the same every time. Snapshots: every k-th record of each
+/// stage, the result and the last; `keep` gets them in any order, and may get others too.
+template <int dim>
+Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, int timing_runs,
+                             const RecordEvery& record_every, const KeepSnapshot<dim>& keep);
 
 }  // namespace smoothfem

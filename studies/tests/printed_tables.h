@@ -26,17 +26,18 @@ class PrintedTables : public ::testing::Test {
 
   static PlanarMesh published(const std::string& mesh) {
     return read_planar(std::filesystem::path(SMOOTHFEM_SHARED_MESHES) /
-                     ("gear_" + mesh + "_initial.mesh"))
+                       ("gear_" + mesh + "_initial.mesh"))
         .mesh;
   }
 
   /// As the study `gear` does it.
   static SolutionRecord solve(const PlanarMesh& mesh, int degree) {
     static const Study gear =
-        read_study(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "gear.prm", false);
+        read_study(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "gear.prm");
     PoissonOptions options = gear.finite_elements;
     options.degree = degree;
-    return PoissonSolver(mesh, options).solve(mesh, manufactured_solution(gear.solution.name));
+    return PoissonSolver<2>(&mesh, options)
+        .solve(mesh.coordinates(), manufactured_solution<2>(gear.solution.name));
   }
 
   static CsvTable::Row printed_row(const std::string& file, const CsvTable::Row& wanted) {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <map>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -63,6 +64,39 @@ struct CsvTable {
     return found;
   }
 };
+
+/// A table of a study without the columns that are times.
+inline std::vector<CsvTable::Row> rows_without_times(const std::filesystem::path& csv) {
+  auto rows = CsvTable(content_of(csv)).rows;
+  for (auto& row : rows)
+    for (const std::string column :
+         {"smoothing_seconds", "cg_seconds", "jacobi_cg_seconds", "amg_setup_seconds",
+          "amg_cg_seconds", "reference_seconds", "method_seconds", "speedup"})
+      row.erase(column);
+  return rows;
+}
+
+/// Every file below a folder, relative to it.
+inline std::set<std::string> files_in(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::set<std::string> files;
+  if (fs::exists(folder))
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), folder).string());
+  return files;
+}
+
+/// Two runs of a study have the same rows and the same meshes.
+inline void expect_same_but_for_times(const std::filesystem::path& a,
+                                      const std::filesystem::path& b) {
+  for (const std::string name : {"iterations.csv", "summary.csv", "thresholds.csv"})
+    EXPECT_EQ(rows_without_times(a / name), rows_without_times(b / name)) << name;
+  EXPECT_EQ(files_in(a), files_in(b));
+  for (const auto& name : files_in(a))
+    if (name.ends_with(".vtu") || name.ends_with(".mesh")) {
+      EXPECT_EQ(content_of(a / name), content_of(b / name)) << name;
+    }
+}
 
 /// n x n unit squares whose inner nodes are moved at random by up to `shift` in each direction: up
 /// to 0.2 all cells stay valid.

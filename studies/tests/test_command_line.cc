@@ -314,7 +314,8 @@ TEST_F(CommandLine, ListNamesEverythingThereIs) {
   for (const auto& preset : presets()) expect_listed(preset.name);
   for (const auto& format : mesh_formats()) expect_listed(format.extension);
   for (const auto& domain : domains()) expect_listed(domain.name);
-  for (const auto& solution : manufactured_solutions()) expect_listed(solution.name);
+  for (const auto& solution : manufactured_solutions<2>()) expect_listed(solution.formula);
+  for (const auto& solution : manufactured_solutions<3>()) expect_listed(solution.formula);
   expect_listed("gear             Involute gear");  // the study, by its title
 }
 
@@ -390,7 +391,8 @@ TEST_F(CommandLine, RunsAStudyOfOnesOwn) {
 
 TEST_F(CommandLine, QuietStudiesPrintNothing) {
   write_mesh(file("meshes/mine.vtk"), shaken_grid(3, 0.2));
-  file_with("my.prm", own_study + "set degrees = 1\n");
+  file_with("my.prm",
+            own_study + "set degrees = 1\nset scales = quick\nsubsection scale quick\nend\n");
   const Outcome outcome =
       smoothfem({"study", "my.prm", "--out", "here", "--quiet", "--threads", "1", "--quick"});
   EXPECT_EQ(outcome.exit_code, 0);

@@ -16,7 +16,7 @@ std::vector<std::string> names_of(const std::vector<StudyMethod>& methods) {
 }
 
 TEST(GearStudy, IsTheExampleOfTheThesis) {
-  const Study study = read_study(gear_file, false);
+  const Study study = read_study(gear_file);
   EXPECT_EQ(study.name, "gear");
   EXPECT_EQ(study.title, "Involute gear");
   ASSERT_EQ(study.meshes.size(), 2u);
@@ -37,22 +37,22 @@ TEST(GearStudy, IsTheExampleOfTheThesis) {
   EXPECT_EQ(study.degrees, (std::vector<int>{1, 2}));
   EXPECT_EQ(study.solution.name, "gear");
   EXPECT_FALSE(study.finite_elements.galerkin_load);
-  EXPECT_EQ(study.finite_elements.n_quadrilateral_points, 8);
+  EXPECT_EQ(study.finite_elements.tensor_points.quadrilateral, 8);
   EXPECT_EQ(study.finite_elements.cg_tolerance, 1e-8);
   EXPECT_TRUE(study.finite_elements.boundary_in_norm);
-  EXPECT_TRUE(study.finite_elements.condition_number);
-  EXPECT_TRUE(study.finite_elements.jacobi_cg);
+  EXPECT_EQ(study.finite_elements.condition_number, ConditionNumberMethod::verified);
+  EXPECT_EQ(study.finite_elements.jacobi_cg, Recorded::always);
   EXPECT_EQ(study.thresholds.reference, "global-optimization");
   EXPECT_EQ(study.thresholds.margin, 0.05);
-  EXPECT_EQ(study.record_every, 1);
+  EXPECT_EQ(study.record_every.usually, 1);
   EXPECT_EQ(study.edge_scale, 1.0);
 }
 
 TEST(GearStudy, QuickChangesWhatItsSubsectionSaysAndNothingElse) {
-  Study quick = read_study(gear_file, true);
-  EXPECT_EQ(quick.record_every, 10);
+  Study quick = read_study(gear_file, "quick");
+  EXPECT_EQ(quick.record_every.usually, 10);
   EXPECT_EQ(quick.edge_scale, 2.5);
-  const Study full = read_study(gear_file, false);
+  const Study full = read_study(gear_file);
   // The parameters as read hold every key of the file, so they stand for all other fields.
   EXPECT_EQ(quick.parameters, full.parameters);
   EXPECT_EQ(names_of(quick.methods), names_of(full.methods));
@@ -61,11 +61,29 @@ TEST(GearStudy, QuickChangesWhatItsSubsectionSaysAndNothingElse) {
   EXPECT_EQ(quick.meshes.size(), full.meshes.size());
 }
 
+TEST(VolumeStudy, IsThatOfSection63) {
+  const auto file = find_study("volume");
+  const Study study = read_study(file);
+  EXPECT_EQ(study.dimension, 3);
+  ASSERT_EQ(study.meshes.size(), 2u);
+  EXPECT_EQ(study.meshes[0].element_type, ElementType::tetrahedron);
+  EXPECT_EQ(study.meshes[0].distort_to_q_mean, 0.4178);
+  EXPECT_EQ(study.meshes[1].element_type, ElementType::hexahedron);
+  EXPECT_EQ(study.meshes[1].distort_to_q_mean, 0.4631);
+  EXPECT_EQ(study.solution.name, "volume");
+  EXPECT_EQ(study.finite_elements.condition_number, ConditionNumberMethod::lanczos);
+  EXPECT_EQ(study.finite_elements.multigrid_cg, Recorded::results);
+  EXPECT_EQ(study.record_every.of("global-optimization"), 1);
+  EXPECT_EQ(study.record_every.of("getme-sequential"), 10);
+  EXPECT_GT(study.edge_scale, 2.0);
+  const Study paper = read_study(file, "paper");
+  EXPECT_EQ(paper.scale, "paper");
+  EXPECT_EQ(paper.edge_scale, 1.0);
+}
+
 class StudyFile : public FileTest {
  protected:
-  Study read(const std::string& content) const {
-    return read_study(file_with("own.prm", content), false);
-  }
+  Study read(const std::string& content) const { return read_study(file_with("own.prm", content)); }
 
   /// The sentence about a bad file. Checks what holds for every such sentence: it begins with the
   /// file, is one line, and shows no insides of the program.
@@ -206,16 +224,15 @@ TEST_F(StudyFile, LabelsThatWouldBreakFilesAreRefused) {
 
 TEST_F(StudyFile, FilesThatAreNotThereAreRefused) {
   const auto missing = file("missing.prm");
-  checked(input_error_of([&] { read_study(missing, false); }), missing);
+  checked(input_error_of([&] { read_study(missing); }), missing);
   const auto folder = file("folder.prm");
   std::filesystem::create_directory(folder);
-  checked(input_error_of([&] { read_study(folder, false); }), folder);
+  checked(input_error_of([&] { read_study(folder); }), folder);
 }
 
 TEST_F(StudyFile, AFileThatBreaksTheCsvByItsNameIsRefused) {
   const auto spaced = file_with("my study.prm", one_mesh);
-  EXPECT_NE(input_error_of([&] { read_study(spaced, false); }).find("'my study'"),
-            std::string::npos);
+  EXPECT_NE(input_error_of([&] { read_study(spaced); }).find("'my study'"), std::string::npos);
 }
 
 TEST_F(StudyFile, TheTemplateListsKeysThatAStudyMayHave) {
@@ -227,6 +244,26 @@ TEST_F(StudyFile, TheTemplateListsKeysThatAStudyMayHave) {
   ASSERT_NE(at, std::string::npos);
   text.replace(text.find('=', at), 1, "= a");
   EXPECT_EQ(read(text).parameters, read("set meshes = a\n").parameters);
+}
+
+TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
+  const auto path = file_with("own.prm",
+                              "set meshes = a\nset scales = small, large\n"
+                              "subsection scale small\n set edge scale = 3\nend\n");
+  EXPECT_EQ(read_study(path, "small").edge_scale, 3.0);
+  EXPECT_EQ(read_study(path, "large").edge_scale, read_study(path).edge_scale);
+  const std::string message = checked(input_error_of([&] { read_study(path, "huge"); }), path);
+  EXPECT_NE(message.find("small"), std::string::npos) << message;
+  EXPECT_NE(message.find("large"), std::string::npos) << message;
+}
+
+TEST_F(StudyFile, RecordEveryTakesStages) {
+  const Study study = read("set meshes = a\nset record every = 2, getme-sequential: 30\n");
+  EXPECT_EQ(study.record_every.of("laplace"), 2);
+  EXPECT_EQ(study.record_every.of("getme-sequential"), 30);
+  for (const std::string bad : {"0", "-1", "often", "stage: 0", ": 3", "1.5"})
+    EXPECT_NE(error_of("set meshes = a\nset record every = " + bad + "\n").find(bad),
+              std::string::npos);
 }
 
 }  // namespace

@@ -52,10 +52,14 @@ SolutionRecord full_record() {
   record.lambda_min = 0.1;
   record.lambda_max = 1.25;
   record.condition_method = "method";
+  record.condition_residual = 2e-7;
   record.cg_iterations = 7;
   record.jacobi_cg_iterations = 5;
   record.cg_seconds = 1e-5;
   record.jacobi_cg_seconds = 2e-5;
+  record.amg_cg_iterations = 3;
+  record.amg_setup_seconds = 3e-5;
+  record.amg_cg_seconds = 4e-5;
   record.cg_converged = true;
   record.e_max = 1.0 / 3.0;
   record.e_mean = 5e-324;
@@ -93,12 +97,21 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                         {"jacobi_cg_iterations", "5"},
                                         {"condition_number", "12.5"},
                                         {"condition_method", "method"},
+                                        {"amg_cg_iterations", "3"},
                                         {"status", "ok"}};
   for (const auto& [column, text] : expected_texts) EXPECT_EQ(fields.at(column), text) << column;
-  const std::map<std::string, double> expected_numbers = {
-      {"q_mean", 2.0 / 3.0}, {"e_max", 1.0 / 3.0}, {"e_mean", 5e-324},
-      {"e_l2", 1e300},       {"e_h1", 4.0},        {"l2_error", 0.30000000000000004},
-      {"h1_error", 6.0},     {"cg_seconds", 1e-5}, {"jacobi_cg_seconds", 2e-5}};
+  const std::map<std::string, double> expected_numbers = {{"q_mean", 2.0 / 3.0},
+                                                          {"e_max", 1.0 / 3.0},
+                                                          {"e_mean", 5e-324},
+                                                          {"e_l2", 1e300},
+                                                          {"e_h1", 4.0},
+                                                          {"l2_error", 0.30000000000000004},
+                                                          {"h1_error", 6.0},
+                                                          {"cg_seconds", 1e-5},
+                                                          {"jacobi_cg_seconds", 2e-5},
+                                                          {"condition_residual", 2e-7},
+                                                          {"amg_setup_seconds", 3e-5},
+                                                          {"amg_cg_seconds", 4e-5}};
   for (const auto& [column, number] : expected_numbers)
     EXPECT_EQ(std::strtod(fields.at(column).c_str(), nullptr), number) << column;
   EXPECT_EQ(fields.size(), expected_texts.size() + expected_numbers.size());
@@ -111,10 +124,27 @@ TEST(IterationsCsv, WhatThereIsNotIsLeftEmpty) {
   IterationRow row = iteration_row("getme", 1, 0.5);
   row.status = "invalid mesh";
   auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
-  for (const std::string column :
-       {"n_dofs", "n_free", "condition_number", "condition_method", "lambda_min", "lambda_max",
-        "cg_iterations", "cg_seconds", "cg_converged", "jacobi_cg_iterations", "jacobi_cg_seconds",
-        "e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error"})
+  for (const std::string column : {"n_dofs",
+                                   "n_free",
+                                   "condition_number",
+                                   "condition_method",
+                                   "lambda_min",
+                                   "lambda_max",
+                                   "condition_residual",
+                                   "cg_iterations",
+                                   "cg_seconds",
+                                   "cg_converged",
+                                   "jacobi_cg_iterations",
+                                   "jacobi_cg_seconds",
+                                   "amg_cg_iterations",
+                                   "amg_setup_seconds",
+                                   "amg_cg_seconds",
+                                   "e_max",
+                                   "e_mean",
+                                   "e_l2",
+                                   "e_h1",
+                                   "l2_error",
+                                   "h1_error"})
     EXPECT_EQ(fields.at(column), "") << column;
   EXPECT_EQ(fields.at("degree"), "2");
   EXPECT_EQ(fields.at("status"), "invalid mesh");
@@ -126,10 +156,12 @@ TEST(IterationsCsv, WhatThereIsNotIsLeftEmpty) {
   row.solved = full_record();
   row.solved->condition_number = row.solved->lambda_min = row.solved->lambda_max = 0.0;
   row.solved->condition_method = "none";
-  row.solved->jacobi_cg_iterations = 0;
+  row.solved->jacobi_cg_iterations = row.solved->amg_cg_iterations = 0;
   fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
-  for (const std::string column : {"condition_number", "lambda_min", "lambda_max",
-                                   "jacobi_cg_iterations", "jacobi_cg_seconds"})
+  for (const std::string column :
+       {"condition_number", "lambda_min", "lambda_max", "condition_residual",
+        "jacobi_cg_iterations", "jacobi_cg_seconds", "amg_cg_iterations", "amg_setup_seconds",
+        "amg_cg_seconds"})
     EXPECT_EQ(fields.at(column), "") << column;
   EXPECT_EQ(fields.at("cg_iterations"), "7");
 }

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/framework/run_study.h"
@@ -22,8 +21,7 @@ class RunStudy : public FileTest {
                                 "set methods = laplace, getme\n"
                                 "set timing runs = 1\n"
                                 "subsection mesh grid\n set file = grid.mesh\nend\n" +
-                                    more),
-                      false);
+                                    more));
   }
 
   fs::path run(const Study& study, const std::string& folder = "out",
@@ -34,35 +32,6 @@ class RunStudy : public FileTest {
 
   static CsvTable table(const fs::path& folder, const std::string& name) {
     return CsvTable(content_of(folder / name));
-  }
-
-  /// Every file below a folder, relative to it.
-  static std::set<std::string> files_in(const fs::path& folder) {
-    std::set<std::string> files;
-    if (fs::exists(folder))
-      for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), folder).string());
-    return files;
-  }
-
-  /// A table without the columns that are times.
-  static std::vector<CsvTable::Row> without_times(const fs::path& folder, const std::string& name) {
-    auto rows = table(folder, name).rows;
-    for (auto& row : rows)
-      for (const std::string column : {"smoothing_seconds", "cg_seconds", "jacobi_cg_seconds",
-                                       "reference_seconds", "method_seconds", "speedup"})
-        row.erase(column);
-    return rows;
-  }
-
-  static void expect_same_but_for_times(const fs::path& a, const fs::path& b) {
-    for (const std::string name : {"iterations.csv", "summary.csv", "thresholds.csv"})
-      EXPECT_EQ(without_times(a, name), without_times(b, name)) << name;
-    EXPECT_EQ(files_in(a), files_in(b));
-    for (const auto& name : files_in(a))
-      if (name.ends_with(".vtu") || name.ends_with(".mesh")) {
-        EXPECT_EQ(content_of(a / name), content_of(b / name)) << name;
-      }
   }
 };
 
@@ -150,8 +119,8 @@ TEST_F(RunStudy, RecordEveryKeepsEveryKthTheBestAndTheLast) {
   const std::string only = "set degrees = 1\nset methods = getme\n";
   const fs::path all = run(study(only), "all"),
                  some = run(study(only + "set record every = 7\n"), "some");
-  const auto every = without_times(all, "iterations.csv");
-  const auto kept = without_times(some, "iterations.csv");
+  const auto every = rows_without_times(all, "iterations.csv");
+  const auto kept = rows_without_times(some, "iterations.csv");
   const auto result = table(all, "summary.csv").select({{"method", "getme"}}).at(0);
   std::vector<CsvTable::Row> expected;
   std::size_t best = 0;
@@ -163,7 +132,7 @@ TEST_F(RunStudy, RecordEveryKeepsEveryKthTheBestAndTheLast) {
     if (r % 7 == 0 || r == best || r + 1 == every.size()) expected.push_back(every[r]);
   ASSERT_LT(expected.size(), every.size());
   EXPECT_EQ(kept, expected);
-  EXPECT_EQ(without_times(all, "summary.csv"), without_times(some, "summary.csv"));
+  EXPECT_EQ(rows_without_times(all, "summary.csv"), rows_without_times(some, "summary.csv"));
 }
 
 TEST_F(RunStudy, WithoutDegreesItOnlySmooths) {
@@ -337,8 +306,7 @@ subsection mesh quad
   set elements = quadrilaterals
   set distort to = 0.45
 end
-)"),
-                                false);
+)"));
   const CsvTable summary = table(run(gear), "summary.csv");
   ASSERT_EQ(summary.rows.size(), 6u);
   for (const auto& row : summary.rows) {
@@ -378,6 +346,45 @@ TEST_F(RunStudy, AFailedStartLeavesOlderResultsAlone) {
   fs::remove(file("grid.mesh"));
   EXPECT_NE(input_error_of([&] { run(study()); }), "");
   EXPECT_EQ(content_of(out / "provenance.json"), before);
+}
+
+TEST_F(RunStudy, ACompleteRunIsLeftAsItIs) {
+  const fs::path out = run(study());
+  const std::string provenance = content_of(out / "provenance.json");
+  const auto written = fs::last_write_time(out / "iterations.csv");
+  EXPECT_EQ(run(study()), out);
+  EXPECT_EQ(content_of(out / "provenance.json"), provenance);
+  EXPECT_EQ(fs::last_write_time(out / "iterations.csv"), written);
+}
+
+TEST_F(RunStudy, OtherSettingsAreRefusedWithWhatDiffers) {
+  const fs::path out = run(study());
+  const std::string before = content_of(out / "iterations.csv");
+  const auto refused = [&](const Study& other) { return input_error_of([&] { run(other); }); };
+  const std::string message = refused(study("set record every = 2\n"));
+  EXPECT_NE(message.find("record every"), std::string::npos) << message;
+  EXPECT_NE(message.find("--force"), std::string::npos) << message;
+  EXPECT_NE(refused(study("subsection method getme\n set sequential.rho = 0.5\nend\n"))
+                .find("sequential.rho"),
+            std::string::npos);
+  // The same study, but its mesh has changed.
+  write_mesh(file("grid.mesh"), shaken_grid(5, 0.15));
+  EXPECT_NE(refused(study()).find("mesh grid"), std::string::npos) << refused(study());
+  EXPECT_EQ(content_of(out / "iterations.csv"), before);
+}
+
+TEST_F(RunStudy, ForceStartsAnewAndKeepsTheOldFolder) {
+  const fs::path out = run(study());
+  const std::string old = content_of(out / "iterations.csv");
+  const auto forced = [&] {
+    run_study(study("set record every = 3\n"),
+              {.out = out, .mesh_dir = {}, .force = true, .quiet = true});
+  };
+  forced();
+  EXPECT_EQ(content_of(file("out_1") / "iterations.csv"), old);
+  EXPECT_NE(content_of(out / "iterations.csv"), old);
+  forced();
+  EXPECT_TRUE(fs::exists(file("out_2") / "summary.csv"));
 }
 
 TEST_F(RunStudy, RefusesFoldersItCannotMake) {

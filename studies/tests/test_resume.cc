@@ -1,0 +1,131 @@
+// Runs that are killed, and runs on several processes, through the command line.
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "smoothing/tests/volume_meshes.h"
+#include "studies/tests/command_line.h"
+
+namespace smoothfem {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Resume : public CommandLine {
+ protected:
+  Resume() {
+    write_mesh(file("grid.mesh"), shaken_grid(12, 0.2));
+    file_with("planar.prm",
+              "set meshes = grid\nset methods = laplace, getme\nset timing runs = 1\n"
+              "subsection mesh grid\n set file = grid.mesh\nend\n");
+    write_mesh(file("tet.vtu"), test::box_mesh(6, 6, 6, test::BoxCells::tetrahedra));
+    write_mesh(file("hex.vtu"), test::box_mesh(6, 6, 6, test::BoxCells::hexahedra));
+    file_with("volume.prm",
+              "set dimension = 3\nset meshes = tet, hex\nset methods = smart-laplace, getme\n"
+              "set timing runs = 1\nset record every = 1, getme-sequential: 4\n"
+              "subsection solution\n set name = sine\nend\n"
+              "subsection finite elements\n set condition number = verified\n"
+              " set multigrid cg = results\nend\n"
+              "subsection mesh tet\n set file = tet.vtu\n set distort to = 0.5\nend\n"
+              "subsection mesh hex\n set file = hex.vtu\n set distort to = 0.6\nend\n");
+  }
+
+  /// `mpirun -np n_ranks` before the words if there are several.
+  std::vector<std::string> command(const std::string& study, const std::string& out,
+                                   int n_ranks = 1) const {
+    std::vector<std::string> words;
+    if (n_ranks > 1)
+      words = {"mpirun", "--quiet", "--oversubscribe",      "--bind-to",
+               "none",   "-np",     std::to_string(n_ranks)};
+    for (const std::string& word :
+         {std::string(SMOOTHFEM_PROGRAM), std::string("study"), file(study).string(),
+          std::string("--out"), file(out).string(), std::string("--quiet")})
+      words.push_back(word);
+    return words;
+  }
+
+  /// Starts a process; returns its number.
+  static pid_t start(const std::vector<std::string>& words) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    std::vector<char*> arguments;
+    for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    ::execvp(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+
+  static int run(const std::vector<std::string>& words) {
+    int status = 0;
+    ::waitpid(start(words), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  /// Kills the study at a random moment, n times, and then lets it end.
+  void kill_and_go_on(const std::string& study, const std::string& out, int n, double longest) {
+    std::mt19937 random(11);
+    for (int i = 0; i < n; ++i) {
+      const pid_t child = start(command(study, out));
+      const double seconds = longest * (random() / 4294967296.0);
+      std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+      ::kill(child, SIGKILL);
+      int status = 0;
+      ::waitpid(child, &status, 0);
+    }
+    EXPECT_EQ(run(command(study, out)), 0);
+  }
+};
+
+TEST_F(Resume, PlanarStudiesKilledAtRandomMomentsEndWithTheSameRows) {
+  ASSERT_EQ(run(command("planar.prm", "unbroken")), 0);
+  kill_and_go_on("planar.prm", "killed", 5, 0.4);
+  expect_same_but_for_times(file("unbroken"), file("killed"));
+}
+
+TEST_F(Resume, VolumeStudiesKilledAtRandomMomentsEndWithTheSameRows) {
+  const auto started = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(command("volume.prm", "unbroken")), 0);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  kill_and_go_on("volume.prm", "killed", 6, 0.5 * seconds);
+  expect_same_but_for_times(file("unbroken"), file("killed"));
+}
+
+/// Same text, or numbers that differ by no more than solvers' tolerances.
+void expect_near(const std::string& column, const std::string& a, const std::string& b) {
+  if (a == b) return;
+  const double x = std::stod(a), y = std::stod(b);
+  const bool is_count = column.ends_with("iterations");
+  // Multigrid aggregates on each rank for itself.
+  const double tolerance = column == "amg_cg_iterations"    ? 4.0
+                           : is_count                       ? std::max(2.0, 0.01 * x)
+                           : column == "condition_residual" ? 1e-6
+                                                            : 1e-6 * std::abs(x);
+  EXPECT_NEAR(x, y, tolerance) << column;
+}
+
+TEST_F(Resume, RowsAreThoseOfOneProcessOnTwoAndThree) {
+  ASSERT_EQ(run(command("volume.prm", "one")), 0);
+  for (const int n : {2, 3}) {
+    const std::string out = "ranks" + std::to_string(n);
+    ASSERT_EQ(run(command("volume.prm", out, n)), 0);
+    for (const std::string name : {"iterations.csv", "summary.csv"}) {
+      const auto one = rows_without_times(file("one") / name);
+      const auto several = rows_without_times(file(out) / name);
+      ASSERT_EQ(one.size(), several.size());
+      for (std::size_t i = 0; i < one.size(); ++i)
+        for (const auto& [column, value] : one[i])
+          expect_near(column, value, several[i].at(column));
+    }
+  }
+}
+
+TEST_F(Resume, PlanarStudiesAreNotForSeveralProcesses) {
+  EXPECT_EQ(run(command("planar.prm", "out", 2)), 2);
+  EXPECT_FALSE(fs::exists(file("out")));
+}
+
+}  // namespace
+}  // namespace smoothfem
