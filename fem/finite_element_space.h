@@ -79,10 +79,9 @@ void require_finite_elements(const Topology& topology);
 /// mesh: needed on the root only, null elsewhere; its coordinates need not be valid. degree: 1 or
 /// 2. Collective. One process numbers dofs as cells come in planar meshes (CG's counts on badly
 /// conditioned matrices hang on rounding, hence on the order, and this one comes closest to the
-/// thesis' counts), and by Cuthill and McKee's algorithm in volume meshes, whose products are
-/// faster then. Throws InputError for planar cells with more than four nodes and for volume meshes
-/// of anything but tetrahedra or hexahedra alone, naming the first such cell, and if no dof is
-/// free.
+/// thesis' counts), and part by part in volume meshes, whose products are faster then. Throws
+/// InputError for planar cells with more than four nodes and for volume meshes of anything but
+/// tetrahedra or hexahedra alone, naming the first such cell, and if no dof is free.
 template <int dim>
 std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
     const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks = {});

@@ -9,6 +9,7 @@
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/vector_tools.h>
@@ -71,16 +72,16 @@ class Oracle {
     fill_triangulation(mesh);
     if (simplices_) {
       element_ = std::make_unique<dealii::FE_SimplexP<dim>>(degree);
-      geometry_ = std::make_unique<dealii::FE_SimplexP<dim>>(1);
+      mapping_ = std::make_unique<dealii::MappingFE<dim>>(dealii::FE_SimplexP<dim>(1));
     } else {
       element_ = std::make_unique<dealii::FE_Q<dim>>(degree);
-      geometry_ = std::make_unique<dealii::FE_Q<dim>>(1);
+      mapping_ = std::make_unique<dealii::MappingQ<dim>>(1);
     }
-    mapping_ = std::make_unique<dealii::MappingFE<dim>>(*geometry_);
     dofs_.reinit(triangulation_);
     dofs_.distribute_dofs(*element_);
   }
 
+  bool simplices() const { return simplices_; }
   const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
   std::vector<Point<dim>> dof_points() const {
     std::vector<dealii::Point<dim>> places(dofs_.n_dofs());
@@ -92,16 +93,20 @@ class Oracle {
 
   /// visit(values on a cell, numbers of its dofs) for each cell.
   template <class Visit>
-  void for_each_cell(const Visit& visit) const {
-    dealii::FEValues<dim> values(
-        *mapping_, *element_, oracle_rule<dim>(simplices_, degree_, false),
-        dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
+  void for_each_cell(const dealii::Quadrature<dim>& rule, const Visit& visit) const {
+    dealii::FEValues<dim> values(*mapping_, *element_, rule,
+                                 dealii::update_values | dealii::update_gradients |
+                                     dealii::update_quadrature_points | dealii::update_JxW_values);
     std::vector<dealii::types::global_dof_index> indices(element_->n_dofs_per_cell());
     for (const auto& cell : dofs_.active_cell_iterators()) {
       values.reinit(cell);
       cell->get_dof_indices(indices);
       visit(values, indices);
     }
+  }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    for_each_cell(oracle_rule<dim>(simplices_, degree_, false), visit);
   }
 
   /// Norm of u - u_h, u_h from its values at the dofs.
@@ -135,7 +140,7 @@ class Oracle {
   bool simplices_;
   unsigned int degree_;
   dealii::Triangulation<dim> triangulation_;
-  std::unique_ptr<dealii::FiniteElement<dim>> element_, geometry_;
+  std::unique_ptr<dealii::FiniteElement<dim>> element_;
   std::unique_ptr<dealii::Mapping<dim>> mapping_;
   dealii::DoFHandler<dim> dofs_;
 };
