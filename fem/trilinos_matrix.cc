@@ -70,6 +70,10 @@ void TrilinosMatrix::set_up_multigrid() {
   Teuchos::ParameterList parameters;
   ML_Epetra::SetDefaults("SA", parameters);
   parameters.set("ML output", 0);
+  // Gauss-Seidel, the default, works on each rank for itself; the cycle then depends on their
+  // number, and need not be positive definite.
+  parameters.set("smoother: type", "Chebyshev");
+  parameters.set("smoother: sweeps", 2);
   trilinos_->hierarchy.reset();
   // Estimates of eigenvalues start from random vectors; one sequence of numbers for all matrices
   // would make the hierarchy depend on those before.

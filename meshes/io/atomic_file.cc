@@ -106,7 +106,8 @@ void write_all(const fs::path& path, const fs::path& temporary, std::string_view
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write,
+                      Survives survives) {
   require_replaceable(path);
   create_folder_of(path);
   const fs::path temporary = temporary_beside(path);
@@ -118,15 +119,21 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   } catch (const std::exception& error) {
     fail(path, error.what());
   }
-  flush_to_disk(path, temporary);
+  if (survives == Survives::power_failure) flush_to_disk(path, temporary);
   std::error_code error;
   fs::rename(temporary, path, error);
   if (error) fail(path, error.message());
   guard.keep();
 }
 
-void write_atomically(const fs::path& path, std::string_view content) {
-  write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, content); });
+void write_atomically(const fs::path& path, std::string_view content, Survives survives) {
+  write_atomically(
+      path, [&](const fs::path& temporary) { write_all(path, temporary, content); }, survives);
+}
+
+void flush_file_system(const fs::path& folder) {
+  const Descriptor file(folder, O_RDONLY);
+  if (file.value() < 0 || ::syncfs(file.value()) != 0) fail(folder, std::strerror(errno));
 }
 
 }  // namespace smoothfem

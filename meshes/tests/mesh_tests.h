@@ -15,6 +15,12 @@
 
 namespace smoothfem {
 
+/// Everything in a file; empty if there is none.
+inline std::string content_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 /// A folder of its own for each test, removed afterwards.
 class FileTest : public ::testing::Test {
  protected:
@@ -32,11 +38,6 @@ class FileTest : public ::testing::Test {
   std::filesystem::path file_with(const std::string& name, const std::string& content) const {
     std::ofstream(file(name), std::ios::binary) << content;
     return file(name);
-  }
-
-  static std::string content_of(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
   }
 
  private:

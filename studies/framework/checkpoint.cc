@@ -83,6 +83,7 @@ std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_
 }
 
 void Checkpoint::save(const std::string& name, const Trajectory& trajectory) const {
+  if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the numbers it counts on
   save_as_cbor(folder_ / (name + ".trajectory"), trajectory);
 }
 

@@ -17,9 +17,10 @@ struct SolvedRecords {
   std::vector<double> eigenvectors;               ///< what the next record starts from
 };
 
-/// What a study has done so far, in a folder: a run that is killed at any moment goes on from here.
-/// Every file appears in one piece; numbers come back with the same bits. The files are for the
-/// program that wrote them alone. Errors are InputError.
+/// What a study has done so far, in a folder: a run that is killed at any moment goes on from here,
+/// and after a power failure from what was noted last. Every file appears in one piece; numbers
+/// come back with the same bits. The files are for the program that wrote them alone. Errors are
+/// InputError.
 class Checkpoint {
  public:
   explicit Checkpoint(std::filesystem::path folder) : folder_(std::move(folder)) {}

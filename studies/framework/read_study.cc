@@ -97,26 +97,15 @@ ConditionNumberMethod condition_number_method(const std::string& text) {
                              : ConditionNumberMethod::verified;
 }
 
-/// "1, getme-sequential: 10".
-RecordEvery read_record_every(const std::string& text, const std::string& file) {
-  const auto fail = [&] [[noreturn]] () {
-    throw InputError(file + ": 'record every' is '" + text +
-                     "', but it takes a number above 0, and 'STAGE: number' for stages that are "
-                     "recorded otherwise");
-  };
-  RecordEvery result;
+/// "getme-sequential: 10, ..."; deal.II has checked the numbers.
+std::map<std::string, int> stage_numbers(const std::string& text) {
+  std::map<std::string, int> numbers;
   for (const auto& item : split_list(text)) {
-    static const std::regex form("(?:([A-Za-z0-9._-]+)\\s*:\\s*)?([1-9][0-9]{0,8})");
-    std::smatch match;
-    if (!std::regex_match(item, match, form)) fail();
-    const int every = std::stoi(match[2].str());
-    if (match[1].matched)
-      result.stages[match[1].str()] = every;
-    else
-      result.usually = every;
+    const auto colon = item.find(':');
+    const auto stage = split_list(item.substr(0, colon));
+    if (!stage.empty()) numbers[stage.front()] = std::stoi(item.substr(colon + 1));
   }
-  if (split_list(text).empty()) fail();
-  return result;
+  return numbers;
 }
 
 void check_label(const std::string& label, const std::string& what, const std::string& file) {
@@ -202,15 +191,18 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
     const Subsection subsection(p, "thresholds");
     study.thresholds = {p.get("reference"), p.get_double("margin")};
   }
-  study.record_every = read_record_every(p.get("record every"), file);
+  study.record_every = {static_cast<int>(p.get_integer("record every")),
+                        stage_numbers(p.get("record stages every"))};
   study.edge_scale = p.get_double("edge scale");
 }
 
 /// What the study's scale changes.
 void read_scale(ParameterHandler& p, const std::string& file, Study& study) {
   const Subsection subsection(p, "scale " + study.scale);
-  if (!p.get("record every").empty())
-    study.record_every = read_record_every(p.get("record every"), file);
+  if (const long every = p.get_integer("record every"); every > 0)
+    study.record_every.usually = static_cast<int>(every);
+  if (!p.get("record stages every").empty())
+    study.record_every.stages = stage_numbers(p.get("record stages every"));
   if (const double edge_scale = p.get_double("edge scale"); edge_scale > 0.0) {
     if (edge_scale < 1.0)
       throw InputError(file + ": the scale " + study.scale + " has the edge scale " +
@@ -292,7 +284,8 @@ template Method<3> StudyMethod::make() const;
 
 std::filesystem::path find_study(const std::string& path_or_name) {
   const std::filesystem::path path = path_or_name;
-  if (std::filesystem::exists(path) || path.has_parent_path() || path.has_extension()) return path;
+  if (std::filesystem::is_regular_file(path) || path.has_parent_path() || path.has_extension())
+    return path;
   const auto built_in =
       std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / (path_or_name + ".prm");
   return std::filesystem::exists(built_in) ? built_in : path;

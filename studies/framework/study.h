@@ -51,15 +51,10 @@ struct StudyThresholds {
   double margin = 0.05;   ///< thresholds are the least errors increased by this share
 };
 
-/// At which iterations finite elements are solved: every k-th of a stage.
+/// At which iterations finite elements are solved.
 struct RecordEvery {
-  int usually = 1;
-  std::map<std::string, int> stages;  ///< by the stage's name, where it is not as usual
-
-  int of(const std::string& stage) const {
-    const auto found = stages.find(stage);
-    return found == stages.end() ? usually : found->second;
-  }
+  int usually = 1;                    ///< every k-th iteration of a method
+  std::map<std::string, int> stages;  ///< by name: every k-th iteration of this stage instead
 };
 
 /// A study as data: which meshes, which methods, which problem, what to record.

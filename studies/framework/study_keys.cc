@@ -31,6 +31,11 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
                                              static_cast<int>(std::min(parameter.upper, most)));
 }
 
+/// "STAGE: k, STAGE: k".
+Patterns::Map stage_numbers() {
+  return {Patterns::Anything(), Patterns::Integer(1)};
+}
+
 }  // namespace
 
 void declare_lists(ParameterHandler& p) {
@@ -85,9 +90,11 @@ void declare_method(ParameterHandler& p, int dimension, const std::string& name,
 void declare_problem(ParameterHandler& p) {
   p.declare_entry("degrees", "1, 2", Patterns::Anything(),
                   "Degrees of the finite elements; empty: smoothing only.");
-  p.declare_entry("record every", "1", Patterns::Anything(),
+  p.declare_entry("record every", "1", Patterns::Integer(1),
                   "Solve at every k-th iteration; the initial, the resulting and the last mesh "
-                  "always. 'k, STAGE: m' has another number for a stage of methods.");
+                  "always.");
+  p.declare_entry("record stages every", "", stage_numbers(),
+                  "The same for stages that are recorded otherwise: 'STAGE: k, ...'.");
   p.declare_entry("timing runs", "3", Patterns::Integer(1),
                   "Smoothing times are medians over this many runs.");
   p.declare_entry("edge scale", "1", Patterns::Double(1.0),
@@ -131,7 +138,9 @@ void declare_problem(ParameterHandler& p) {
 
 void declare_scale(ParameterHandler& p, const std::string& name) {
   const Subsection subsection(p, "scale " + name);
-  p.declare_entry("record every", "", Patterns::Anything(),
+  p.declare_entry("record every", "0", Patterns::Integer(0),
+                  "In place of the value above; 0: as it is.");
+  p.declare_entry("record stages every", "", stage_numbers(),
                   "In place of the value above; empty: as it is.");
   p.declare_entry("edge scale", "0", Patterns::Double(0.0),
                   "In place of the value above; 0: as it is.");

@@ -13,7 +13,8 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// Tells for record after record whether it is one of the every k-th of its stage.
+/// Tells for record after record whether it is to be kept: every k-th of all, or of its stage if
+/// that has a number of its own.
 class Schedule {
  public:
   explicit Schedule(const RecordEvery& every) : every_(every) {}
@@ -21,7 +22,11 @@ class Schedule {
   bool is_due(const IterationRecord& record) {
     if (record.stage != stage_) n_in_stage_ = 0;
     stage_ = record.stage;
-    return ++n_in_stage_ % static_cast<std::size_t>(every_.of(stage_)) == 0;
+    ++n_in_stage_;
+    const auto own = every_.stages.find(stage_);
+    return own == every_.stages.end()
+               ? record.record % static_cast<std::size_t>(every_.usually) == 0
+               : n_in_stage_ % static_cast<std::size_t>(own->second) == 0;
   }
 
  private:

@@ -73,8 +73,8 @@ TEST(VolumeStudy, IsThatOfSection63) {
   EXPECT_EQ(study.solution.name, "volume");
   EXPECT_EQ(study.finite_elements.condition_number, ConditionNumberMethod::lanczos);
   EXPECT_EQ(study.finite_elements.multigrid_cg, Recorded::results);
-  EXPECT_EQ(study.record_every.of("global-optimization"), 1);
-  EXPECT_EQ(study.record_every.of("getme-sequential"), 10);
+  EXPECT_EQ(study.record_every.usually, 1);
+  EXPECT_EQ(study.record_every.stages.at("getme-sequential"), 10);
   EXPECT_GT(study.edge_scale, 2.0);
   const Study paper = read_study(file, "paper");
   EXPECT_EQ(paper.scale, "paper");
@@ -151,7 +151,7 @@ end
   using Setting = std::pair<std::string, std::string>;
   EXPECT_EQ(study.methods[1].settings, (std::vector<Setting>{{"simultaneous.lambda", "0.4"}}));
   EXPECT_NE(study.methods[0].title, study.methods[1].title);
-  Method<2> standard = study.methods[0].make(), own = study.methods[1].make();
+  Method<2> standard = study.methods[0].make<2>(), own = study.methods[1].make<2>();
   const auto lambda = [](Method<2>& method) {
     return value_text(find_parameter(method.parameters(), "simultaneous.lambda", "getme"));
   };
@@ -238,12 +238,16 @@ TEST_F(StudyFile, AFileThatBreaksTheCsvByItsNameIsRefused) {
 TEST_F(StudyFile, TheTemplateListsKeysThatAStudyMayHave) {
   // 'smoothfem list --study-keys' prints it; with a label for LABEL it has to be a study.
   std::string text = study_template();
-  for (std::size_t at = text.find("LABEL"); at != std::string::npos; at = text.find("LABEL", at))
-    text.replace(at, 5, "a");
+  for (const std::string label : {"LABEL", "NAME"})
+    for (std::size_t at = text.find(label); at != std::string::npos; at = text.find(label, at))
+      text.replace(at, label.size(), "a");
   const auto at = text.find("set meshes");
   ASSERT_NE(at, std::string::npos);
   text.replace(text.find('=', at), 1, "= a");
-  EXPECT_EQ(read(text).parameters, read("set meshes = a\n").parameters);
+  const auto scales = text.find("set scales");
+  ASSERT_NE(scales, std::string::npos);
+  text.replace(text.find('=', scales), 1, "= a");
+  EXPECT_EQ(read(text).parameters, read("set meshes = a\nset scales = a\n").parameters);
 }
 
 TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
@@ -257,13 +261,13 @@ TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
   EXPECT_NE(message.find("large"), std::string::npos) << message;
 }
 
-TEST_F(StudyFile, RecordEveryTakesStages) {
-  const Study study = read("set meshes = a\nset record every = 2, getme-sequential: 30\n");
-  EXPECT_EQ(study.record_every.of("laplace"), 2);
-  EXPECT_EQ(study.record_every.of("getme-sequential"), 30);
-  for (const std::string bad : {"0", "-1", "often", "stage: 0", ": 3", "1.5"})
-    EXPECT_NE(error_of("set meshes = a\nset record every = " + bad + "\n").find(bad),
-              std::string::npos);
+TEST_F(StudyFile, StagesMayBeRecordedOtherwise) {
+  const Study study = read(
+      "set meshes = a\nset record every = 2\nset record stages every = getme-sequential: 30\n");
+  EXPECT_EQ(study.record_every.usually, 2);
+  EXPECT_EQ(study.record_every.stages.at("getme-sequential"), 30);
+  for (const std::string bad : {"getme-sequential: 0", "often"})
+    expect_error_at(5, one_mesh + "set record stages every = " + bad + "\n", bad);
 }
 
 }  // namespace

@@ -119,8 +119,8 @@ TEST_F(RunStudy, RecordEveryKeepsEveryKthTheBestAndTheLast) {
   const std::string only = "set degrees = 1\nset methods = getme\n";
   const fs::path all = run(study(only), "all"),
                  some = run(study(only + "set record every = 7\n"), "some");
-  const auto every = rows_without_times(all, "iterations.csv");
-  const auto kept = rows_without_times(some, "iterations.csv");
+  const auto every = rows_without_times(all / "iterations.csv");
+  const auto kept = rows_without_times(some / "iterations.csv");
   const auto result = table(all, "summary.csv").select({{"method", "getme"}}).at(0);
   std::vector<CsvTable::Row> expected;
   std::size_t best = 0;
@@ -132,7 +132,7 @@ TEST_F(RunStudy, RecordEveryKeepsEveryKthTheBestAndTheLast) {
     if (r % 7 == 0 || r == best || r + 1 == every.size()) expected.push_back(every[r]);
   ASSERT_LT(expected.size(), every.size());
   EXPECT_EQ(kept, expected);
-  EXPECT_EQ(rows_without_times(all, "summary.csv"), rows_without_times(some, "summary.csv"));
+  EXPECT_EQ(rows_without_times(all / "summary.csv"), rows_without_times(some / "summary.csv"));
 }
 
 TEST_F(RunStudy, WithoutDegreesItOnlySmooths) {
