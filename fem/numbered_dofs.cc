@@ -1,169 +1,17 @@
 #include "fem/numbered_dofs.h"
 
-#include <deal.II/distributed/fully_distributed_tria.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
-#include <deal.II/grid/tria_description.h>
-#include <deal.II/hp/fe_collection.h>
-
 #include <algorithm>
-#include <array>
-#include <deque>
 #include <exception>
 #include <numeric>
+
+#include "fem/distributed_dofs.h"
+#include "fem/distributed_mesh.h"
 
 namespace smoothfem {
 
 namespace {
 
 constexpr auto absent = FiniteElementSpace<2>::absent;
-constexpr unsigned int simplex_index = 0, tensor_index = 1;
-
-/// The types of element that a mesh of this dimension can be solved on.
-template <int dim>
-constexpr std::array element_types =
-    dim == 2 ? std::array{ElementType::triangle, ElementType::quadrilateral}
-             : std::array{ElementType::tetrahedron, ElementType::hexahedron};
-
-/// A triangulation with the mesh's cells in the mesh's order, except that planar cells may be
-/// rotated.
-template <int dim>
-void fill_triangulation(const Mesh<dim>& mesh, dealii::Triangulation<dim>& triangulation) {
-  std::vector<dealii::Point<dim>> vertices;
-  for (const auto& p : mesh.coordinates()) {
-    vertices.emplace_back();
-    for (int d = 0; d < dim; ++d) vertices.back()[d] = p[d];
-  }
-  std::vector<dealii::CellData<dim>> cells;
-  bool all_quadrilaterals = dim == 2;
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
-    const auto nodes = mesh.topology().cell_nodes(c);
-    dealii::CellData<dim> cell(static_cast<unsigned int>(nodes.size()));
-    std::copy(nodes.begin(), nodes.end(), cell.vertices.begin());
-    // deal.II lists the nodes of quadrilaterals and hexahedra in lexicographic order.
-    const bool tensor = mesh.topology().cell_type(c) == element_types<dim>[tensor_index];
-    for (std::size_t k = 2; tensor && k < nodes.size(); k += 4)
-      std::swap(cell.vertices[k], cell.vertices[k + 1]);
-    all_quadrilaterals &= tensor;
-    cells.push_back(cell);
-  }
-  if (all_quadrilaterals) dealii::GridTools::consistently_order_cells(cells);
-  triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
-}
-
-/// Cells and nodes get other numbers on each rank, but a vertex keeps its place. So each one's
-/// first coordinate becomes its number, before the triangulation is dealt out.
-template <int dim>
-void write_numbers_into_vertices(dealii::Triangulation<dim>& triangulation) {
-  for (const auto& cell : triangulation.active_cell_iterators())
-    for (const unsigned int v : cell->vertex_indices()) {
-      dealii::Point<dim> number;
-      number[0] = cell->vertex_index(v);
-      cell->vertex(v) = number;
-    }
-}
-
-/// One process: the mesh's own nodes. Several: a part for each, of about the same size, of which
-/// the root alone has ever seen the whole.
-template <int dim>
-std::unique_ptr<dealii::Triangulation<dim>> make_triangulation(const Mesh<dim>* mesh,
-                                                               const Ranks& ranks) {
-  if (ranks.size() == 1) {
-    auto triangulation = std::make_unique<dealii::Triangulation<dim>>();
-    fill_triangulation(*mesh, *triangulation);
-    return triangulation;
-  }
-  const auto n_ranks = static_cast<unsigned int>(ranks.size());
-  const auto description =
-      dealii::TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<
-          dim, dim>([&](dealii::Triangulation<dim>& whole) { fill_triangulation(*mesh, whole); },
-                    [&](dealii::Triangulation<dim>& whole, const MPI_Comm&, const unsigned int) {
-                      dealii::GridTools::partition_triangulation(n_ranks, whole);
-                      write_numbers_into_vertices(whole);
-                    },
-                    ranks.communicator(), n_ranks);
-  auto triangulation = std::make_unique<dealii::parallel::fullydistributed::Triangulation<dim>>(
-      ranks.communicator());
-  triangulation->create_triangulation(description);
-  return triangulation;
-}
-
-/// This rank's own cells in parts, one beside the other, each of which grows around a cell until it
-/// is as large as the inner caches.
-template <int dim>
-auto cells_part_by_part(const dealii::DoFHandler<dim>& dofs) {
-  constexpr std::size_t cells_of_part = 2000;
-  using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
-  std::vector<bool> taken(dofs.get_triangulation().n_active_cells(), false);
-  std::vector<Cell> order;
-  std::deque<Cell> seeds;
-  const auto is_free = [&](const Cell& cell) {
-    return cell->is_locally_owned() && !taken[cell->active_cell_index()];
-  };
-  const auto take = [&](const Cell& cell) {
-    taken[cell->active_cell_index()] = true;
-    order.push_back(cell);
-  };
-  for (const auto& cell : dofs.active_cell_iterators())
-    for (seeds.push_back(cell); !seeds.empty(); seeds.pop_front()) {
-      std::size_t next = order.size();
-      const std::size_t end = next + cells_of_part;
-      if (is_free(seeds.front())) take(seeds.front());
-      for (; next < order.size(); ++next)
-        for (const unsigned int f : order[next]->face_indices()) {
-          if (order[next]->at_boundary(f)) continue;
-          const Cell neighbour = order[next]->neighbor(f);
-          if (!is_free(neighbour)) continue;
-          if (order.size() < end)
-            take(neighbour);
-          else
-            seeds.push_back(neighbour);
-        }
-    }
-  return order;
-}
-
-/// In the order of the parts' cells: what a product with the matrix reads of a vector then stays in
-/// the inner caches. The level sets of Cuthill and McKee's algorithm are too wide for that in
-/// space; with quadratic tetrahedra products took twice as long.
-template <int dim>
-void renumber_part_by_part(dealii::DoFHandler<dim>& dofs) {
-  const auto& own = dofs.locally_owned_dofs();
-  std::vector<dealii::types::global_dof_index> numbers(own.n_elements(),
-                                                       dealii::numbers::invalid_dof_index);
-  std::vector<dealii::types::global_dof_index> indices;
-  std::size_t n_numbered = 0;
-  for (const auto& cell : cells_part_by_part(dofs)) {
-    indices.resize(cell->get_fe().n_dofs_per_cell());
-    cell->get_dof_indices(indices);
-    for (const auto dof : indices) {
-      if (!own.is_element(dof)) continue;
-      auto& number = numbers[own.index_within_set(dof)];
-      if (number == dealii::numbers::invalid_dof_index) number = own.nth_index_in_set(n_numbered++);
-    }
-  }
-  dofs.renumber_dofs(numbers);
-}
-
-template <int dim>
-void distribute_dofs(dealii::DoFHandler<dim>& dofs, int degree) {
-  const dealii::FE_SimplexP<dim> simplex(degree);
-  const dealii::FE_Q<dim> tensor(degree);
-  if constexpr (dim == 2) {
-    for (const auto& cell : dofs.active_cell_iterators())
-      cell->set_active_fe_index(cell->reference_cell().is_simplex() ? simplex_index : tensor_index);
-    dofs.distribute_dofs(dealii::hp::FECollection<dim>{simplex, tensor});
-  } else {
-    if (dofs.get_triangulation().begin_active()->reference_cell().is_simplex())
-      dofs.distribute_dofs(simplex);
-    else
-      dofs.distribute_dofs(tensor);
-    renumber_part_by_part(dofs);
-  }
-}
 
 /// Reads deal.II's numbering into a space.
 template <int dim>
