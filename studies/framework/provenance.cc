@@ -63,7 +63,7 @@ Json describe_meshes(const RunFacts& facts) {
                       {"q_min", mesh.quality.q_min},
                       {"q_mean", mesh.quality.q_mean},
                       {"file", file},
-                      {"sha256", sha256_of_file(facts.options.out / file)}});
+                      {"sha256", mesh.sha256}});
   }
   return meshes;
 }

@@ -104,8 +104,7 @@ class StudyRun {
     if (earlier_.status.empty()) {
       data_.checkpoint.remove();  // of a run whose provenance is gone
       write_provenance("running");
-      for (const auto& prepared : data_.meshes)
-        write_mesh(initial_mesh_path(prepared.description.name), prepared.mesh);
+      for (auto& prepared : data_.meshes) write_initial_mesh(prepared);
     } else {
       require_same_meshes();
       progress_.say("Going on where the run in " + options_.out.string() + " was.");
@@ -113,16 +112,23 @@ class StudyRun {
     write_provenance("running");  // now with the checksums
   }
 
+  void write_initial_mesh(PreparedMesh<dim>& prepared) {
+    const fs::path path = initial_mesh_path(prepared.description.name);
+    write_mesh(path, prepared.mesh);
+    prepared.sha256 = sha256_of_file(path);
+  }
+
   /// The files of an interrupted run may have been changed by somebody.
   void require_same_meshes() {
-    for (const auto& prepared : data_.meshes) {
-      const std::string& name = prepared.description.name;
-      const fs::path path = initial_mesh_path(name);
-      const auto noted = earlier_.meshes.find(name);
-      const bool known = noted != earlier_.meshes.end() && !noted->second.empty();
-      if (!known)  // killed before it was written, or before that was noted
-        write_mesh(path, prepared.mesh);
-      else if (sha256_of_file(path) != noted->second)
+    for (auto& prepared : data_.meshes) {
+      const auto noted = earlier_.meshes.find(prepared.description.name);
+      if (noted == earlier_.meshes.end() || noted->second.empty()) {
+        write_initial_mesh(prepared);  // killed before it was written, or before that was noted
+        continue;
+      }
+      const fs::path path = initial_mesh_path(prepared.description.name);
+      prepared.sha256 = sha256_of_file(path);
+      if (prepared.sha256 != noted->second)
         throw InputError(path.string() +
                          " has been changed since the run began; start anew with --force, which "
                          "keeps the folder under another name");

@@ -94,7 +94,8 @@ PreparedMesh<dim> prepare_mesh(const StudyMesh& description, const Study& study,
                   .quality = mesh_quality(mesh),
                   .origin = source.origin,
                   .published = source.published,
-                  .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file)};
+                  .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file),
+                  .sha256 = {}};
   return {std::move(facts), std::move(mesh)};
 }
 template PreparedMesh<2> prepare_mesh(const StudyMesh&, const Study&, const std::filesystem::path&,

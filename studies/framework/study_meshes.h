@@ -16,6 +16,7 @@ struct MeshFacts {
   std::string origin;      ///< file path, or the domain and its distortion
   bool published = false;  ///< read by --mesh-dir: comparable with printed values digit for digit
   std::string source_sha256;  ///< of the file it was read from; empty if it was generated
+  std::string sha256;         ///< of its text form in the results; empty until that is written
 };
 
 /// A study's mesh, ready to be smoothed.
