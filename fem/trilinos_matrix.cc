@@ -143,7 +143,7 @@ Eigenpair checked(const Epetra_CrsMatrix& matrix, const Problem& problem) {
 }  // namespace
 
 Eigenpair TrilinosMatrix::smallest_eigenpair(const Eigen::VectorXd& start, double tolerance) const {
-  constexpr int max_iterations = 200;
+  constexpr int max_iterations = 5000;  // distorted meshes take hundreds
   const Vectors rough = generic_vector(trilinos_->matrix);
   Vectors generic(rough);  // smooth, as the wanted eigenvector is
   trilinos_->hierarchy->ApplyInverse(rough, generic);
