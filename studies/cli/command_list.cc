@@ -9,7 +9,7 @@
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"
-#include "studies/framework/study.h"
+#include "studies/framework/study_kinds.h"
 
 namespace smoothfem {
 
@@ -54,7 +54,7 @@ void list_studies(const std::filesystem::path& folder) {
     if (entry.path().extension() == ".prm") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const auto& file : files)
-    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_study(file).title.c_str(),
+    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_any_study(file).title.c_str(),
                 file.c_str());
 }
 
@@ -91,7 +91,9 @@ void add_list_command(CLI::App& app) {
   command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");
   command->callback([arguments] {
     if (arguments->study_keys) {
-      std::printf("%s", study_template().c_str());
+      for (const auto& kind : study_kinds())
+        std::printf("# Keys of studies of the kind %s\n%s\n", kind.name.c_str(),
+                    kind.keys().c_str());
       return;
     }
     list_methods();

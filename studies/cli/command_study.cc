@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "studies/cli/commands.h"
-#include "studies/framework/run_study.h"
+#include "studies/framework/study_kinds.h"
 
 namespace smoothfem {
 
@@ -50,8 +50,8 @@ class Mpi {
   Mpi(const Mpi&) = delete;
 };
 
-Study read(const Arguments& arguments) {
-  return read_study(find_study(arguments.study), arguments.quick ? "quick" : arguments.scale);
+ReadyStudy read(const Arguments& arguments) {
+  return read_any_study(find_study(arguments.study), arguments.quick ? "quick" : arguments.scale);
 }
 
 void run(Arguments& arguments, std::optional<Mpi>& mpi) {
@@ -64,13 +64,13 @@ void run(Arguments& arguments, std::optional<Mpi>& mpi) {
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
   }
-  const Study study = read(arguments);
-  if (study.dimension == 3 && !mpi) {
+  const ReadyStudy study = read(arguments);
+  if (study.on_ranks && !mpi) {
     mpi.emplace();
     options.ranks = Ranks(MPI_COMM_WORLD);
   }
   if (options.out.empty()) options.out = std::filesystem::path("results") / study.name;
-  run_study(study, options);
+  study.run(options);
 }
 
 void run_on_all_ranks(Arguments& arguments) {
@@ -90,8 +90,7 @@ void run_on_all_ranks(Arguments& arguments) {
 
 /// Processes pay where the finite elements of volume meshes are to be shared.
 void print_ranks(const Arguments& arguments) {
-  const Study study = read(arguments);
-  const bool pays = study.dimension == 3 && !study.degrees.empty();
+  const bool pays = read(arguments).ranks_pay;
   std::printf("%u\n", pays ? std::max(1U, std::thread::hardware_concurrency()) : 1U);
 }
 

@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <fstream>
-#include <regex>
-#include <sstream>
 
 #include "meshes/generators/domains.h"
 #include "smoothing/mesh/input_error.h"
 #include "studies/framework/study.h"
+#include "studies/framework/study_file.h"
 #include "studies/framework/study_keys.h"
 
 namespace smoothfem {
@@ -13,60 +11,6 @@ namespace smoothfem {
 namespace {
 
 using dealii::ParameterHandler;
-
-std::vector<std::string> split_list(const std::string& text) {
-  std::vector<std::string> items;
-  std::istringstream stream(text);
-  for (std::string item; std::getline(stream, item, ',');) {
-    const auto first = item.find_first_not_of(" \t");
-    if (first == std::string::npos) continue;
-    items.push_back(item.substr(first, item.find_last_not_of(" \t") - first + 1));
-  }
-  return items;
-}
-
-/// For calls whose errors do not know which file they are about.
-template <class Call>
-auto in_file(const std::filesystem::path& file, const Call& call) {
-  try {
-    return call();
-  } catch (const InputError& error) {
-    throw InputError(file.string() + ": " + error.what());
-  }
-}
-
-/// How deal.II calls the study file in its messages; the path itself could hold anything.
-constexpr const char* this_file = "this file";
-
-/// deal.II's messages run over several lines, with its own source line first and ours inside.
-InputError parse_error(const std::filesystem::path& file, const std::string& what) {
-  const std::string mark = "Additional information:";
-  const auto begin = what.find(mark);
-  std::string reason = begin == std::string::npos ? what : what.substr(begin + mark.size());
-  reason = reason.substr(0, reason.find("Stacktrace"));
-  reason = reason.substr(0, reason.find("\n----"));
-  reason = std::regex_replace(reason, std::regex("\\s+"), " ");
-  reason = std::regex_replace(reason, std::regex("^ +|[ .]+$"), "");
-  std::string place = file.string();
-  std::smatch match;
-  if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <([^>:]*)>?: ?(.*)"))) {
-    if (match[2] != this_file) place = match[2];  // a file that the study includes
-    place += ":" + match[1].str();
-    reason = match[3].str();
-  }
-  return InputError(place + ": " + reason +
-                    "; 'smoothfem list --study-keys' shows the keys there are");
-}
-
-void parse(ParameterHandler& p, const std::string& text, const std::filesystem::path& file,
-           bool skip_undefined) {
-  std::istringstream stream(text);
-  try {
-    p.parse_input(stream, this_file, "", skip_undefined);
-  } catch (const dealii::ExceptionBase& error) {
-    throw parse_error(file, error.what());
-  }
-}
 
 std::vector<std::string> method_labels(const std::string& list, int dimension) {
   if (list != "all") return split_list(list);
@@ -106,13 +50,6 @@ std::map<std::string, int> stage_numbers(const std::string& text) {
     if (!stage.empty()) numbers[stage.front()] = std::stoi(item.substr(colon + 1));
   }
   return numbers;
-}
-
-void check_label(const std::string& label, const std::string& what, const std::string& file) {
-  static const std::regex allowed("[A-Za-z0-9._-]+");
-  if (!std::regex_match(label, allowed))
-    throw InputError(file + ": the " + what + " label '" + label +
-                     "' may only have letters, digits, '.', '_' and '-'");
 }
 
 void check_unique(std::vector<std::string> labels, const std::string& what,
@@ -213,14 +150,6 @@ void read_scale(ParameterHandler& p, const std::string& file, Study& study) {
     study.timing_runs = static_cast<int>(runs);
 }
 
-void require_scale(const std::string& scale, const std::vector<std::string>& known,
-                   const std::string& file) {
-  if (scale.empty() || std::find(known.begin(), known.end(), scale) != known.end()) return;
-  throw InputError(file + ": the study has no scale '" + scale + "'; " +
-                   (known.empty() ? "it has one size only: leave --scale out"
-                                  : choose_one_of(known) + ", or leave --scale out"));
-}
-
 /// Whether what the study names is there; better now than after the first mesh is generated.
 void check_names(const Study& study) {
   if (study.solution.name != "expression")
@@ -238,37 +167,6 @@ void check_thresholds(const Study& study, const std::string& file) {
   if (!named)
     throw InputError(file + ": the thresholds' reference '" + reference +
                      "' is not one of the study's methods");
-}
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
-    throw InputError(file.string() + ": cannot read this study file; check its path");
-  return text.str() + "\n";
-}
-
-/// "key = value" lines in force, subsections as prefix.
-std::vector<std::pair<std::string, std::string>> effective_parameters(ParameterHandler& p) {
-  std::vector<std::pair<std::string, std::string>> result;
-  std::ostringstream text;
-  p.print_parameters(text, ParameterHandler::ShortPRM);
-  std::istringstream lines(text.str());
-  std::vector<std::string> prefix;
-  for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (std::regex_match(line, match, std::regex("\\s*subsection (.*)")))
-      prefix.push_back(match[1].str() + "/");
-    else if (std::regex_match(line, std::regex("\\s*end\\s*")))
-      prefix.pop_back();
-    else if (std::regex_match(line, match, std::regex("\\s*set (.*?)\\s*=\\s*(.*)"))) {
-      std::string key;
-      for (const auto& part : prefix) key += part;
-      result.emplace_back(key + match[1].str(), match[2].str());
-    }
-  }
-  return result;
 }
 
 }  // namespace
@@ -292,12 +190,12 @@ std::filesystem::path find_study(const std::string& path_or_name) {
 }
 
 Study read_study(const std::filesystem::path& file, const std::string& scale) {
-  const std::string text = read_text(file);
+  const std::string text = read_study_text(file);
   // Which subsections there are depends on what the file says: first the lists, then the methods'
   // types, then everything, strictly.
   ParameterHandler lists;
   declare_lists(lists);
-  parse(lists, text, file, true);
+  parse_study(lists, text, file, true);
   const auto meshes = split_list(lists.get("meshes"));
   const int dimension = static_cast<int>(lists.get_integer("dimension"));
   const auto methods = method_labels(lists.get("methods"), dimension);
@@ -308,7 +206,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
 
   ParameterHandler types;
   for (const auto& method : methods) declare_method(types, dimension, method, "");
-  parse(types, text, file, true);
+  parse_study(types, text, file, true);
 
   ParameterHandler p;
   declare_lists(p);
@@ -323,7 +221,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
     }
     in_file(file, [&] { declare_method(p, dimension, method, type); });
   }
-  parse(p, text, file, false);
+  parse_study(p, text, file, false);
 
   Study study;
   study.name = file.stem().string();
@@ -342,6 +240,8 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   in_file(file, [&] { check_names(study); });
   check_thresholds(study, file.string());
   study.parameters = effective_parameters(p);
+  // Which reader it is for; results from before there were kinds go on.
+  std::erase_if(study.parameters, [](const auto& entry) { return entry.first == "kind"; });
   return study;
 }
 

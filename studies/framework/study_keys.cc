@@ -39,6 +39,8 @@ Patterns::Map stage_numbers() {
 }  // namespace
 
 void declare_lists(ParameterHandler& p) {
+  p.declare_entry("kind", "smoothing", Patterns::Selection("smoothing"),
+                  "What the study does; other kinds have other keys.");
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
   p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
   p.declare_entry("scales", "", Patterns::Anything(),

@@ -1,0 +1,55 @@
+#include "studies/framework/table_study.h"
+
+#include <chrono>
+#include <cstdlib>
+
+#include "meshes/io/atomic_file.h"
+#include "studies/framework/progress.h"
+#include "studies/framework/provenance.h"
+#include "studies/framework/results_folder.h"
+
+namespace smoothfem {
+
+void run_table_study(const Study& facts, const StudyOptions& options,
+                     const std::vector<StudyTable>& tables) {
+  if (options.ranks.size() > 1)
+    throw InputError("the study " + facts.name +
+                     " has no work for several processes: start it without mpirun");
+  require_writable(options.out);
+  require_published_files(facts, options.mesh_dir);
+  if (options.force) set_aside(options.out);
+  const EarlierRun earlier = read_provenance(options.out / "provenance.json");
+  require_same_settings(earlier, facts, {}, options.out);
+
+  Progress progress(options.quiet);
+  if (earlier.status == "complete") {
+    progress.say("The results in " + options.out.string() +
+                 " are complete: nothing to do. --force starts anew and keeps them under another "
+                 "name.");
+    return;
+  }
+  std::map<std::string, double> seconds;
+  const std::string started = now_utc();
+  const auto write_provenance = [&](const std::string& status) {
+    write_atomically(
+        options.out / "provenance.json",
+        provenance_json({facts, options, {}, 1, status, started, seconds, earlier.sessions}));
+  };
+  write_provenance("running");
+  for (const auto& table : tables) {
+    progress.begin(table.file, 0);
+    const auto begin = std::chrono::steady_clock::now();
+    write_atomically(options.out / table.file, table.compute());
+    seconds[table.file] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    progress.end();
+    if (options.interrupted != nullptr && *options.interrupted) {
+      write_provenance("interrupted");
+      progress.say("Interrupted; the same command starts anew.");
+      std::_Exit(130);
+    }
+  }
+  write_provenance("complete");
+}
+
+}  // namespace smoothfem
