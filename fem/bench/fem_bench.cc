@@ -50,7 +50,9 @@ const VolumeMesh* flange(ElementType type) {
                     ("smoothfem_bench_flange_" + std::string(name_of(type)) + ".vtu");
   if (!std::filesystem::exists(path)) {
     std::cerr << "generating " << path << '\n';
-    write_mesh(path, std::get<VolumeMesh>(find_domain("flange").generate({.element_type = type})));
+    write_mesh(path,
+               std::get<VolumeMesh>(find_domain("flange").generate(
+                   {.elements = type == ElementType::tetrahedron ? "tetrahedra" : "hexahedra"})));
   }
   return &meshes.emplace(type, std::get<VolumeMesh>(read_mesh(path).mesh)).first->second;
 }

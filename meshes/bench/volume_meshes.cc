@@ -54,8 +54,8 @@ DistortionParameters sweeps(int n) {
 }  // namespace
 
 VolumeMesh swept_gear(bool distorted) {
-  const auto gear = std::get<PlanarMesh>(
-      find_domain("gear").generate({.element_type = ElementType::quadrilateral}));
+  const auto gear =
+      std::get<PlanarMesh>(find_domain("gear").generate({.elements = "quadrilaterals"}));
   std::vector<double> heights;
   for (int layer = 0; layer <= 11; ++layer) heights.push_back(0.2 * layer);
   const VolumeCells swept = sweep({gear.coordinates(), gear.topology().cells()}, heights);

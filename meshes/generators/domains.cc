@@ -10,38 +10,52 @@ namespace smoothfem {
 
 namespace {
 
-AnyMesh make_gear(const DomainParameters& parameters) {
-  GearParameters gear = gear_of_the_thesis(parameters.element_type, parameters.edge_scale);
-  gear.seed = parameters.seed;
+AnyMesh make_gear(const DomainParameters& p) {
+  const auto type = p.elements == "triangles" ? ElementType::triangle : ElementType::quadrilateral;
+  GearParameters gear = gear_of_the_thesis(type, p.edge_scale);
+  gear.seed = p.seed;
   return generate_gear(gear);
 }
 
-AnyMesh make_flange(const DomainParameters& parameters) {
-  return generate_flange({parameters.element_type, parameters.edge_scale});
+AnyMesh make_flange(const DomainParameters& p) {
+  const auto type = p.elements == "tetrahedra" ? ElementType::tetrahedron : ElementType::hexahedron;
+  return generate_flange({type, p.edge_scale});
 }
 
 }  // namespace
 
+const std::string& Domain::elements_named(const std::string& wanted) const {
+  if (wanted.empty()) return elements.front();
+  const auto found = std::find(elements.begin(), elements.end(), wanted);
+  if (found == elements.end())
+    throw InputError("the domain '" + name + "' has no mesh of '" + wanted + "'; " +
+                     choose_one_of(elements));
+  return *found;
+}
+
 AnyMesh Domain::generate(const DomainParameters& parameters) const {
-  if (std::find(element_types.begin(), element_types.end(), parameters.element_type) ==
-      element_types.end()) {
-    std::vector<std::string> known;
-    for (const ElementType type : element_types) known.emplace_back(name_of(type));
-    throw InputError("the domain '" + name + "' has no mesh of type " +
-                     std::string(name_of(parameters.element_type)) + "; " + choose_one_of(known));
-  }
-  return make(parameters);
+  DomainParameters known = parameters;
+  known.elements = elements_named(parameters.elements);
+  return make(known);
+}
+
+const std::vector<std::string>& element_names() {
+  static const std::vector<std::string> names = {"triangles", "quadrilaterals", "mixed",
+                                                 "tetrahedra", "hexahedra"};
+  return names;
 }
 
 const std::vector<Domain>& domains() {
   static const std::vector<Domain> all = {
       {"gear",
        "involute gear with 17 teeth and five holes, like that of Chapter 6",
-       {ElementType::triangle, ElementType::quadrilateral},
+       2,
+       {"triangles", "quadrilaterals"},
        make_gear},
       {"flange",
        "round flange with hub, bore and eight bolt holes, of the size of Section 6.3's model",
-       {ElementType::tetrahedron, ElementType::hexahedron},
+       3,
+       {"tetrahedra", "hexahedra"},
        make_flange},
   };
   return all;

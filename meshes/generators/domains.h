@@ -10,7 +10,7 @@ namespace smoothfem {
 
 /// What every domain understands.
 struct DomainParameters {
-  ElementType element_type = ElementType::triangle;  ///< one of the domain's
+  std::string elements;     ///< one of the domain's; empty: its usual ones
   double edge_scale = 1.0;  ///< edges this much longer than in the domain's own mesh: 3 gives a
                             ///< ninth of the planar cells, 2.1544 a tenth of the volume cells
   std::uint64_t seed = 1;   ///< of what is random in the domain's mesh, if anything is
@@ -20,13 +20,23 @@ struct DomainParameters {
 struct Domain {
   std::string name;
   std::string description;
-  std::vector<ElementType> element_types;  ///< that it can be meshed with; the usual one first
-  AnyMesh (*make)(const DomainParameters&);
+  int dimension;                      ///< of its meshes: 2 or 3
+  std::vector<std::string> elements;  ///< of element_names(), that it can be meshed with; the
+                                      ///< usual ones first
+  AnyMesh (*make)(const DomainParameters&);  ///< its `elements` are one of the domain's
 
-  /// A valid mesh of the domain: planar or volume as the element type. Throws InputError that names
-  /// the domain's element types for another one, and for an edge scale out of its range.
+  /// A valid mesh of the domain, whose boundary nodes are fixed. Throws InputError for elements
+  /// that the domain cannot be meshed with, and for an edge scale out of its range.
   AnyMesh generate(const DomainParameters& parameters) const;
+
+  /// The elements of a name, or, if it is empty, the usual ones. Throws InputError that lists the
+  /// domain's.
+  const std::string& elements_named(const std::string& wanted) const;
 };
+
+/// As users write them: "triangles", "quadrilaterals", "mixed" (planar or volume cells of several
+/// types), "tetrahedra", "hexahedra".
+const std::vector<std::string>& element_names();
 
 const std::vector<Domain>& domains();
 

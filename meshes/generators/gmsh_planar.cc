@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
-#include <unordered_map>
 
+#include "meshes/generators/gmsh_nodes.h"
 #include "meshes/io/gmsh_session.h"
 #include "smoothing/mesh/input_error.h"
 #include "smoothing/quality/mean_ratio.h"
@@ -68,18 +68,8 @@ void turn_over(PlanarCells& mesh) {
 
 PlanarCells mesh_of_model() {
   PlanarCells mesh;
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz, parameters;
-  gmsh::model::mesh::getNodes(tags, xyz, parameters);
-  std::vector<std::size_t> order(tags.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  std::unordered_map<std::size_t, NodeIndex> numbers;
-  for (const std::size_t i : order) {
-    numbers.emplace(tags[i], static_cast<NodeIndex>(mesh.coordinates.size()));
-    mesh.coordinates.emplace_back(xyz[3 * i], xyz[3 * i + 1]);
-  }
+  const GmshNodes all = nodes_of_model();
+  for (const auto& point : all.points) mesh.coordinates.emplace_back(point.x(), point.y());
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> elements, nodes;
   gmsh::model::mesh::getElements(types, elements, nodes, 2);
@@ -87,7 +77,7 @@ PlanarCells mesh_of_model() {
     const std::size_t n = elements[t].empty() ? 0 : nodes[t].size() / elements[t].size();
     std::vector<NodeIndex> row(n);
     for (std::size_t e = 0; e < elements[t].size(); ++e) {
-      for (std::size_t k = 0; k < n; ++k) row[k] = numbers.at(nodes[t][e * n + k]);
+      for (std::size_t k = 0; k < n; ++k) row[k] = all.numbers.at(nodes[t][e * n + k]);
       mesh.cells.append(row);
     }
   }

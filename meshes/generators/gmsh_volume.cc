@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
-#include <unordered_map>
 
+#include "meshes/generators/gmsh_nodes.h"
 #include "meshes/io/gmsh_session.h"
 
 namespace smoothfem {
@@ -64,22 +63,14 @@ void set_edge_length(GmshSession& session, double length) {
 
 VolumeCells mesh_of_model() {
   VolumeCells mesh;
-  std::vector<std::size_t> tags, elements, nodes;
-  std::vector<double> xyz, parameters;
-  gmsh::model::mesh::getNodes(tags, xyz, parameters);
-  std::vector<std::size_t> order(tags.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  std::unordered_map<std::size_t, NodeIndex> numbers;
-  for (const std::size_t i : order) {
-    numbers.emplace(tags[i], static_cast<NodeIndex>(mesh.coordinates.size()));
-    mesh.coordinates.emplace_back(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
-  }
+  GmshNodes all = nodes_of_model();
+  mesh.coordinates = std::move(all.points);
+  const auto number = [&](std::size_t tag) { return all.numbers.at(tag); };
+  std::vector<std::size_t> elements, nodes;
   gmsh::model::mesh::getElementsByType(tetrahedron, elements, nodes);
   for (std::size_t k = 0; k < nodes.size(); k += 4)
-    mesh.cells.append(std::array<NodeIndex, 4>{numbers.at(nodes[k]), numbers.at(nodes[k + 1]),
-                                               numbers.at(nodes[k + 2]), numbers.at(nodes[k + 3])});
+    mesh.cells.append(std::array<NodeIndex, 4>{number(nodes[k]), number(nodes[k + 1]),
+                                               number(nodes[k + 2]), number(nodes[k + 3])});
   return mesh;
 }
 

@@ -53,14 +53,12 @@ TEST(FlangeErrors, NameWhatIsNotPossible) {
                   generate_flange({ElementType::hexahedron, scale});
                 }),
                 HasSubstr("between 1 and 4"));
-  EXPECT_THAT(input_error_of(
-                  [] { find_domain("flange").generate({.element_type = ElementType::triangle}); }),
-              HasSubstr("choose one of tetrahedron, hexahedron"));
+  EXPECT_THAT(input_error_of([] { find_domain("flange").generate({.elements = "triangles"}); }),
+              HasSubstr("choose one of tetrahedra, hexahedra"));
 }
 
 TEST(Domains, FlangeIsAVolumeMesh) {
-  const AnyMesh mesh =
-      find_domain("flange").generate({.element_type = ElementType::hexahedron, .edge_scale = 3.0});
+  const AnyMesh mesh = find_domain("flange").generate({.elements = "hexahedra", .edge_scale = 3.0});
   expect_same_mesh(std::get<VolumeMesh>(mesh), generate_flange({ElementType::hexahedron, 3.0}));
 }
 

@@ -193,13 +193,12 @@ TEST(QuadSplit, BoundaryMidpointsAreWhereTheyAreWanted) {
 
 TEST(Domains, AreFoundByName) {
   const AnyMesh mesh =
-      find_domain("gear").generate({.element_type = ElementType::quadrilateral, .edge_scale = 3.0});
+      find_domain("gear").generate({.elements = "quadrilaterals", .edge_scale = 3.0});
   EXPECT_EQ(std::get<PlanarMesh>(mesh).topology().boundary_facets().size(), 326u);
   EXPECT_THAT(input_error_of([] { find_domain("bolt"); }),
               HasSubstr("there is no domain 'bolt'; use one of gear"));
-  EXPECT_THAT(input_error_of(
-                  [] { find_domain("gear").generate({.element_type = ElementType::hexahedron}); }),
-              HasSubstr("choose one of triangle, quadrilateral"));
+  EXPECT_THAT(input_error_of([] { find_domain("gear").generate({.elements = "hexahedra"}); }),
+              HasSubstr("choose one of triangles, quadrilaterals"));
 }
 
 }  // namespace

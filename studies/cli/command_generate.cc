@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include "meshes/distortion/distort.h"
@@ -19,16 +17,6 @@ struct Arguments {
   std::uint64_t seed = 1;
 };
 
-/// As users write them.
-const std::map<std::string, ElementType>& element_types() {
-  static const std::map<std::string, ElementType> types = {
-      {"triangles", ElementType::triangle},
-      {"quadrilaterals", ElementType::quadrilateral},
-      {"tetrahedra", ElementType::tetrahedron},
-      {"hexahedra", ElementType::hexahedron}};
-  return types;
-}
-
 template <int dim>
 void distort_and_write(Mesh<dim>& mesh, const Arguments& arguments) {
   if (arguments.distort_to > 0.0) {
@@ -39,23 +27,18 @@ void distort_and_write(Mesh<dim>& mesh, const Arguments& arguments) {
     distort(mesh, parameters);
   }
   write_mesh(arguments.out, mesh);
-  const ElementType type = mesh.topology().cell_type(0);
-  const auto name = std::find_if(element_types().begin(), element_types().end(),
-                                 [&](const auto& entry) { return entry.second == type; });
-  std::printf("%s: %zu nodes, %zu %s, q_mean %.4f\n", arguments.out.c_str(), mesh.n_nodes(),
-              mesh.n_cells(), name->first.c_str(), mesh_quality(mesh).q_mean);
+  std::printf("%s: %zu nodes, %zu cells (%s), q_mean %.4f\n", arguments.out.c_str(), mesh.n_nodes(),
+              mesh.n_cells(), arguments.elements.c_str(), mesh_quality(mesh).q_mean);
 }
 
-void generate(const Arguments& arguments) {
+void generate(Arguments arguments) {
   if (!(arguments.distort_to >= 0.0 && arguments.distort_to < 1.0))
     throw InputError("--distort-to is " + std::to_string(arguments.distort_to) +
                      ", but a mean quality lies between 0 (not distorted) and 1");
   const Domain& domain = find_domain(arguments.domain);
-  AnyMesh mesh = domain.generate({.element_type = arguments.elements.empty()
-                                                      ? domain.element_types.front()
-                                                      : element_types().at(arguments.elements),
-                                  .edge_scale = arguments.edge_scale,
-                                  .seed = arguments.seed});
+  arguments.elements = domain.elements_named(arguments.elements);
+  AnyMesh mesh = domain.generate(
+      {.elements = arguments.elements, .edge_scale = arguments.edge_scale, .seed = arguments.seed});
   std::visit([&](auto& planar_or_volume) { distort_and_write(planar_or_volume, arguments); }, mesh);
 }
 
@@ -66,11 +49,8 @@ void add_generate_command(CLI::App& app) {
   auto* command = app.add_subcommand("generate", "generate and distort the mesh of a domain");
   command->add_option("domain", arguments->domain, "domain (see 'list')")->required();
   command->add_option("-o,--out", arguments->out, "mesh to write")->required();
-  command
-      ->add_option("--elements", arguments->elements,
-                   "triangles, quadrilaterals, tetrahedra, hexahedra; default: the domain's first "
-                   "(see list)")
-      ->check(CLI::IsMember(element_types()));
+  command->add_option("--elements", arguments->elements,
+                      joined(element_names()) + "; default: the domain's first (see list)");
   command->add_option("--edge-scale", arguments->edge_scale, "edges longer by this factor");
   command->add_option("--distort-to", arguments->distort_to, "mean quality to distort to");
   command->add_option("--seed", arguments->seed, "seed of generation and distortion")

@@ -60,12 +60,9 @@ void list_studies(const std::filesystem::path& folder) {
 
 void list_the_rest() {
   std::printf("\nDOMAINS (generate NAME, 'domain' in study files)\n\n");
-  for (const auto& domain : domains()) {
-    std::vector<std::string> types;
-    for (const ElementType type : domain.element_types) types.emplace_back(name_of(type));
+  for (const auto& domain : domains())
     std::printf("  %-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
-                joined(types).c_str());
-  }
+                joined(domain.elements).c_str());
   std::printf("\nSOLUTIONS ('solution' in study files)\n\n");
   for (const int dimension : {2, 3})
     with_dimension(dimension, [&]<int dim>() {

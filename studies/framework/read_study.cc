@@ -21,14 +21,6 @@ std::vector<std::string> method_labels(const std::string& list, int dimension) {
   return names;
 }
 
-ElementType element_type_of(const std::string& plural) {
-  for (const auto& [name, type] : {std::pair("triangles", ElementType::triangle),
-                                   std::pair("quadrilaterals", ElementType::quadrilateral),
-                                   std::pair("tetrahedra", ElementType::tetrahedron)})
-    if (plural == name) return type;
-  return ElementType::hexahedron;
-}
-
 Recorded recorded(const std::string& text) {
   return text == "never"     ? Recorded::never
          : text == "results" ? Recorded::results
@@ -69,7 +61,7 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
                  .title = p.get("title"),
                  .file = p.get("file"),
                  .domain = p.get("domain"),
-                 .element_type = element_type_of(p.get("elements")),
+                 .elements = p.get("elements"),
                  .published_file = p.get("published file"),
                  .distort_to_q_mean = p.get_double("distort to"),
                  .distortion_candidates = static_cast<int>(p.get_integer("distortion candidates")),
@@ -156,7 +148,7 @@ void check_names(const Study& study) {
     with_dimension(study.dimension,
                    [&]<int dim>() { (void)manufactured_solution<dim>(study.solution.name); });
   for (const auto& mesh : study.meshes)
-    if (!mesh.domain.empty()) (void)find_domain(mesh.domain);
+    if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
 }
 
 void check_thresholds(const Study& study, const std::string& file) {

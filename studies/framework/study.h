@@ -18,7 +18,7 @@ struct StudyMesh {
   std::string title;           ///< in tables and figures
   std::filesystem::path file;  ///< empty: generate
   std::string domain;          ///< which domain to generate
-  ElementType element_type = ElementType::triangle;
+  std::string elements;        ///< of the generated mesh; empty: the domain's usual ones
   /// File name looked for with --mesh-dir, in place of `file` or `domain`. It is taken as it is,
   /// not distorted: published meshes are already.
   std::string published_file;

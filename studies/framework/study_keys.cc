@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
+#include "meshes/generators/domains.h"
 #include "studies/framework/study.h"
 
 namespace smoothfem {
@@ -15,13 +16,17 @@ namespace {
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
+/// "a|b|c", as deal.II writes a choice.
+std::string one_of(const std::vector<std::string>& names) {
+  std::string choice;
+  for (const auto& name : names) choice += (choice.empty() ? "" : "|") + name;
+  return choice;
+}
+
 /// The range of a parameter as deal.II checks it, which knows the line of a bad value.
 std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
-  if (const auto* choice = std::get_if<Choice>(&parameter.value)) {
-    std::string names;
-    for (const auto& name : choice->names) names += (names.empty() ? "" : "|") + name;
-    return std::make_unique<Patterns::Selection>(names);
-  }
+  if (const auto* choice = std::get_if<Choice>(&parameter.value))
+    return std::make_unique<Patterns::Selection>(one_of(choice->names));
   if (std::holds_alternative<std::vector<double>*>(parameter.value))
     return std::make_unique<Patterns::List>(Patterns::Double(parameter.lower, parameter.upper), 1);
   if (!std::holds_alternative<int*>(parameter.value))
@@ -60,9 +65,8 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("file", "", Patterns::Anything(),
                   "Mesh file, relative to this file; empty: generate.");
   p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
-  p.declare_entry("elements", dimension == 2 ? "triangles" : "tetrahedra",
-                  Patterns::Selection("triangles|quadrilaterals|tetrahedra|hexahedra"),
-                  "Elements of a generated mesh.");
+  p.declare_entry("elements", "", Patterns::Selection("|" + one_of(element_names())),
+                  "Elements of a generated mesh; empty: the domain's usual ones.");
   p.declare_entry("published file", "", Patterns::Anything(),
                   "File that --mesh-dir looks for in place of the above; not distorted.");
   p.declare_entry("distort to", "0", Patterns::Double(0.0, 1.0),

@@ -45,8 +45,8 @@ Source source_of(const StudyMesh& description, const std::filesystem::path& mesh
   if (!description.file.empty())
     origin << description.file.string();
   else if (!description.domain.empty())
-    origin << "generated " << description.domain << " of " << name_of(description.element_type)
-           << "s";
+    origin << "generated " << description.domain << " of "
+           << find_domain(description.domain).elements_named(description.elements);
   else
     throw InputError("mesh " + description.name +
                      " has neither a file nor a domain; set one of them in its subsection");
@@ -60,7 +60,7 @@ template <int dim>
 Mesh<dim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale) {
   Mesh<dim> mesh = source.file.empty()
                        ? of_dimension<dim>(find_domain(description.domain)
-                                               .generate({.element_type = description.element_type,
+                                               .generate({.elements = description.elements,
                                                           .edge_scale = edge_scale,
                                                           .seed = description.seed}),
                                            "the domain " + description.domain)

@@ -355,7 +355,7 @@ TEST_F(CommandLine, GeneratesAndDistortsVolumeMeshes) {
   const Outcome planar =
       smoothfem({"generate", "flange", "-o", "no.vtu", "--elements", "triangles"});
   EXPECT_EQ(planar.exit_code, 2);
-  EXPECT_NE(planar.err.find("tetrahedron, hexahedron"), std::string::npos) << planar.err;
+  EXPECT_NE(planar.err.find("tetrahedra, hexahedra"), std::string::npos) << planar.err;
 }
 
 const std::string own_study = R"(

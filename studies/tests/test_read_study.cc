@@ -22,11 +22,11 @@ TEST(GearStudy, IsTheExampleOfTheThesis) {
   ASSERT_EQ(study.meshes.size(), 2u);
   EXPECT_EQ(study.meshes[0].name, "tri");
   EXPECT_EQ(study.meshes[0].domain, "gear");
-  EXPECT_EQ(study.meshes[0].element_type, ElementType::triangle);
+  EXPECT_EQ(study.meshes[0].elements, "triangles");
   EXPECT_EQ(study.meshes[0].published_file, "gear_tri_initial.mesh");
   EXPECT_EQ(study.meshes[0].distort_to_q_mean, 0.3699);
   EXPECT_EQ(study.meshes[1].name, "quad");
-  EXPECT_EQ(study.meshes[1].element_type, ElementType::quadrilateral);
+  EXPECT_EQ(study.meshes[1].elements, "quadrilaterals");
   EXPECT_EQ(study.meshes[1].distort_to_q_mean, 0.4180);
   EXPECT_EQ(names_of(study.methods), (std::vector<std::string>{"weighted-laplace", "smart-laplace",
                                                                "global-optimization", "getme"}));
@@ -66,9 +66,9 @@ TEST(VolumeStudy, IsThatOfSection63) {
   const Study study = read_study(file);
   EXPECT_EQ(study.dimension, 3);
   ASSERT_EQ(study.meshes.size(), 2u);
-  EXPECT_EQ(study.meshes[0].element_type, ElementType::tetrahedron);
+  EXPECT_EQ(study.meshes[0].elements, "tetrahedra");
   EXPECT_EQ(study.meshes[0].distort_to_q_mean, 0.4178);
-  EXPECT_EQ(study.meshes[1].element_type, ElementType::hexahedron);
+  EXPECT_EQ(study.meshes[1].elements, "hexahedra");
   EXPECT_EQ(study.meshes[1].distort_to_q_mean, 0.4631);
   EXPECT_EQ(study.solution.name, "volume");
   EXPECT_EQ(study.finite_elements.condition_number, ConditionNumberMethod::lanczos);
@@ -204,6 +204,9 @@ TEST_F(StudyFile, UnknownNamesAreRefused) {
   expect_error(one_mesh + "set degrees = 1, 3\n", "'3'");
   expect_error(one_mesh + "subsection solution\n set name = nowhere\nend\n", "nowhere");
   expect_error("set meshes = a\nsubsection mesh a\n set domain = moon\nend\n", "moon");
+  expect_error(
+      "set meshes = a\nsubsection mesh a\n set domain = gear\n set elements = mixed\nend\n",
+      "choose one of triangles, quadrilaterals");
   expect_error(one_mesh +
                    "set methods = laplace\nsubsection thresholds\n set reference = getme\n"
                    "end\n",
