@@ -10,7 +10,7 @@ from . import style
 from .read_results import INITIAL
 from .table_descriptions import SYMBOLS
 
-QUALITY = ("q_min", "q_star_min", "q_mean")
+QUALITY = ("q_min", "q_star_min", "q_mean", "w_mean")
 
 # A row of panels is logarithmic from this ratio of largest to smallest error on: the thesis' own
 # figure spans a factor of 7 at most and is linear, errors of quadratic elements span more than 20.

@@ -14,8 +14,25 @@ from .read_vtu import read_vtu
 from .virtual_display import NoDisplay
 
 # Numbers in the thesis of the figures of its studies; any other figure has no number.
-THESIS_NUMBERS = {"gear": {"model": "6_2", "meshes": "6_3", "history": "6_4"},
-                  "volume": {"model": "6_5", "meshes": "6_6", "histograms": "6_7", "history": "6_8"}}
+THESIS_NUMBERS = {
+    "planar": {"meshes": "5_2"},
+    "surface": {"meshes": "5_4"},
+    "bridge": {"meshes": "5_6"},
+    "sphere": {"meshes": "5_7", "history": "5_8", "histograms": "5_9"},
+    "prosthesis": {"meshes": "5_11", "history": "5_12", "histograms": "5_13"},
+    "axle": {"meshes": "5_15", "history": "5_16"},
+    "nonuniform-grid": {"meshes": "5_18", "history": "5_19"},
+    "subdivision": {"meshes": "5_21", "histograms": "5_22", "history": "5_23"},
+    "sweep": {"meshes": "5_25", "histograms": "5_26", "history": "5_27"},
+    "car": {"meshes": "5_31", "histograms": "5_30", "history": "5_34"},
+    "plate": {"meshes": "5_36", "histograms": "5_37", "history": "5_38"},
+    "ring": {"meshes": "5_40", "histograms": "5_41", "history": "5_42"},
+    "aorta": {"meshes": "5_44", "histograms": "5_45", "history": "5_46"},
+    "warpage": {"history": "5_47"},
+    "piston": {"meshes": "5_49", "history": "5_50"},
+    "pump": {"meshes": "5_52", "history": "5_53"},
+    "gear": {"model": "6_2", "meshes": "6_3", "history": "6_4"},
+    "volume": {"model": "6_5", "meshes": "6_6", "histograms": "6_7", "history": "6_8"}}
 # The degree whose errors the history figure shows; the lowest one for any other study.
 HISTORY_DEGREES = {"volume": "2"}
 
@@ -57,7 +74,8 @@ def draw_history_figures(results, save):
     first = results.degrees[0] if results.degrees else ""
     shown = HISTORY_DEGREES.get(results.study, first)
     shown = shown if shown in results.degrees else first
-    main = ("q_min", "q_mean", "e_max", "e_mean")
+    main = (("q_min", "q_mean", "e_max", "e_mean") if results.degrees else
+            ("q_star_min", "q_mean", "w_mean"))
     for log_time, variant, title in ((False, "", "history"), (True, "_log_time", "history, log time")):
         save(draw_history(results, main, shown, log_time),
              figure_name(results.study, "history", variant), title)

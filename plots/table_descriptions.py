@@ -24,6 +24,7 @@ class Measure:
     format: Optional[Callable]  # None: the field as it stands in the file
     difference: bool = True  # whether a relative difference from the print makes sense
     usual: Optional[str] = None  # the column is left out where all fields are this
+    if_printed: bool = False  # the column is left out where the print has none
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class TableDescription:
     measures: tuple
     degree_independent: bool = False  # the same numbers stand in the rows of every degree
     pivot: bool = False  # rows of different methods become columns
+    needs: str = ""  # the table is left out where our rows have nothing in this column
 
 
 KEY_HEADINGS = {"mesh": Heading("Mesh", "Mesh"), "method": Heading("Method", "Method"),
@@ -51,6 +53,7 @@ SYMBOLS = {
     "h1_error": Heading("|u-u_h|_H1", r"$\Vert u-u_h\Vert_{H^1}$"),
     "lambda_min": Heading("lambda_min", r"$\lambda_{\min}$"),
     "lambda_max": Heading("lambda_max", r"$\lambda_{\max}$"),
+    "w_max": Heading("w_max", r"$w_{\max}$"), "w_mean": Heading("w_mean", r"$w_{\mathrm{mean}}$"),
 }
 
 TIME = Heading("Time (s)", "Time (s)")
@@ -61,8 +64,17 @@ SMOOTHING = TableDescription(
     measures=(
         Measure("iterations", Heading("Iterations", "Iterations"), None, difference=False),
         Measure("smoothing_seconds", TIME, form.format_seconds, difference=False),
+        Measure("peak_memory_gib", Heading("Memory (GiB)", "Memory (GiB)"), form.format_factor,
+                difference=False, if_printed=True),
         Measure("q_min", SYMBOLS["q_min"], form.format_quality),
+        Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality, if_printed=True),
         Measure("q_mean", SYMBOLS["q_mean"], form.format_quality)))
+
+WARPAGE = TableDescription(
+    content="warpage", source="summary", keys=("mesh", "method"), degree_independent=True,
+    caption="Mean ratio of the cells and warpage of their quadrilateral faces", needs="w_mean",
+    measures=tuple(Measure(name, SYMBOLS[name], form.format_quality)
+                   for name in ("w_max", "w_mean", "q_min", "q_mean")))
 
 SOLVER = TableDescription(
     content="solver", source="summary", keys=("mesh", "degree", "method"),
@@ -112,4 +124,4 @@ DETAILS = TableDescription(
         Measure("h1_error", SYMBOLS["h1_error"], form.format_error),
         Measure("status", Heading("Status", "Status"), None, difference=False, usual="ok")))
 
-TABLES = (SMOOTHING, SOLVER, ERRORS, THRESHOLDS, DETAILS)
+TABLES = (SMOOTHING, WARPAGE, SOLVER, ERRORS, THRESHOLDS, DETAILS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fills the tables of Chapter 6 of the thesis: our numbers, the printed ones, their difference.
+"""Fills the tables of Chapters 5 and 6 of the thesis: our numbers, the printed ones, their difference.
 
 One mechanism for all tables; what differs stands in table_descriptions.py.
 """
@@ -60,6 +60,8 @@ def make_table(description, results, printed):
     rows = getattr(results, description.source).records()
     if description.degree_independent:
         rows = [row for row in rows if row.get("degree", "") == first_degree(row, rows)]
+    if description.needs and not any(row.get(description.needs) for row in rows):
+        return None
     reference = printed.rows if printed else []
     sentences = ()
     if description.pivot:
@@ -157,7 +159,8 @@ def make_group(measure, pairs, notes):
     fields = [ours.get(measure.column, "") for ours, _ in pairs]
     # None: the print has no such row or column; empty: it has, and leaves it empty.
     prints = [printed.get(measure.column) for _, printed in pairs]
-    if not any(prints) and all(field in ("", measure.usual) for field in fields):
+    if not any(prints) and (measure.if_printed
+                            or all(field in ("", measure.usual) for field in fields)):
         return None
     values, texts = None, [field or MISSING for field in fields]
     if measure.format is not None:

@@ -142,7 +142,7 @@ class ClaimsOfTheThesis(InFolder):
             self.assertEqual(len(rows), 1 + len(read_claims(study)))
             self.assertEqual({row.count(" |") for row in rows}, {7})
             self.assertIn("stand-ins", text)
-        folder = write_results(self.folder / "own", study="plate")
+        folder = write_results(self.folder / "own", study="slab")
         self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
         self.assertFalse((folder / "tables" / "claims.md").exists())
 

@@ -36,7 +36,7 @@ class Figures(InFolder):
                          {name + suffix for name in names for suffix in (".pdf", ".png")})
 
     def test_other_study_several_meshes_one_mesh_file_missing(self):
-        folder = write_results(self.folder / "r", "plate", ("a", "b", "c"), ("own", "other", "laplace"))
+        folder = write_results(self.folder / "r", "slab", ("a", "b", "c"), ("own", "other", "laplace"))
         (folder / "meshes" / "b_own.vtu").unlink()
         output, errors = self.run_main(folder)
         self.assertIn("b_own.vtu", errors)

@@ -75,7 +75,7 @@ class Tables(InFolder):
             self.assertLessEqual(max(map(len, as_text(table).splitlines())), TERMINAL_WIDTH)
 
     def test_other_study_has_no_printed_columns(self):
-        tables = self.tables(study="plate", methods=("own_1", "getme"))
+        tables = self.tables(study="slab", methods=("own_1", "getme"))
         self.assertEqual(list(tables), ["table_smoothing", "table_solver", "table_errors",
                                         "table_thresholds", "table_details"])
         for table in tables.values():
@@ -115,7 +115,7 @@ class PrintedValues(InFolder):
     def test_choice_of_tables(self):
         self.assertEqual(set(read_printed_tables("gear", {})),
                          {"smoothing", "solver", "errors", "thresholds"})
-        self.assertEqual(read_printed_tables("plate", {}), {})
+        self.assertEqual(read_printed_tables("slab", {}), {})
         self.assertEqual(read_printed_tables("gear", {"printed_values": []}), {})
         for chosen in ("6.1", "table_6_1", "studies/thesis/table_6_1.csv"):
             self.assertEqual(set(read_printed_tables("own", {"printed_values": [chosen]})), {"smoothing"})
