@@ -188,27 +188,35 @@ const Preset& find_preset(const std::string& name) {
 }
 
 template <int dim>
-void apply_preset(const Preset& preset, Method<dim>& method) {
-  const std::string owner = "preset " + preset.name;
-  std::vector<std::string> known;
-  bool any = false;
-  for (const auto& setting : preset.settings) {
-    if (setting.dim != dim) continue;
-    if (std::find(known.begin(), known.end(), setting.stage) == known.end())
-      known.push_back(setting.stage);
-    for (auto& stage : method.stages) {
-      if (stage->name() != setting.stage) continue;
-      set_value(find_parameter(stage->parameters(), setting.parameter, owner), setting.value,
-                owner);
-      any = true;
-    }
-  }
-  if (any) return;
-  throw InputError(owner + " has no parameters for method " + method.info.name + " on " +
-                   (dim == 2 ? "planar" : "volume") + " meshes; it has them for the stages " +
-                   joined(known));
+bool has_parameters_for(const Preset& preset, const Method<dim>& method) {
+  return std::any_of(preset.settings.begin(), preset.settings.end(), [&](const auto& setting) {
+    return setting.dim == dim &&
+           std::any_of(method.stages.begin(), method.stages.end(),
+                       [&](const auto& stage) { return stage->name() == setting.stage; });
+  });
 }
 
+template <int dim>
+void apply_preset(const Preset& preset, Method<dim>& method) {
+  const std::string owner = "preset " + preset.name;
+  if (!has_parameters_for(preset, method)) {
+    std::vector<std::string> known;
+    for (const auto& setting : preset.settings)
+      if (setting.dim == dim && std::find(known.begin(), known.end(), setting.stage) == known.end())
+        known.push_back(setting.stage);
+    throw InputError(owner + " has no parameters for method " + method.info.name + " on " +
+                     (dim == 2 ? "planar" : "volume") + " meshes; it has them for the stages " +
+                     joined(known));
+  }
+  for (const auto& setting : preset.settings)
+    for (auto& stage : method.stages)
+      if (setting.dim == dim && stage->name() == setting.stage)
+        set_value(find_parameter(stage->parameters(), setting.parameter, owner), setting.value,
+                  owner);
+}
+
+template bool has_parameters_for(const Preset&, const Method<2>&);
+template bool has_parameters_for(const Preset&, const Method<3>&);
 template void apply_preset(const Preset&, Method<2>&);
 template void apply_preset(const Preset&, Method<3>&);
 

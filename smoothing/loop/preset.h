@@ -27,6 +27,10 @@ const std::vector<Preset>& presets();
 /// Throws InputError listing the names there are.
 const Preset& find_preset(const std::string& name);
 
+/// True if the preset has parameters for one of the method's stages.
+template <int dim>
+bool has_parameters_for(const Preset& preset, const Method<dim>& method);
+
 /// Sets the parameters of the method's stages that the preset names. Throws InputError if it names
 /// none of them; the sentence says which stages it has parameters for.
 template <int dim>

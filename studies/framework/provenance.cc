@@ -86,6 +86,7 @@ Json describe_methods(const Study& study) {
       methods.push_back({{"name", entry.name},
                          {"title", entry.title},
                          {"type", entry.type},
+                         {"threads", entry.threads},
                          {"citation", method.info.source},
                          {"parameters", parameters}});
     }
@@ -134,6 +135,7 @@ std::string provenance_json(const RunFacts& facts) {
   Json json;
   json["study"] = facts.study.name;
   json["study_title"] = facts.study.title;
+  json["note"] = facts.study.note;
   json["status"] = facts.status;
   json["written"] = now_utc();
   json["scale"] = facts.study.scale.empty() ? "default" : facts.study.scale;

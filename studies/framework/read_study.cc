@@ -63,17 +63,26 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
                  .domain = p.get("domain"),
                  .elements = p.get("elements"),
                  .published_file = p.get("published file"),
+                 .edge_scale = p.get_double("edge scale"),
                  .distort_to_q_mean = p.get_double("distort to"),
+                 .distort_within = p.get_double("distort within"),
                  .distortion_candidates = static_cast<int>(p.get_integer("distortion candidates")),
                  .distortion_sweeps = static_cast<int>(p.get_integer("distortion sweeps")),
                  .seed = static_cast<std::uint64_t>(p.get_integer("seed"))};
   if (!mesh.file.empty() && mesh.file.is_relative()) mesh.file = folder / mesh.file;
+  if (mesh.distort_to_q_mean > 0.0 && mesh.distort_within > 0.0)
+    throw InputError("the mesh " + name +
+                     " has both 'distort to' and 'distort within'; choose one of them");
   return mesh;
 }
 
 StudyMethod read_method_section(ParameterHandler& p, int dimension, const std::string& name) {
   const Subsection subsection(p, "method " + name);
-  StudyMethod method{.name = name, .type = p.get("type"), .title = p.get("title"), .settings = {}};
+  StudyMethod method{.name = name,
+                     .type = p.get("type"),
+                     .title = p.get("title"),
+                     .threads = static_cast<int>(p.get_integer("threads")),
+                     .settings = {}};
   with_dimension(dimension, [&]<int dim>() {
     Method<dim> defaults = make_method<dim>(method.type);
     for (const auto& parameter : defaults.parameters())
@@ -98,6 +107,7 @@ std::vector<int> read_degrees(const std::string& list, const std::string& file) 
 void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
   study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
+  study.record_warpage = p.get_bool("record warpage");
   study.write_series = p.get_bool("write series");
   {
     const Subsection subsection(p, "solution");
@@ -144,7 +154,7 @@ void read_scale(ParameterHandler& p, const std::string& file, Study& study) {
 
 /// Whether what the study names is there; better now than after the first mesh is generated.
 void check_names(const Study& study) {
-  if (study.solution.name != "expression")
+  if (!study.degrees.empty() && study.solution.name != "expression")
     with_dimension(study.dimension,
                    [&]<int dim>() { (void)manufactured_solution<dim>(study.solution.name); });
   for (const auto& mesh : study.meshes)
@@ -211,19 +221,21 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
       const Subsection subsection(types, "method " + method);
       type = types.get("type");
     }
-    in_file(file, [&] { declare_method(p, dimension, method, type); });
+    in_file(file, [&] { declare_method(p, dimension, method, type, lists.get("preset")); });
   }
   parse_study(p, text, file, false);
 
   Study study;
   study.name = file.stem().string();
   study.title = p.get("title");
+  study.note = p.get("note");
   study.scale = scale;
   study.dimension = dimension;
   check_label(study.name, "study", file.string());
   if (study.title.empty()) study.title = study.name;
   for (const auto& mesh : meshes)
-    study.meshes.push_back(read_mesh_section(p, mesh, file.parent_path()));
+    study.meshes.push_back(
+        in_file(file, [&] { return read_mesh_section(p, mesh, file.parent_path()); }));
   for (const auto& method : methods)
     study.methods.push_back(
         in_file(file, [&] { return read_method_section(p, dimension, method); }));

@@ -22,6 +22,13 @@ void add_quality(CsvText& csv, const MeshQuality& quality) {
   csv.integer(quality.n_invalid);
 }
 
+/// Empty where there are no quadrilateral faces.
+void add_warpage(CsvText& csv, const std::optional<MeshWarpage>& warpage) {
+  const bool known = warpage && warpage->n_faces > 0;
+  csv.number(known ? std::optional(warpage->max) : std::nullopt);
+  csv.number(known ? std::optional(warpage->mean) : std::nullopt);
+}
+
 void add_solution(CsvText& csv, int degree, const std::optional<SolutionRecord>& solved,
                   const std::string& status) {
   csv.field(degree > 0 ? std::to_string(degree) : "");
@@ -108,13 +115,14 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows) {
   CsvText csv(std::string("study,mesh,method,stage,iteration,smoothing_seconds,q_min,q_star_min,"
-                          "q_mean,n_invalid,n_reset,") +
+                          "q_mean,n_invalid,n_reset,w_max,w_mean,") +
               solution_columns);
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iteration.stage);
     csv.integer(row.iteration.iteration).number(row.iteration.smoothing_seconds);
     add_quality(csv, row.iteration.quality);
     csv.integer(row.iteration.n_reset);
+    add_warpage(csv, row.warpage);
     add_solution(csv, row.degree, row.solved, row.status);
     csv.end_line();
   }
@@ -123,12 +131,14 @@ std::string iterations_csv(const std::string& study, const std::vector<Iteration
 
 std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows) {
   CsvText csv(std::string("study,mesh,method,iterations,smoothing_seconds,q_min,q_star_min,q_mean,"
-                          "n_invalid,") +
+                          "n_invalid,w_max,w_mean,peak_memory_gib,") +
               solution_columns);
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iterations);
     csv.number(row.iterations.empty() ? std::nullopt : std::optional(row.smoothing_seconds));
     add_quality(csv, row.quality);
+    add_warpage(csv, row.warpage);
+    csv.number(row.peak_memory_gib);
     add_solution(csv, row.degree, row.solved, row.status);
     csv.end_line();
   }

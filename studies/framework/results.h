@@ -7,6 +7,7 @@
 
 #include "fem/poisson_solver.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/quality/warpage.h"
 
 namespace smoothfem {
 
@@ -14,6 +15,7 @@ namespace smoothfem {
 struct IterationRow {
   std::string mesh, method;
   IterationRecord iteration;
+  std::optional<MeshWarpage> warpage{};  ///< if recorded
   int degree = 0;                        ///< 0: the study solves nothing
   std::optional<SolutionRecord> solved;  ///< empty where there is no solution
   std::string status;                    ///< "ok", or why a row has no finite element numbers
@@ -25,6 +27,8 @@ struct SummaryRow {
   std::string iterations{};  ///< "40/2800"; empty for the initial mesh
   double smoothing_seconds = 0.0;
   MeshQuality quality{};
+  std::optional<MeshWarpage> warpage{};     ///< of volume meshes
+  std::optional<double> peak_memory_gib{};  ///< of the process while the method ran
   int degree = 0;
   std::optional<SolutionRecord> solved{};
   std::string status{};

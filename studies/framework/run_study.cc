@@ -40,12 +40,13 @@ class StudyRun {
     timed("meshes", [&] {
       prepare_meshes();
       require_same_settings(earlier_, study_, mesh_facts(), options_.out);
-      data_.solution = make_solution();
+      if (!study_.degrees.empty()) data_.solution = make_solution();
     });
     if (earlier_.status == "complete") return say_complete();
     begin_writing();
     timed("smoothing", [&] { smooth_meshes(); });
-    timed("finite_elements", [&] { solve(); });
+    make_tasks(data_);
+    if (!study_.degrees.empty()) timed("finite_elements", [&] { solve(); });
     timed("writing", [&] { write_results(); });
     write_provenance("complete");
     data_.checkpoint.remove();
@@ -136,7 +137,6 @@ class StudyRun {
   }
 
   void smooth_meshes() {
-    set_n_threads(static_cast<int>(options_.smoothing_threads));
     progress_.begin("Smoothing", data_.meshes.size() * study_.methods.size());
     std::size_t done = 0;
     for (const auto& prepared : data_.meshes) {
@@ -153,8 +153,10 @@ class StudyRun {
   Trajectory trajectory_of(const PreparedMesh<dim>& prepared, const StudyMethod& method) {
     const std::string name = Checkpoint::name(prepared.description.name, method.name);
     if (auto known = data_.checkpoint.load_trajectory(name)) return *std::move(known);
+    set_n_threads(method.threads > 0 ? method.threads
+                                     : static_cast<int>(options_.smoothing_threads));
     const Trajectory trajectory = record_trajectory<dim>(
-        prepared.mesh, method, study_.timing_runs, study_.record_every,
+        prepared.mesh, method, study_,
         [&](std::size_t record, const std::vector<Point<dim>>& coordinates) {
           stop_if_interrupted();
           data_.checkpoint.save_numbers(name, record, numbers_of<dim>(coordinates));
@@ -164,7 +166,6 @@ class StudyRun {
   }
 
   void solve() {
-    make_tasks(data_);
     std::vector<SolveTask*> open;
     for (auto& task : data_.tasks)
       if (!task.done) open.push_back(&task);

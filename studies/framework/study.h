@@ -22,16 +22,24 @@ struct StudyMesh {
   /// File name looked for with --mesh-dir, in place of `file` or `domain`. It is taken as it is,
   /// not distorted: published meshes are already.
   std::string published_file;
+  double edge_scale = 1.0;         ///< of a generated mesh, times that of the study
   double distort_to_q_mean = 0.0;  ///< 0: not distorted
+  double distort_within = 0.0;     ///< relative radius instead of a quality; 0: not distorted by it
   int distortion_candidates = 10;  ///< see DistortionParameters
   int distortion_sweeps = 1;
   std::uint64_t seed = 1;
 };
 
+/// Whether a mesh is changed after it has been read or generated.
+inline bool is_distorted(const StudyMesh& mesh) {
+  return mesh.distort_to_q_mean > 0.0 || mesh.distort_within > 0.0;
+}
+
 struct StudyMethod {
   std::string name;                                           ///< label in results
   std::string type;                                           ///< registered method
   std::string title;                                          ///< in tables and figures
+  int threads = 0;                                            ///< 0: as StudyOptions says
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
 
   /// The method with its settings.
@@ -61,6 +69,7 @@ struct RecordEvery {
 struct Study {
   std::string name;
   std::string title;
+  std::string note;   ///< what can be compared with the literature, in one sentence, or empty
   std::string scale;  ///< the one chosen; empty: as the study file says
   int dimension = 2;  ///< of the meshes: 2 or 3
   std::vector<StudyMesh> meshes;
@@ -69,10 +78,11 @@ struct Study {
   StudySolution solution;
   PoissonOptions finite_elements;  ///< its degree is not used
   StudyThresholds thresholds;
-  RecordEvery record_every;   ///< initial and resulting mesh and the last of each method always
-  int timing_runs = 1;        ///< smoothing times are medians over this many runs
-  double edge_scale = 1.0;    ///< generated meshes: edges this much longer
-  bool write_series = false;  ///< a VTU series for each mesh and method
+  RecordEvery record_every;     ///< initial and resulting mesh and the last of each method always
+  int timing_runs = 1;          ///< smoothing times are medians over this many runs
+  double edge_scale = 1.0;      ///< generated meshes: edges this much longer
+  bool record_warpage = false;  ///< of every iteration, not only of initial and resulting meshes
+  bool write_series = false;    ///< a VTU series for each mesh and method
   std::vector<std::pair<std::string, std::string>> parameters;  ///< as read, for the provenance
 };
 

@@ -33,10 +33,14 @@ std::vector<Outcome> outcomes(const Study& study, const Tasks& tasks, bool inval
 template <int dim>
 void append_rows(const StudyData<dim>& data, std::size_t mesh, std::size_t method,
                  std::size_t record, const Tasks& tasks, std::vector<IterationRow>& rows) {
-  const IterationRecord& iteration = data.trajectories[mesh][method].records[record];
+  const Trajectory& trajectory = data.trajectories[mesh][method];
+  const IterationRecord& iteration = trajectory.records[record];
+  const auto warpage = record < trajectory.warpage_of_records.size()
+                           ? std::optional(trajectory.warpage_of_records[record])
+                           : std::nullopt;
   for (auto& outcome : outcomes(data.study, tasks, iteration.quality.n_invalid > 0))
     rows.push_back({data.meshes[mesh].description.name, data.study.methods[method].name, iteration,
-                    outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
+                    warpage, outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
 }
 
 void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
@@ -72,6 +76,7 @@ template <int dim>
 MeshFields fields_of(const StudyData<dim>& data, const Mesh<dim>& mesh, const Tasks& tasks) {
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
+  if (!data.solution) return fields;
   auto& exact = fields.point["exact_solution"];
   for (const auto& p : mesh.coordinates()) exact.push_back(data.solution->value(p));
   for (std::size_t d = 0; d < tasks.size(); ++d)
@@ -197,7 +202,10 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim>& data) {
   for (std::size_t m = 0; m < data.meshes.size(); ++m) {
     const std::string& name = data.meshes[m].description.name;
     append_summary(data.study,
-                   {.mesh = name, .method = "initial", .quality = data.meshes[m].quality},
+                   {.mesh = name,
+                    .method = "initial",
+                    .quality = data.meshes[m].quality,
+                    .warpage = warpage_of(data.meshes[m].mesh)},
                    data.mesh_tasks[m].initial, rows);
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
       const auto& trajectory = data.trajectories[m][k];
@@ -206,7 +214,9 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim>& data) {
                       .method = data.study.methods[k].name,
                       .iterations = trajectory.iterations_text,
                       .smoothing_seconds = trajectory.smoothing_seconds,
-                      .quality = trajectory.quality},
+                      .quality = trajectory.quality,
+                      .warpage = trajectory.warpage,
+                      .peak_memory_gib = trajectory.peak_memory_gib},
                      result_tasks(data, m, k), rows);
     }
   }

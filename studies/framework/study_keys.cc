@@ -7,6 +7,7 @@
 
 #include "meshes/distortion/distort.h"
 #include "meshes/generators/domains.h"
+#include "smoothing/loop/preset.h"
 #include "studies/framework/study.h"
 
 namespace smoothfem {
@@ -47,6 +48,10 @@ void declare_lists(ParameterHandler& p) {
   p.declare_entry("kind", "smoothing", Patterns::Selection("smoothing"),
                   "What the study does; other kinds have other keys.");
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("note", "", Patterns::Anything(),
+                  "What can be compared with the literature, in one sentence.");
+  p.declare_entry("preset", "", Patterns::Anything(),
+                  "Parameters of the methods (see 'list'); empty: their defaults.");
   p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
   p.declare_entry("scales", "", Patterns::Anything(),
                   "Sizes that --scale can choose, separated by commas; each has a subsection "
@@ -67,19 +72,25 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
   p.declare_entry("elements", "", Patterns::Selection("|" + one_of(element_names())),
                   "Elements of a generated mesh; empty: the domain's usual ones.");
+  p.declare_entry("edge scale", "1", Patterns::Double(1.0),
+                  "Edges of a generated mesh longer by this factor, besides the study's own.");
   p.declare_entry("published file", "", Patterns::Anything(),
                   "File that --mesh-dir looks for in place of the above; not distorted.");
   p.declare_entry("distort to", "0", Patterns::Double(0.0, 1.0),
                   "Mean quality to distort the mesh to; 0: as it is.");
+  p.declare_entry("distort within", "0", Patterns::Double(0.0),
+                  "Instead: radius to distort the mesh within, in mean lengths of a node's edges. "
+                  "Large meshes: the radius for a quality takes many trials.");
   p.declare_entry("distortion candidates", std::to_string(usual_candidates(dimension)),
                   Patterns::Integer(1), "Random places that a node chooses the worst from.");
   p.declare_entry("distortion sweeps", "1", Patterns::Integer(1), "Times all nodes are moved.");
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
 }
 
-/// The parameters of a method are those it registers, with its own defaults.
+/// The parameters of a method are those it registers, with the defaults of a preset, if given, or
+/// its own.
 void declare_method(ParameterHandler& p, int dimension, const std::string& name,
-                    const std::string& type) {
+                    const std::string& type, const std::string& preset) {
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
   if (type.empty()) return;
@@ -87,6 +98,10 @@ void declare_method(ParameterHandler& p, int dimension, const std::string& name,
     Method<dim> method = make_method<dim>(type);
     p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
                     "Title in tables and figures.");
+    p.declare_entry("threads", "0", Patterns::Integer(0, 1024),
+                    "Of smoothing; 0: as --smoothing-threads says.");
+    if (!preset.empty() && has_parameters_for(find_preset(preset), method))
+      apply_preset(find_preset(preset), method);
     for (const auto& parameter : method.parameters())
       p.declare_entry(parameter.name, value_text(parameter), *range_of(parameter),
                       parameter.description);
@@ -105,6 +120,8 @@ void declare_problem(ParameterHandler& p) {
                   "Smoothing times are medians over this many runs.");
   p.declare_entry("edge scale", "1", Patterns::Double(1.0),
                   "Generated meshes: edges longer by this factor.");
+  p.declare_entry("record warpage", "false", Patterns::Bool(),
+                  "Warpage of volume meshes after every iteration, not only at the end.");
   p.declare_entry("write series", "false", Patterns::Bool(),
                   "Write each method's meshes as a VTU series (.pvd).");
   {

@@ -51,8 +51,10 @@ Source source_of(const StudyMesh& description, const std::filesystem::path& mesh
     throw InputError("mesh " + description.name +
                      " has neither a file nor a domain; set one of them in its subsection");
   if (description.distort_to_q_mean > 0.0)
-    origin << ", distorted to q_mean " << description.distort_to_q_mean << " with seed "
-           << description.seed;
+    origin << ", distorted to q_mean " << description.distort_to_q_mean;
+  if (description.distort_within > 0.0)
+    origin << ", distorted within radius " << description.distort_within;
+  if (is_distorted(description)) origin << " with seed " << description.seed;
   return {description.file, false, origin.str()};
 }
 
@@ -65,13 +67,17 @@ Mesh<dim> make_mesh(const StudyMesh& description, const Source& source, double e
                                                           .seed = description.seed}),
                                            "the domain " + description.domain)
                        : read_valid_mesh<dim>(source.file);
-  if (source.published || description.distort_to_q_mean == 0.0) return mesh;
+  if (source.published || !is_distorted(description)) return mesh;
   DistortionParameters parameters;
-  parameters.target_q_mean = description.distort_to_q_mean;
   parameters.n_candidates = description.distortion_candidates;
   parameters.n_sweeps = description.distortion_sweeps;
   parameters.seed = description.seed;
-  distort(mesh, parameters);
+  if (description.distort_within > 0.0) {
+    distort_within(mesh, description.distort_within, parameters);
+  } else {
+    parameters.target_q_mean = description.distort_to_q_mean;
+    distort(mesh, parameters);
+  }
   return mesh;
 }
 
@@ -82,11 +88,11 @@ PreparedMesh<dim> prepare_mesh(const StudyMesh& description, const Study& study,
                                const std::filesystem::path& mesh_dir,
                                const std::filesystem::path& kept) {
   const Source source = source_of(description, mesh_dir);
-  const bool as_read =
-      !source.file.empty() && (source.published || description.distort_to_q_mean == 0.0);
-  Mesh<dim> mesh = !as_read && std::filesystem::exists(kept)
-                       ? read_valid_mesh<dim>(kept)
-                       : make_mesh<dim>(description, source, study.edge_scale);
+  const bool as_read = !source.file.empty() && (source.published || !is_distorted(description));
+  Mesh<dim> mesh =
+      !as_read && std::filesystem::exists(kept)
+          ? read_valid_mesh<dim>(kept)
+          : make_mesh<dim>(description, source, study.edge_scale * description.edge_scale);
   if (!study.degrees.empty()) require_finite_elements<dim>(mesh.topology());
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),

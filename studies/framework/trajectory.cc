@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "studies/framework/peak_memory.h"
+
 namespace smoothfem {
 
 namespace {
@@ -38,41 +40,58 @@ class Schedule {
 }  // namespace
 
 template <int dim>
-Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, int timing_runs,
-                             const RecordEvery& record_every, const KeepSnapshot<dim>& keep) {
+MeshWarpage warpage_of(const Mesh<dim>& mesh) {
+  if constexpr (dim == 3)
+    return mesh_warpage(mesh);
+  else
+    return {};
+}
+template MeshWarpage warpage_of(const Mesh<2>&);
+template MeshWarpage warpage_of(const Mesh<3>&);
+
+template <int dim>
+Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, const Study& study,
+                             const KeepSnapshot<dim>& keep) {
   Trajectory trajectory;
   std::vector<std::vector<double>> times;
   std::vector<double> totals;
-  Schedule schedule(record_every);
+  Schedule schedule(study.record_every);
+  const bool keeps_all = !study.degrees.empty() || study.write_series;
   std::vector<Point<dim>> last;
   const auto record_all = [&](const IterationRecord& record, const Mesh<dim>& now) {
     trajectory.records.push_back(record);
     times.push_back({record.smoothing_seconds});
+    if (study.record_warpage) trajectory.warpage_of_records.push_back(warpage_of(now));
     if (record.record == 0) return;
     if (schedule.is_due(record)) {
       trajectory.snapshots.push_back(record.record);
-      keep(record.record, now.coordinates());
+      if (keeps_all) keep(record.record, now.coordinates());
     }
-    last = now.coordinates();
+    if (keeps_all) last = now.coordinates();
   };
+  const PeakMemory memory;
   Mesh<dim> smoothed = mesh;
   Method<dim> first = method.make<dim>();
   const SmoothingResult result = smooth(smoothed, first, record_all);
   totals.push_back(result.smoothing_seconds);
   trajectory.iterations_text = result.iterations_text();
   trajectory.quality = result.quality;
+  trajectory.warpage = warpage_of(smoothed);
+  trajectory.peak_memory_gib = memory.gib();
   trajectory.result_record = result.result_record;
   const auto also = [&](std::size_t record, const std::vector<Point<dim>>& coordinates) {
     auto& snapshots = trajectory.snapshots;
     const auto place = std::lower_bound(snapshots.begin(), snapshots.end(), record);
     if (record == 0 || (place != snapshots.end() && *place == record)) return;
     snapshots.insert(place, record);
-    keep(record, coordinates);
+    if (keeps_all) keep(record, coordinates);
   };
   also(trajectory.result_record, smoothed.coordinates());
   also(trajectory.records.size() - 1, last);
+  if (!keeps_all && trajectory.result_record > 0)
+    keep(trajectory.result_record, smoothed.coordinates());
 
-  for (int run = 1; run < timing_runs; ++run) {
+  for (int run = 1; run < study.timing_runs; ++run) {
     Mesh<dim> again = mesh;
     Method<dim> made = method.make<dim>();
     totals.push_back(smooth(again, made, [&](const IterationRecord& record, const Mesh<dim>&) {
@@ -85,9 +104,9 @@ Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, i
   return trajectory;
 }
 
-template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, int, const RecordEvery&,
+template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&,
                                       const KeepSnapshot<2>&);
-template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, int, const RecordEvery&,
+template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&,
                                       const KeepSnapshot<3>&);
 
 }  // namespace smoothfem

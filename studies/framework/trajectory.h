@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "smoothing/loop/smooth.h"
+#include "smoothing/quality/warpage.h"
 #include "studies/framework/study.h"
 
 namespace smoothfem {
@@ -18,7 +19,14 @@ struct Trajectory {
   std::string iterations_text;         ///< "40/2800"
   double smoothing_seconds = 0.0;      ///< of the whole run
   MeshQuality quality;                 ///< of the result
+  MeshWarpage warpage;                 ///< of the result; planar meshes: none
+  std::vector<MeshWarpage> warpage_of_records;  ///< one a record, or empty
+  double peak_memory_gib = 0.0;  ///< of the process, the study's other meshes included
 };
+
+/// Warpage of the quadrilateral faces of a volume mesh; planar meshes have none.
+template <int dim>
+MeshWarpage warpage_of(const Mesh<dim>& mesh);
 
 /// Puts the mesh of a record away.
 template <int dim>
@@ -27,9 +35,11 @@ using KeepSnapshot =
 
 /// Runs a method timing_runs times on copies of the mesh and keeps the median of the accumulated
 /// times of each record; the meshes are the same every time. Snapshots: every k-th record of each
-/// stage, the result and the last; `keep` gets them in any order, and may get others too.
+/// stage, the result and the last, as the study says; `keep` gets their meshes in any order, and
+/// may get others too. A study that neither solves nor writes series needs the result's mesh only:
+/// then `keep` gets no other.
 template <int dim>
-Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, int timing_runs,
-                             const RecordEvery& record_every, const KeepSnapshot<dim>& keep);
+Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, const Study& study,
+                             const KeepSnapshot<dim>& keep);
 
 }  // namespace smoothfem

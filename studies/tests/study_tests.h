@@ -65,13 +65,13 @@ struct CsvTable {
   }
 };
 
-/// A table of a study without the columns that are times.
+/// A table of a study without the columns that are times, or memory.
 inline std::vector<CsvTable::Row> rows_without_times(const std::filesystem::path& csv) {
   auto rows = CsvTable(content_of(csv)).rows;
   for (auto& row : rows)
     for (const std::string column :
          {"smoothing_seconds", "cg_seconds", "jacobi_cg_seconds", "amg_setup_seconds",
-          "amg_cg_seconds", "reference_seconds", "method_seconds", "speedup"})
+          "amg_cg_seconds", "reference_seconds", "method_seconds", "speedup", "peak_memory_gib"})
       row.erase(column);
   return rows;
 }

@@ -75,6 +75,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
   IterationRow row = iteration_row("getme", 3, 0.1);
   row.iteration.quality = {.q_min = 0.1, .q_star_min = 0.2, .q_mean = 2.0 / 3.0, .n_invalid = 0};
   row.iteration.n_reset = 4;
+  row.warpage = MeshWarpage{.max = 0.75, .mean = 0.125, .n_faces = 3};
   row.solved = full_record();
   const auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
   const CsvTable::Row expected_texts = {{"study", "study"},
@@ -87,6 +88,8 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                         {"q_star_min", "0.2"},
                                         {"n_invalid", "0"},
                                         {"n_reset", "4"},
+                                        {"w_max", "0.75"},
+                                        {"w_mean", "0.125"},
                                         {"degree", "2"},
                                         {"n_dofs", "9"},
                                         {"n_free", "1"},
@@ -180,11 +183,16 @@ TEST(SummaryCsv, TheInitialMeshHasNoIterationsAndNoTime) {
   SummaryRow smoothed{
       .mesh = "tri", .method = "getme", .iterations = "40/2800", .smoothing_seconds = 0.25};
   smoothed.degree = 1;
+  smoothed.peak_memory_gib = 1.5;
+  smoothed.warpage = MeshWarpage{};  // no quadrilateral faces
   const CsvTable table(summary_csv("study", {initial, smoothed}));
   EXPECT_EQ(table.rows.at(0).at("iterations"), "");
   EXPECT_EQ(table.rows.at(0).at("smoothing_seconds"), "");
   EXPECT_EQ(table.rows.at(1).at("iterations"), "40/2800");
   EXPECT_EQ(table.rows.at(1).at("smoothing_seconds"), "0.25");
+  EXPECT_EQ(table.rows.at(0).at("peak_memory_gib"), "");
+  EXPECT_EQ(table.rows.at(1).at("peak_memory_gib"), "1.5");
+  EXPECT_EQ(table.rows.at(1).at("w_mean"), "");
 }
 
 /// Rows of a method at 0, 1, 2, ... seconds with these values of every error; NaN: invalid mesh.
