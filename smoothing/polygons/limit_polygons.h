@@ -29,7 +29,7 @@ struct PolygonLimit {
   /// Indices of the largest eigenvalue: {k} in the domain D_k, {k, k + 1} on the line S_k.
   std::vector<std::size_t> dominant;
   Shape shape = Shape::point;
-  StarPolygon star;     ///< of the first dominant index that is not 0; of 0 for a point
+  StarPolygon star{};   ///< of the first dominant index that is not 0; of 0 for a point
   double growth = 1.0;  ///< largest eigenvalue: of lengths in a step, in the long run
   /// Next eigenvalue / largest one, in [0, 1): the error's factor in a step, in the long run.
   double convergence = 0.0;

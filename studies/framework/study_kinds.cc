@@ -1,6 +1,8 @@
 #include "studies/framework/study_kinds.h"
 
 #include "studies/framework/study_file.h"
+#include "studies/framework/table_study.h"
+#include "studies/polygons/polygon_study.h"
 
 namespace smoothfem {
 
@@ -15,10 +17,25 @@ ReadyStudy read_smoothing_study(const std::filesystem::path& file, const std::st
           .run = [study](const StudyOptions& options) { run_study(study, options); }};
 }
 
+/// Of a kind that computes tables.
+ReadyStudy table_study(const Study& facts, const std::vector<StudyTable>& tables) {
+  return {.name = facts.name,
+          .title = facts.title,
+          .run = [facts, tables](const StudyOptions& options) {
+            run_table_study(facts, options, tables);
+          }};
+}
+
+ReadyStudy read_polygons(const std::filesystem::path& file, const std::string& scale) {
+  const PolygonStudy study = read_polygon_study(file, scale);
+  return table_study(study.facts, polygon_tables(study));
+}
+
 }  // namespace
 
 const std::vector<StudyKind>& study_kinds() {
-  static const std::vector<StudyKind> kinds{{"smoothing", read_smoothing_study, study_template}};
+  static const std::vector<StudyKind> kinds{{"smoothing", read_smoothing_study, study_template},
+                                            {"polygons", read_polygons, polygon_study_template}};
   return kinds;
 }
 
