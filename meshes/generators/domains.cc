@@ -4,6 +4,8 @@
 
 #include "meshes/generators/flange.h"
 #include "meshes/generators/gear.h"
+#include "meshes/generators/nonuniform_grid.h"
+#include "meshes/generators/subdivided_cube.h"
 #include "smoothing/mesh/input_error.h"
 
 namespace smoothfem {
@@ -20,6 +22,14 @@ AnyMesh make_gear(const DomainParameters& p) {
 AnyMesh make_flange(const DomainParameters& p) {
   const auto type = p.elements == "tetrahedra" ? ElementType::tetrahedron : ElementType::hexahedron;
   return generate_flange({type, p.edge_scale});
+}
+
+AnyMesh make_subdivision(const DomainParameters& p) {
+  return generate_subdivided_cube(p.edge_scale);
+}
+
+AnyMesh make_nonuniform_grid(const DomainParameters& p) {
+  return generate_nonuniform_grid(p.edge_scale);
 }
 
 }  // namespace
@@ -57,6 +67,16 @@ const std::vector<Domain>& domains() {
        3,
        {"tetrahedra", "hexahedra"},
        make_flange},
+      {"nonuniform-grid",
+       "Section 5.3.1's grid: its 13 x 4 x 11 nodes and printed mean ratios, planes of our own",
+       3,
+       {"hexahedra"},
+       make_nonuniform_grid},
+      {"subdivision",
+       "Section 5.3.2's cube, refined ten times towards its centre: the same mesh, undistorted",
+       3,
+       {"hexahedra"},
+       make_subdivision},
   };
   return all;
 }

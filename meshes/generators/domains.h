@@ -10,7 +10,7 @@ namespace smoothfem {
 
 /// What every domain understands.
 struct DomainParameters {
-  std::string elements;     ///< one of the domain's; empty: its usual ones
+  std::string elements{};   ///< one of the domain's; empty: its usual ones
   double edge_scale = 1.0;  ///< edges this much longer than in the domain's own mesh: 3 gives a
                             ///< ninth of the planar cells, 2.1544 a tenth of the volume cells
   std::uint64_t seed = 1;   ///< of what is random in the domain's mesh, if anything is

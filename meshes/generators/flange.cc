@@ -11,7 +11,6 @@
 #include "meshes/generators/gmsh_volume.h"
 #include "meshes/generators/quad_split.h"
 #include "meshes/generators/sweep.h"
-#include "smoothing/quality/mesh_quality.h"
 #include "smoothing/untangling/untangle.h"
 
 namespace smoothfem {
@@ -234,15 +233,10 @@ void require_genus(const VolumeMesh& mesh) {
 VolumeMesh generate_flange(const FlangeParameters& p) {
   if (p.element_type != ElementType::tetrahedron && p.element_type != ElementType::hexahedron)
     throw InputError("the flange can be meshed with tetrahedra or hexahedra only");
-  if (!(p.edge_scale >= 1.0 && p.edge_scale <= 4.0))
-    throw InputError("the flange's edge scale must lie between 1 and 4, not " +
-                     std::to_string(p.edge_scale));
+  require_edge_scale("flange", p.edge_scale, 4);
   const bool tet = p.element_type == ElementType::tetrahedron;
-  VolumeCells cells = tet ? tetrahedra(p.edge_scale) : hexahedra(p.edge_scale);
-  auto topology =
-      std::make_shared<const Topology>(3, cells.coordinates.size(), std::move(cells.cells));
-  VolumeMesh mesh(std::move(topology), std::move(cells.coordinates));
-  require_valid(mesh, "generated flange");
+  VolumeMesh mesh =
+      mesh_of(tet ? tetrahedra(p.edge_scale) : hexahedra(p.edge_scale), "generated flange");
   require_genus(mesh);
   return mesh;
 }

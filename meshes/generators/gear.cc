@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <string>
 
 #include "meshes/generators/gear_outline.h"
@@ -12,7 +11,6 @@
 #include "meshes/generators/quad_split.h"
 #include "meshes/generators/triangulation_edits.h"
 #include "smoothing/mesh/input_error.h"
-#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 
@@ -131,9 +129,7 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
 }  // namespace
 
 GearParameters gear_of_the_thesis(ElementType type, double edge_scale) {
-  if (!(edge_scale >= 1.0 && edge_scale <= 10.0))
-    throw InputError("the gear's edge scale must lie between 1 and 10, not " +
-                     std::to_string(edge_scale));
+  require_edge_scale("gear", edge_scale, 10);
   GearParameters p;
   p.element_type = type;
   p.n_boundary_edges =
@@ -157,11 +153,7 @@ PlanarMesh generate_gear(const GearParameters& p) {
     const auto n_flips = p.edge_flips_per_cell * static_cast<double>(cells.cells.size());
     flip_edges(cells, static_cast<std::size_t>(n_flips), p.seed);
   }
-  auto topology =
-      std::make_shared<const Topology>(2, cells.coordinates.size(), std::move(cells.cells));
-  PlanarMesh mesh(std::move(topology), std::move(cells.coordinates));
-  require_valid(mesh, "generated gear");
-  return mesh;
+  return mesh_of(std::move(cells), "generated gear");
 }
 
 }  // namespace smoothfem

@@ -1,17 +1,10 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
-#include "smoothing/mesh/mesh.h"
+#include "meshes/generators/mesh_cells.h"
 
 namespace smoothfem {
-
-/// Cells while a mesh is being made: nodes and rows of three or four of them, counterclockwise.
-struct PlanarCells {
-  std::vector<Point<2>> coordinates;
-  CompressedRows<NodeIndex> cells;
-};
 
 /// Meshes the region inside the first polygon and outside the others with Gmsh. The polygons'
 /// corners are the first nodes, in their order, and their edges the only boundary edges.

@@ -3,16 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "meshes/generators/gmsh_planar.h"
+#include "meshes/generators/mesh_cells.h"
 
 namespace smoothfem {
-
-/// Cells while a volume mesh is being made: nodes and rows of them in the order of
-/// volume_elements.h.
-struct VolumeCells {
-  std::vector<Point<3>> coordinates;
-  CompressedRows<NodeIndex> cells;
-};
 
 /// Sweeps quadrilaterals along z: cell c of the base becomes a column of n_layers(c) hexahedra,
 /// the first between heights[0] and heights[1]. base: quadrilaterals only, counterclockwise.

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "meshes/generators/flange.h"
-#include "meshes/tests/mesh_tests.h"
+#include "meshes/tests/domain_tests.h"
 #include "smoothing/mesh/volume_elements.h"
-#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 
@@ -83,18 +82,6 @@ inline double distance_from_surfaces(const Point<3>& p) {
     distance = std::min(distance, std::abs(std::hypot(x, y) - Shape::bolt_radius));
   }
   return distance;
-}
-
-/// By the divergence theorem from the boundary facets: another way than from the cells.
-inline double volume_inside(const VolumeMesh& mesh) {
-  double six_times = 0.0;
-  const auto& facets = mesh.topology().boundary_facets();
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto point = [&](std::size_t k) { return mesh.coordinates()[facets[f][k]]; };
-    for (std::size_t k = 2; k < facets[f].size(); ++k)
-      six_times += point(0).dot(point(k - 1).cross(point(k)));
-  }
-  return six_times / 6.0;
 }
 
 inline double analytic_volume() {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "smoothing/mesh/mesh.h"
+
+namespace smoothfem {
+
+/// Nodes and cells while a mesh is being made; the cells' rows are in the order that Topology
+/// wants.
+template <int dim>
+struct MeshCells {
+  std::vector<Point<dim>> coordinates;
+  CompressedRows<NodeIndex> cells;
+};
+using PlanarCells = MeshCells<2>;
+using VolumeCells = MeshCells<3>;
+
+/// The mesh of them, whose boundary nodes are fixed. name: "generated flange". Throws InputError
+/// with that name if a cell is invalid.
+template <int dim>
+Mesh<dim> mesh_of(MeshCells<dim> cells, const std::string& name);
+
+/// Throws InputError that names the domain, unless 1 <= edge_scale <= most.
+void require_edge_scale(const std::string& domain, double edge_scale, int most);
+
+}  // namespace smoothfem

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "meshes/generators/domains.h"
+#include "meshes/tests/mesh_tests.h"
+#include "smoothing/quality/mesh_quality.h"
+
+namespace smoothfem {
+
+/// Valid, and exactly the boundary nodes fixed.
+template <int dim>
+void expect_valid(const Mesh<dim>& mesh) {
+  EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    ASSERT_EQ(mesh.topology().is_fixed(i), mesh.topology().on_boundary()[i]) << i;
+}
+
+/// Nodes less edges plus facets, less volume cells.
+template <int dim>
+long euler_characteristic(const Mesh<dim>& mesh) {
+  const Topology& topology = mesh.topology();
+  const long n = static_cast<long>(mesh.n_nodes()) - static_cast<long>(topology.n_edges());
+  if (dim == 2) return n + static_cast<long>(mesh.n_cells());
+  return n + static_cast<long>(topology.n_facets()) - static_cast<long>(mesh.n_cells());
+}
+
+/// By the divergence theorem from the boundary facets: another way than from the cells, and another
+/// number if cells overlap or leave gaps.
+inline double volume_inside(const VolumeMesh& mesh) {
+  double six_times = 0.0;
+  const auto& facets = mesh.topology().boundary_facets();
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto point = [&](std::size_t k) { return mesh.coordinates()[facets[f][k]]; };
+    for (std::size_t k = 2; k < facets[f].size(); ++k)
+      six_times += point(0).dot(point(k - 1).cross(point(k)));
+  }
+  return six_times / 6.0;
+}
+
+/// How many cells use a node: extremes and mean over all nodes, share of inner nodes with another
+/// number than `regular`.
+struct Adjacency {
+  std::size_t least = 1000, most = 0;
+  double mean = 0.0, irregular_share = 0.0;
+};
+
+template <int dim>
+Adjacency adjacency(const Mesh<dim>& mesh, std::size_t regular) {
+  Adjacency result;
+  std::size_t n_inner = 0, n_irregular = 0;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    const std::size_t n = mesh.topology().node_cells(i).size();
+    result.least = std::min(result.least, n);
+    result.most = std::max(result.most, n);
+    result.mean += static_cast<double>(n) / static_cast<double>(mesh.n_nodes());
+    if (mesh.topology().on_boundary()[i]) continue;
+    ++n_inner;
+    n_irregular += n != regular;
+  }
+  result.irregular_share = static_cast<double>(n_irregular) / static_cast<double>(n_inner);
+  return result;
+}
+
+/// Edge scales beside the range are refused with the range.
+inline void expect_edge_scales(const std::string& domain, int most) {
+  for (const double scale : {0.99, most + 0.01, std::nan("")})
+    EXPECT_THAT(input_error_of([&] { find_domain(domain).generate({.edge_scale = scale}); }),
+                ::testing::HasSubstr("between 1 and " + std::to_string(most)))
+        << domain;
+}
+
+template <int dim>
+Mesh<dim> mesh_of_domain(const std::string& domain, const DomainParameters& parameters = {}) {
+  return std::get<Mesh<dim>>(find_domain(domain).generate(parameters));
+}
+
+}  // namespace smoothfem
