@@ -111,10 +111,12 @@ def read_grids(results, report):
     return planar, volume
 
 
-def solved_grid(grids, report):
+def solved_grid(results, grids, report):
     """The mesh that shows the exact solution best; None if there is none."""
     solved = [(mesh, grid) for (mesh, _), grid in grids.items() if "exact_solution" in grid.point_data]
     if not solved:
+        if not results.degrees:
+            return None
         report("No figure of the model: no mesh has the point data `exact_solution`.")
         return None
     # The last method's mesh: interpolation on a distorted one is coarse.
@@ -136,7 +138,7 @@ def pages(blocks, columns):
 
 def draw_mesh_figures(results, grids, save, report):
     """The figures of the model and of the meshes."""
-    grid = solved_grid(grids, report)
+    grid = solved_grid(results, grids, report)
     if grid is not None:
         save(draw_model(grid), figure_name(results.study, "model"), "model and exact solution")
     names = list(dict.fromkeys(mesh for mesh, _ in grids))
@@ -162,7 +164,7 @@ def draw_volume_figures(results, grids, save, report, suffix):
                                            for method in (INITIAL, *results.methods)])
               for mesh in dict.fromkeys(mesh for mesh, _ in grids)]
     try:
-        grid = solved_grid(grids, report)
+        grid = solved_grid(results, grids, report)
         if grid is not None:
             save(draw_solid(grid), figure_name(results.study, "model", suffix),
                  "model and exact solution")

@@ -23,7 +23,7 @@ class Measure:
     heading: Heading
     format: Optional[Callable]  # None: the field as it stands in the file
     difference: bool = True  # whether a relative difference from the print makes sense
-    usual: Optional[str] = None  # the column is left out where all fields are this
+    usual: tuple = ()  # the column is left out where all fields are one of these
     if_printed: bool = False  # the column is left out where the print has none
 
 
@@ -111,7 +111,7 @@ DETAILS = TableDescription(
     caption="Further quality numbers, extreme eigenvalues and true errors (by quadrature)",
     measures=(
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality),
-        Measure("n_invalid", Heading("Invalid", "Invalid"), form.format_integer, usual="0"),
+        Measure("n_invalid", Heading("Invalid", "Invalid"), form.format_integer, usual=("0",)),
         Measure("n_dofs", Heading("Dofs", "Dofs"), form.format_integer),
         Measure("lambda_min", SYMBOLS["lambda_min"], form.format_scientific),
         Measure("lambda_max", SYMBOLS["lambda_max"], form.format_scientific),
@@ -119,9 +119,10 @@ DETAILS = TableDescription(
                 form.format_scientific),
         # The usual one of planar studies; where methods differ, a reader has to know.
         Measure("condition_method", Heading("cond(A) by", r"$\mathrm{cond}(A)$ by"), None,
-                difference=False, usual="lanczos+cholesky"),
+                difference=False, usual=("lanczos+cholesky",)),
         Measure("l2_error", SYMBOLS["l2_error"], form.format_error),
         Measure("h1_error", SYMBOLS["h1_error"], form.format_error),
-        Measure("status", Heading("Status", "Status"), None, difference=False, usual="ok")))
+        Measure("status", Heading("Status", "Status"), None, difference=False,
+                usual=("ok", "not solved"))))
 
 TABLES = (SMOOTHING, WARPAGE, SOLVER, ERRORS, THRESHOLDS, DETAILS)

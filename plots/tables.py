@@ -160,7 +160,7 @@ def make_group(measure, pairs, notes):
     # None: the print has no such row or column; empty: it has, and leaves it empty.
     prints = [printed.get(measure.column) for _, printed in pairs]
     if not any(prints) and (measure.if_printed
-                            or all(field in ("", measure.usual) for field in fields)):
+                            or all(field in ("", *measure.usual) for field in fields)):
         return None
     values, texts = None, [field or MISSING for field in fields]
     if measure.format is not None:

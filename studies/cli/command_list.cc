@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -48,12 +47,7 @@ void list_methods() {
 
 void list_studies(const std::filesystem::path& folder) {
   std::printf("\nSTUDIES (study FILE, or ./run study NAME)\n\n");
-  if (!std::filesystem::is_directory(folder)) return;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".prm") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files)
+  for (const auto& file : study_files(folder))
     std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_any_study(file).title.c_str(),
                 file.c_str());
 }

@@ -20,6 +20,7 @@ struct Arguments {
   std::string study;
   std::string scale;
   bool quick = false;
+  bool list = false;
   bool print_ranks = false;
   StudyOptions options;
 };
@@ -94,14 +95,23 @@ void print_ranks(const Arguments& arguments) {
   std::printf("%u\n", pays ? std::max(1U, std::thread::hardware_concurrency()) : 1U);
 }
 
+void list_studies() {
+  for (const auto& file : study_files(built_in_studies())) {
+    const ReadyStudy study = read_any_study(file);
+    std::printf("%-16s %s\n", study.name.c_str(), study.title.c_str());
+    if (!study.note.empty()) std::printf("%-16s   %s\n", "", study.note.c_str());
+  }
+}
+
 }  // namespace
 
 void add_study_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = app.add_subcommand(
       "study", "run a study: CSV tables and meshes. Goes on where an interrupted run was");
-  command->add_option("study", arguments->study, "study file (.prm), or name of a built-in study")
-      ->required();
+  auto* name = command->add_option("study", arguments->study,
+                                   "study file (.prm), or name of a built-in study");
+  command->add_flag("--list", arguments->list, "only list the built-in studies")->excludes(name);
   command->add_option("--out", arguments->options.out,
                       "folder for the results (results/NAME unless given)");
   command->add_option("--mesh-dir", arguments->options.mesh_dir,
@@ -123,6 +133,9 @@ void add_study_command(CLI::App& app) {
   command->add_flag("--print-ranks", arguments->print_ranks,
                     "only print how many processes pay for this study on this machine");
   command->callback([arguments] {
+    if (arguments->list) return list_studies();
+    if (arguments->study.empty())
+      throw InputError("which study? 'smoothfem study --list' shows those there are");
     if (arguments->print_ranks)
       print_ranks(*arguments);
     else

@@ -182,12 +182,15 @@ Method<dim> StudyMethod::make() const {
 template Method<2> StudyMethod::make() const;
 template Method<3> StudyMethod::make() const;
 
+std::filesystem::path built_in_studies() {
+  return std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies";
+}
+
 std::filesystem::path find_study(const std::string& path_or_name) {
   const std::filesystem::path path = path_or_name;
   if (std::filesystem::is_regular_file(path) || path.has_parent_path() || path.has_extension())
     return path;
-  const auto built_in =
-      std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / (path_or_name + ".prm");
+  const auto built_in = built_in_studies() / (path_or_name + ".prm");
   return std::filesystem::exists(built_in) ? built_in : path;
 }
 

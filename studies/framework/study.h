@@ -86,6 +86,9 @@ struct Study {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< as read, for the provenance
 };
 
+/// The folder of the studies that come with the program.
+std::filesystem::path built_in_studies();
+
 /// The file of a study: a path, or the name of one of those that come with the program.
 std::filesystem::path find_study(const std::string& path_or_name);
 

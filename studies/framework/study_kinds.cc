@@ -1,8 +1,11 @@
 #include "studies/framework/study_kinds.h"
 
+#include <algorithm>
+
 #include "studies/framework/study_file.h"
 #include "studies/framework/table_study.h"
 #include "studies/polygons/polygon_study.h"
+#include "studies/regularization/regularization_study.h"
 
 namespace smoothfem {
 
@@ -10,10 +13,12 @@ namespace {
 
 ReadyStudy read_smoothing_study(const std::filesystem::path& file, const std::string& scale) {
   const Study study = read_study(file, scale);
+  const bool solves_in_space = study.dimension == 3 && !study.degrees.empty();
   return {.name = study.name,
           .title = study.title,
-          .on_ranks = study.dimension == 3,
-          .ranks_pay = study.dimension == 3 && !study.degrees.empty(),
+          .note = study.note,
+          .on_ranks = solves_in_space,
+          .ranks_pay = solves_in_space,
           .run = [study](const StudyOptions& options) { run_study(study, options); }};
 }
 
@@ -31,12 +36,28 @@ ReadyStudy read_polygons(const std::filesystem::path& file, const std::string& s
   return table_study(study.facts, polygon_tables(study));
 }
 
+ReadyStudy read_regularization(const std::filesystem::path& file, const std::string& scale) {
+  const RegularizationStudy study = read_regularization_study(file, scale);
+  return table_study(study.facts, regularization_tables(study));
+}
+
 }  // namespace
 
 const std::vector<StudyKind>& study_kinds() {
-  static const std::vector<StudyKind> kinds{{"smoothing", read_smoothing_study, study_template},
-                                            {"polygons", read_polygons, polygon_study_template}};
+  static const std::vector<StudyKind> kinds{
+      {"smoothing", read_smoothing_study, study_template},
+      {"polygons", read_polygons, polygon_study_template},
+      {"regularization", read_regularization, regularization_study_template}};
   return kinds;
+}
+
+std::vector<std::filesystem::path> study_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::is_directory(folder)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".prm") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 ReadyStudy read_any_study(const std::filesystem::path& file, const std::string& scale) {
