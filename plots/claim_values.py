@@ -114,12 +114,54 @@ def invalid_iterations(rows, mesh, method):
     return np.count_nonzero(counts_of_invalid(rows, mesh, method) > 0)
 
 
-def counts_of_invalid(rows, mesh, method):
-    """Invalid cells after each recorded iteration; the mesh before smoothing is none."""
+def of_one_degree(rows, mesh, method):
+    """The rows of a method, those of its first degree: smoothing is the same for all."""
     rows = rows.select(mesh=mesh, method=method)
     degrees = rows.text("degree")
     rows = rows.select(degree=degrees[0]) if len(degrees) else rows
     require_all_iterations(rows)
+    return rows
+
+
+def first_row(rows, column, mesh, method, reached):
+    """(rows, number of the first one whose value is `reached`), or None for the number."""
+    rows = of_one_degree(rows, mesh, method)
+    with np.errstate(invalid="ignore"):
+        found = np.flatnonzero(reached(rows.number(column)))
+    return rows, (int(found[0]) if len(found) else None)
+
+
+def seconds_until(rows, column, mesh, method, value):
+    """Smoothing time until the number is at least a value; infinite if it never is."""
+    rows, first = first_row(rows, column, mesh, method, lambda numbers: numbers >= float(value))
+    return np.inf if first is None else rows.number("smoothing_seconds")[first]
+
+
+def seconds_until_below(rows, column, mesh, method, value):
+    """The same until it is at most a value."""
+    rows, first = first_row(rows, column, mesh, method, lambda numbers: numbers <= float(value))
+    return np.inf if first is None else rows.number("smoothing_seconds")[first]
+
+
+def iterations_until(rows, column, mesh, method, value):
+    """Iterations of the first stage until the number is at least a value; infinite if a later stage
+    or none gets it there."""
+    rows, first = first_row(rows, column, mesh, method, lambda numbers: numbers >= float(value))
+    in_time = first is not None and (in_first_stage(rows)[first] or first == 0)
+    return rows.number("iteration")[first] if in_time else np.inf
+
+
+def seconds_per_iteration(rows, mesh, method):
+    """Mean time of an iteration of the first stage."""
+    rows = of_one_degree(rows, mesh, method)
+    stage = in_first_stage(rows)
+    start = rows.number("smoothing_seconds")[0]  # of preparations before the first iteration
+    return (rows.number("smoothing_seconds")[stage][-1] - start) / rows.number("iteration")[stage][-1]
+
+
+def counts_of_invalid(rows, mesh, method):
+    """Invalid cells after each recorded iteration; the mesh before smoothing is none."""
+    rows = of_one_degree(rows, mesh, method)
     return rows.number("n_invalid")[rows.text("stage") != INITIAL]
 
 
@@ -146,4 +188,5 @@ def last(values):
 
 TRAJECTORY = {function.__name__: function for function in (
     at_start, at_stage_end, after_iterations, after_share_of_time, highest, valid_iterations,
-    invalid_iterations)}
+    invalid_iterations, seconds_until, seconds_until_below, iterations_until,
+    seconds_per_iteration)}

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 COLUMNS = ("study mesh method stage iteration smoothing_seconds q_min q_star_min q_mean n_invalid "
-           "n_reset degree n_dofs n_free condition_number condition_method lambda_min lambda_max "
+           "n_reset w_max w_mean degree n_dofs n_free condition_number condition_method lambda_min lambda_max "
            "condition_residual cg_iterations cg_seconds cg_converged jacobi_cg_iterations "
            "jacobi_cg_seconds amg_cg_iterations amg_setup_seconds amg_cg_seconds e_max e_mean "
            "e_l2 e_h1 l2_error h1_error status").split()
 SUMMARY = ["study", "mesh", "method", "iterations", "smoothing_seconds", "q_min", "q_star_min", "q_mean",
-           "n_invalid"] + COLUMNS[COLUMNS.index("degree"):]
+           "n_invalid", "w_max", "w_mean", "peak_memory_gib"] + COLUMNS[COLUMNS.index("degree"):]
 THRESHOLDS = ("study mesh degree error threshold reference_method reference_seconds method "
               "method_seconds speedup").split()
 
@@ -22,6 +22,7 @@ THRESHOLDS = ("study mesh degree error threshold reference_method reference_seco
 def results_row(**fields):
     """A row with plausible numbers; fields replace some of them."""
     row = {name: "1.5" for name in COLUMNS}
+    row.update(w_max="", w_mean="")  # planar meshes have none
     row.update(study="gear", stage="", n_invalid="0", status="ok", iterations="", q_min="0.2046",
                condition_number="377.4", e_max="9.49379", n_dofs="9", condition_method="dense")
     row.update(fields)

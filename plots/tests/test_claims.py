@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Claims: their arithmetic, their verdicts, and that the criteria fit what is printed."""
 
+import json
+import math
 import re
 
 from plots.__main__ import main
-from plots.claim_values import Values
+from plots.claim_values import TRAJECTORY, Values
 from plots.claims import (FAILS, HOLDS, UNKNOWN, as_markdown, cases_of, check_claim, check_claims,
                           met_in, number_of, read_claims, verdict_of)
 from plots.expressions import Missing, evaluate
-from plots.printed_values import read_printed_tables
+from plots.printed_values import THESIS_FOLDER, read_printed_tables
 from plots.read_results import read_results
 from plots.tests.synthetic_results import results_row, write_csv, write_results
 from plots.tests.synthetic_volume import write_volume_results
@@ -76,6 +78,11 @@ class Verdicts(InFolder):
         self.assertEqual(many.ours, "0.5 to 4, met in 3 of 6")
 
 
+def all_claims():
+    """The claims about all studies."""
+    return json.loads((THESIS_FOLDER / "claims.json").read_text(encoding="utf-8"))
+
+
 class Trajectories(InFolder):
     def values(self, iterations=(0, 1, 2), **fields):
         rows = [results_row(mesh="tri", method="getme", degree="1", iteration=i, q_min=0.1 * (n + 1),
@@ -99,6 +106,17 @@ class Trajectories(InFolder):
                 ("invalid_iterations('tri', 'getme')", 1), ("valid_iterations('tri', 'getme')", 2)):
             self.assertAlmostEqual(evaluate(text, {}, values), expected, msg=text)
 
+    def test_times_and_iterations(self):
+        values = self.values()
+        for text, expected in (
+                ("seconds_until('q_min', 'tri', 'getme', 0.15)", 1.0),
+                ("seconds_until('q_min', 'tri', 'getme', 0.9)", math.inf),
+                ("seconds_until_below('q_min', 'tri', 'getme', 0.1)", 0.0),
+                ("iterations_until('q_min', 'tri', 'getme', 0.3)", 2),
+                ("iterations_until('q_min', 'tri', 'getme', 0.9)", math.inf),
+                ("seconds_per_iteration('tri', 'getme')", 1.0)):
+            self.assertEqual(round(evaluate(text, {}, values), 12), expected, msg=text)
+
     def test_gaps_in_the_record_leave_questions_open(self):
         values = self.values(iterations=(0, 10, 20))
         for text in ("invalid_iterations('tri', 'getme')", "highest('q_min', 'tri', 'getme', 1)",
@@ -110,13 +128,13 @@ class Trajectories(InFolder):
 
 class ClaimsOfTheThesis(InFolder):
     def test_criteria_fit_the_print(self):
-        for study in ("gear", "volume"):
-            printed = read_printed_tables(study, {})
-            rows = [row for content in ("smoothing", "solver", "errors") for row in printed[content].rows]
-            theirs = Values(rows, printed["thresholds"].rows)
-            claims = read_claims(study)
-            self.assertEqual(len({claim["id"] for claim in claims}), len(claims))
-            for claim in claims:
+        claims = all_claims()
+        self.assertEqual(len({claim["id"] for claim in claims}), len(claims))
+        for study in {claim["study"] for claim in claims}:
+            printed = {content: table.rows for content, table in read_printed_tables(study, {}).items()}
+            theirs = Values([row for content, rows in printed.items() if content != "thresholds"
+                             for row in rows], printed.get("thresholds", []))
+            for claim in read_claims(study):
                 self.assertTrue(claim["checks"] or claim["reason"])
                 for check in claim["checks"]:
                     numbers = [number_of(check["quantity"], case, theirs) for case in cases_of(check)]
@@ -126,10 +144,9 @@ class ClaimsOfTheThesis(InFolder):
 
     def test_every_name_is_a_column_or_function(self):
         results = read_results(write_results(self.folder / "r"))
-        known = {*results.summary.columns, *results.thresholds.columns, "reached", "column", "min", "max",
-                 "at_start", "at_stage_end", "after_iterations", "after_share_of_time", "highest",
-                 "valid_iterations", "invalid_iterations"}
-        for claim in read_claims("gear") + read_claims("volume"):
+        known = {*results.summary.columns, *results.thresholds.columns, *TRAJECTORY, "reached", "column",
+                 "min", "max"}
+        for claim in all_claims():
             for check in claim["checks"]:
                 self.assertLessEqual(set(re.findall(r"(\w+)\(", check["quantity"])), known)
 
