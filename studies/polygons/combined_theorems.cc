@@ -42,8 +42,8 @@ void check_eigenvalues(const PolygonStudy& study, std::vector<TheoremRow>& rows)
   TheoremCheck centroids("Section 2.3.1", "the centroid stays", "its way in a step", 1e-12);
   TheoremCheck roots("Lemma 2.12", "eigenvalue k > n/2 vanishes at lambda 1/2, pi (2k - n) / (2n)",
                      "the eigenvalue there", 1e-12);
-  TheoremCheck positive("Lemma 2.12, others", "eigenvalues 0 to n/2 are positive",
-                        "the least of them", 0.0);
+  TheoremCheck positive("Lemma 2.12", "eigenvalues 0 to n/2 are positive", "the least of them",
+                        0.0);
   TheoremCheck lines("Lemma 2.13", "eigenvalues k and m are equal on the line of (k + m) mod n",
                      "their difference / largest eigenvalue", 1e-12);
   for_polygons(study, Stream::eigen, [&](std::size_t n, SplitMix64& random) {
@@ -78,15 +78,16 @@ void check_eigenvalues(const PolygonStudy& study, std::vector<TheoremRow>& rows)
 }
 
 void check_limits(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
-  TheoremCheck dominant("Lemma 2.14, D_k", "eigenvalue k is larger than all others",
+  TheoremCheck dominant("Lemma 2.14", "in D_k eigenvalue k is larger than all others",
                         "(it - the next) / it", 0.0);
-  TheoremCheck pair("Lemma 2.14, S_k",
-                    "eigenvalues k and k + 1 are equal and larger than the others",
+  TheoremCheck pair("Lemma 2.14",
+                    "on S_k eigenvalues k and k + 1 are equal and larger than the others",
                     "(they - the next) / they", 0.0);
   const std::string quantity = "distance from it after the last step";
-  TheoremCheck domains("Theorem 2.13, D_k",
-                       "scaled iterates tend to eigenpolygon k and the centroid", quantity, 1e-8);
-  TheoremCheck lines("Theorem 2.13, S_k", "scaled iterates tend to eigenpolygons k and k + 1",
+  TheoremCheck domains("Theorem 2.13",
+                       "in D_k scaled iterates tend to eigenpolygon k and the centroid", quantity,
+                       1e-8);
+  TheoremCheck lines("Theorem 2.13", "on S_k scaled iterates tend to eigenpolygons k and k + 1",
                      quantity, 1e-8);
   const auto run = [&](std::size_t n, Parameters p, std::vector<std::size_t> expected,
                        SplitMix64& random, TheoremCheck& largest, TheoremCheck& limits) {
@@ -112,7 +113,7 @@ void check_limits(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
 }
 
 void check_clockwise(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
-  TheoremCheck check("Section 2.3.3, clockwise", "a clockwise regular polygon vanishes in one step",
+  TheoremCheck check("Section 2.3.3", "a clockwise regular polygon vanishes in one step",
                      "size after a step at lambda 1/2, pi (n - 2) / (2n), size 1 before", 1e-12);
   for_polygons(study, Stream::clockwise, [&](std::size_t n, SplitMix64& random) {
     Polygon z = eigenpolygon(n, n - 1, std::polar(1.0, uniform(random, 0.0, 2.0 * pi)));

@@ -26,7 +26,7 @@ void check_eigenvalues(const PolygonStudy& study, std::vector<TheoremRow>& rows)
                              "distance of the sum from the polygon", 1e-12);
   TheoremCheck dominant("Lemma 2.10", "between characteristic angles one eigenvalue dominates",
                         "its modulus - greatest other modulus", 0.0);
-  TheoremCheck pairs("Lemma 2.10, at the angles", "eigenvalues k and k + 1 have equal moduli",
+  TheoremCheck pairs("Lemma 2.10", "at these angles eigenvalues k and k + 1 have equal moduli",
                      "quotient of the moduli", 1e-12);
   for_polygons(study, Stream::eigen, [&](std::size_t n, SplitMix64& random) {
     const Polygon z = random_polygon(n, random);
@@ -60,11 +60,11 @@ Polygon iterated(std::size_t n_steps, Polygon z, double theta, double growth) {
 }
 
 void check_limits(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
-  TheoremCheck domains("Theorem 2.10, between the angles",
-                       "scaled iterates tend to a turning eigenpolygon k",
+  TheoremCheck domains("Theorem 2.10",
+                       "between the angles scaled iterates tend to a turning eigenpolygon k",
                        "distance from it after the last step", 1e-8);
-  TheoremCheck angles("Theorem 2.10, at the angles",
-                      "scaled iterates tend to the sum of eigenpolygons k and k + 1",
+  TheoremCheck angles("Theorem 2.10",
+                      "at the angles they tend to the sum of eigenpolygons k and k + 1",
                       "distance from it after the last step", 1e-8);
   TheoremCheck shift("Theorem 2.12",
                      "two steps later the limit's nodes are those one number further",
@@ -88,7 +88,8 @@ void check_limits(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
     for (std::size_t k = 0; k <= n / 2; ++k)
       run(n, k, angle_of_domain(n, k, random), random, domains);
   });
-  TheoremCheck collapse("Corollary 2.3, theta < pi/(2n)", "polygons degenerate to their centroid",
+  TheoremCheck collapse("Corollary 2.3",
+                        "for theta < pi/(2n) polygons degenerate to their centroid",
                         "size after the last step / size before the first", 1e-8);
   for_polygons(study, Stream::on_angles, [&](std::size_t n, SplitMix64& random) {
     // Growth does not settle at the angles: two eigenpolygons turn against one another.
@@ -123,11 +124,11 @@ bool is_convex(const Polygon& polygon, std::size_t vertices) {
 }
 
 void check_shapes(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
-  TheoremCheck vertices("Theorem 2.11, vertices", "eigenpolygon k has n / gcd(n, k) vertices",
+  TheoremCheck vertices("Theorem 2.11", "eigenpolygon k has n / gcd(n, k) vertices",
                         "distinct nodes - n / gcd(n, k)", 0.0);
-  TheoremCheck multiple("Theorem 2.11, multiplicity", "gcd(n, k) nodes are at each vertex",
+  TheoremCheck multiple("Theorem 2.11", "gcd(n, k) nodes are at each vertex",
                         "nodes at a vertex - gcd(n, k)", 0.0);
-  TheoremCheck convex("Theorem 2.11, convexity", "it is convex if and only if k divides n",
+  TheoremCheck convex("Theorem 2.11", "it is convex if and only if k divides n",
                       "1 if convex - 1 if k divides n (segments: 0)", 0.0);
   for_polygons(study, Stream::shapes, [&](std::size_t n, SplitMix64& random) {
     const auto coefficients = eigenpolygon_coefficients(random_polygon(n, random));
@@ -149,7 +150,7 @@ void check_shapes(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
 }
 
 void check_petr_douglas_neumann(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
-  TheoremCheck check("Petr, Douglas, Neumann",
+  TheoremCheck check("Petr-Douglas-Neumann",
                      "n - 2 steps with chosen angles leave a regular polygon",
                      "distance of node m + 1 from node m turned by 2 pi k / n, size 1", 1e-8);
   for_polygons(study, Stream::regular, [&](std::size_t n, SplitMix64& random) {

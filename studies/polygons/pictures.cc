@@ -67,16 +67,19 @@ std::string domains_csv(const PolygonStudy& study) {
     csv.integer(n).field(line).number(theta).number(lambda).field(domain_name(limit));
     csv.number(limit.growth).number(limit.convergence).end_line();
   };
-  for (const std::size_t n : study.domain_nodes)
-    for (std::size_t i = 0; i < study.theta_points; ++i) {
-      const double theta = grid_point(i, study.theta_points, 0.5 * pi);
-      for (std::size_t j = 0; j < study.lambda_points; ++j)
-        add(n, "", theta, grid_point(j, study.lambda_points, 1.0));
-      for (std::size_t sum = 1; sum < n; ++sum) {
+  constexpr std::size_t finer = 8;  // lines than the grid
+  const std::size_t points = study.domain_points;
+  for (const std::size_t n : study.domain_nodes) {
+    for (std::size_t i = 0; i < points; ++i)
+      for (std::size_t j = 0; j < points; ++j)
+        add(n, "", grid_point(i, points, 0.5 * pi), grid_point(j, points, 1.0));
+    for (std::size_t sum = 1; sum < n; ++sum)
+      for (std::size_t i = 0; i < finer * points; ++i) {
+        const double theta = grid_point(i, finer * points, 0.5 * pi);
         const double lambda = intersection_line(n, sum, theta);
         if (lambda > 0.0 && lambda < 1.0) add(n, std::to_string(sum), theta, lambda);
       }
-    }
+  }
   return csv.text();
 }
 

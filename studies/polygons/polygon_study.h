@@ -22,8 +22,9 @@ struct PolygonStudy {
   std::vector<std::size_t> nodes;  ///< of polygons in theorems and classification
   std::size_t cases = 1;           ///< random polygons of each theorem and number of nodes
   std::size_t steps = 4000;        ///< after which limits count as reached
-  std::size_t theta_points = 1;    ///< of grids over (0, pi/2)
-  std::size_t lambda_points = 1;   ///< of grids over (0, 1)
+  std::size_t theta_points = 1;    ///< of the classification, over (0, pi/2)
+  std::size_t lambda_points = 1;   ///< the same over (0, 1)
+  std::size_t domain_points = 1;   ///< of both directions of the grid in domains.csv
   int doublings = 26;              ///< the classification's polygons are iterated 2^doublings times
   std::vector<std::size_t> decomposition_nodes, domain_nodes, limit_nodes;
   std::size_t sequence_nodes = 6;                            ///< of the polygon of Fig. 2.12

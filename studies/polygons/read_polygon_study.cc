@@ -41,8 +41,11 @@ void declare_keys(ParameterHandler& p) {
                   "Random polygons of each theorem and number of nodes.");
   p.declare_entry("steps", "4000", Patterns::Integer(1),
                   "Steps after which the limits of theorems count as reached.");
-  p.declare_entry("theta points", "60", Patterns::Integer(1), "Of the grids over (0, pi/2).");
-  p.declare_entry("lambda points", "60", Patterns::Integer(1), "Of the grids over (0, 1).");
+  p.declare_entry("theta points", "60", Patterns::Integer(1),
+                  "Of the classification's grid over (0, pi/2).");
+  p.declare_entry("lambda points", "60", Patterns::Integer(1), "The same over (0, 1).");
+  p.declare_entry("domain points", "150", Patterns::Integer(2),
+                  "Of both directions of the grid of Fig. 2.11.");
   p.declare_entry("doublings", "26", Patterns::Integer(1, 40),
                   "The classification iterates polygons 2^k times.");
   p.declare_entry("decomposition nodes", "5, 6", node_numbers(99), "Polygons of Fig. 2.10.");
@@ -63,7 +66,7 @@ void declare_keys(ParameterHandler& p) {
 
 void declare_sizes(ParameterHandler& p, const std::string& name) {
   const Subsection subsection(p, "scale " + name);
-  for (const char* key : {"cases", "theta points", "lambda points"})
+  for (const char* key : {"cases", "theta points", "lambda points", "domain points"})
     p.declare_entry(key, "0", Patterns::Integer(0), "In place of the value above; 0: as it is.");
 }
 
@@ -150,6 +153,7 @@ PolygonStudy read_polygon_study(const std::filesystem::path& file, const std::st
   study.cases = sized("cases");
   study.theta_points = sized("theta points");
   study.lambda_points = sized("lambda points");
+  study.domain_points = sized("domain points");
   return study;
 }
 

@@ -2,27 +2,10 @@
 #include <limits>
 
 #include "studies/framework/results.h"
-#include "studies/tests/study_tests.h"
+#include "studies/tests/documented_columns.h"
 
 namespace smoothfem {
 namespace {
-
-/// The columns that results/README.md documents for a file: the first cells, in backticks, of the
-/// table under the file's heading.
-std::vector<std::string> documented_columns(const std::string& csv_file) {
-  std::ifstream readme(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "results" / "README.md");
-  std::vector<std::string> columns;
-  bool here = false;
-  for (std::string line; std::getline(readme, line);) {
-    if (line.starts_with("#")) here = line == "## " + csv_file;
-    if (here && line.starts_with("| `")) columns.push_back(line.substr(3, line.find('`', 3) - 3));
-  }
-  return columns;
-}
-
-void expect_documented(const std::string& csv_file, const std::string& text) {
-  EXPECT_EQ(CsvTable(text).columns, documented_columns(csv_file)) << csv_file;
-}
 
 TEST(ResultColumns, OfIterationsAreTheDocumentedOnes) {
   expect_documented("iterations.csv", iterations_csv("s", {}));
