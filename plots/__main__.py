@@ -4,11 +4,9 @@
 import argparse
 import sys
 
-from .claims import as_markdown as claims_as_markdown, check_claims, read_claims
-from .printed_values import read_printed_tables
-from .read_results import ResultsError, read_results
+from .read_results import ResultsError
+from .study_kinds import outputs_of
 from .table_formats import as_latex, as_markdown, as_text
-from .tables import make_tables
 from .write_files import write_atomically
 
 
@@ -34,22 +32,17 @@ def main(arguments=None):
             print(text)
 
     try:
-        results = read_results(options.folder)
-        printed = read_printed_tables(results.study, results.provenance)
-        tables = make_tables(results, printed)
+        outputs = outputs_of(options.folder)
         paths = []
-        for table in tables:
+        for table in outputs.tables:
             tell(as_text(table))
             for suffix, write in ((".md", as_markdown), (".tex", as_latex)):
-                path = results.folder / "tables" / (table.name + suffix)
+                path = outputs.folder / "tables" / (table.name + suffix)
                 paths.append(write_atomically(path, write(table)))
-        claims = read_claims(results.study)
-        if claims:
-            text = claims_as_markdown(check_claims(claims, results, printed), results)
-            paths.append(write_atomically(results.folder / "tables" / "claims.md", text))
+        for name, text in outputs.texts.items():
+            paths.append(write_atomically(outputs.folder / "tables" / name, text))
         if not options.no_figures:
-            from .figures import draw_figures  # matplotlib takes a second to load
-            paths += draw_figures(results, lambda sentence: print(sentence, file=sys.stderr))
+            paths += outputs.draw(lambda sentence: print(sentence, file=sys.stderr))
     except ResultsError as error:
         print(error, file=sys.stderr)
         return 2
