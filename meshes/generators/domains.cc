@@ -5,6 +5,8 @@
 #include "meshes/generators/flange.h"
 #include "meshes/generators/gear.h"
 #include "meshes/generators/nonuniform_grid.h"
+#include "meshes/generators/random_planar.h"
+#include "meshes/generators/revolved_profile.h"
 #include "meshes/generators/subdivided_cube.h"
 #include "smoothing/mesh/input_error.h"
 
@@ -30,6 +32,14 @@ AnyMesh make_subdivision(const DomainParameters& p) {
 
 AnyMesh make_nonuniform_grid(const DomainParameters& p) {
   return generate_nonuniform_grid(p.edge_scale);
+}
+
+AnyMesh make_sweep(const DomainParameters& p) {
+  return generate_revolved_profile(p.edge_scale);
+}
+
+AnyMesh make_random_planar(const DomainParameters& p) {
+  return generate_random_planar(p.elements, p.edge_scale, p.seed);
 }
 
 }  // namespace
@@ -67,6 +77,11 @@ const std::vector<Domain>& domains() {
        3,
        {"tetrahedra", "hexahedra"},
        make_flange},
+      {"random-planar",
+       "stand-ins for Section 5.1.1's meshes: their counts, on a wavy disc with nine holes",
+       2,
+       {"triangles", "quadrilaterals", "mixed"},
+       make_random_planar},
       {"nonuniform-grid",
        "Section 5.3.1's grid: its 13 x 4 x 11 nodes and printed mean ratios, planes of our own",
        3,
@@ -77,6 +92,11 @@ const std::vector<Domain>& domains() {
        3,
        {"hexahedra"},
        make_subdivision},
+      {"sweep",
+       "stand-in for Section 5.3.3's mesh: its counts, the profile of a wheel turned in 15 layers",
+       3,
+       {"hexahedra"},
+       make_sweep},
   };
   return all;
 }

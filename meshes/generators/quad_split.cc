@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 
@@ -13,30 +15,11 @@ namespace {
 
 using Edge = std::pair<NodeIndex, NodeIndex>;
 
-/// Quadrilaterals that are not convex, cut at the diagonal that leaves two valid triangles.
-CompressedRows<NodeIndex> without_invalid(const PlanarCells& mesh) {
-  CompressedRows<NodeIndex> cells;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto row = mesh.cells[c];
-    const auto corner = [&](std::size_t k) { return mesh.coordinates[row[k % row.size()]]; };
-    std::size_t reflex = row.size();
-    for (std::size_t k = 0; k < row.size(); ++k)
-      if (!(cross(corner(k + 1) - corner(k), corner(k + 3) - corner(k)) > 0.0)) reflex = k;
-    if (row.size() != 4 || reflex == row.size()) {
-      cells.append(row);
-      continue;
-    }
-    for (const std::size_t first : {reflex, reflex + 2})
-      cells.append(std::array{row[first % 4], row[(first + 1) % 4], row[(first + 2) % 4]});
-  }
-  return cells;
-}
-
 class Splitting {
  public:
-  Splitting(const PlanarCells& mesh, const CompressedRows<NodeIndex>& cells) : cells_(cells) {
+  explicit Splitting(const PlanarCells& mesh) : cells_(mesh.cells) {
     result_.coordinates = mesh.coordinates;
-    for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t c = 0; c < cells_.size(); ++c)
       for_each_edge(c, [&](Edge edge) { ++n_cells_[sorted(edge)]; });
   }
 
@@ -87,11 +70,56 @@ class Splitting {
 
 }  // namespace
 
+void cut_quadrilaterals(PlanarCells& mesh, const std::vector<Diagonal>& diagonals) {
+  CompressedRows<NodeIndex> cells;
+  for (CellIndex c = 0; c < mesh.cells.size(); ++c) {
+    const auto row = mesh.cells[c];
+    if (!diagonals[c]) {
+      cells.append(row);
+      continue;
+    }
+    for (const std::size_t first : {*diagonals[c], *diagonals[c] + 2})
+      cells.append(std::array{row[first % 4], row[(first + 1) % 4], row[(first + 2) % 4]});
+  }
+  mesh.cells = std::move(cells);
+}
+
+void cut_invalid_quadrilaterals(PlanarCells& mesh) {
+  std::vector<Diagonal> diagonals(mesh.cells.size());
+  for (CellIndex c = 0; c < mesh.cells.size(); ++c) {
+    const auto row = mesh.cells[c];
+    const auto corner = [&](std::size_t k) { return mesh.coordinates[row[k % 4]]; };
+    for (std::size_t k = 0; row.size() == 4 && k < 4; ++k)
+      if (!(cross(corner(k + 1) - corner(k), corner(k + 3) - corner(k)) > 0.0)) diagonals[c] = k;
+  }
+  cut_quadrilaterals(mesh, diagonals);
+}
+
+void cut_worst_quadrilaterals(PlanarCells& mesh, std::size_t n) {
+  const std::vector<double> ratios = cell_mean_ratios(PlanarMesh(
+      std::make_shared<const Topology>(2, mesh.coordinates.size(), mesh.cells), mesh.coordinates));
+  std::vector<CellIndex> worst;
+  for (CellIndex c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.cells[c].size() == 4) worst.push_back(c);
+  std::stable_sort(worst.begin(), worst.end(),
+                   [&](CellIndex a, CellIndex b) { return ratios[a] < ratios[b]; });
+  std::vector<Diagonal> diagonals(mesh.cells.size());
+  for (std::size_t i = 0; i < std::min(n, worst.size()); ++i) {
+    const auto row = mesh.cells[worst[i]];
+    const auto length = [&](std::size_t k) {
+      return (mesh.coordinates[row[k]] - mesh.coordinates[row[k + 2]]).norm();
+    };
+    diagonals[worst[i]] = length(0) <= length(1) ? 0 : 1;
+  }
+  cut_quadrilaterals(mesh, diagonals);
+}
+
 PlanarCells split_to_quadrilaterals(
     const PlanarCells& mesh,
     const std::function<Point<2>(NodeIndex, NodeIndex)>& boundary_midpoint) {
-  const CompressedRows<NodeIndex> cells = without_invalid(mesh);
-  return Splitting(mesh, cells).split(boundary_midpoint);
+  PlanarCells valid = mesh;
+  cut_invalid_quadrilaterals(valid);
+  return Splitting(valid).split(boundary_midpoint);
 }
 
 }  // namespace smoothfem

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "smoothing/mesh/mesh.h"
+
+namespace smoothfem {
+
+/// A piece of a boundary. point(t), t in [0, 1], moves along it with constant speed.
+struct Curve {
+  double length;
+  std::function<Point<2>(double)> point;
+};
+
+/// Closed: each curve ends where the next begins, the last where the first begins.
+using Outline = std::vector<Curve>;
+
+/// The outer one first, then the holes'; all counterclockwise.
+using Polygons = std::vector<std::vector<Point<2>>>;
+
+Point<2> on_circle(const Point<2>& centre, double radius, double angle);
+
+Curve segment(const Point<2>& from, const Point<2>& to);
+/// From angle `from` to angle `to`, clockwise if `to` is smaller.
+Curve arc(const Point<2>& centre, double radius, double from, double to);
+/// Through two and more different points.
+Curve polyline(std::vector<Point<2>> points);
+
+/// Closed polygons with n_edges edges altogether, of nearly equal length and a multiple of
+/// `multiple_of` on each curve. Throws InputError if that is not possible.
+Polygons divide(const std::vector<Outline>& outlines, std::size_t n_edges, std::size_t multiple_of);
+
+/// Inside the first polygon and outside the others.
+double area(const Polygons& polygons);
+
+}  // namespace smoothfem

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "meshes/generators/mesh_cells.h"
+#include "meshes/generators/outline.h"
+
+namespace smoothfem {
+
+/// Quadrilaterals of about an edge length between polygons whose numbers of corners are even: Gmsh
+/// meshes the region of every second corner, and all its cells' edges are halved. The polygons'
+/// edges are the only boundary edges. Throws InputError with Gmsh's words if it cannot.
+PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length);
+
+/// The same with a given number of cells. It is met exactly (one less where the number of boundary
+/// edges allows no even, or no odd, number of cells) by cutting some of Gmsh's cells before the
+/// halving, except on boundaries too coarse for so few cells: there it may be larger by a quarter.
+/// n_halvings: more than one leave fewer irregular nodes; numbers of corners are then multiples of
+/// 2^n_halvings, and the number of cells is met up to 4^(n_halvings - 1). Throws InputError if no
+/// such mesh is found.
+PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
+                                       int n_halvings = 1);
+
+/// Smooths valid cells by GETMe; boundary nodes stay.
+void smooth_quadrilaterals(PlanarCells& cells);
+
+}  // namespace smoothfem
