@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "smoothing/transformations/polygon_transformation.h"
 
@@ -32,10 +33,14 @@ double distance(const Polygon& a, const Polygon& b) {
   return longest;
 }
 
+Polygon scaled_about(Complex centre, Polygon polygon, double factor) {
+  for (Complex& z : polygon) z = centre + factor * (z - centre);
+  return polygon;
+}
+
 Polygon scaled_about_centroid(Polygon polygon, double factor) {
   const Complex middle = centroid(polygon);
-  for (Complex& z : polygon) z = middle + factor * (z - middle);
-  return polygon;
+  return scaled_about(middle, std::move(polygon), factor);
 }
 
 Polygon transformed(const Polygon& polygon, double lambda, double theta) {

@@ -24,7 +24,10 @@ double radius(const Polygon& polygon);
 /// Largest distance between nodes of the same number; both polygons have the same number of nodes.
 double distance(const Polygon& a, const Polygon& b);
 
-/// The polygon enlarged by a factor; its centroid stays.
+/// The polygon enlarged by a factor about a point.
+Polygon scaled_about(Complex centre, Polygon polygon, double factor);
+
+/// The same about its own centroid.
 Polygon scaled_about_centroid(Polygon polygon, double factor);
 
 /// One step of the combined transformation of Section 2.3 (PolygonTransformation). lambda in

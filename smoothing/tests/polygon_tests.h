@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
 #include <numbers>
 
 #include "smoothing/polygons/polygon.h"
@@ -8,6 +10,7 @@
 namespace smoothfem::test {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::size_t most_nodes = 12;  ///< of the polygons of tests
 
 /// Nodes uniform in the square from -1 - i to 1 + i.
 inline Polygon random_polygon(std::size_t n, Random& random) {
@@ -24,6 +27,23 @@ inline Polygon random_triangle(Random& random) {
   Polygon triangle = random_polygon(3, random);
   if (signed_area(triangle) < 0.0) std::swap(triangle[1], triangle[2]);
   return triangle;
+}
+
+inline Polygon unit_polygon(std::size_t n, std::size_t k) {
+  Polygon polygon(n);
+  polygon[k] = 1.0;
+  return polygon;
+}
+
+/// Column by column, from what the transformation does to single nodes.
+inline Eigen::MatrixXcd matrix_of(std::size_t n,
+                                  const std::function<Polygon(const Polygon&)>& step) {
+  Eigen::MatrixXcd matrix(n, n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Polygon column = step(unit_polygon(n, k));
+    for (std::size_t m = 0; m < n; ++m) matrix(m, k) = column[m];
+  }
+  return matrix;
 }
 
 }  // namespace smoothfem::test

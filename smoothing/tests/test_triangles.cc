@@ -84,6 +84,31 @@ TEST(TriangleTransformation, SideRatiosTendToOneAsProposition21Says) {
   });
 }
 
+/// Proposition 2.2 promises one factor below 1 for all triangles, theta = pi/4 included. Up to
+/// there the factor tends to (3 t^2 - 1) / (1 + t^2) for triangles with ever shorter third sides:
+/// to 1.
+TEST(TriangleTransformation, OneStepNeedNotShrinkSideRatiosByAFixedFactorAt45Degrees) {
+  const auto worst = [](double theta, double z) {
+    double largest = 0.0;
+    for (int i = 1; i < 400; ++i) {
+      const Polygon triangle{0.0, std::polar(z, -pi * i / 400.0), 1.0};
+      const TriangleSides before = sides_of(triangle),
+                          after = sides_of(equilateral_step(triangle, theta));
+      const double defect = 1.0 - std::min(before.x, before.y) / std::max(before.x, before.y);
+      if (defect < 1e-6) continue;
+      largest = std::max(largest,
+                         (1.0 - std::min(after.x, after.y) / std::max(after.x, after.y)) / defect);
+    }
+    return largest;
+  };
+  for (const double z : {0.1, 0.01, 0.001}) {
+    EXPECT_GT(worst(pi / 4.0, z), 1.0 - 0.15 * z) << z;
+    EXPECT_LT(worst(pi / 4.0, z), 1.0) << z;
+  }
+  const double t = std::tan(0.6);
+  EXPECT_NEAR(worst(0.6, 1e-3), (3.0 * t * t - 1.0) / (1.0 + t * t), 1e-3);
+}
+
 TEST(TriangleTransformation, RightIsoscelesDefectsShrinkAsPropositions23And24Say) {
   for_random_triangles([](const Polygon& triangle, double theta) {
     const double factor = right_isosceles_convergence_factor(theta);

@@ -54,8 +54,9 @@ void check_eigenvalues(const PolygonStudy& study, std::vector<TheoremRow>& rows)
 
 /// The iterate after scaled steps.
 Polygon iterated(std::size_t n_steps, Polygon z, double theta, double growth) {
+  const Complex middle = centroid(z);
   for (std::size_t i = 0; i < n_steps; ++i)
-    z = scaled_about_centroid(isosceles_step(z, theta), 1.0 / growth);
+    z = scaled_about(middle, isosceles_step(z, theta), 1.0 / growth);
   return z;
 }
 

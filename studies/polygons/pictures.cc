@@ -94,7 +94,7 @@ std::string limits_csv(const PolygonStudy& study) {
       const PolygonLimit limit = classify_isosceles(theta, n);
       Polygon z = initial;
       for (std::size_t i = 0; i < steps; ++i)
-        z = scaled_about_centroid(isosceles_step(z, theta), 1.0 / limit.growth);
+        z = scaled_about(centroid(initial), isosceles_step(z, theta), 1.0 / limit.growth);
       add_nodes(csv, z, [&] {
         csv.integer(n).number(theta).field(domain_name(limit)).field(shape_name(limit.shape));
         csv.number(limit.growth).integer(steps);
@@ -109,6 +109,7 @@ std::string sequences_csv(const PolygonStudy& study) {
   const auto add = [&](const std::string& name, Polygon z, double theta, double lambda,
                        const PolygonLimit& limit, const std::vector<std::size_t>& shown,
                        const auto& step) {
+    const Complex middle = centroid(z);
     const std::size_t last = *std::max_element(shown.begin(), shown.end());
     for (std::size_t i = 0; i <= last; ++i) {
       if (std::find(shown.begin(), shown.end(), i) != shown.end())
@@ -116,7 +117,7 @@ std::string sequences_csv(const PolygonStudy& study) {
           csv.field(name).integer(z.size()).number(theta).number(lambda);
           csv.field(domain_name(limit)).integer(i);
         });
-      z = scaled_about_centroid(step(z), 1.0 / limit.growth);
+      z = scaled_about(middle, step(z), 1.0 / limit.growth);
     }
   };
   const std::size_t n = study.limit_nodes.front();

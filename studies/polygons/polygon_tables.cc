@@ -22,6 +22,8 @@ std::string theorems_csv(const PolygonStudy& study) {
 /// Pairs of a grid, and for each of its angles the points on the lines S_k.
 std::vector<std::pair<double, double>> classified_parameters(const PolygonStudy& study,
                                                              std::size_t n) {
+  // Nearer to lambda = 1 the transformation is nearly the identity: too many iterations are needed.
+  constexpr double border = 1e-5;
   std::vector<std::pair<double, double>> pairs;
   for (std::size_t i = 0; i < study.theta_points; ++i) {
     const double theta = grid_point(i, study.theta_points, 0.5 * pi);
@@ -29,7 +31,7 @@ std::vector<std::pair<double, double>> classified_parameters(const PolygonStudy&
       pairs.emplace_back(theta, grid_point(j, study.lambda_points, 1.0));
     for (std::size_t k = 0; k < n / 2; ++k) {
       const double lambda = intersection_line(n, 2 * k + 1, theta);
-      if (lambda > 0.0 && lambda < 1.0) pairs.emplace_back(theta, lambda);
+      if (lambda > border && lambda < 1.0 - border) pairs.emplace_back(theta, lambda);
     }
   }
   return pairs;
