@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "meshes/generators/box_girder.h"
 #include "meshes/generators/flange.h"
 #include "meshes/generators/gear.h"
 #include "meshes/generators/nonuniform_grid.h"
+#include "meshes/generators/pump_housing.h"
 #include "meshes/generators/random_planar.h"
 #include "meshes/generators/revolved_profile.h"
 #include "meshes/generators/subdivided_cube.h"
@@ -21,9 +23,13 @@ AnyMesh make_gear(const DomainParameters& p) {
   return generate_gear(gear);
 }
 
+/// "tetrahedra" or "hexahedra".
+ElementType volume_type(const std::string& elements) {
+  return elements == "tetrahedra" ? ElementType::tetrahedron : ElementType::hexahedron;
+}
+
 AnyMesh make_flange(const DomainParameters& p) {
-  const auto type = p.elements == "tetrahedra" ? ElementType::tetrahedron : ElementType::hexahedron;
-  return generate_flange({type, p.edge_scale});
+  return generate_flange({volume_type(p.elements), p.edge_scale});
 }
 
 AnyMesh make_subdivision(const DomainParameters& p) {
@@ -32,6 +38,14 @@ AnyMesh make_subdivision(const DomainParameters& p) {
 
 AnyMesh make_nonuniform_grid(const DomainParameters& p) {
   return generate_nonuniform_grid(p.edge_scale);
+}
+
+AnyMesh make_bridge(const DomainParameters& p) {
+  return generate_box_girder(volume_type(p.elements), p.edge_scale);
+}
+
+AnyMesh make_pump(const DomainParameters& p) {
+  return generate_pump_housing(p.edge_scale);
 }
 
 AnyMesh make_sweep(const DomainParameters& p) {
@@ -82,6 +96,11 @@ const std::vector<Domain>& domains() {
        2,
        {"triangles", "quadrilaterals", "mixed"},
        make_random_planar},
+      {"bridge",
+       "stand-in for Section 5.1.3's meshes: their size, a box girder with four tendon ducts",
+       3,
+       {"tetrahedra", "hexahedra"},
+       make_bridge},
       {"nonuniform-grid",
        "Section 5.3.1's grid: its 13 x 4 x 11 nodes and printed mean ratios, planes of our own",
        3,
@@ -97,6 +116,11 @@ const std::vector<Domain>& domains() {
        3,
        {"hexahedra"},
        make_sweep},
+      {"pump",
+       "stand-in for Section 5.5.3's mesh: its size and regularity, a swept plate with 18 bores",
+       3,
+       {"hexahedra"},
+       make_pump},
   };
   return all;
 }

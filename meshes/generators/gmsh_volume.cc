@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "meshes/generators/gmsh_nodes.h"
@@ -41,6 +42,22 @@ void build_geometry(const std::vector<Cylinder>& joined, const std::vector<Cylin
   gmsh::model::occ::synchronize();
 }
 
+void build_geometry(const Polygons& polygons, double length) {
+  std::vector<int> loops;
+  for (const auto& polygon : polygons) {
+    std::vector<int> points, lines;
+    for (const auto& corner : polygon)
+      points.push_back(gmsh::model::occ::addPoint(corner.x(), corner.y(), 0.0));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      lines.push_back(gmsh::model::occ::addLine(points[i], points[(i + 1) % points.size()]));
+    loops.push_back(gmsh::model::occ::addCurveLoop(lines));
+  }
+  gmsh::vectorpair swept;
+  gmsh::model::occ::extrude({{2, gmsh::model::occ::addPlaneSurface(loops)}}, 0.0, 0.0, length,
+                            swept);
+  gmsh::model::occ::synchronize();
+}
+
 void divide_curves(double edge_length) {
   gmsh::vectorpair curves;
   gmsh::model::getEntities(curves, 1);
@@ -74,10 +91,7 @@ VolumeCells mesh_of_model() {
   return mesh;
 }
 
-}  // namespace
-
-VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed,
-                       const EdgeLengths& lengths) {
+VolumeCells mesh_model(const std::function<void()>& build, const EdgeLengths& lengths) {
   GmshSession session;
   session.set_option("Mesh.Algorithm", frontal_delaunay_2d);
   session.set_option("Mesh.Algorithm3D", delaunay_3d);
@@ -85,7 +99,7 @@ VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cy
   session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
   VolumeCells mesh;
   session.run("the solid cannot be meshed", [&] {
-    build_geometry(joined, removed);
+    build();
     set_edge_length(session, lengths.boundary);
     divide_curves(lengths.boundary);
     gmsh::model::mesh::generate(2);
@@ -94,6 +108,17 @@ VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cy
     mesh = mesh_of_model();
   });
   return mesh;
+}
+
+}  // namespace
+
+VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed,
+                       const EdgeLengths& lengths) {
+  return mesh_model([&] { build_geometry(joined, removed); }, lengths);
+}
+
+VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths) {
+  return mesh_model([&] { build_geometry(polygons, length); }, lengths);
 }
 
 }  // namespace smoothfem

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "meshes/generators/sweep.h"
+#include "meshes/generators/mesh_cells.h"
+#include "meshes/generators/outline.h"
 
 namespace smoothfem {
 
@@ -24,5 +25,8 @@ struct EdgeLengths {
 /// cylinders and planes. Throws InputError with Gmsh's words if it cannot.
 VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed,
                        const EdgeLengths& lengths);
+
+/// The same for the region between polygons, swept along z from 0 to a length.
+VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths);
 
 }  // namespace smoothfem

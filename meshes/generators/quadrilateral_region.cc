@@ -1,14 +1,15 @@
 #include "meshes/generators/quadrilateral_region.h"
 
+#include <limits>
 #include <map>
-#include <string>
+#include <memory>
 #include <utility>
 
 #include "meshes/generators/edge_length_search.h"
 #include "meshes/generators/gmsh_planar.h"
 #include "meshes/generators/quad_split.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/untangling/untangle.h"
 
 namespace smoothfem {
 
@@ -49,14 +50,19 @@ PlanarCells coarse_mesh(const Polygons& polygons, double edge_length, std::size_
   return mesh_region(every_nth(polygons, stride), static_cast<double>(stride) * edge_length, true);
 }
 
-/// Halved until all corners are in. What the halvings before the last one bend over at arcs is put
-/// right before the next.
+/// Halved until all corners are in. Arcs reach into the cells at their chords: such cells are made
+/// valid, and smoothed before they are halved again.
 PlanarCells halved(PlanarCells mesh, const Polygons& polygons, std::size_t stride) {
   const SkippedCorners skipped(polygons);
   for (; stride > 1; stride /= 2) {
     mesh = split_to_quadrilaterals(mesh, [&](NodeIndex a, NodeIndex b) {
       return skipped.between(mesh.coordinates[a], mesh.coordinates[b], stride);
     });
+    auto topology =
+        std::make_shared<const Topology>(2, mesh.coordinates.size(), std::move(mesh.cells));
+    PlanarMesh moved(std::move(topology), std::move(mesh.coordinates));
+    untangle(moved);
+    mesh = {moved.coordinates(), moved.topology().cells()};
     if (stride > 2) smooth_quadrilaterals(mesh);
   }
   return mesh;
@@ -78,16 +84,16 @@ PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length) {
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
                                        int n_halvings) {
   constexpr int most_tries = 24;
-  constexpr double few = 0.03, acceptable = 0.25;  // shares of the cells
+  constexpr double few = 0.03, mendable = 0.25;  // shares of the cells
   const std::size_t stride = std::size_t{1} << n_halvings;
   const std::size_t n_cells_halved_once = n_cells / (stride * stride / 4);
   const auto wanted = static_cast<double>(n_cells_halved_once);
   EdgeLengthSearch search(std::sqrt(area(polygons) / static_cast<double>(n_cells)),
                           (1.0 - 0.5 * few) * wanted);
   struct {
-    double deviation = acceptable;
+    double deviation;
     PlanarCells mesh;
-  } below, above;  // too few cells can be mended, too many cannot
+  } below{mendable, {}}, above{std::numeric_limits<double>::infinity(), {}};
   for (int i = 0; i < most_tries && below.deviation > few; ++i) {
     PlanarCells coarse = coarse_mesh(polygons, search.length(), stride);
     cut_invalid_quadrilaterals(coarse);
@@ -99,9 +105,6 @@ PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_c
     side = {std::abs(n / wanted - 1.0), std::move(coarse)};
   }
   PlanarCells best = std::move(below.mesh.cells.empty() ? above.mesh : below.mesh);
-  if (best.cells.empty())
-    throw InputError("the region cannot be meshed with " + std::to_string(n_cells) +
-                     " quadrilaterals; choose another edge scale");
   // A quadrilateral gives four cells, its two triangles six.
   if (best.cells.n_entries() < n_cells_halved_once)
     cut_worst_quadrilaterals(best, (n_cells_halved_once - best.cells.n_entries()) / 2);

@@ -12,10 +12,10 @@ PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length);
 
 /// The same with a given number of cells. It is met exactly (one less where the number of boundary
 /// edges allows no even, or no odd, number of cells) by cutting some of Gmsh's cells before the
-/// halving, except on boundaries too coarse for so few cells: there it may be larger by a quarter.
+/// halving, except on boundaries too coarse for so few cells: there it is larger.
 /// n_halvings: more than one leave fewer irregular nodes; numbers of corners are then multiples of
-/// 2^n_halvings, and the number of cells is met up to 4^(n_halvings - 1). Throws InputError if no
-/// such mesh is found.
+/// 2^n_halvings, and the number of cells is met up to 4^(n_halvings - 1). Throws InputError with
+/// Gmsh's words if it cannot mesh the region.
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
                                        int n_halvings = 1);
 

@@ -1,0 +1,79 @@
+#include "meshes/generators/box_girder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "meshes/generators/gmsh_volume.h"
+#include "meshes/generators/quadrilateral_region.h"
+#include "meshes/generators/sweep.h"
+
+namespace smoothfem {
+
+namespace {
+
+Outline closed(const std::vector<Point<2>>& corners) {
+  Outline outline;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    outline.push_back(segment(corners[i], corners[(i + 1) % corners.size()]));
+  return outline;
+}
+
+/// Half of a symmetric polygon, from its lowest to its highest point on the right, and the rest.
+Outline mirrored(std::vector<Point<2>> right) {
+  for (std::size_t i = right.size(); i-- > 0;) {
+    const Point<2> p = right[i];
+    right.emplace_back(-p.x(), p.y());
+  }
+  return closed(right);
+}
+
+constexpr double girder_length = 8.2;  // layers of hexahedra as thick as their edges are long
+
+/// Metres: a slab of 11 on a box of 2.4 in height; the ducts are in the webs.
+std::vector<Outline> cross_section() {
+  constexpr double duct_radius = 0.09;
+  std::vector<Outline> outlines{mirrored({{2.25, 0.0}, {2.75, 1.9}, {5.5, 2.1}, {5.5, 2.4}}),
+                                mirrored({{1.85, 0.4}, {2.25, 1.85}, {1.85, 2.05}})};
+  for (const double side : {-1.0, 1.0})
+    for (const double y : {0.7, 1.4})
+      outlines.push_back({arc({side * (2.05 + 0.5 * y / 1.9 + 0.01), y}, duct_radius, 0.0,
+                              2.0 * std::numbers::pi)});
+  return outlines;
+}
+
+VolumeCells hexahedra(double edge_scale) {
+  // As many edges on the boundary as 1,944 cells with 2,278 nodes and five holes have (Euler).
+  constexpr double n_cells = 1944.0, n_boundary_edges = 676.0, n_layers = 134.0;
+  const auto n_pairs = static_cast<std::size_t>(std::lround(0.5 * n_boundary_edges / edge_scale));
+  const Polygons polygons = divide(cross_section(), 2 * n_pairs, 2);
+  PlanarCells base = mesh_with_n_quadrilaterals(
+      polygons, static_cast<std::size_t>(std::lround(n_cells / (edge_scale * edge_scale))));
+  smooth_quadrilaterals(base);
+  const auto layers = static_cast<int>(std::lround(n_layers / edge_scale));
+  std::vector<double> heights;
+  for (int i = 0; i <= layers; ++i) heights.push_back(girder_length * i / layers);
+  return sweep(base, heights);
+}
+
+VolumeCells tetrahedra(double edge_scale) {
+  Polygons polygons;
+  for (const Outline& outline : cross_section())
+    polygons.push_back(divide({outline}, std::max<std::size_t>(8, outline.size()), 1).front());
+  // On the boundary and inside: the only two unknowns of the numbers of nodes and of cells.
+  constexpr EdgeLengths lengths{0.133, 0.0975};
+  return mesh_extrusion(polygons, girder_length,
+                        {edge_scale * lengths.boundary, edge_scale * lengths.inside});
+}
+
+}  // namespace
+
+VolumeMesh generate_box_girder(ElementType type, double edge_scale) {
+  if (type != ElementType::tetrahedron && type != ElementType::hexahedron)
+    throw InputError("the bridge can be meshed with tetrahedra or hexahedra only");
+  require_edge_scale("bridge", edge_scale, 2);
+  return mesh_of(type == ElementType::tetrahedron ? tetrahedra(edge_scale) : hexahedra(edge_scale),
+                 "generated bridge");
+}
+
+}  // namespace smoothfem

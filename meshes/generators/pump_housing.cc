@@ -1,0 +1,71 @@
+#include "meshes/generators/pump_housing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "meshes/generators/quadrilateral_region.h"
+#include "meshes/generators/sweep.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr double half_length = 12.0, half_width = 8.0, corner_radius = 3.0;
+
+Outline circle(const Point<2>& centre, double radius) {
+  return {arc(centre, radius, 0.0, 2.0 * std::numbers::pi)};
+}
+
+Outline plate() {
+  const double a = half_length - corner_radius, b = half_width - corner_radius;
+  const double quarter = 0.5 * std::numbers::pi;
+  const std::vector<Point<2>> centres = {{a, b}, {-a, b}, {-a, -b}, {a, -b}};
+  Outline outline;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const double from = quarter * static_cast<double>(i), to = from + quarter;
+    outline.push_back(arc(centres[i], corner_radius, from, to));
+    outline.push_back(segment(on_circle(centres[i], corner_radius, to),
+                              on_circle(centres[(i + 1) % 4], corner_radius, to)));
+  }
+  return outline;
+}
+
+/// The plate, the bores of the two wheels, and those of bolts along the rim and between the wheels.
+std::vector<Outline> outlines() {
+  constexpr double wheel_radius = 3.0, bolt_radius = 0.95;
+  std::vector<Outline> all{plate(), circle({-4.6, 0.0}, wheel_radius),
+                           circle({4.6, 0.0}, wheel_radius)};
+  for (const double side : {-1.0, 1.0}) {
+    for (const double x : {-9.2, -5.6, -1.9, 1.9, 5.6, 9.2})
+      all.push_back(circle({x, 5.6 * side}, bolt_radius));
+    all.push_back(circle({10.0 * side, 0.0}, bolt_radius));
+    all.push_back(circle({0.0, 2.6 * side}, bolt_radius));
+  }
+  return all;
+}
+
+}  // namespace
+
+VolumeMesh generate_pump_housing(double edge_scale) {
+  require_edge_scale("pump housing", edge_scale, 8);
+  constexpr double n_cells = 41359.0, n_boundary_edges = 2816.0, n_layers = 64.0;
+  // As many halvings as leave Gmsh a mesh that resolves the bores.
+  const int n_halvings = std::clamp(3 - static_cast<int>(std::lround(std::log2(edge_scale))), 1, 3);
+  const auto stride = static_cast<std::size_t>(1) << n_halvings;
+  const auto n_coarse_edges = static_cast<std::size_t>(
+      std::lround(n_boundary_edges / (static_cast<double>(stride) * edge_scale)));
+  const Polygons polygons = divide(outlines(), n_coarse_edges * stride, stride);
+  PlanarCells base = mesh_with_n_quadrilaterals(
+      polygons, static_cast<std::size_t>(std::lround(n_cells / (edge_scale * edge_scale))),
+      n_halvings);
+  smooth_quadrilaterals(base);
+  // Layers as thick as the edges are long.
+  const double edge = std::sqrt(area(polygons) / static_cast<double>(base.cells.size()));
+  const auto layers = static_cast<int>(std::lround(n_layers / edge_scale));
+  std::vector<double> heights;
+  for (int i = 0; i <= layers; ++i) heights.push_back(edge * i);
+  return mesh_of(sweep(base, heights), "generated pump housing");
+}
+
+}  // namespace smoothfem
