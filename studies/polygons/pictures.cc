@@ -124,10 +124,10 @@ std::string sequences_csv(const PolygonStudy& study) {
   for (const double theta : pictured_angles(n))
     add("isosceles", picture_polygon(n, study.seed), theta, 0.5, classify_isosceles(theta, n),
         study.isosceles_steps, [&](const Polygon& z) { return isosceles_step(z, theta); });
-  for (const auto& [theta, lambda] : study.sequences)
-    add("combined", picture_polygon(study.sequence_nodes, study.seed), theta, lambda,
-        classify(lambda, theta, study.sequence_nodes), study.combined_steps,
-        [&](const Polygon& z) { return transformed(z, lambda, theta); });
+  for (const SequenceParameters& p : study.sequences)
+    add("combined", picture_polygon(study.sequence_nodes, study.seed), p.theta, p.lambda,
+        classify(p.lambda, p.theta, study.sequence_nodes), study.combined_steps,
+        [&](const Polygon& z) { return transformed(z, p.lambda, p.theta); });
   return csv.text();
 }
 
@@ -145,7 +145,8 @@ std::string side_ratios_csv(const PolygonStudy& study) {
       const Polygon next = step(triangle, theta);
       const double growth = radius(next) / radius(triangle);
       csv.field(name).number(theta).integer(i).number(defect);
-      csv.number(first[i % 2] * std::pow(factor, static_cast<double>(i / 2))).number(growth);
+      const std::size_t n_pairs = i / 2;
+      csv.number(first[i % 2] * std::pow(factor, static_cast<double>(n_pairs))).number(growth);
       csv.end_line();
       triangle = scaled_about_centroid(next, 1.0 / growth);
     }
