@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "meshes/generators/box_girder.h"
+#include "meshes/generators/car_flow.h"
 #include "meshes/generators/flange.h"
 #include "meshes/generators/gear.h"
 #include "meshes/generators/nonuniform_grid.h"
@@ -46,6 +47,10 @@ AnyMesh make_bridge(const DomainParameters& p) {
 
 AnyMesh make_pump(const DomainParameters& p) {
   return generate_pump_housing(p.edge_scale);
+}
+
+AnyMesh make_car(const DomainParameters& p) {
+  return generate_car_flow(p.edge_scale);
 }
 
 AnyMesh make_sweep(const DomainParameters& p) {
@@ -116,6 +121,11 @@ const std::vector<Domain>& domains() {
        3,
        {"hexahedra"},
        make_sweep},
+      {"car",
+       "stand-in for Section 5.3.4's mesh: its size and quality, a grid around a body of two boxes",
+       3,
+       {"hexahedra"},
+       make_car},
       {"pump",
        "stand-in for Section 5.5.3's mesh: its size and regularity, a swept plate with 18 bores",
        3,
