@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "meshes/generators/gmsh_volume.h"
 #include "meshes/generators/quadrilateral_region.h"
@@ -11,13 +10,6 @@
 namespace smoothfem {
 
 namespace {
-
-Outline closed(const std::vector<Point<2>>& corners) {
-  Outline outline;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    outline.push_back(segment(corners[i], corners[(i + 1) % corners.size()]));
-  return outline;
-}
 
 /// Half of a symmetric polygon, from its lowest to its highest point on the right, and the rest.
 Outline mirrored(std::vector<Point<2>> right) {
@@ -37,23 +29,18 @@ std::vector<Outline> cross_section() {
                                 mirrored({{1.85, 0.4}, {2.25, 1.85}, {1.85, 2.05}})};
   for (const double side : {-1.0, 1.0})
     for (const double y : {0.7, 1.4})
-      outlines.push_back({arc({side * (2.05 + 0.5 * y / 1.9 + 0.01), y}, duct_radius, 0.0,
-                              2.0 * std::numbers::pi)});
+      outlines.push_back(circle({side * (2.06 + 0.5 * y / 1.9), y}, duct_radius));
   return outlines;
 }
 
 VolumeCells hexahedra(double edge_scale) {
   // As many edges on the boundary as 1,944 cells with 2,278 nodes and five holes have (Euler).
-  constexpr double n_cells = 1944.0, n_boundary_edges = 676.0, n_layers = 134.0;
-  const auto n_pairs = static_cast<std::size_t>(std::lround(0.5 * n_boundary_edges / edge_scale));
-  const Polygons polygons = divide(cross_section(), 2 * n_pairs, 2);
-  PlanarCells base = mesh_with_n_quadrilaterals(
-      polygons, static_cast<std::size_t>(std::lround(n_cells / (edge_scale * edge_scale))));
+  constexpr std::size_t n_cells = 1944, n_boundary_edges = 676;
+  constexpr double n_layers = 134.0;
+  PlanarCells base =
+      mesh_with_n_quadrilaterals(cross_section(), n_cells, n_boundary_edges, edge_scale);
   smooth_quadrilaterals(base);
-  const auto layers = static_cast<int>(std::lround(n_layers / edge_scale));
-  std::vector<double> heights;
-  for (int i = 0; i <= layers; ++i) heights.push_back(girder_length * i / layers);
-  return sweep(base, heights);
+  return sweep(base, equal_layers(girder_length, n_layers / edge_scale));
 }
 
 VolumeCells tetrahedra(double edge_scale) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "smoothing/mesh/input_error.h"
@@ -33,6 +34,17 @@ Curve polyline(std::vector<Point<2>> points) {
             const double share = (wanted - lengths[i - 1]) / (lengths[i] - lengths[i - 1]);
             return (1.0 - share) * points[i - 1] + share * points[i];
           }};
+}
+
+Outline closed(const std::vector<Point<2>>& corners) {
+  Outline outline;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    outline.push_back(segment(corners[i], corners[(i + 1) % corners.size()]));
+  return outline;
+}
+
+Outline circle(const Point<2>& centre, double radius) {
+  return {arc(centre, radius, 0.0, 2.0 * std::numbers::pi)};
 }
 
 namespace {

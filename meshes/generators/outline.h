@@ -27,6 +27,10 @@ Curve arc(const Point<2>& centre, double radius, double from, double to);
 /// Through two and more different points.
 Curve polyline(std::vector<Point<2>> points);
 
+/// A polygon with these corners.
+Outline closed(const std::vector<Point<2>>& corners);
+Outline circle(const Point<2>& centre, double radius);
+
 /// Closed polygons with n_edges edges altogether, of nearly equal length and a multiple of
 /// `multiple_of` on each curve. Throws InputError if that is not possible.
 Polygons divide(const std::vector<Outline>& outlines, std::size_t n_edges, std::size_t multiple_of);

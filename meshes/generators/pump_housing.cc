@@ -13,10 +13,6 @@ namespace {
 
 constexpr double half_length = 12.0, half_width = 8.0, corner_radius = 3.0;
 
-Outline circle(const Point<2>& centre, double radius) {
-  return {arc(centre, radius, 0.0, 2.0 * std::numbers::pi)};
-}
-
 Outline plate() {
   const double a = half_length - corner_radius, b = half_width - corner_radius;
   const double quarter = 0.5 * std::numbers::pi;
@@ -62,10 +58,8 @@ VolumeMesh generate_pump_housing(double edge_scale) {
   smooth_quadrilaterals(base);
   // Layers as thick as the edges are long.
   const double edge = std::sqrt(area(polygons) / static_cast<double>(base.cells.size()));
-  const auto layers = static_cast<int>(std::lround(n_layers / edge_scale));
-  std::vector<double> heights;
-  for (int i = 0; i <= layers; ++i) heights.push_back(edge * i);
-  return mesh_of(sweep(base, heights), "generated pump housing");
+  const double n = std::round(n_layers / edge_scale);
+  return mesh_of(sweep(base, equal_layers(n * edge, n)), "generated pump housing");
 }
 
 }  // namespace smoothfem

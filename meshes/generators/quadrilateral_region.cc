@@ -111,4 +111,12 @@ PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_c
   return halved(std::move(best), polygons, stride);
 }
 
+PlanarCells mesh_with_n_quadrilaterals(const std::vector<Outline>& outlines, std::size_t n_cells,
+                                       std::size_t n_boundary_edges, double edge_scale) {
+  const auto n_pairs = std::lround(static_cast<double>(n_boundary_edges / 2) / edge_scale);
+  const auto n = std::lround(static_cast<double>(n_cells) / (edge_scale * edge_scale));
+  return mesh_with_n_quadrilaterals(divide(outlines, 2 * static_cast<std::size_t>(n_pairs), 2),
+                                    static_cast<std::size_t>(n));
+}
+
 }  // namespace smoothfem

@@ -19,6 +19,11 @@ PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length);
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
                                        int n_halvings = 1);
 
+/// The same for a region with so many boundary edges; edge_scale, from 1 on, times longer edges
+/// give fewer of them, and fewer cells.
+PlanarCells mesh_with_n_quadrilaterals(const std::vector<Outline>& outlines, std::size_t n_cells,
+                                       std::size_t n_boundary_edges, double edge_scale);
+
 /// Smooths valid cells by GETMe; boundary nodes stay.
 void smooth_quadrilaterals(PlanarCells& cells);
 

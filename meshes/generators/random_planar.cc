@@ -131,21 +131,17 @@ PlanarMesh triangles(double edge_scale, std::uint64_t seed) {
 
 // --- Quadrilaterals and mixed --------------------------------------------------------------------
 
-PlanarCells quadrilaterals(double n_cells, double n_boundary_edges, double edge_scale) {
-  const auto n_pairs = static_cast<std::size_t>(std::lround(0.5 * n_boundary_edges / edge_scale));
-  PlanarCells cells = mesh_with_n_quadrilaterals(
-      divide(domain(), 2 * n_pairs, 2),
-      static_cast<std::size_t>(std::lround(n_cells / (edge_scale * edge_scale))));
+PlanarCells quadrilaterals(std::size_t n_cells, std::size_t n_boundary_edges, double edge_scale) {
+  PlanarCells cells = mesh_with_n_quadrilaterals(domain(), n_cells, n_boundary_edges, edge_scale);
   smooth_quadrilaterals(cells);
   return cells;
 }
 
 PlanarCells mixed(double edge_scale, std::uint64_t seed) {
-  constexpr double n_whole = 3368.0, n_cut = 8732.0 / 2.0;
-  PlanarCells cells = quadrilaterals(n_whole + n_cut, 852.0, edge_scale);
+  constexpr std::size_t n_whole = 3368, n_cut = 8732 / 2;
+  PlanarCells cells = quadrilaterals(n_whole + n_cut, 852, edge_scale);
   std::vector<Diagonal> diagonals(cells.cells.size());
-  auto n = static_cast<std::size_t>(
-      std::lround(n_cut / (n_whole + n_cut) * static_cast<double>(diagonals.size())));
+  std::size_t n = n_cut * diagonals.size() / (n_whole + n_cut);
   for (SplitMix64 random = counter_random(seed, cutting, 0); n > 0;) {
     Diagonal& diagonal = diagonals[random.below(diagonals.size())];
     if (diagonal) continue;
@@ -163,7 +159,7 @@ PlanarMesh generate_random_planar(const std::string& elements, double edge_scale
   require_edge_scale("random planar domain", edge_scale, 2);
   if (elements == "triangles") return triangles(edge_scale, seed);
   if (elements == "quadrilaterals")
-    return mesh_of(quadrilaterals(6111.0, 918.0, edge_scale), "generated random planar mesh");
+    return mesh_of(quadrilaterals(6111, 918, edge_scale), "generated random planar mesh");
   if (elements == "mixed") return mesh_of(mixed(edge_scale, seed), "generated random planar mesh");
   throw InputError("the random planar domain has no mesh of '" + elements +
                    "'; choose one of triangles, quadrilaterals, mixed");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 
 namespace smoothfem {
 
@@ -34,6 +35,14 @@ VolumeCells sweep(const PlanarCells& base, const std::vector<double>& heights,
     std::swap(below, above);
   }
   return swept;
+}
+
+std::vector<double> equal_layers(double height, double n_layers) {
+  const long n = std::max(1L, std::lround(n_layers));
+  std::vector<double> heights;
+  for (long i = 0; i <= n; ++i)
+    heights.push_back(height * static_cast<double>(i) / static_cast<double>(n));
+  return heights;
 }
 
 VolumeCells sweep(const PlanarCells& base, const std::vector<double>& heights) {

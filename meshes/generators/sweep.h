@@ -14,6 +14,9 @@ namespace smoothfem {
 VolumeCells sweep(const PlanarCells& base, const std::vector<double>& heights,
                   const std::function<std::size_t(CellIndex)>& n_layers);
 
+/// From 0 to a height in equal steps, the nearest whole number to n_layers, at least one.
+std::vector<double> equal_layers(double height, double n_layers);
+
 /// Each cell swept through all the heights.
 VolumeCells sweep(const PlanarCells& base, const std::vector<double>& heights);
 
