@@ -2,15 +2,22 @@
 
 #include <algorithm>
 
+#include "meshes/generators/axle.h"
+#include "meshes/generators/ball.h"
 #include "meshes/generators/box_girder.h"
 #include "meshes/generators/car_flow.h"
+#include "meshes/generators/embedded_plate.h"
+#include "meshes/generators/embedded_ring.h"
 #include "meshes/generators/flange.h"
 #include "meshes/generators/gear.h"
 #include "meshes/generators/nonuniform_grid.h"
+#include "meshes/generators/piston.h"
 #include "meshes/generators/pump_housing.h"
 #include "meshes/generators/random_planar.h"
 #include "meshes/generators/revolved_profile.h"
+#include "meshes/generators/stem.h"
 #include "meshes/generators/subdivided_cube.h"
+#include "meshes/generators/vessel.h"
 #include "smoothing/mesh/input_error.h"
 
 namespace smoothfem {
@@ -55,6 +62,34 @@ AnyMesh make_car(const DomainParameters& p) {
 
 AnyMesh make_sweep(const DomainParameters& p) {
   return generate_revolved_profile(p.edge_scale);
+}
+
+AnyMesh make_sphere(const DomainParameters& p) {
+  return generate_ball(p.edge_scale, p.seed);
+}
+
+AnyMesh make_prosthesis(const DomainParameters& p) {
+  return generate_stem(p.edge_scale, p.seed);
+}
+
+AnyMesh make_axle(const DomainParameters& p) {
+  return generate_axle(p.edge_scale);
+}
+
+AnyMesh make_plate(const DomainParameters& p) {
+  return generate_embedded_plate(p.edge_scale);
+}
+
+AnyMesh make_ring(const DomainParameters& p) {
+  return generate_embedded_ring(p.edge_scale);
+}
+
+AnyMesh make_aorta(const DomainParameters& p) {
+  return generate_vessel(p.edge_scale);
+}
+
+AnyMesh make_piston(const DomainParameters& p) {
+  return generate_piston(p.edge_scale);
 }
 
 AnyMesh make_random_planar(const DomainParameters& p) {
@@ -106,6 +141,21 @@ const std::vector<Domain>& domains() {
        3,
        {"tetrahedra", "hexahedra"},
        make_bridge},
+      {"sphere",
+       "Section 5.2.1's ball: its 258 surface and 346 inner nodes, other random numbers",
+       3,
+       {"tetrahedra"},
+       make_sphere},
+      {"prosthesis",
+       "stand-in for Section 5.2.2's mesh: its counts of nodes, random inside, a simpler stem",
+       3,
+       {"tetrahedra"},
+       make_prosthesis},
+      {"axle",
+       "stand-in for Section 5.2.3's meshes: their genus and size, graded towards 16 holes",
+       3,
+       {"tetrahedra"},
+       make_axle},
       {"nonuniform-grid",
        "Section 5.3.1's grid: its 13 x 4 x 11 nodes and printed mean ratios, planes of our own",
        3,
@@ -126,6 +176,26 @@ const std::vector<Domain>& domains() {
        3,
        {"hexahedra"},
        make_car},
+      {"plate",
+       "stand-in for Section 5.4.1's mesh: about its counts, a plate with two holes in a cuboid",
+       3,
+       {"mixed"},
+       make_plate},
+      {"ring",
+       "stand-in for Section 5.4.2's mesh: its grid and counts, around a torus",
+       3,
+       {"mixed"},
+       make_ring},
+      {"aorta",
+       "stand-in for Section 5.4.3's mesh: about its counts, an arch with two branches",
+       3,
+       {"mixed"},
+       make_aorta},
+      {"piston",
+       "stand-in for Section 5.5.2's mesh: its size, a piston with bowl, grooves and pin hole",
+       3,
+       {"tetrahedra"},
+       make_piston},
       {"pump",
        "stand-in for Section 5.5.3's mesh: its size and regularity, a swept plate with 18 bores",
        3,

@@ -3,21 +3,15 @@
 #include <gmsh.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
 
-#include "meshes/generators/gmsh_nodes.h"
-#include "meshes/io/gmsh_session.h"
+#include "meshes/generators/gmsh_tetrahedra.h"
 
 namespace smoothfem {
 
 namespace {
-
-constexpr int frontal_delaunay_2d = 6;  // 8 hangs on some domains
-constexpr int delaunay_3d = 1;
-constexpr int tetrahedron = 4;
 
 gmsh::vectorpair add(const std::vector<Cylinder>& cylinders) {
   gmsh::vectorpair solids;
@@ -73,41 +67,14 @@ void divide_curves(double edge_length) {
   }
 }
 
-void set_edge_length(GmshSession& session, double length) {
-  session.set_option("Mesh.CharacteristicLengthMin", length);
-  session.set_option("Mesh.CharacteristicLengthMax", length);
-}
-
-VolumeCells mesh_of_model() {
-  VolumeCells mesh;
-  GmshNodes all = nodes_of_model();
-  mesh.coordinates = std::move(all.points);
-  const auto number = [&](std::size_t tag) { return all.numbers.at(tag); };
-  std::vector<std::size_t> elements, nodes;
-  gmsh::model::mesh::getElementsByType(tetrahedron, elements, nodes);
-  for (std::size_t k = 0; k < nodes.size(); k += 4)
-    mesh.cells.append(std::array<NodeIndex, 4>{number(nodes[k]), number(nodes[k + 1]),
-                                               number(nodes[k + 2]), number(nodes[k + 3])});
-  return mesh;
-}
-
 VolumeCells mesh_model(const std::function<void()>& build, const EdgeLengths& lengths) {
-  GmshSession session;
-  session.set_option("Mesh.Algorithm", frontal_delaunay_2d);
-  session.set_option("Mesh.Algorithm3D", delaunay_3d);
-  session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
-  session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
-  VolumeCells mesh;
-  session.run("the solid cannot be meshed", [&] {
+  return mesh_with_tetrahedra("the solid", [&](GmshSession& session) {
     build();
     set_edge_length(session, lengths.boundary);
     divide_curves(lengths.boundary);
     gmsh::model::mesh::generate(2);
     set_edge_length(session, lengths.inside);
-    gmsh::model::mesh::generate(3);
-    mesh = mesh_of_model();
   });
-  return mesh;
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+#include "meshes/generators/axle.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "meshes/generators/gmsh_tetrahedra.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr double flange_radius = 6.0, flange_height = 1.2;
+constexpr double shaft_radius = 2.0, shaft_end = 9.0, bore_radius = 0.7;
+constexpr int n_holes = 16;  // with the bore: genus 17
+constexpr double hole_circle = 4.4, hole_radius = 0.12;
+/// Of edges at the holes and far from them; their ratio is that of the lengths in the mesh.
+constexpr double small_edge = 0.0123, large_edge = 0.657;
+constexpr double most_edge = 1.2;  // longer ones do not fit the flange
+constexpr double growth = 0.24;    // of the edge length over the distance from a hole
+
+/// Returns the holes' curves.
+std::vector<double> build_geometry() {
+  namespace occ = gmsh::model::occ;
+  gmsh::vectorpair solid, rest;
+  std::vector<gmsh::vectorpair> origin;
+  occ::fuse({{3, occ::addCylinder(0, 0, 0, 0, 0, flange_height, flange_radius)}},
+            {{3, occ::addCylinder(0, 0, 0, 0, 0, shaft_end, shaft_radius)}}, solid, origin);
+  gmsh::vectorpair removed{{3, occ::addCylinder(0, 0, -1, 0, 0, shaft_end + 2, bore_radius)}};
+  for (int i = 0; i < n_holes; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / n_holes;
+    removed.emplace_back(
+        3, occ::addCylinder(hole_circle * std::cos(angle), hole_circle * std::sin(angle), -1, 0, 0,
+                            flange_height + 2, hole_radius));
+  }
+  occ::cut(solid, removed, rest, origin);
+  occ::synchronize();
+  gmsh::vectorpair curves;
+  gmsh::model::getEntities(curves, 1);
+  std::vector<double> small;
+  for (const auto& [dim, tag] : curves) {
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+    gmsh::model::getBoundingBox(dim, tag, x0, y0, z0, x1, y1, z1);
+    const bool at_hole = std::hypot(x1 - x0, y1 - y0) < 4.0 * hole_radius &&
+                         std::hypot(x0, y0) > shaft_radius + hole_radius &&
+                         std::hypot(x0, y0) < flange_radius - 3.0 * hole_radius;
+    if (at_hole) small.push_back(tag);
+  }
+  return small;
+}
+
+/// Edges grow with the distance from the holes' curves.
+void set_edge_lengths(GmshSession& session, const std::vector<double>& holes, double edge_scale) {
+  namespace field = gmsh::model::mesh::field;
+  const double longest = std::min(edge_scale * large_edge, most_edge);
+  const int distance = field::add("Distance");
+  field::setNumbers(distance, "EdgesList", holes);
+  field::setNumber(distance, "NNodesByEdge", 100);
+  const int length = field::add("Threshold");
+  field::setNumber(length, "IField", distance);
+  field::setNumber(length, "LcMin", edge_scale * small_edge);
+  field::setNumber(length, "LcMax", longest);
+  field::setNumber(length, "DistMin", 0.0);
+  field::setNumber(length, "DistMax", (large_edge - small_edge) / growth);
+  field::setAsBackgroundMesh(length);
+  session.set_option("Mesh.CharacteristicLengthMin", 0.0);
+  session.set_option("Mesh.CharacteristicLengthMax", longest);
+}
+
+}  // namespace
+
+VolumeMesh generate_axle(double edge_scale) {
+  require_edge_scale("axle", edge_scale, 6);
+  VolumeCells mesh = mesh_with_tetrahedra("the axle", [&](GmshSession& session) {
+    set_edge_lengths(session, build_geometry(), edge_scale);
+  });
+  return mesh_of(std::move(mesh), "generated axle");
+}
+
+}  // namespace smoothfem
