@@ -48,7 +48,17 @@ def polygon_outputs(folder):
     return Outputs(results.folder, tuple(make_polygon_tables(results)), {}, draw)
 
 
-KINDS = {"smoothing": smoothing_outputs, "polygons": polygon_outputs}
+def regularization_outputs(folder):
+    """Of a study of the regularization of volume elements."""
+    from .regularization import (draw_regularization_figures, make_regularization_tables,
+                                 read_regularization_results)
+    results = read_regularization_results(folder)
+    return Outputs(results.folder, tuple(make_regularization_tables(results)), {},
+                   lambda report: draw_regularization_figures(results))
+
+
+KINDS = {"smoothing": smoothing_outputs, "polygons": polygon_outputs,
+         "regularization": regularization_outputs}
 
 
 def outputs_of(folder):

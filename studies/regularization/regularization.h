@@ -23,7 +23,7 @@ struct RegularizationSeries {
   std::string transformation = "dual-element";
   StartElements start = StartElements::arbitrary;
   std::size_t n_elements = 100000;
-  std::vector<double> sigmas;     ///< scaling factors of the normals, at least 0
+  std::vector<double> sigmas{};   ///< scaling factors of the normals, at least 0
   double tolerance = 1e-6;        ///< regular: mean ratio of at least 1 - tolerance
   int max_transformations = 200;  ///< of one element; those that take more are not regularized
   std::uint64_t seed = 1;         ///< the same for all series: they see the same elements

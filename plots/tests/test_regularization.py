@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables and figures of a regularization study."""
+
+import json
+
+from plots.__main__ import main
+from plots.regularization import (COUNTS, ELEMENTS, FIGURES, STARTS, make_regularization_tables,
+                                  read_regularization_results)
+from plots.table_formats import as_text
+from plots.tests.synthetic_results import write_csv
+from plots.tests.test_read_results import InFolder
+
+SIGMAS = [0.0, 0.5, 1.0, 2.0]
+MEANS = ["", "9.5", "4.25", "8.125"]
+
+
+def write_results(folder):
+    """A folder with few numbers, which are known."""
+    folder.mkdir()
+    rows = []
+    for element in ELEMENTS:
+        for transformation in ("opposite-face-normals", "dual-element"):
+            if transformation == "opposite-face-normals" and element != "tetrahedron":
+                continue
+            rows += [dict(zip(COUNTS, (element, transformation, start, sigma, 10, 10 if mean else 0, mean,
+                                       "1" if mean else "", "2" if mean else "", "20" if mean else "")))
+                     for start in STARTS for sigma, mean in zip(SIGMAS, MEANS)]
+    write_csv(folder / "regularization.csv", COUNTS, rows)
+    shares = [{"element": e, "n_elements": 10, "n_valid": 5, "share": 0.5} for e in ELEMENTS]
+    write_csv(folder / "validity.csv", list(shares[0]), shares)
+    (folder / "provenance.json").write_text(json.dumps(
+        {"study": "r", "study_title": "R", "parameters": {"kind": "regularization"}}))
+    return folder
+
+
+class Regularization(InFolder):
+    def test_least_mean_stands_beside_the_print(self):
+        tables = make_regularization_tables(read_regularization_results(write_results(self.folder / "r")))
+        text = as_text(tables[0])
+        self.assertIn("4.25", text)
+        self.assertIn("0.78", text)
+        self.assertIn("50.15", as_text(tables[1]))
+
+    def test_files(self):
+        folder = write_results(self.folder / "r")
+        self.assertEqual(main([str(folder), "--quiet"]), 0)
+        for name in FIGURES:
+            for suffix in ("pdf", "png"):
+                self.assertGreater((folder / "figures" / f"{name}.{suffix}").stat().st_size, 1000)
+        self.assertTrue((folder / "tables" / "table_fastest.tex").exists())
+
+    def test_what_is_missing(self):
+        folder = write_results(self.folder / "r")
+        (folder / "validity.csv").unlink()
+        self.assertEqual(main([str(folder), "--quiet"]), 2)
