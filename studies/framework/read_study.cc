@@ -161,6 +161,21 @@ void check_names(const Study& study) {
     if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
 }
 
+/// Stages that are recorded in their own way belong to one of the methods.
+void check_stages(const Study& study) {
+  std::vector<std::string> known;
+  with_dimension(study.dimension, [&]<int dim>() {
+    for (const auto& method : study.methods)
+      for (const auto& stage : method.make<dim>().stages)
+        if (std::find(known.begin(), known.end(), stage->name()) == known.end())
+          known.emplace_back(stage->name());
+  });
+  for (const auto& [stage, every] : study.record_every.stages)
+    if (std::find(known.begin(), known.end(), stage) == known.end())
+      throw InputError("'record stages every' names the stage '" + stage +
+                       "', which none of the methods has; " + choose_one_of(known));
+}
+
 void check_thresholds(const Study& study, const std::string& file) {
   const auto& reference = study.thresholds.reference;
   if (reference.empty()) return;
@@ -245,6 +260,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   read_problem(p, file.string(), study);
   if (!scale.empty()) read_scale(p, file.string(), study);
   in_file(file, [&] { check_names(study); });
+  in_file(file, [&] { check_stages(study); });
   check_thresholds(study, file.string());
   study.parameters = effective_parameters(p);
   // Which reader it is for; results from before there were kinds go on.

@@ -102,4 +102,43 @@ std::vector<std::pair<std::string, std::string>> effective_parameters(ParameterH
   return result;
 }
 
+void declare_table_study(ParameterHandler& p, const std::string& kind) {
+  namespace Patterns = dealii::Patterns;
+  p.declare_entry("kind", kind, Patterns::Selection(kind),
+                  "What the study does; other kinds have other keys.");
+  p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("scales", "", Patterns::Anything(),
+                  "Sizes that --scale can choose, separated by commas; each has a subsection "
+                  "'scale NAME'.");
+}
+
+Study read_table_study(
+    ParameterHandler& p, const std::filesystem::path& file, const std::string& scale,
+    const std::function<void(ParameterHandler&, const std::string&)>& declare_sizes) {
+  const std::string text = read_study_text(file);
+  ParameterHandler lists;  // which subsections there are depends on what the file says
+  lists.declare_entry("scales", "");
+  parse_study(lists, text, file, true);
+  const auto scales = split_list(lists.get("scales"));
+  require_scale(scale, scales, file.string());
+  for (const auto& name : scales) declare_sizes(p, name);
+  parse_study(p, text, file, false);
+
+  Study facts;
+  facts.name = file.stem().string();
+  facts.title = p.get("title").empty() ? facts.name : p.get("title");
+  facts.scale = scale;
+  facts.parameters = effective_parameters(p);
+  check_label(facts.name, "study", file.string());
+  return facts;
+}
+
+std::size_t sized_number(ParameterHandler& p, const std::string& key, const std::string& scale) {
+  const auto usual = static_cast<std::size_t>(p.get_integer(key));
+  if (scale.empty()) return usual;
+  const Subsection subsection(p, "scale " + scale);
+  const auto sized = static_cast<std::size_t>(p.get_integer(key));
+  return sized > 0 ? sized : usual;
+}
+
 }  // namespace smoothfem

@@ -3,14 +3,30 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "smoothing/mesh/input_error.h"
+#include "studies/framework/study.h"
 
 /// What reading a study file takes, whatever the kind of study.
 namespace smoothfem {
+
+/// Enters a subsection for as long as it lives.
+class Subsection {
+ public:
+  Subsection(dealii::ParameterHandler& parameters, const std::string& name)
+      : parameters_(parameters) {
+    parameters_.enter_subsection(name);
+  }
+  ~Subsection() { parameters_.leave_subsection(); }
+  Subsection(const Subsection&) = delete;
+
+ private:
+  dealii::ParameterHandler& parameters_;
+};
 
 /// The items of "a, b, c", without the blanks around them; empty items do not count.
 std::vector<std::string> split_list(const std::string& text);
@@ -42,5 +58,20 @@ void require_scale(const std::string& scale, const std::vector<std::string>& kno
 
 /// "key = value" lines in force, subsections as prefix.
 std::vector<std::pair<std::string, std::string>> effective_parameters(dealii::ParameterHandler& p);
+
+/// Declares what files of studies whose results are tables have in common (table_study.h): kind,
+/// title, scales.
+void declare_table_study(dealii::ParameterHandler& p, const std::string& kind);
+
+/// Reads such a file into p, which has all keys but those of the scales' subsections;
+/// declare_sizes(p, name) declares these. Returns name, title, scale and parameters. Throws
+/// InputError as read_study does.
+Study read_table_study(
+    dealii::ParameterHandler& p, const std::filesystem::path& file, const std::string& scale,
+    const std::function<void(dealii::ParameterHandler&, const std::string&)>& declare_sizes);
+
+/// A whole number, or what the scale (if not empty) has in its place (if not 0).
+std::size_t sized_number(dealii::ParameterHandler& p, const std::string& key,
+                         const std::string& scale);
 
 }  // namespace smoothfem

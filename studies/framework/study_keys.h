@@ -1,24 +1,10 @@
 #pragma once
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <string>
 
+#include "studies/framework/study_file.h"
+
 namespace smoothfem {
-
-/// Enters a subsection for as long as it lives.
-class Subsection {
- public:
-  Subsection(dealii::ParameterHandler& parameters, const std::string& name)
-      : parameters_(parameters) {
-    parameters_.enter_subsection(name);
-  }
-  ~Subsection() { parameters_.leave_subsection(); }
-  Subsection(const Subsection&) = delete;
-
- private:
-  dealii::ParameterHandler& parameters_;
-};
 
 /// Declare the keys of a study file: the lists that say which subsections there are, the subsection
 /// of one mesh, that of one method for meshes of a dimension (its parameters only if the type is

@@ -4,7 +4,6 @@
 
 #include "smoothing/polygons/limit_polygons.h"
 #include "studies/framework/study_file.h"
-#include "studies/framework/study_keys.h"
 #include "studies/polygons/polygon_study.h"
 
 namespace smoothfem {
@@ -22,17 +21,8 @@ Patterns::List step_numbers() {
   return {Patterns::Integer(0, 1000000), 1};
 }
 
-void declare_scales(ParameterHandler& p) {
-  p.declare_entry("scales", "", Patterns::Anything(),
-                  "Sizes that --scale can choose, separated by commas; each has a subsection "
-                  "'scale NAME'.");
-}
-
 void declare_keys(ParameterHandler& p) {
-  p.declare_entry("kind", "polygons", Patterns::Selection("polygons"),
-                  "What the study does; other kinds have other keys.");
-  p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
-  declare_scales(p);
+  declare_table_study(p, "polygons");
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of the random polygons.");
   p.declare_entry("nodes", "3, 4, 5, 6, 7, 8, 9, 10, 11, 12", node_numbers(16),
                   "Numbers of nodes in the checks of theorems and in the classification, up to 16: "
@@ -114,24 +104,10 @@ SequenceParameters sequence(const std::string& text, std::size_t n) {
 }  // namespace
 
 PolygonStudy read_polygon_study(const std::filesystem::path& file, const std::string& scale) {
-  const std::string text = read_study_text(file);
-  ParameterHandler lists;
-  declare_scales(lists);
-  parse_study(lists, text, file, true);
-  const auto scales = split_list(lists.get("scales"));
-  require_scale(scale, scales, file.string());
-
   ParameterHandler p;
   declare_keys(p);
-  for (const auto& name : scales) declare_sizes(p, name);
-  parse_study(p, text, file, false);
-
   PolygonStudy study;
-  study.facts.name = file.stem().string();
-  study.facts.title = p.get("title").empty() ? study.facts.name : p.get("title");
-  study.facts.scale = scale;
-  study.facts.parameters = effective_parameters(p);
-  check_label(study.facts.name, "study", file.string());
+  study.facts = read_table_study(p, file, scale, declare_sizes);
   study.seed = static_cast<std::uint64_t>(p.get_integer("seed"));
   study.nodes = numbers(p.get("nodes"));
   study.steps = count(p, "steps");
@@ -144,12 +120,7 @@ PolygonStudy read_polygon_study(const std::filesystem::path& file, const std::st
   study.sequence_nodes = count(p, "sequence nodes");
   for (const auto& item : split_list(p.get("sequences")))
     study.sequences.push_back(in_file(file, [&] { return sequence(item, study.sequence_nodes); }));
-  const auto sized = [&](const std::string& key) {
-    const std::size_t usual = count(p, key);
-    if (scale.empty()) return usual;
-    const Subsection subsection(p, "scale " + scale);
-    return count(p, key) > 0 ? count(p, key) : usual;
-  };
+  const auto sized = [&](const std::string& key) { return sized_number(p, key, scale); };
   study.cases = sized("cases");
   study.theta_points = sized("theta points");
   study.lambda_points = sized("lambda points");

@@ -4,7 +4,6 @@
 
 #include "studies/framework/csv_text.h"
 #include "studies/framework/study_file.h"
-#include "studies/framework/study_keys.h"
 
 namespace smoothfem {
 
@@ -28,17 +27,8 @@ const char* name_of(StartElements start) {
   return start == StartElements::valid ? "valid" : "arbitrary";
 }
 
-void declare_scales(ParameterHandler& p) {
-  p.declare_entry("scales", "", Patterns::Anything(),
-                  "Sizes that --scale can choose, separated by commas; each has a subsection "
-                  "'scale NAME'.");
-}
-
 void declare_keys(ParameterHandler& p) {
-  p.declare_entry("kind", "regularization", Patterns::Selection("regularization"),
-                  "What the study does; other kinds have other keys.");
-  p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
-  declare_scales(p);
+  declare_table_study(p, "regularization");
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of the random elements.");
   p.declare_entry("elements", "100000", Patterns::Integer(1), "Random elements of each type.");
   p.declare_entry("largest sigma", "2", Patterns::Double(1e-3),
@@ -101,29 +91,11 @@ std::string validity_csv(const RegularizationStudy& study) {
 
 RegularizationStudy read_regularization_study(const std::filesystem::path& file,
                                               const std::string& scale) {
-  const std::string text = read_study_text(file);
-  ParameterHandler lists;
-  declare_scales(lists);
-  parse_study(lists, text, file, true);
-  const auto scales = split_list(lists.get("scales"));
-  require_scale(scale, scales, file.string());
-
   ParameterHandler p;
   declare_keys(p);
-  for (const auto& name : scales) declare_sizes(p, name);
-  parse_study(p, text, file, false);
-
   RegularizationStudy study;
-  study.facts.name = file.stem().string();
-  study.facts.title = p.get("title").empty() ? study.facts.name : p.get("title");
-  study.facts.scale = scale;
-  study.facts.parameters = effective_parameters(p);
-  check_label(study.facts.name, "study", file.string());
-  auto n_elements = static_cast<std::size_t>(p.get_integer("elements"));
-  if (!scale.empty()) {
-    const Subsection subsection(p, "scale " + scale);
-    if (const long n = p.get_integer("elements"); n > 0) n_elements = static_cast<std::size_t>(n);
-  }
+  study.facts = read_table_study(p, file, scale, declare_sizes);
+  const std::size_t n_elements = sized_number(p, "elements", scale);
   for (const Subject& subject : subjects)
     for (const auto start : {StartElements::arbitrary, StartElements::valid})
       study.series.push_back(

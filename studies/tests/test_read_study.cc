@@ -74,7 +74,7 @@ TEST(VolumeStudy, IsThatOfSection63) {
   EXPECT_EQ(study.finite_elements.condition_number, ConditionNumberMethod::lanczos);
   EXPECT_EQ(study.finite_elements.multigrid_cg, Recorded::results);
   EXPECT_EQ(study.record_every.usually, 1);
-  EXPECT_EQ(study.record_every.stages.at("getme-sequential"), 10);
+  EXPECT_EQ(study.record_every.stages.at("sequential"), 10);
   EXPECT_GT(study.edge_scale, 2.0);
   const Study paper = read_study(file, "paper");
   EXPECT_EQ(paper.scale, "paper");
@@ -265,12 +265,16 @@ TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
 }
 
 TEST_F(StudyFile, StagesMayBeRecordedOtherwise) {
-  const Study study = read(
-      "set meshes = a\nset record every = 2\nset record stages every = getme-sequential: 30\n");
+  const Study study =
+      read("set meshes = a\nset record every = 2\nset record stages every = sequential: 30\n");
   EXPECT_EQ(study.record_every.usually, 2);
-  EXPECT_EQ(study.record_every.stages.at("getme-sequential"), 30);
-  for (const std::string bad : {"getme-sequential: 0", "often"})
+  EXPECT_EQ(study.record_every.stages.at("sequential"), 30);
+  for (const std::string bad : {"sequential: 0", "often"})
     expect_error_at(5, one_mesh + "set record stages every = " + bad + "\n", bad);
+  const auto path = file_with("own.prm", one_mesh + "set methods = getme\n" +
+                                             "set record stages every = getme-sequential: 10\n");
+  const std::string message = checked(input_error_of([&] { read_study(path); }), path);
+  EXPECT_NE(message.find("choose one of simultaneous, sequential"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ class Resume : public CommandLine {
     write_mesh(file("hex.vtu"), test::box_mesh(4, 4, 4, test::BoxCells::hexahedra));
     file_with("volume.prm",
               "set dimension = 3\nset meshes = tet, hex\nset methods = smart-laplace, getme\n"
-              "set timing runs = 1\nset record stages every = getme-sequential: 4\n"
+              "set timing runs = 1\nset record stages every = sequential: 4\n"
               "subsection solution\n set name = volume\nend\n"
               "subsection finite elements\n set condition number = verified\n"
               " set multigrid cg = results\nend\n"
