@@ -161,8 +161,9 @@ def known_reasons(outcomes):
 
 def caveats(results):
     """What a reader has to know before comparing the numbers, as sentences."""
-    found = ["All numbers come from the CSV files of this folder; printed ones from the tables and the "
-             "text of the thesis. A dash is a number that is not there."]
+    found = [results.note] if results.note else []
+    found += ["All numbers come from the CSV files of this folder; printed ones from the tables and the "
+              "text of the thesis. A dash is a number that is not there."]
     sizes = [f"{entry['name']} ({entry['n_cells']:,} cells)"
              for entry in entries(results.provenance, "meshes") if isinstance(entry.get("n_cells"), int)]
     scale = results.provenance.get("scale") or ("quick" if results.provenance.get("quick") else "")

@@ -2,11 +2,14 @@
 """How numbers are written in tables: ours with fixed digits, and their difference from the print."""
 
 import math
+import re
 
 MISSING = "–"
 
 # Below this, four decimals would leave fewer than two digits.
 SMALLEST_FIXED = 1e-3
+# From this factor on, percents are hard to read.
+FACTOR_FROM = 10
 
 
 def format_integer(values):
@@ -36,6 +39,11 @@ def format_factor(values):
     return [MISSING if math.isnan(v) else f"{v:.1f}" for v in values]
 
 
+def format_memory(values):
+    """Two decimals: one more than the thesis prints, since its meshes are larger than most of ours."""
+    return [MISSING if math.isnan(v) else f"{v:.2f}" for v in values]
+
+
 def format_error(values):
     """Four decimals as in the thesis; with an exponent for the whole column if these are too few."""
     sizes = [abs(v) for v in values if not math.isnan(v) and v != 0]
@@ -43,8 +51,16 @@ def format_error(values):
     return [MISSING if math.isnan(v) else f"{v:.4f}" if fixed else f"{v:.4e}" for v in values]
 
 
+def grouped(text):
+    """Counts such as 5099700 and 124/5099700 with commas between thousands; other text as it is."""
+    if not re.fullmatch(r"\d+(/\d+)*", text):
+        return text
+    return "/".join(f"{int(count):,}" for count in text.split("/"))
+
+
 def relative_difference(ours, printed):
-    """(ours - printed) / printed in percent; "=" if ours has all the printed digits.
+    """(ours - printed) / printed in percent; "=" if ours has all the printed digits; from ten times
+    the printed number on the factor, such as ×12.
 
     The sign is left out where one decimal would leave only a zero. `ours` is a number,
     `printed` the string of the print; MISSING where there is nothing to compare or the print is zero
@@ -63,9 +79,7 @@ def relative_difference(ours, printed):
     percent = 100 * (ours - reference) / reference
     if abs(percent) < 0.05:
         return "<0.1"
-    if abs(percent) >= 1e5:
-        return f"{percent:+.0e}"
-    return f"{percent:+.1f}" if abs(percent) < 1000 else f"{percent:+.0f}"
+    return f"{percent:+.1f}" if ours / reference < FACTOR_FROM else f"×{ours / reference:,.0f}"
 
 
 def as_printed(value, printed):

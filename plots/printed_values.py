@@ -5,6 +5,7 @@ The values stand in studies/thesis/; its README.md says where each of them is pr
 """
 
 from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from .read_results import ResultsError, entries, read_rows
@@ -44,7 +45,7 @@ def read_printed_tables(study, provenance, folder=THESIS_FOLDER):
         required = ("table", "mesh", "degree", "method", "column", "note")
         notes = read_rows(deviations, required).records()
         for table in tables.values():
-            table.deviations = [note for note in notes if note["table"] == table.number]
+            table.deviations = [note for note in notes if fnmatchcase(table.number, note["table"])]
     return tables
 
 
@@ -61,16 +62,18 @@ def is_chosen(entry, study, chosen):
             or (THESIS_FOLDER.name in names and entry["study"] == study))
 
 
-def comparison_note(table, results):
-    """One sentence on what the printed values were measured on and whether ours were as well."""
+def comparison_notes(table, results):
+    """What the printed values were measured on, whether ours were as well, and what the study says
+    about that: a list of notes."""
     measured = [row["mesh"] for row in table.rows]
     stand_ins = [mesh for mesh in results.meshes if mesh in measured and not results.is_published(mesh)]
     note = f"Printed values: Table {table.number}, measured on the {table.measured_on}."
+    own = [results.note] if results.note else []
     if not stand_ins:
-        return note
+        return [note, *own]
     known = {entry["name"] for entry in entries(results.provenance, "meshes") if "published" in entry}
     names = ", ".join(stand_ins)
     if not known.issuperset(stand_ins):
-        return f"{note} Whether ours are these meshes is not recorded for: {names}."
-    return (f"{note} Not these meshes but stand-ins for them, whose numbers cannot be compared digit "
-            f"for digit: {names}.")
+        return [f"{note} Whether ours are these meshes is not recorded for: {names}.", *own]
+    return [f"{note} Not these meshes but stand-ins for them, whose numbers cannot be compared digit "
+            f"for digit: {names}.", *own]

@@ -79,6 +79,11 @@ class Results:
     thresholds: Rows
     provenance: dict
 
+    @property
+    def note(self):
+        """What the study says about comparing its numbers with the thesis; may be empty."""
+        return str(self.provenance.get("note") or "")
+
     def title(self, name):
         """The title of a mesh or method; its name where the provenance gives none."""
         return self.titles.get(name, name)

@@ -25,6 +25,7 @@ class Measure:
     difference: bool = True  # whether a relative difference from the print makes sense
     usual: tuple = ()  # the column is left out where all fields are one of these
     if_printed: bool = False  # the column is left out where the print has none
+    detail: bool = False  # the same where the table of details stands beside this one
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,7 @@ SYMBOLS = {
 }
 
 TIME = Heading("Time (s)", "Time (s)")
+INVALID = Heading("Invalid", "Invalid")
 
 SMOOTHING = TableDescription(
     content="smoothing", source="summary", keys=("mesh", "method"), degree_independent=True,
@@ -64,11 +66,12 @@ SMOOTHING = TableDescription(
     measures=(
         Measure("iterations", Heading("Iterations", "Iterations"), None, difference=False),
         Measure("smoothing_seconds", TIME, form.format_seconds, difference=False),
-        Measure("peak_memory_gib", Heading("Memory (GiB)", "Memory (GiB)"), form.format_factor,
+        Measure("peak_memory_gib", Heading("Memory (GiB)", "Memory (GiB)"), form.format_memory,
                 difference=False, if_printed=True),
         Measure("q_min", SYMBOLS["q_min"], form.format_quality),
-        Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality, if_printed=True),
-        Measure("q_mean", SYMBOLS["q_mean"], form.format_quality)))
+        Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality, detail=True),
+        Measure("q_mean", SYMBOLS["q_mean"], form.format_quality),
+        Measure("n_invalid", INVALID, form.format_integer, usual=("0",), detail=True)))
 
 WARPAGE = TableDescription(
     content="warpage", source="summary", keys=("mesh", "method"), degree_independent=True,
@@ -109,9 +112,10 @@ THRESHOLDS = TableDescription(
 DETAILS = TableDescription(
     content="details", source="summary", keys=("mesh", "degree", "method"),
     caption="Further quality numbers, extreme eigenvalues and true errors (by quadrature)",
+    needs="n_dofs",
     measures=(
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality),
-        Measure("n_invalid", Heading("Invalid", "Invalid"), form.format_integer, usual=("0",)),
+        Measure("n_invalid", INVALID, form.format_integer, usual=("0",)),
         Measure("n_dofs", Heading("Dofs", "Dofs"), form.format_integer),
         Measure("lambda_min", SYMBOLS["lambda_min"], form.format_scientific),
         Measure("lambda_max", SYMBOLS["lambda_max"], form.format_scientific),

@@ -6,14 +6,14 @@ One mechanism for all tables; what differs stands in table_descriptions.py.
 
 from dataclasses import dataclass, replace
 
-from .number_format import MISSING, relative_difference
-from .printed_values import comparison_note
+from .number_format import MISSING, grouped, relative_difference
+from .printed_values import comparison_notes
 from .read_results import INITIAL, ResultsError
-from .table_descriptions import KEY_HEADINGS, SYMBOLS, Heading, TABLES
+from .table_descriptions import DETAILS, KEY_HEADINGS, SYMBOLS, Heading, TABLES
 
 
 COLUMNS_NOTE = ("Columns: our value, the printed one, and where it makes sense the relative difference "
-                "in % (=: the same in all printed digits).")
+                "in %, from ten times the printed one on the factor (=: the same in all printed digits).")
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def make_table(description, results, printed):
     rows = getattr(results, description.source).records()
     if description.degree_independent:
         rows = [row for row in rows if row.get("degree", "") == first_degree(row, rows)]
-    if description.needs and not any(row.get(description.needs) for row in rows):
+    if not has_what_it_needs(description, rows):
         return None
     reference = printed.rows if printed else []
     sentences = ()
@@ -74,7 +74,9 @@ def make_table(description, results, printed):
     pairs = [(row, by_key.get(key_of(row, description.keys), {})) for row in rows]
     compared = any(printed_row for _, printed_row in pairs)
     notes = Notes(printed.deviations if printed and compared else [], pairs)
-    groups = [make_group(measure, pairs, notes) for measure in description.measures]
+    detailed = has_what_it_needs(DETAILS, rows)
+    groups = [make_group(measure, pairs, notes, measure.if_printed or (measure.detail and detailed))
+              for measure in description.measures]
     groups = tuple(group for group in groups if group is not None)
     if not rows or not groups:
         return None
@@ -84,10 +86,16 @@ def make_table(description, results, printed):
     if compared:
         name = f"{printed.number.replace('.', '_')}_{name}"
         caption = f"Table {printed.number}: {caption}"
-        sentences = (("", comparison_note(printed, results)), ("", COLUMNS_NOTE)) + sentences
+        sentences = tuple(("", sentence) for sentence in (
+            *comparison_notes(printed, results), COLUMNS_NOTE)) + sentences
     return Table(name=f"table_{name}", caption=caption, keys=keys, rules=rules, groups=groups,
                  key_headings=tuple(KEY_HEADINGS[key] for key in description.keys),
                  left_aligned=("Status", "cond(A) by"), notes=sentences)
+
+
+def has_what_it_needs(description, rows):
+    """Whether the rows have something in the column without which the table would say nothing."""
+    return not description.needs or any(row.get(description.needs) for row in rows)
 
 
 def first_degree(row, rows):
@@ -154,13 +162,13 @@ def unreached(rows, results):
     return (("", f"No threshold was reached by: {names}."),) if never else ()
 
 
-def make_group(measure, pairs, notes):
-    """The columns of one measure, or None if there is nothing in them worth showing."""
+def make_group(measure, pairs, notes, if_printed):
+    """The columns of one measure, or None if there is nothing in them worth showing; with
+    `if_printed` that is where the print has none."""
     fields = [ours.get(measure.column, "") for ours, _ in pairs]
     # None: the print has no such row or column; empty: it has, and leaves it empty.
     prints = [printed.get(measure.column) for _, printed in pairs]
-    if not any(prints) and (measure.if_printed
-                            or all(field in ("", *measure.usual) for field in fields)):
+    if not any(prints) and (if_printed or all(field in ("", *measure.usual) for field in fields)):
         return None
     values, texts = None, [field or MISSING for field in fields]
     if measure.format is not None:
@@ -186,7 +194,8 @@ def make_group(measure, pairs, notes):
 
 
 def number_cell(text, mark=""):
-    """A cell whose LaTeX has true minus signs and powers of ten."""
+    """A cell whose LaTeX has true minus signs and powers of ten; counts get their commas."""
+    text = grouped(text)
     mantissa, exponent, power = text.partition("e")
     try:
         float(text)
@@ -200,7 +209,7 @@ def number_cell(text, mark=""):
 def escape_tex(text):
     """Text with LaTeX's special characters escaped."""
     special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-               "–": "--", "<": "$<$", ">": "$>$", "|": "$|$", **{c: "\\" + c for c in "&%$#_{}"}}
+               "–": "--", "×": r"$\times$", "<": "$<$", ">": "$>$", "|": "$|$", **{c: "\\" + c for c in "&%$#_{}"}}
     return "".join(special.get(character, character) for character in text)
 
 
@@ -234,7 +243,9 @@ class Notes:
         meshes = {ours.get("mesh", "") for ours, _ in pairs} | {"*"}
         deviations = [d for d in deviations if d["mesh"] in meshes]
         self.cell_notes = [d for d in deviations if d["method"] != "*"]
-        self.table_notes = list(dict.fromkeys(d["note"] for d in deviations if d["method"] == "*"))
+        columns = {name for _, printed in pairs for name, field in printed.items() if field} | {"*"}
+        self.table_notes = list(dict.fromkeys(d["note"] for d in deviations if d["method"] == "*"
+                                              and d["column"] in columns))
         self.letters = {}
 
     def letter(self, column, row):

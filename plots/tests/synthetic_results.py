@@ -36,6 +36,25 @@ def without_columns(path, names):
     write_csv(path, [name for name in rows[0] if name not in names], rows)
 
 
+def without_finite_elements(folder):
+    """Makes a folder that of a study that only smooths: fields of finite elements are empty."""
+    for name in ("iterations.csv", "summary.csv"):
+        with open(folder / name, newline="", encoding="utf-8") as stream:
+            rows = [row for row in csv.DictReader(stream) if row["degree"] == "1"]
+        header = list(rows[0])
+        for row in rows:
+            row.update(dict.fromkeys(header[header.index("degree"):], ""), status="not solved")
+        write_csv(folder / name, header, rows)
+    write_csv(folder / "thresholds.csv", THRESHOLDS, [])
+    return folder
+
+
+def change_provenance(folder, **entries):
+    """Changes or adds entries of provenance.json."""
+    path = Path(folder) / "provenance.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), **entries}))
+
+
 def write_csv(path, header, rows):
     """Writes rows as the program does; keys that are not in the header are dropped."""
     with open(path, "w", newline="", encoding="utf-8") as stream:

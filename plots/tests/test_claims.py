@@ -12,7 +12,8 @@ from plots.claims import (FAILS, HOLDS, UNKNOWN, as_markdown, cases_of, check_cl
 from plots.expressions import Missing, evaluate
 from plots.printed_values import THESIS_FOLDER, read_printed_tables
 from plots.read_results import read_results
-from plots.tests.synthetic_results import results_row, write_csv, write_results
+from plots.tests.synthetic_results import (change_provenance, results_row, write_csv,
+                                           write_results)
 from plots.tests.synthetic_volume import write_volume_results
 from plots.tests.test_read_results import InFolder
 
@@ -159,6 +160,11 @@ class ClaimsOfTheThesis(InFolder):
             self.assertEqual(len(rows), 1 + len(read_claims(study)))
             self.assertEqual({row.count(" |") for row in rows}, {7})
             self.assertIn("stand-ins", text)
+            self.assertNotIn("A shape of our own.", text)
+            change_provenance(folder, note="A shape of our own.")
+            self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
+            text = (folder / "tables" / "claims.md").read_text()
+            self.assertLess(text.index("A shape of our own."), text.index("|"))
         folder = write_results(self.folder / "own", study="slab")
         self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
         self.assertFalse((folder / "tables" / "claims.md").exists())

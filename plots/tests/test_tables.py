@@ -2,13 +2,15 @@
 """Ours beside the printed numbers, in all formats."""
 
 import math
+from fnmatch import fnmatchcase
 
-from plots.number_format import format_error, relative_difference
+from plots.number_format import format_error, grouped, relative_difference
 from plots.printed_values import THESIS_FOLDER, read_printed_tables
 from plots.read_results import read_results, read_rows
 from plots.table_formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
 from plots.tables import escape_tex, make_tables
-from plots.tests.synthetic_results import without_columns, write_results
+from plots.tests.synthetic_results import (change_provenance, without_columns,
+                                           without_finite_elements, write_results)
 from plots.tests.test_read_results import InFolder
 
 
@@ -17,8 +19,13 @@ class Numbers(InFolder):
         for ours, printed, expected in (
                 (110.0, "100", "+10.0"), (0.33674, "0.3367", "="), (377.4, "7.39e+02", "-48.9"),
                 (1.0899e8, "1.09e+08", "="), (0.1, "0.0000", "–"), (math.nan, "1.0", "–"),
-                (1.0, "", "–"), (1.00006, "1.0000", "<0.1"), (30.0, "1", "+2900")):
+                (1.0, "", "–"), (1.00006, "1.0000", "<0.1"), (9.0, "1", "+800.0"), (30.0, "1", "×30"), (1.0, "0.0003", "×3,333")):
             self.assertEqual(relative_difference(ours, printed), expected)
+
+    def test_thousands(self):
+        for text, expected in (("40/221700", "40/221,700"), ("999", "999"), ("1234", "1,234"), ("–", "–"),
+                               ("0.12345", "0.12345"), ("1.23e+04", "1.23e+04"), ("dense", "dense")):
+            self.assertEqual(grouped(text), expected)
 
     def test_small_errors_get_exponents(self):
         self.assertEqual(format_error([1.5, math.nan]), ["1.5000", "–"])
@@ -82,6 +89,24 @@ class Tables(InFolder):
             self.assertNotIn("printed", as_text(table))
             self.assertTrue(all(group.subheadings == ("",) for group in table.groups))
 
+    def test_study_without_finite_elements(self):
+        without_finite_elements(write_results(self.folder / "s", study="own"))
+        results = read_results(self.folder / "s")
+        table, = make_tables(results, {})  # the table of details would have nothing to say
+        self.assertIn("q*_min", [group.heading.text for group in table.groups])
+
+    def test_notes_on_columns_that_are_printed(self):
+        without_finite_elements(write_results(self.folder / "p", "planar"))
+        without_finite_elements(write_results(self.folder / "s", "sphere", ("tet",)))
+        self.assertIn("only their proportions", as_text(self.tables_of("p", "smoothing")))
+        self.assertNotIn("only their proportions", as_text(self.tables_of("s", "smoothing")))
+
+    def test_note_of_the_study_is_below_the_printed_values(self):
+        folder = write_results(self.folder / "n")
+        change_provenance(folder, note="The shape is our own.")
+        text = as_text(self.tables_of("n", "smoothing"))
+        self.assertIn("The shape is our own.", text[text.index("Printed values"):])
+
     def test_markdown_has_equal_columns(self):
         for table in self.tables().values():
             rows = [line for line in as_markdown(table).splitlines() if line.startswith("|")]
@@ -123,7 +148,7 @@ class PrintedValues(InFolder):
     def test_deviations_name_rows_that_are_printed(self):
         index = read_rows(THESIS_FOLDER / "tables.csv").records()
         for note in read_rows(THESIS_FOLDER / "deviations.csv").records():
-            files = [entry["file"] for entry in index if entry["table"] == note["table"]]
+            files = [entry["file"] for entry in index if fnmatchcase(entry["table"], note["table"])]
             rows = [row for name in files for row in read_rows(THESIS_FOLDER / name).records()]
             keys = [key for key in ("mesh", "degree", "method") if note[key] != "*"]
             self.assertTrue(any(all(row.get(key) == note[key] for key in keys) for row in rows), note)
