@@ -7,6 +7,7 @@
 
 #include "meshes/distortion/counter_random.h"
 #include "smoothing/mesh/input_error.h"
+#include "smoothing/mesh/parallel.h"
 #include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -37,6 +38,9 @@ Point<dim> point_in_unit_ball(SplitMix64& random) {
   }
 }
 
+/// Of one turn; a thread's start costs more than moving a few nodes.
+constexpr std::size_t nodes_a_thread = 64;
+
 /// In a ball larger than the node's cells few places are valid; some nodes have hardly any.
 constexpr int tries_per_candidate = 20;
 
@@ -52,14 +56,19 @@ class Distortion {
         edge_length_[i] += (original_[j] - original_[i]).norm();
       edge_length_[i] /= static_cast<double>(topology.node_neighbours(i).size());
     }
+    turns_ = turns_of(topology);
   }
 
   /// Moves all nodes within a radius and returns the mean quality that gives.
   double apply(double radius) {
     mesh_.coordinates() = original_;
     for (int sweep = 0; sweep < parameters_.n_sweeps; ++sweep)
-      for (const NodeIndex node : mesh_.topology().free_nodes())
-        mesh_.coordinates()[node] = worst_place(node, sweep, radius);
+      for (std::size_t turn = 0; turn < turns_.size(); ++turn)
+        parallel_for_ranges(turns_[turn].size(), nodes_a_thread,
+                            [&](std::size_t first, std::size_t last) {
+                              for (const NodeIndex node : turns_[turn].subspan(first, last - first))
+                                mesh_.coordinates()[node] = worst_place(node, sweep, radius);
+                            });
     return mesh_quality(mesh_).q_mean;
   }
 
@@ -100,6 +109,26 @@ class Distortion {
   const Mesh<dim>& mesh() const { return mesh_; }
 
  private:
+  /// The free nodes in turns that have the outcome of one node after the other: a node's turn comes
+  /// after those of the nodes before it that share a cell with it.
+  static CompressedRows<NodeIndex> turns_of(const Topology& topology) {
+    std::vector<std::size_t> turn_of_node(topology.n_nodes(), 0);
+    std::vector<std::vector<NodeIndex>> turns;
+    for (const NodeIndex node : topology.free_nodes()) {
+      std::size_t turn = 0;
+      for (const CellIndex cell : topology.node_cells(node))
+        for (const NodeIndex other : topology.cell_nodes(cell))
+          if (other < node && !topology.is_fixed(other))
+            turn = std::max(turn, turn_of_node[other] + 1);
+      turn_of_node[node] = turn;
+      if (turn == turns.size()) turns.emplace_back();
+      turns[turn].push_back(node);
+    }
+    CompressedRows<NodeIndex> rows;
+    for (const auto& nodes : turns) rows.append(nodes);
+    return rows;
+  }
+
   /// The worst valid place of those a node chooses from; the present one if there is none.
   Point<dim> worst_place(NodeIndex node, int sweep, double radius) {
     Point<dim>& place = mesh_.coordinates()[node];
@@ -153,6 +182,7 @@ class Distortion {
   std::vector<Point<dim>> original_;
   std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
   DistortionParameters parameters_;
+  CompressedRows<NodeIndex> turns_;
 };
 
 /// Balls of this radius contain the cells of nearly every node; larger ones change nothing.

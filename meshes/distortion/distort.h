@@ -34,12 +34,12 @@ struct DistortionResult {
 /// Node after node takes, of n_candidates random places in a ball around its original place that
 /// keep all its cells valid, the one with the worst mean quality of these cells; a node for which
 /// no such place turns up stays. The ball's radius, relative to the mean length of the node's edges
-/// in the original mesh, is found by bisection; every radius sees the same random numbers. Hexahedra
-/// keep a positive Jacobian inside, too (has_positive_mapping), because finite elements need it. The
-/// result is valid and depends only on mesh and parameters, not on the machine. Throws InputError,
-/// with the mesh unchanged, for an invalid mesh, parameters out of range (target in (0, 1),
-/// n_candidates and n_sweeps >= 1, tolerance > 0) and a target that no radius reaches, with the
-/// range that can be reached.
+/// in the original mesh, is found by bisection; every radius sees the same random numbers.
+/// Hexahedra keep a positive Jacobian inside, too (has_positive_mapping), because finite elements
+/// need it. The result is valid and depends only on mesh and parameters, not on machine and
+/// threads. Throws InputError, with the mesh unchanged, for an invalid mesh, parameters out of
+/// range (target in (0, 1), n_candidates and n_sweeps >= 1, tolerance > 0) and a target that no
+/// radius reaches, with the range that can be reached.
 template <int dim>
 DistortionResult distort(Mesh<dim>& mesh, const DistortionParameters& parameters);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "smoothing/mesh/input_error.h"
+#include "smoothing/mesh/parallel.h"
 
 namespace smoothfem {
 
@@ -43,7 +44,7 @@ std::string logged_errors() {
 
 }  // namespace
 
-GmshSession::GmshSession() {
+GmshSession::GmshSession() : former_threads_(n_threads()) {
   if (n_sessions == 0) {
     const KeptSignalHandlers kept;
     gmsh::initialize(0, nullptr, false);
@@ -70,6 +71,7 @@ GmshSession::~GmshSession() {
       gmsh::model::setCurrent(outer_model_);
   } catch (...) {  // Gmsh throws strings; nothing to save here, and a destructor must not throw
   }
+  set_n_threads(former_threads_);
 }
 
 void GmshSession::set_option(const std::string& name, double value) {

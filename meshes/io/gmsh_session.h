@@ -26,6 +26,7 @@ class GmshSession {
   void run(const std::string& context, const std::function<void()>& calls) const;
 
  private:
+  int former_threads_;  ///< of OpenMP; Gmsh's option changes them for the whole process
   std::string model_;
   std::string outer_model_;  ///< current when this session began
   std::vector<std::pair<std::string, double>> former_options_;

@@ -4,6 +4,7 @@
 
 #include "meshes/distortion/counter_random.h"
 #include "meshes/tests/mesh_tests.h"
+#include "smoothing/mesh/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
@@ -148,6 +149,19 @@ TEST(DistortErrors, InvalidMeshesAreRefused) {
 TEST(DistortErrors, AMeshWithoutFreeNodesKeepsItsQuality) {
   PlanarMesh mesh = grid(1, true);
   EXPECT_THAT(input_error_of([&] { distort(mesh, {}); }), HasSubstr("cannot reach"));
+}
+
+TEST(Distort, DoesNotDependOnTheNumberOfThreads) {
+  const DistortionParameters parameters{.n_sweeps = 2};
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 5}) {
+    set_n_threads(threads);
+    PlanarMesh mesh = grid(40, true);
+    distort_within(mesh, 0.8, parameters);
+    hashes.push_back(hash(mesh));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "meshes/io/gmsh_session.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
+#include "smoothing/mesh/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
@@ -160,6 +161,14 @@ INSTANTIATE_TEST_SUITE_P(
                head_4 + nodes_4 + "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 4\n$EndElements\n",
                "element 1 names node 4"}),
     [](const auto& info) { return info.param.name; });
+
+TEST_F(Msh, SessionsLeaveTheNumberOfThreadsAlone) {
+  for (const int threads : {3, 2}) {
+    set_n_threads(threads);
+    { const GmshSession session; }
+    EXPECT_EQ(n_threads(), threads);
+  }
+}
 
 TEST_F(Msh, SessionsMayBeNestedAndKeepOptionsApart) {
   GmshSession outer;
