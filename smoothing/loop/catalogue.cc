@@ -43,37 +43,45 @@ std::vector<MethodInfo> method_catalogue() {
 
 namespace {
 
-template <int dim>
-const auto& factory_of(const std::string& name) {
-  const StageFactories& factories = entry(name).factories;
-  if constexpr (dim == 2)
+template <int dim, int spacedim>
+const auto& factory_of(const StageFactories& factories) {
+  if constexpr (spacedim > dim)
+    return factories.surface;
+  else if constexpr (dim == 2)
     return factories.planar;
   else
     return factories.volume;
 }
 
+template <int dim, int spacedim>
+[[noreturn]] void refuse(const std::string& method) {
+  std::vector<std::string> others;
+  for (const auto& [name, entry] : entries())
+    if (factory_of<dim, spacedim>(entry.factories)) others.push_back(name);
+  throw InputError("method " + method + " does not take " + mesh_kind_name(dim, spacedim) +
+                   " meshes; " + choose_one_of(others));
+}
+
 }  // namespace
 
-template <int dim>
+template <int dim, int spacedim>
 bool takes_meshes(const std::string& method) {
-  return static_cast<bool>(factory_of<dim>(method));
+  return static_cast<bool>(factory_of<dim, spacedim>(entry(method).factories));
 }
 
-template <int dim>
-Stages<dim> stages_of(const std::string& name) {
-  if (!takes_meshes<dim>(name))
-    throw InputError("method " + name + " does not take " + (dim == 2 ? "planar" : "volume") +
-                     " meshes; choose another one (see 'list')");
-  return factory_of<dim>(name)();
+template <int dim, int spacedim>
+Stages<dim, spacedim> stages_of(const std::string& name) {
+  if (!takes_meshes<dim, spacedim>(name)) refuse<dim, spacedim>(name);
+  return factory_of<dim, spacedim>(entry(name).factories)();
 }
 
-template <int dim>
-Method<dim> make_method(const std::string& name) {
-  return {entry(name).info, stages_of<dim>(name)};
+template <int dim, int spacedim>
+Method<dim, spacedim> make_method(const std::string& name) {
+  return {entry(name).info, stages_of<dim, spacedim>(name)};
 }
 
-template <int dim>
-Parameters Method<dim>::parameters() {
+template <int dim, int spacedim>
+Parameters Method<dim, spacedim>::parameters() {
   Parameters all;
   for (const auto& stage : stages)
     for (auto& parameter : stage->parameters()) {
@@ -83,19 +91,20 @@ Parameters Method<dim>::parameters() {
   return all;
 }
 
-template <int dim>
-void Method<dim>::set(const std::string& name, const std::string& value) {
+template <int dim, int spacedim>
+void Method<dim, spacedim>::set(const std::string& name, const std::string& value) {
   const std::string owner = "method " + info.name;
   set_value(find_parameter(parameters(), name, owner), value, owner);
 }
 
-template bool takes_meshes<2>(const std::string&);
-template bool takes_meshes<3>(const std::string&);
-template Stages<2> stages_of(const std::string&);
-template Stages<3> stages_of(const std::string&);
-template Method<2> make_method(const std::string&);
-template Method<3> make_method(const std::string&);
-template struct Method<2>;
-template struct Method<3>;
+#define SMOOTHFEM_INSTANTIATE(...)                              \
+  template bool takes_meshes<__VA_ARGS__>(const std::string&);  \
+  template Stages<__VA_ARGS__> stages_of(const std::string&);   \
+  template Method<__VA_ARGS__> make_method(const std::string&); \
+  template struct Method<__VA_ARGS__>;
+SMOOTHFEM_INSTANTIATE(2, 2)
+SMOOTHFEM_INSTANTIATE(3, 3)
+SMOOTHFEM_INSTANTIATE(2, 3)
+#undef SMOOTHFEM_INSTANTIATE
 
 }  // namespace smoothfem

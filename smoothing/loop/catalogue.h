@@ -16,14 +16,14 @@ struct MethodInfo {
   std::string source;       ///< thesis section or paper
 };
 
-template <int dim>
-using Stages = std::vector<std::unique_ptr<Smoother<dim>>>;
+template <int dim, int spacedim = dim>
+using Stages = std::vector<std::unique_ptr<Smoother<dim, spacedim>>>;
 
-/// A smoothing method for meshes of one dimension: one or more smoothers in turn.
-template <int dim>
+/// A smoothing method for meshes of one kind: one or more smoothers in turn.
+template <int dim, int spacedim = dim>
 struct Method {
   MethodInfo info;
-  Stages<dim> stages;
+  Stages<dim, spacedim> stages;
 
   /// All parameters, "stage.name" where the method has more than one stage.
   Parameters parameters();
@@ -31,11 +31,12 @@ struct Method {
   void set(const std::string& name, const std::string& value);
 };
 
-/// How to make the stages of a method for planar and for volume meshes; empty where it takes none
-/// of these.
+/// How to make the stages of a method for planar, volume and surface meshes; empty where it takes
+/// none of these.
 struct StageFactories {
   std::function<Stages<2>()> planar;
   std::function<Stages<3>()> volume;
+  std::function<Stages<2, 3>()> surface = {};
 };
 
 /// Registers a method when its file is loaded: one namespace-scope object a method.
@@ -46,29 +47,39 @@ struct RegisteredMethod {
 /// All registered methods, sorted by name.
 std::vector<MethodInfo> method_catalogue();
 
-/// True if the method takes meshes of dimension dim.
-template <int dim>
+/// True if the method takes meshes of this kind.
+template <int dim, int spacedim = dim>
 bool takes_meshes(const std::string& method);
 
 /// A method with its default parameters. Throws InputError listing the names there are, or saying
-/// that the method does not take meshes of dimension dim.
-template <int dim>
-Method<dim> make_method(const std::string& name);
+/// that the method does not take meshes of this kind, and which ones do.
+template <int dim, int spacedim = dim>
+Method<dim, spacedim> make_method(const std::string& name);
 
 /// The stages of a registered method, for methods that are made of others.
-template <int dim>
-Stages<dim> stages_of(const std::string& name);
+template <int dim, int spacedim = dim>
+Stages<dim, spacedim> stages_of(const std::string& name);
+
+/// The one stage of a method that is a single smoother.
+template <class SmootherType, int dim, int spacedim = dim>
+Stages<dim, spacedim> make_single_stage() {
+  Stages<dim, spacedim> stages;
+  stages.push_back(std::make_unique<SmootherType>());
+  return stages;
+}
 
 /// Factories for a method of one smoother, a class template over the dimension.
 template <template <int> class SmootherType>
 StageFactories single_stage() {
-  const auto make = []<int dim>() {
-    Stages<dim> stages;
-    stages.push_back(std::make_unique<SmootherType<dim>>());
-    return stages;
-  };
-  return {[make] { return make.template operator()<2>(); },
-          [make] { return make.template operator()<3>(); }};
+  return {make_single_stage<SmootherType<2>, 2>, make_single_stage<SmootherType<3>, 3>};
+}
+
+/// The same for a class template over the dimensions of cells and of space, which puts nodes where
+/// allowed_place (smoothing/surface/node_constraints.h) has them.
+template <template <int, int> class SmootherType>
+StageFactories single_stage_also_on_surfaces() {
+  return {make_single_stage<SmootherType<2, 2>, 2>, make_single_stage<SmootherType<3, 3>, 3>,
+          make_single_stage<SmootherType<2, 3>, 2, 3>};
 }
 
 }  // namespace smoothfem

@@ -10,8 +10,9 @@ namespace smoothfem {
 namespace {
 
 /// Moves back the nodes of the invalid cells that are not back yet.
-template <int dim>
-std::vector<NodeIndex> put_back(Mesh<dim>& mesh, const std::vector<Point<dim>>& previous,
+template <int dim, int spacedim>
+std::vector<NodeIndex> put_back(Mesh<dim, spacedim>& mesh,
+                                const std::vector<Point<spacedim>>& previous,
                                 const std::vector<CellIndex>& invalid) {
   std::vector<NodeIndex> moved;
   for (const CellIndex c : invalid)
@@ -25,9 +26,9 @@ std::vector<NodeIndex> put_back(Mesh<dim>& mesh, const std::vector<Point<dim>>& 
 
 }  // namespace
 
-template <int dim>
-std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim>& mesh,
-                                                    const std::vector<Point<dim>>& previous,
+template <int dim, int spacedim>
+std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim, spacedim>& mesh,
+                                                    const std::vector<Point<spacedim>>& previous,
                                                     std::vector<double>& cell_quality) {
   std::vector<CellIndex> invalid = invalid_cells(cell_quality);
   std::vector<NodeIndex> all_moved;
@@ -47,6 +48,9 @@ std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim>& mesh,
 template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2>&, const std::vector<Point<2>>&,
                                                              std::vector<double>&);
 template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<3>&, const std::vector<Point<3>>&,
+                                                             std::vector<double>&);
+template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2, 3>&,
+                                                             const std::vector<Point<3>>&,
                                                              std::vector<double>&);
 
 }  // namespace smoothfem

@@ -187,8 +187,8 @@ const Preset& find_preset(const std::string& name) {
   throw InputError("there is no preset '" + name + "'; " + choose_one_of(known));
 }
 
-template <int dim>
-bool has_parameters_for(const Preset& preset, const Method<dim>& method) {
+template <int dim, int spacedim>
+bool has_parameters_for(const Preset& preset, const Method<dim, spacedim>& method) {
   return std::any_of(preset.settings.begin(), preset.settings.end(), [&](const auto& setting) {
     return setting.dim == dim &&
            std::any_of(method.stages.begin(), method.stages.end(),
@@ -196,8 +196,8 @@ bool has_parameters_for(const Preset& preset, const Method<dim>& method) {
   });
 }
 
-template <int dim>
-void apply_preset(const Preset& preset, Method<dim>& method) {
+template <int dim, int spacedim>
+void apply_preset(const Preset& preset, Method<dim, spacedim>& method) {
   const std::string owner = "preset " + preset.name;
   if (!has_parameters_for(preset, method)) {
     std::vector<std::string> known;
@@ -205,7 +205,7 @@ void apply_preset(const Preset& preset, Method<dim>& method) {
       if (setting.dim == dim && std::find(known.begin(), known.end(), setting.stage) == known.end())
         known.push_back(setting.stage);
     throw InputError(owner + " has no parameters for method " + method.info.name + " on " +
-                     (dim == 2 ? "planar" : "volume") + " meshes; it has them for the stages " +
+                     mesh_kind_name(dim, spacedim) + " meshes; it has them for the stages " +
                      joined(known));
   }
   for (const auto& setting : preset.settings)
@@ -219,5 +219,7 @@ template bool has_parameters_for(const Preset&, const Method<2>&);
 template bool has_parameters_for(const Preset&, const Method<3>&);
 template void apply_preset(const Preset&, Method<2>&);
 template void apply_preset(const Preset&, Method<3>&);
+template bool has_parameters_for(const Preset&, const Method<2, 3>&);
+template void apply_preset(const Preset&, Method<2, 3>&);
 
 }  // namespace smoothfem

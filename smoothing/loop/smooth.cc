@@ -26,11 +26,11 @@ class SmoothingClock {
 };
 
 /// Remembers the best mesh a stage has met, by the number its rule names.
-template <int dim>
+template <int spacedim>
 class BestMesh {
  public:
-  BestMesh(ResultMesh rule, const std::vector<Point<dim>>& coordinates, const MeshQuality& quality,
-           double score)
+  BestMesh(ResultMesh rule, const std::vector<Point<spacedim>>& coordinates,
+           const MeshQuality& quality, double score)
       : rule_(rule) {
     if (rule_ == ResultMesh::last) return;
     best_ = number(quality, score);
@@ -38,7 +38,7 @@ class BestMesh {
   }
 
   /// True if this mesh, which the step has just reached, is the new best.
-  bool offer(const std::vector<Point<dim>>& coordinates, const MeshQuality& quality,
+  bool offer(const std::vector<Point<spacedim>>& coordinates, const MeshQuality& quality,
              const StepReport& report) {
     if (rule_ == ResultMesh::last) return false;
     if (const auto* moved = report.moved)
@@ -57,7 +57,7 @@ class BestMesh {
   }
 
   /// Puts the best mesh in place of the last one.
-  void restore(std::vector<Point<dim>>& coordinates) {
+  void restore(std::vector<Point<spacedim>>& coordinates) {
     if (rule_ != ResultMesh::last) coordinates = std::move(coordinates_);
   }
 
@@ -69,7 +69,7 @@ class BestMesh {
 
   ResultMesh rule_;
   double best_ = 0.0;
-  std::vector<Point<dim>> coordinates_;
+  std::vector<Point<spacedim>> coordinates_;
   std::vector<NodeIndex> moved_since_best_;
   bool all_moved_ = false;
 };
@@ -96,8 +96,8 @@ class QualityRecord {
 };
 
 /// Over the edges of every cell: an inner edge counts once a cell, as in the thesis' stopping rule.
-template <int dim>
-double mean_edge_length(const Mesh<dim>& mesh) {
+template <int dim, int spacedim>
+double mean_edge_length(const Mesh<dim, spacedim>& mesh) {
   double sum = 0.0;
   std::size_t n_edges = 0;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
@@ -110,19 +110,33 @@ double mean_edge_length(const Mesh<dim>& mesh) {
   return sum / static_cast<double>(n_edges);
 }
 
-template <int dim>
-bool any_stage(const Method<dim>& method, const auto& condition) {
+template <int dim, int spacedim>
+bool any_stage(const Method<dim, spacedim>& method, const auto& condition) {
   return std::any_of(method.stages.begin(), method.stages.end(),
                      [&](const auto& stage) { return condition(stage->rule()); });
 }
 
+template <int dim, int spacedim>
+std::vector<std::string> methods_that_keep_constraints() {
+  std::vector<std::string> names;
+  for (const auto& info : method_catalogue()) {
+    if (!takes_meshes<dim, spacedim>(info.name)) continue;
+    const auto method = make_method<dim, spacedim>(info.name);
+    if (!any_stage(method, [](const auto& rule) { return !rule.keeps_constraints; }))
+      names.push_back(info.name);
+  }
+  return names;
+}
+
 /// The run of one method: what its stages share.
-template <int dim>
+template <int dim, int spacedim>
 class SmoothingRun {
  public:
   /// The initial quality costs a method time only if it looks at quality at all.
-  SmoothingRun(Mesh<dim>& mesh, const Method<dim>& method, const Observer<dim>& observer)
+  SmoothingRun(Mesh<dim, spacedim>& mesh, const Method<dim, spacedim>& method,
+               const Observer<dim, spacedim>& observer)
       : users_mesh_(mesh), state_{mesh, {}}, observer_(observer) {
+    require_constraints_kept(method);
     reorder(method);
     const bool uses_quality =
         any_stage(method, [](const auto& rule) { return rule.quality_use != QualityUse::none; });
@@ -140,13 +154,14 @@ class SmoothingRun {
     observe("initial", 0, 0);
   }
 
-  StageResult run_stage(Smoother<dim>& smoother) {
+  StageResult run_stage(Smoother<dim, spacedim>& smoother) {
     const SmoothingRule rule = smoother.rule();
     if (rule.needs_valid_mesh && quality_.n_invalid > 0) require_valid(users_mesh());
     StageResult result{std::string(smoother.name()), 0};
     clock_.start();
     smoother.initialize(state_);
-    BestMesh<dim> best(rule.result, state_.mesh.coordinates(), quality_, smoother.initial_score());
+    BestMesh<spacedim> best(rule.result, state_.mesh.coordinates(), quality_,
+                            smoother.initial_score());
     clock_.stop();
     int n_without_best = 0;
     QualityRecord highest(quality_);
@@ -177,22 +192,33 @@ class SmoothingRun {
   }
 
  private:
+  void require_constraints_kept(const Method<dim, spacedim>& method) const {
+    if (state_.mesh.constraints() &&
+        any_stage(method, [](const auto& rule) { return !rule.keeps_constraints; }))
+      throw InputError("method " + method.info.name +
+                       " cannot keep boundary nodes on the boundary; fix them, or take one of " +
+                       joined(methods_that_keep_constraints<dim, spacedim>()));
+  }
+
   /// Small meshes stay in the cache in any order, and keep the sums of the published numbers.
-  void reorder(const Method<dim>& method) {
+  /// Constraints know nodes by their numbers.
+  void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
-    if (state_.mesh.n_nodes() < min_nodes ||
+    if (state_.mesh.constraints() || state_.mesh.n_nodes() < min_nodes ||
         any_stage(method, [](const auto& rule) { return rule.needs_node_order; }))
       return;
-    clock_.start();
-    reordering_.emplace(state_.mesh.topology());
-    Mesh<dim> ordered = reordering_->apply(state_.mesh);
-    clock_.stop();
-    scratch_.emplace(std::move(state_.mesh));
-    state_.mesh = std::move(ordered);
+    if constexpr (dim == spacedim) {
+      clock_.start();
+      reordering_.emplace(state_.mesh.topology());
+      Mesh<dim> ordered = reordering_->apply(state_.mesh);
+      clock_.stop();
+      scratch_.emplace(std::move(state_.mesh));
+      state_.mesh = std::move(ordered);
+    }
   }
 
   /// The present mesh in the caller's order.
-  const Mesh<dim>& users_mesh() {
+  const Mesh<dim, spacedim>& users_mesh() {
     if (!reordering_) return state_.mesh;
     reordering_->restore(state_.mesh.coordinates(), scratch_->coordinates());
     return *scratch_;
@@ -201,7 +227,7 @@ class SmoothingRun {
   void evaluate_quality() { quality_ = compute_cell_mean_ratios(state_.mesh, state_.cell_quality); }
 
   /// One step, and what has to follow it for the quality to be known and every cell valid.
-  StepReport guarded_step(Smoother<dim>& smoother, const SmoothingRule& rule) {
+  StepReport guarded_step(Smoother<dim, spacedim>& smoother, const SmoothingRule& rule) {
     if (rule.quality_use == QualityUse::loop) previous_ = state_.mesh.coordinates();
     StepReport report = smoother.step(state_);
     if (rule.quality_use == QualityUse::loop) {
@@ -258,15 +284,16 @@ class SmoothingRun {
     ++n_records_;
   }
 
-  Mesh<dim>& users_mesh_;
-  SmoothingState<dim> state_;
-  const Observer<dim>& observer_;
-  std::optional<Reordering<dim>> reordering_;
-  std::optional<Mesh<dim>> scratch_;  ///< in the caller's order, where there is another one
+  Mesh<dim, spacedim>& users_mesh_;
+  SmoothingState<dim, spacedim> state_;
+  const Observer<dim, spacedim>& observer_;
+  std::optional<Reordering<spacedim>> reordering_;
+  std::optional<Mesh<dim, spacedim>>
+      scratch_;  ///< in the caller's order, where there is another one
   SmoothingClock clock_;
   MeshQuality quality_;
   double mean_edge_length_ = 0.0;
-  std::vector<Point<dim>> previous_;
+  std::vector<Point<spacedim>> previous_;
   std::size_t n_records_ = 0, result_record_ = 0;
 };
 
@@ -279,10 +306,10 @@ std::string SmoothingResult::iterations_text() const {
   return text;
 }
 
-template <int dim>
-SmoothingResult smooth(Mesh<dim>& mesh, Method<dim>& method,
-                       const std::type_identity_t<Observer<dim>>& observer) {
-  SmoothingRun<dim> run(mesh, method, observer);
+template <int dim, int spacedim>
+SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                       const std::type_identity_t<Observer<dim, spacedim>>& observer) {
+  SmoothingRun<dim, spacedim> run(mesh, method, observer);
   std::vector<StageResult> stages;
   for (auto& stage : method.stages) stages.push_back(run.run_stage(*stage));
   return run.finish(std::move(stages));
@@ -290,5 +317,6 @@ SmoothingResult smooth(Mesh<dim>& mesh, Method<dim>& method,
 
 template SmoothingResult smooth(Mesh<2>&, Method<2>&, const Observer<2>&);
 template SmoothingResult smooth(Mesh<3>&, Method<3>&, const Observer<3>&);
+template SmoothingResult smooth(Mesh<2, 3>&, Method<2, 3>&, const Observer<2, 3>&);
 
 }  // namespace smoothfem

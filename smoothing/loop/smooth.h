@@ -23,8 +23,8 @@ struct IterationRecord {
 
 /// Gets every iteration's numbers and mesh, the initial one included. Its time does not count as
 /// smoothing time. An exception it throws ends the run.
-template <int dim>
-using Observer = std::function<void(const IterationRecord&, const Mesh<dim>&)>;
+template <int dim, int spacedim = dim>
+using Observer = std::function<void(const IterationRecord&, const Mesh<dim, spacedim>&)>;
 
 struct StageResult {
   std::string name;
@@ -45,9 +45,11 @@ struct SmoothingResult {
 /// the one before. Owns what methods share: putting back the nodes of invalid cells, the best mesh,
 /// stopping, timing (thesis, Chapter 4), and an order of large meshes that suits the memory: the
 /// caller and the observer see their own. Deterministic: the same bits for every number of threads.
-/// Throws InputError if the method needs a valid mesh and `mesh` is not. dim = 2 or 3.
-template <int dim>
-SmoothingResult smooth(Mesh<dim>& mesh, Method<dim>& method,
-                       const std::type_identity_t<Observer<dim>>& observer = {});
+/// Throws InputError if the method needs a valid mesh and `mesh` is not, and if it cannot keep the
+/// nodes of a mesh with constraints where they belong. Planar, volume and surface
+/// meshes; nodes of the last stay on their initial surface (thesis, Section 5.1.2).
+template <int dim, int spacedim>
+SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                       const std::type_identity_t<Observer<dim, spacedim>>& observer = {});
 
 }  // namespace smoothfem

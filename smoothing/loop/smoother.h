@@ -66,6 +66,9 @@ struct SmoothingRule {
   /// The step visits nodes one after the other, so that its result depends on their order: the mesh
   /// keeps the order it has.
   bool needs_node_order = false;
+  /// The step puts nodes only where allowed_place (smoothing/surface/node_constraints.h) has them;
+  /// other methods do not take meshes with constraints.
+  bool keeps_constraints = false;
 };
 
 /// What one step tells the loop.

@@ -55,31 +55,34 @@ SMOOTHFEM_INLINE void with_cell_size(std::size_t n_nodes, const Visit& visit) {
 }
 
 /// A cell's corners, gathered: spans of fixed extent for cells of a fixed type, of dynamic extent
-/// for polygons. Calls visit(corners). place_of(node): its coordinates, by reference.
+/// for polygons. Calls visit(corners). place_of(node): its coordinates, by reference; in space for
+/// cells of surface meshes.
 template <int dim, class PlaceOf, class Visit>
 SMOOTHFEM_INLINE void with_corners_at(std::span<const NodeIndex> nodes, const PlaceOf& place_of,
                                       const Visit& visit) {
+  using Corner = decltype(vector_of(place_of(NodeIndex{})));
   with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
     constexpr std::size_t n = decltype(size)::value;
     if constexpr (n == 0) {
-      std::vector<Vector<dim, double>> corners;
+      std::vector<Corner> corners;
       corners.reserve(nodes.size());
       for (const NodeIndex node : nodes) corners.push_back(vector_of(place_of(node)));
-      visit(std::span<const Vector<dim, double>>(corners));
+      visit(std::span<const Corner>(corners));
     } else {
-      std::array<Vector<dim, double>, n> corners;
+      std::array<Corner, n> corners;
       for (std::size_t k = 0; k < n; ++k) corners[k] = vector_of(place_of(nodes[k]));
-      visit(std::span<const Vector<dim, double>, n>(corners));
+      visit(std::span<const Corner, n>(corners));
     }
   });
 }
 
 /// The same with x: the coordinates of all nodes.
-template <int dim, class Visit>
+template <int dim, int spacedim, class Visit>
 SMOOTHFEM_INLINE void with_corners(std::span<const NodeIndex> nodes,
-                                   const std::vector<Point<dim>>& x, const Visit& visit) {
+                                   const std::vector<Point<spacedim>>& x, const Visit& visit) {
   with_corners_at<dim>(
-      nodes, [&](NodeIndex node) SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return x[node]; },
+      nodes,
+      [&](NodeIndex node) SMOOTHFEM_INLINE_LAMBDA -> const Point<spacedim>& { return x[node]; },
       visit);
 }
 
@@ -99,26 +102,32 @@ SMOOTHFEM_INLINE void with_room_for_result(std::span<const Point, extent> corner
 /// Visits the cells first .. last-1 in order: visit_run(size, cell, nodes) for n_lanes cells from
 /// `cell` on where these are all of one fixed type (size: std::integral_constant of its number of
 /// nodes; nodes: of all of them, cell by cell), visit_cell(cell) for the rest. Fast for meshes
-/// whose types come in long runs.
-template <int dim, class VisitRun, class VisitCell>
+/// whose types come in long runs. Cells of surface meshes (spacedim > dim), whose time goes into
+/// projections, come one by one.
+template <int dim, int spacedim = dim, class VisitRun, class VisitCell>
 SMOOTHFEM_INLINE void for_each_run(const Topology& topology, CellIndex first, CellIndex last,
                                    const VisitRun& visit_run, const VisitCell& visit_cell) {
-  const auto& cells = topology.cells();
-  for (CellIndex c = first; c < last;) {
-    const auto nodes = cells[c];
-    bool same_size = c + n_lanes <= last;
-    for (std::size_t l = 1; l < n_lanes && same_size; ++l)
-      same_size = cells[c + l].size() == nodes.size();
-    bool done = false;
-    if (same_size)
-      with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
-        if constexpr (decltype(size)::value != 0) {
-          visit_run(size, c, nodes.data());
-          done = true;
-        }
-      });
-    if (!done) visit_cell(c);
-    c += done ? n_lanes : 1;
+  if constexpr (spacedim > dim) {
+    for (CellIndex c = first; c < last; ++c) visit_cell(c);
+    return;
+  } else {
+    const auto& cells = topology.cells();
+    for (CellIndex c = first; c < last;) {
+      const auto nodes = cells[c];
+      bool same_size = c + n_lanes <= last;
+      for (std::size_t l = 1; l < n_lanes && same_size; ++l)
+        same_size = cells[c + l].size() == nodes.size();
+      bool done = false;
+      if (same_size)
+        with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
+          if constexpr (decltype(size)::value != 0) {
+            visit_run(size, c, nodes.data());
+            done = true;
+          }
+        });
+      if (!done) visit_cell(c);
+      c += done ? n_lanes : 1;
+    }
   }
 }
 
@@ -132,45 +141,52 @@ struct ListedCells {
 
 /// Visits the cells of a list in order: visit_run(size, listed) for cells of one fixed type that
 /// follow each other (size: std::integral_constant of its number of nodes), visit_cell(position)
-/// for polygons. Visitors return false to stop; returns whether all were visited.
-template <int dim, class VisitRun, class VisitCell>
+/// for polygons and cells of surface meshes. Visitors return false to stop; returns whether all
+/// were visited.
+template <int dim, int spacedim = dim, class VisitRun, class VisitCell>
 SMOOTHFEM_INLINE bool for_each_listed_run(const Topology& topology,
                                           std::span<const CellIndex> cells,
                                           const VisitRun& visit_run, const VisitCell& visit_cell) {
-  for (std::size_t first = 0; first < cells.size();) {
-    const std::size_t n_nodes = topology.cell_nodes(cells[first]).size();
-    std::size_t count = 1;
-    while (count < n_lanes && first + count < cells.size() &&
-           topology.cell_nodes(cells[first + count]).size() == n_nodes)
-      ++count;
-    bool going = true;
-    with_cell_size<dim>(n_nodes, [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
-      if constexpr (decltype(size)::value == 0) {
-        count = 1;
-        going = visit_cell(first);
-      } else {
-        ListedCells listed{first, count, {}, {}};
-        for (std::size_t l = 0; l < n_lanes; ++l) {
-          listed.cells[l] = cells[first + std::min(l, count - 1)];
-          listed.rows[l] = topology.cell_nodes(listed.cells[l]).data();
+  if constexpr (spacedim > dim) {
+    for (std::size_t position = 0; position < cells.size(); ++position)
+      if (!visit_cell(position)) return false;
+    return true;
+  } else {
+    for (std::size_t first = 0; first < cells.size();) {
+      const std::size_t n_nodes = topology.cell_nodes(cells[first]).size();
+      std::size_t count = 1;
+      while (count < n_lanes && first + count < cells.size() &&
+             topology.cell_nodes(cells[first + count]).size() == n_nodes)
+        ++count;
+      bool going = true;
+      with_cell_size<dim>(n_nodes, [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
+        if constexpr (decltype(size)::value == 0) {
+          count = 1;
+          going = visit_cell(first);
+        } else {
+          ListedCells listed{first, count, {}, {}};
+          for (std::size_t l = 0; l < n_lanes; ++l) {
+            listed.cells[l] = cells[first + std::min(l, count - 1)];
+            listed.rows[l] = topology.cell_nodes(listed.cells[l]).data();
+          }
+          going = visit_run(size, listed);
         }
-        going = visit_run(size, listed);
-      }
-    });
-    if (!going) return false;
-    first += count;
+      });
+      if (!going) return false;
+      first += count;
+    }
+    return true;
   }
-  return true;
 }
 
 /// for_each_run with the corners gathered: visit_block(cell, corners) with those of n_lanes cells,
 /// visit_cell(cell, corners) with those of one.
-template <int dim, class VisitBlock, class VisitCell>
+template <int dim, int spacedim, class VisitBlock, class VisitCell>
 SMOOTHFEM_INLINE void for_each_block(const Topology& topology,
-                                     const std::vector<Point<dim>>& coordinates, CellIndex first,
-                                     CellIndex last, const VisitBlock& visit_block,
+                                     const std::vector<Point<spacedim>>& coordinates,
+                                     CellIndex first, CellIndex last, const VisitBlock& visit_block,
                                      const VisitCell& visit_cell) {
-  for_each_run<dim>(
+  for_each_run<dim, spacedim>(
       topology, first, last,
       [&]<std::size_t n>(std::integral_constant<std::size_t, n>, CellIndex c,
                          const NodeIndex* nodes) SMOOTHFEM_INLINE_LAMBDA {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
@@ -15,6 +17,14 @@ inline double signed_cell_size(const PlanarMesh& mesh, CellIndex cell) {
   for (std::size_t k = 0; k < nodes.size(); ++k)
     twice_area += cross(x[nodes[k]], x[nodes[k + 1 < nodes.size() ? k + 1 : 0]]);
   return 0.5 * twice_area;
+}
+
+/// Area of the cell of a surface mesh, projected along its mean normal; negative if it is turned
+/// over.
+inline double signed_cell_size(const SurfaceMesh& mesh, CellIndex cell) {
+  const Point<3> area = area_vector(mesh.topology().cell_nodes(cell), mesh.coordinates());
+  return 0.5 * std::copysign(1.0, area.dot(mesh.constraints()->facet_normals()[cell])) *
+         area.norm();
 }
 
 /// Volume of a volume cell whose quadrilateral faces are bilinear (each holds as much as the mean

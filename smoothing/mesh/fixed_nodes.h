@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/mesh/mesh.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
@@ -27,13 +27,17 @@ FixedNodesRule parse_fixed_nodes_rule(const std::string& text);
 /// One flag a node. Throws InputError for a group that no facet has; it names those there are.
 std::vector<bool> fixed_nodes(const Topology& topology, const FixedNodesRule& rule);
 
-/// The same mesh with other fixed nodes. fixed: one flag a node.
-template <int dim>
-Mesh<dim> with_fixed_nodes(Mesh<dim> mesh, std::vector<bool> fixed) {
+/// The same mesh with other fixed nodes. fixed: one flag a node. Corners of its surface are fixed
+/// in any case.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, std::vector<bool> fixed) {
   const Topology& old = mesh.topology();
+  if (mesh.constraints())
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      if (mesh.constraints()->is_corner(i)) fixed[i] = true;
   auto topology = std::make_shared<const Topology>(dim, old.n_nodes(), old.cells(),
                                                    std::move(fixed), old.labels());
-  return {std::move(topology), std::move(mesh.coordinates())};
+  return {std::move(topology), std::move(mesh.coordinates()), mesh.shared_constraints()};
 }
 
 }  // namespace smoothfem

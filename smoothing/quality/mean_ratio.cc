@@ -6,21 +6,26 @@ namespace smoothfem {
 
 namespace {
 
-template <int dim>
-double mean_ratio_of(const Mesh<dim>& mesh, CellIndex cell) {
+template <int dim, int spacedim>
+double mean_ratio_of(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
   double q;
   with_corners<dim>(mesh.topology().cell_nodes(cell), mesh.coordinates(),
-                    [&](auto corners) SMOOTHFEM_INLINE_LAMBDA { q = mean_ratio(corners); });
+                    [&](auto corners) SMOOTHFEM_INLINE_LAMBDA {
+                      q = mean_ratio(upper_side(mesh, cell), corners);
+                    });
   return q;
 }
 
 }  // namespace
 
 double cell_mean_ratio(const PlanarMesh& mesh, CellIndex cell) {
-  return mean_ratio_of<2>(mesh, cell);
+  return mean_ratio_of(mesh, cell);
 }
 double cell_mean_ratio(const VolumeMesh& mesh, CellIndex cell) {
-  return mean_ratio_of<3>(mesh, cell);
+  return mean_ratio_of(mesh, cell);
+}
+double cell_mean_ratio(const SurfaceMesh& mesh, CellIndex cell) {
+  return mean_ratio_of(mesh, cell);
 }
 
 }  // namespace smoothfem

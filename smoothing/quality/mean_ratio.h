@@ -8,6 +8,8 @@
 #include "smoothing/mesh/inverse_root.h"
 #include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/mesh/unit_normal.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
@@ -29,12 +31,37 @@ SMOOTHFEM_INLINE RegularAngle regular_interior_angle(std::size_t n) {
 /// Mean ratio 2 det(S) / |S|^2 of one corner, S = D W^-1, written out: D has the columns `next` and
 /// `previous` (edges from the corner to its neighbours), W the same of the regular polygon. In
 /// [-1, 1]; positive exactly where det(D) is. Not a number for two edges of length zero.
-template <class Real>
-SMOOTHFEM_INLINE Real corner_mean_ratio(Vector2<Real> next, Vector2<Real> previous,
+/// determinant: det(D), the edges' signed area.
+template <class Edge, class Real>
+SMOOTHFEM_INLINE Real corner_mean_ratio(Edge next, Edge previous, Real determinant,
                                         RegularAngle regular) {
-  return 2.0 * regular.sine * cross(next, previous) /
+  return 2.0 * regular.sine * determinant /
          (squared_length(next) + squared_length(previous) -
           2.0 * regular.cosine * dot(next, previous));
+}
+
+/// Mean of the corner mean ratios of a polygon, 0 if one of them is not positive. determinant(next,
+/// previous): the signed area of two edges.
+template <class Corner, std::size_t extent, class Determinant>
+SMOOTHFEM_INLINE auto polygon_mean_ratio(std::span<const Corner, extent> corners,
+                                         const Determinant& determinant) {
+  using Real = decltype(corners[0].x + 0.0);
+  const std::size_t n = corners.size();
+  const RegularAngle regular = regular_interior_angle(n);
+  if (n == 3) {  // the three corners have the same mean ratio
+    const auto next = corners[1] - corners[0], previous = corners[2] - corners[0];
+    const Real area = determinant(next, previous);
+    return area > 0.0 ? corner_mean_ratio(next, previous, area, regular) : Real{};
+  }
+  Real sum{}, all_positive = Real{} + 1.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto next = corners[k + 1 == n ? 0 : k + 1] - corners[k];
+    const auto previous = corners[k == 0 ? n - 1 : k - 1] - corners[k];
+    const Real area = determinant(next, previous);
+    all_positive = area > 0.0 ? all_positive : Real{};
+    sum += corner_mean_ratio(next, previous, area, regular);
+  }
+  return all_positive > 0.0 ? sum / static_cast<double>(n) : Real{};
 }
 
 /// Mean ratio quality number of a planar polygon with counterclockwise corners (thesis,
@@ -44,20 +71,32 @@ SMOOTHFEM_INLINE Real corner_mean_ratio(Vector2<Real> next, Vector2<Real> previo
 /// a corner has det(D) <= 0 (or is not a number). Cells with three or more corners.
 template <class Real, std::size_t extent>
 SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector2<Real>, extent> corners) {
-  const std::size_t n = corners.size();
-  const RegularAngle regular = regular_interior_angle(n);
-  if (n == 3) {  // the three corners have the same mean ratio
-    const auto next = corners[1] - corners[0], previous = corners[2] - corners[0];
-    return cross(next, previous) > 0.0 ? corner_mean_ratio(next, previous, regular) : Real{};
-  }
-  Real sum{}, all_positive = Real{} + 1.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto next = corners[k + 1 == n ? 0 : k + 1] - corners[k];
-    const auto previous = corners[k == 0 ? n - 1 : k - 1] - corners[k];
-    all_positive = cross(next, previous) > 0.0 ? all_positive : Real{};
-    sum += corner_mean_ratio(next, previous, regular);
-  }
-  return all_positive > 0.0 ? sum / static_cast<double>(n) : Real{};
+  return polygon_mean_ratio(corners, [](Vector2<Real> next, Vector2<Real> previous)
+                                         SMOOTHFEM_INLINE_LAMBDA { return cross(next, previous); });
+}
+
+/// The side of the surface that a cell of a surface mesh shows: the normal of its initial cell.
+/// Planar and volume cells are oriented by space itself.
+struct OrientedBySpace {};
+template <int dim, int spacedim>
+SMOOTHFEM_INLINE auto upper_side(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
+  if constexpr (dim == spacedim)
+    return OrientedBySpace{};
+  else
+    return vector_of(mesh.constraints()->facet_normals()[cell]);
+}
+
+/// The same of a polygon in space: lengths as they are, areas signed by the polygon's own mean
+/// normal, so that the mean ratio is 1 exactly for regular and flat polygons. Invalid is also a
+/// polygon whose mean normal does not point to the upper side of the surface (`upper`, a vector
+/// along the normal that the surface has there): it has been turned over.
+template <std::size_t extent>
+inline double mean_ratio(Vector3<double> upper, std::span<const Vector3<double>, extent> corners) {
+  const Vector3<double> normal = unit_normal(corners);
+  if (!(dot(normal, upper) > 0.0)) return 0.0;
+  return polygon_mean_ratio(corners, [&](Vector3<double> next, Vector3<double> previous) {
+    return dot(normal, cross(next, previous));
+  });
 }
 
 /// det(S) and |S|^2 of one corner of a volume cell, S = D W^-1: D has the edges from the corner to
@@ -117,8 +156,15 @@ SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {
   return mean_ratio(CellEdges<Real, n>(nodes));
 }
 
+/// That of a planar or volume cell, for lines that serve every kind of mesh.
+template <class Corners>
+SMOOTHFEM_INLINE auto mean_ratio(OrientedBySpace, Corners corners) {
+  return mean_ratio(corners);
+}
+
 /// The same for a cell of a mesh.
 double cell_mean_ratio(const PlanarMesh& mesh, CellIndex cell);
 double cell_mean_ratio(const VolumeMesh& mesh, CellIndex cell);
+double cell_mean_ratio(const SurfaceMesh& mesh, CellIndex cell);
 
 }  // namespace smoothfem

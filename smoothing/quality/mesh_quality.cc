@@ -15,8 +15,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-template <int dim>
-SMOOTHFEM_INLINE void compute_block(const Mesh<dim>& mesh, const CellBlock& block,
+template <int dim, int spacedim>
+SMOOTHFEM_INLINE void compute_block(const Mesh<dim, spacedim>& mesh, const CellBlock& block,
                                     double* cell_quality) {
   for_each_block<dim>(
       mesh.topology(), mesh.coordinates(), block.first, block.last,
@@ -25,16 +25,19 @@ SMOOTHFEM_INLINE void compute_block(const Mesh<dim>& mesh, const CellBlock& bloc
         store_lanes(mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners)), cell_quality + c);
       },
       [&](CellIndex c, auto corners)
-          SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = mean_ratio(corners); });
+          SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = mean_ratio(upper_side(mesh, c), corners); });
 }
 // Templates cannot be compiled for several kinds of registers; these can.
 SMOOTHFEM_VECTOR_CLONES
 void compute_cells(const PlanarMesh& mesh, const CellBlock& block, double* cell_quality) {
-  compute_block<2>(mesh, block, cell_quality);
+  compute_block(mesh, block, cell_quality);
 }
 SMOOTHFEM_VECTOR_CLONES
 void compute_cells(const VolumeMesh& mesh, const CellBlock& block, double* cell_quality) {
-  compute_block<3>(mesh, block, cell_quality);
+  compute_block(mesh, block, cell_quality);
+}
+void compute_cells(const SurfaceMesh& mesh, const CellBlock& block, double* cell_quality) {
+  compute_block(mesh, block, cell_quality);
 }
 
 }  // namespace
@@ -67,15 +70,16 @@ MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t 
           .n_invalid = n_invalid};
 }
 
-template <int dim>
-std::vector<double> cell_mean_ratios(const Mesh<dim>& mesh) {
+template <int dim, int spacedim>
+std::vector<double> cell_mean_ratios(const Mesh<dim, spacedim>& mesh) {
   std::vector<double> quality;
   compute_cell_mean_ratios(mesh, quality);
   return quality;
 }
 
-template <int dim>
-MeshQuality compute_cell_mean_ratios(const Mesh<dim>& mesh, std::vector<double>& cell_quality) {
+template <int dim, int spacedim>
+MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
+                                     std::vector<double>& cell_quality) {
   const Topology& topology = mesh.topology();
   cell_quality.resize(mesh.n_cells());
   std::vector<PartialQuality> parts(topology.blocks().size());
@@ -94,8 +98,8 @@ MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& ce
   return mesh_quality(parts, cell_quality.size());
 }
 
-template <int dim>
-MeshQuality mesh_quality(const Mesh<dim>& mesh) {
+template <int dim, int spacedim>
+MeshQuality mesh_quality(const Mesh<dim, spacedim>& mesh) {
   return mesh_quality(mesh.topology(), cell_mean_ratios(mesh));
 }
 
@@ -119,7 +123,7 @@ std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
 namespace {
 
 /// What users call a cell that is turned inside out, and what makes up for it.
-template <int dim>
+template <int dim, int spacedim = dim>
 struct Words;
 template <>
 struct Words<2> {
@@ -137,11 +141,18 @@ struct Words<3> {
   static constexpr const char* mend_some = "mirror the inverted cells' node order";
   static constexpr const char* invalid = "tangled or degenerate";
 };
+template <>
+struct Words<2, 3> {
+  static constexpr const char* inverted = "turned over";
+  static constexpr const char* all = "all cells are turned over";
+  static constexpr const char* mend = "list the nodes of every cell the other way round";
+  static constexpr const char* mend_some = "reverse the nodes of the cells turned over";
+  static constexpr const char* invalid = Words<2>::invalid;
+};
 
 /// A whole mesh seen from behind is one mistake, not n_cells of them.
-template <int dim>
+template <class W>
 std::string advice(std::size_t n_inverted, std::size_t n_cells) {
-  using W = Words<dim>;
   if (n_inverted == n_cells) return std::string(W::all) + "; " + W::mend;
   if (n_inverted > 0)
     return std::string(W::mend_some) + ", or untangle the mesh first if they are inverted";
@@ -156,9 +167,10 @@ void print_place(std::ostream& out, const Point<dim>& place) {
 
 }  // namespace
 
-template <int dim>
-void require_valid(const Mesh<dim>& mesh, const std::string& path,
+template <int dim, int spacedim>
+void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path,
                    std::span<const std::size_t> cell_lines) {
+  using W = Words<dim, spacedim>;
   constexpr std::size_t n_named = 3;
   const auto& topology = mesh.topology();
   const auto invalid = invalid_cells(cell_mean_ratios(mesh));
@@ -180,22 +192,22 @@ void require_valid(const Mesh<dim>& mesh, const std::string& path,
   for (std::size_t i = 0; i < std::min(n_named, invalid.size()); ++i) {
     const CellIndex c = invalid[i];
     message << (i > 0 ? ", " : "") << "cell " << (ids.empty() ? c : ids[c]) << " at ";
-    print_place<dim>(message, mesh.coordinates()[topology.cell_nodes(c)[0]]);
-    message << " is "
-            << (signed_cell_size(mesh, c) < 0.0 ? Words<dim>::inverted : Words<dim>::invalid);
+    print_place<spacedim>(message, mesh.coordinates()[topology.cell_nodes(c)[0]]);
+    message << " is " << (signed_cell_size(mesh, c) < 0.0 ? W::inverted : W::invalid);
   }
   if (invalid.size() > n_named) message << ", ...";
-  message << "; " << advice<dim>(n_inverted, mesh.n_cells());
+  message << "; " << advice<W>(n_inverted, mesh.n_cells());
   throw InputError(message.str());
 }
 
-template std::vector<double> cell_mean_ratios(const Mesh<2>&);
-template std::vector<double> cell_mean_ratios(const Mesh<3>&);
-template MeshQuality compute_cell_mean_ratios(const Mesh<2>&, std::vector<double>&);
-template MeshQuality compute_cell_mean_ratios(const Mesh<3>&, std::vector<double>&);
-template MeshQuality mesh_quality(const Mesh<2>&);
-template MeshQuality mesh_quality(const Mesh<3>&);
-template void require_valid(const Mesh<2>&, const std::string&, std::span<const std::size_t>);
-template void require_valid(const Mesh<3>&, const std::string&, std::span<const std::size_t>);
+#define SMOOTHFEM_INSTANTIATE(MESH)                                                 \
+  template std::vector<double> cell_mean_ratios(const MESH&);                       \
+  template MeshQuality compute_cell_mean_ratios(const MESH&, std::vector<double>&); \
+  template MeshQuality mesh_quality(const MESH&);                                   \
+  template void require_valid(const MESH&, const std::string&, std::span<const std::size_t>);
+SMOOTHFEM_INSTANTIATE(PlanarMesh)
+SMOOTHFEM_INSTANTIATE(VolumeMesh)
+SMOOTHFEM_INSTANTIATE(SurfaceMesh)
+#undef SMOOTHFEM_INSTANTIATE
 
 }  // namespace smoothfem

@@ -18,18 +18,20 @@ struct MeshQuality {
   std::size_t n_invalid = 0;  ///< cells with quality <= 0
 };
 
-/// Mean ratio of every cell, in the order of the cells; 0 for invalid ones. dim = 2 or 3.
-template <int dim>
-std::vector<double> cell_mean_ratios(const Mesh<dim>& mesh);
+/// Mean ratio of every cell, in the order of the cells; 0 for invalid ones. Planar, volume and
+/// surface meshes.
+template <int dim, int spacedim>
+std::vector<double> cell_mean_ratios(const Mesh<dim, spacedim>& mesh);
 /// The same into a vector of n_cells numbers; returns the quality of the mesh.
-template <int dim>
-MeshQuality compute_cell_mean_ratios(const Mesh<dim>& mesh, std::vector<double>& cell_quality);
+template <int dim, int spacedim>
+MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
+                                     std::vector<double>& cell_quality);
 
 /// cell_quality: one number a cell of the topology. Where no cell has a free node, q_star_min =
 /// q_min.
 MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& cell_quality);
-template <int dim>
-MeshQuality mesh_quality(const Mesh<dim>& mesh);
+template <int dim, int spacedim>
+MeshQuality mesh_quality(const Mesh<dim, spacedim>& mesh);
 
 /// What one block of cells (topology.blocks()) adds to the quality of a mesh.
 struct PartialQuality {
@@ -54,8 +56,8 @@ std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
 /// ones with their place, and says when all cells are turned inside out (clockwise in the plane).
 /// cell_lines, if not empty: the line of each cell in the file at `path`. Cells go by the file's
 /// numbers where the mesh has them.
-template <int dim>
-void require_valid(const Mesh<dim>& mesh, const std::string& path = {},
+template <int dim, int spacedim>
+void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path = {},
                    std::span<const std::size_t> cell_lines = {});
 
 }  // namespace smoothfem

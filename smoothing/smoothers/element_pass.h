@@ -34,10 +34,10 @@ SMOOTHFEM_INLINE Vector3<Lanes> chosen(LaneMask transforms, Vector3<Lanes> trans
 /// much a cell counts: weight(cell, quality), for one cell or for n_lanes of them (an array of
 /// indices, Lanes), and which cells are transformed at all: transforms(quality), likewise; the
 /// others add their nodes as they are.
-template <int dim, class Weighting>
+template <int dim, class Weighting, int spacedim = dim>
 struct ElementPass {
-  const Mesh<dim>& mesh;
-  const ElementRegularization<dim>& element;
+  const Mesh<dim, spacedim>& mesh;
+  const ElementRegularization<dim, spacedim>& element;
   Weighting weighting;
 };
 
@@ -65,14 +65,14 @@ SMOOTHFEM_INLINE Lanes add_cells(const ElementPass<dim, Weighting>& pass,
 }
 
 /// The same for one cell of any type.
-template <int dim, class Weighting, class Wanted>
-SMOOTHFEM_INLINE double add_cell(const ElementPass<dim, Weighting>& pass, CellIndex cell,
+template <int dim, class Weighting, int spacedim, class Wanted>
+SMOOTHFEM_INLINE double add_cell(const ElementPass<dim, Weighting, spacedim>& pass, CellIndex cell,
                                  const Wanted& wanted, double* sums) {
   const auto nodes = pass.mesh.topology().cell_nodes(cell);
   double quality = 0.0;
   with_corners<dim>(nodes, pass.mesh.coordinates(), [&](auto corners) SMOOTHFEM_INLINE_LAMBDA {
     with_room_for_result(corners, [&](auto result) SMOOTHFEM_INLINE_LAMBDA {
-      quality = pass.element.regularize(corners, result);
+      quality = regularize(pass.element, upper_side(pass.mesh, cell), corners, result);
       const double weight = pass.weighting.weight(cell, quality);
       const auto transforms = pass.weighting.transforms(quality);
       for (std::size_t k = 0; k < result.size(); ++k)
@@ -85,11 +85,11 @@ SMOOTHFEM_INLINE double add_cell(const ElementPass<dim, Weighting>& pass, CellIn
 }
 
 /// Adds all cells of a block in their order and writes their quality.
-template <int dim, class Weighting>
-SMOOTHFEM_INLINE void add_whole_block(const ElementPass<dim, Weighting>& pass,
+template <int dim, class Weighting, int spacedim>
+SMOOTHFEM_INLINE void add_whole_block(const ElementPass<dim, Weighting, spacedim>& pass,
                                       const CellBlock& block, double* cell_quality, double* sums) {
   const auto all = [](NodeIndex) SMOOTHFEM_INLINE_LAMBDA { return true; };
-  for_each_run<dim>(
+  for_each_run<dim, spacedim>(
       pass.mesh.topology(), block.first, block.last,
       [&]<std::size_t n>(std::integral_constant<std::size_t, n>, CellIndex c,
                          const NodeIndex* nodes) SMOOTHFEM_INLINE_LAMBDA {
@@ -103,12 +103,12 @@ SMOOTHFEM_INLINE void add_whole_block(const ElementPass<dim, Weighting>& pass,
 
 /// Adds some cells of a block, ascending, to the sums of marked nodes only. Their qualities are
 /// known.
-template <int dim, class Weighting>
-SMOOTHFEM_INLINE void add_to_marked(const ElementPass<dim, Weighting>& pass,
+template <int dim, class Weighting, int spacedim>
+SMOOTHFEM_INLINE void add_to_marked(const ElementPass<dim, Weighting, spacedim>& pass,
                                     std::span<const CellIndex> cells,
                                     const std::vector<std::uint8_t>& marked, double* sums) {
   const auto wanted = [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA { return marked[i] != 0; };
-  for_each_listed_run<dim>(
+  for_each_listed_run<dim, spacedim>(
       pass.mesh.topology(), cells,
       [&]<std::size_t n>(std::integral_constant<std::size_t, n>, const ListedCells& listed)
           SMOOTHFEM_INLINE_LAMBDA {

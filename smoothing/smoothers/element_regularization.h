@@ -14,7 +14,7 @@ namespace smoothfem {
 
 /// The element step of GETMe: transform, keep centroid and size, relax. Parameters of a method, and
 /// the step itself for cells of any type.
-template <int dim>
+template <int dim, int spacedim = dim>
 class ElementRegularization;
 
 template <>
@@ -47,8 +47,26 @@ class ElementRegularization<2> {
     return mean_ratio(polygon);
   }
 
- private:
+ protected:
   PolygonTransformation transformation_{0.5, 0.5};
+};
+
+/// Polygons of a surface in space: the planar step in the plane across each one's mean normal.
+template <>
+class ElementRegularization<2, 3> : public ElementRegularization<2> {
+ public:
+  ElementRegularization(const ElementRegularization<2>& planar)
+      : ElementRegularization<2>(planar) {}
+
+  /// upper: see mean_ratio, which is returned.
+  template <std::size_t extent>
+  double regularize(Vector3<double> upper, std::span<const Vector3<double>, extent> polygon,
+                    std::span<Vector3<double>, extent> result) const {
+    transformation_.apply(unit_normal(polygon), polygon, result);
+    keep_mean_edge_length(polygon, result);
+    if (rho != 1.0) relax(polygon, result, rho);
+    return mean_ratio(upper, polygon);
+  }
 };
 
 /// The scaling factor sigma of the normals, from `low` for regular elements to `high` for those of
@@ -116,5 +134,15 @@ class ElementRegularization<3> {
     return quality;
   }
 };
+
+/// One line for cells of every kind of mesh.
+template <int dim, int spacedim, class Upper, class Corners, class Result>
+SMOOTHFEM_INLINE double regularize(const ElementRegularization<dim, spacedim>& element, Upper upper,
+                                   Corners corners, Result result) {
+  if constexpr (dim == spacedim)
+    return element.regularize(corners, result);
+  else
+    return element.regularize(upper, corners, result);
+}
 
 }  // namespace smoothfem

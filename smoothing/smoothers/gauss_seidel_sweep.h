@@ -4,25 +4,30 @@
 #include <cmath>
 
 #include "smoothing/loop/smoother.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
-template <int dim>
-Point<dim> mean_of_neighbours(const Mesh<dim>& mesh, NodeIndex node) {
+template <int dim, int spacedim>
+Point<spacedim> mean_of_neighbours(const Mesh<dim, spacedim>& mesh, NodeIndex node) {
   const auto neighbours = mesh.topology().node_neighbours(node);
-  Point<dim> sum = Point<dim>::Zero();
+  Point<spacedim> sum = Point<spacedim>::Zero();
   for (const NodeIndex j : neighbours) sum += mesh.coordinates()[j];
   return sum / static_cast<double>(neighbours.size());
 }
 
-/// One sweep over the free nodes in node order, each moved at once by movement(node), so that later
-/// nodes see the new places of earlier ones. Reports the longest movement.
-template <int dim, class Movement>
-StepReport gauss_seidel_sweep(Mesh<dim>& mesh, const Movement& movement) {
+/// One sweep over the free nodes in node order, each moved at once by movement(node), as far as the
+/// mesh's constraints let it, so that later nodes see the new places of earlier ones. Reports the
+/// longest movement.
+template <int dim, int spacedim, class Movement>
+StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movement) {
   double longest = 0.0;
   for (const NodeIndex i : mesh.topology().free_nodes()) {
-    const Point<dim> move = movement(i);
-    mesh.coordinates()[i] += move;
+    Point<spacedim> move = movement(i);
+    const Point<spacedim> wanted = mesh.coordinates()[i] + move;
+    const Point<spacedim> place = allowed_place(mesh, i, wanted);
+    if (mesh.constraints()) move = place - mesh.coordinates()[i];
+    mesh.coordinates()[i] = place;
     longest = std::max(longest, move.squaredNorm());
   }
   return {.max_displacement = std::sqrt(longest)};
@@ -49,7 +54,8 @@ struct DisplacementStopping {
             .criterion = StoppingCriterion::max_displacement,
             .tolerance = tolerance,
             .max_iterations = max_iterations,
-            .needs_node_order = true};
+            .needs_node_order = true,
+            .keeps_constraints = true};
   }
 };
 

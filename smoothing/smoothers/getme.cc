@@ -4,10 +4,11 @@ namespace smoothfem {
 namespace {
 
 /// The simultaneous method for the mean quality, then the sequential one for the lowest.
-template <int dim>
-Stages<dim> make_stages() {
-  Stages<dim> stages = stages_of<dim>("getme-simultaneous");
-  for (auto& stage : stages_of<dim>("getme-sequential")) stages.push_back(std::move(stage));
+template <int dim, int spacedim = dim>
+Stages<dim, spacedim> make_stages() {
+  auto stages = stages_of<dim, spacedim>("getme-simultaneous");
+  for (auto& stage : stages_of<dim, spacedim>("getme-sequential"))
+    stages.push_back(std::move(stage));
   return stages;
 }
 
@@ -16,7 +17,7 @@ const RegisteredMethod registered({.name = "getme",
                                    .description = "GETMe simultaneous, then GETMe sequential from "
                                                   "its best mesh",
                                    .source = "Section 4.4; parameters of Chapter 6"},
-                                  {make_stages<2>, make_stages<3>});
+                                  {make_stages<2>, make_stages<3>, make_stages<2, 3>});
 
 }  // namespace
 }  // namespace smoothfem

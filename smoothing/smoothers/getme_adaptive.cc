@@ -39,8 +39,8 @@ void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
 template <int dim>
 SMOOTHFEM_INLINE void write_mean_ratios(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
                                         std::vector<double>& quality) {
-  for_each_mean_ratio<dim>(
-      mesh.topology(), cells,
+  for_each_mean_ratio(
+      mesh, cells,
       [&](NodeIndex i)
           SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return mesh.coordinates()[i]; },
       [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {

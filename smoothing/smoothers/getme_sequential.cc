@@ -27,13 +27,14 @@ ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
 }
 
 /// Qualities of some cells; false as soon as one is invalid.
-template <int dim>
-SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
+template <int dim, int spacedim>
+SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim, spacedim>& mesh,
+                                           std::span<const CellIndex> cells,
                                            std::vector<double>& quality) {
-  return for_each_mean_ratio<dim>(
-      mesh.topology(), cells,
+  return for_each_mean_ratio(
+      mesh, cells,
       [&](NodeIndex i)
-          SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return mesh.coordinates()[i]; },
+          SMOOTHFEM_INLINE_LAMBDA -> const Point<spacedim>& { return mesh.coordinates()[i]; },
       [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {
         quality[position] = q;
         return q > 0.0;
@@ -42,27 +43,32 @@ SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim>& mesh, std::span<cons
 SMOOTHFEM_VECTOR_CLONES
 bool evaluate(const PlanarMesh& mesh, std::span<const CellIndex> cells,
               std::vector<double>& quality) {
-  return mean_ratios_if_valid<2>(mesh, cells, quality);
+  return mean_ratios_if_valid(mesh, cells, quality);
 }
 SMOOTHFEM_VECTOR_CLONES
 bool evaluate(const VolumeMesh& mesh, std::span<const CellIndex> cells,
               std::vector<double>& quality) {
-  return mean_ratios_if_valid<3>(mesh, cells, quality);
+  return mean_ratios_if_valid(mesh, cells, quality);
+}
+bool evaluate(const SurfaceMesh& mesh, std::span<const CellIndex> cells,
+              std::vector<double>& quality) {
+  return mean_ratios_if_valid(mesh, cells, quality);
 }
 
 /// By which quality the next element is chosen: its mean ratio.
-template <int dim>
 struct ByMeanRatio {
   static constexpr std::string_view stage_name = "sequential";
   static constexpr ResultMesh result = ResultMesh::best_q_star_min;
   static constexpr int cycle = 100, patience = 10;
 
   Parameters parameters() { return {}; }
-  double operator()(const Mesh<dim>&, CellIndex, double mean_ratio) const { return mean_ratio; }
+  template <class AMesh>
+  double operator()(const AMesh&, CellIndex, double mean_ratio) const {
+    return mean_ratio;
+  }
 };
 
 /// Or q_gamma = min(mean ratio, gamma (1 - warpage / 2)) (thesis, Section 4.7).
-template <int dim>
 struct ByMeanRatioAndWarpage {
   static constexpr std::string_view stage_name = "qgamma";
   static constexpr ResultMesh result = ResultMesh::best_score;
@@ -75,10 +81,10 @@ struct ByMeanRatioAndWarpage {
              "(Section 4.7)",
              &gamma, 1e-9, 1e9}};
   }
-  double operator()(const Mesh<dim>& mesh, CellIndex cell, double mean_ratio) const {
+  double operator()(const VolumeMesh& mesh, CellIndex cell, double mean_ratio) const {
     double warpage = 0.0;
-    with_corners<dim>(mesh.topology().cell_nodes(cell), mesh.coordinates(),
-                      [&](auto corners) { warpage = element_warpage(corners); });
+    with_corners<3>(mesh.topology().cell_nodes(cell), mesh.coordinates(),
+                    [&](auto corners) { warpage = element_warpage(corners); });
     return std::min(mean_ratio, gamma * (1.0 - 0.5 * warpage));
   }
 };
@@ -86,10 +92,10 @@ struct ByMeanRatioAndWarpage {
 /// Transforms the element with the lowest corrected quality, alone, again and again (thesis,
 /// Section 4.3, Fig. 4.3). A step is a cycle of such transformations, after which the lowest
 /// quality is looked at. Assessment: what quality is.
-template <int dim, template <int> class Assessment>
-class GetmeSequential final : public Smoother<dim> {
+template <int dim, int spacedim, class Assessment>
+class GetmeSequential final : public Smoother<dim, spacedim> {
  public:
-  std::string_view name() const override { return Assessment<dim>::stage_name; }
+  std::string_view name() const override { return Assessment::stage_name; }
 
   Parameters parameters() override {
     Parameters all = element_.parameters();
@@ -112,14 +118,15 @@ class GetmeSequential final : public Smoother<dim> {
 
   SmoothingRule rule() const override {
     return {.quality_use = QualityUse::smoother,
-            .result = Assessment<dim>::result,
+            .result = Assessment::result,
             .criterion = StoppingCriterion::result_stall,
             .patience = patience_,
-            .max_iterations = max_cycles_};
+            .max_iterations = max_cycles_,
+            .keeps_constraints = true};
   }
 
   /// Only elements that can be changed take part.
-  void initialize(const SmoothingState<dim>& state) override {
+  void initialize(const SmoothingState<dim, spacedim>& state) override {
     element_.prepare();
     const auto& topology = state.mesh.topology();
     std::vector<double> keys(topology.n_cells(), MinTree::never);
@@ -135,7 +142,7 @@ class GetmeSequential final : public Smoother<dim> {
 
   double initial_score() const override { return lowest_quality(); }
 
-  StepReport step(SmoothingState<dim>& state) override {
+  StepReport step(SmoothingState<dim, spacedim>& state) override {
     StepReport report{.n_counted = 0};
     moved_in_cycle_.clear();
     for (int i = 0; i < cycle_ && !by_corrected_quality_.empty(); ++i) {
@@ -154,7 +161,7 @@ class GetmeSequential final : public Smoother<dim> {
       ++report.n_counted;
     }
     report.score = lowest_quality();
-    if (Assessment<dim>::result == ResultMesh::best_q_star_min && !by_quality_.empty())
+    if (Assessment::result == ResultMesh::best_q_star_min && !by_quality_.empty())
       report.q_star_min = report.score;
     report.moved = &moved_in_cycle_;
     return report;
@@ -169,9 +176,9 @@ class GetmeSequential final : public Smoother<dim> {
 
   /// Of two elements whose quality is that of the face they share, the one with the lower mean
   /// ratio (thesis, Section 4.7).
-  CellIndex worst_cell(const SmoothingState<dim>& state) const {
+  CellIndex worst_cell(const SmoothingState<dim, spacedim>& state) const {
     CellIndex worst = by_corrected_quality_.top();
-    if (Assessment<dim>::result == ResultMesh::best_q_star_min) return worst;
+    if (Assessment::result == ResultMesh::best_q_star_min) return worst;
     const double key = by_corrected_quality_.key(worst);
     for (const NodeIndex node : state.mesh.topology().cell_nodes(worst))
       for (const CellIndex c : state.mesh.topology().node_cells(node))
@@ -182,7 +189,7 @@ class GetmeSequential final : public Smoother<dim> {
   }
 
   /// Sets the free nodes of a cell to their transformed places; remembers the old ones.
-  void transform(SmoothingState<dim>& state, CellIndex cell) {
+  void transform(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     auto& mesh = state.mesh;
     const auto& topology = mesh.topology();
     const auto nodes = topology.cell_nodes(cell);
@@ -191,11 +198,11 @@ class GetmeSequential final : public Smoother<dim> {
     ++n_transformations_;
     with_corners<dim>(nodes, mesh.coordinates(), [&](auto corners) {
       with_room_for_result(corners, [&](auto result) {
-        element_.regularize(corners, result);
+        regularize(element_, upper_side(mesh, cell), corners, result);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (topology.is_fixed(nodes[k])) continue;
           moved_.emplace_back(nodes[k], point_of(corners[k]));
-          mesh.coordinates()[nodes[k]] = point_of(result[k]);
+          mesh.coordinates()[nodes[k]] = allowed_place(mesh, nodes[k], point_of(result[k]));
           for (const CellIndex c : topology.node_cells(nodes[k])) {
             if (touched_in_[c] == n_transformations_) continue;
             touched_in_[c] = n_transformations_;
@@ -207,7 +214,7 @@ class GetmeSequential final : public Smoother<dim> {
   }
 
   /// Evaluates the cells around the moved nodes; puts the nodes back if one of them is invalid.
-  bool accept_or_undo(SmoothingState<dim>& state) {
+  bool accept_or_undo(SmoothingState<dim, spacedim>& state) {
     new_quality_.resize(touched_.size());
     if (!evaluate(state.mesh, touched_, new_quality_)) {
       for (const auto& [node, position] : moved_) state.mesh.coordinates()[node] = position;
@@ -227,19 +234,20 @@ class GetmeSequential final : public Smoother<dim> {
     last_picked_ = cell;
   }
 
-  ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
-  Assessment<dim> assess_;
+  ElementRegularization<dim, spacedim> element_ =
+      default_element(std::integral_constant<int, dim>{});
+  Assessment assess_;
   double penalty_invalid_ = 1e-4;
   double penalty_repeated_ = 1e-5;
   double penalty_success_ = -1e-3;
-  int cycle_ = Assessment<dim>::cycle;
-  int patience_ = Assessment<dim>::patience;
+  int cycle_ = Assessment::cycle;
+  int patience_ = Assessment::patience;
   int max_cycles_ = 100000;
 
   MinTree by_quality_, by_corrected_quality_;
   std::vector<double> penalties_;
   CellIndex last_picked_ = no_cell;
-  std::vector<std::pair<NodeIndex, Point<dim>>> moved_;
+  std::vector<std::pair<NodeIndex, Point<spacedim>>> moved_;
   std::vector<NodeIndex> moved_in_cycle_;
   std::vector<CellIndex> touched_;  ///< cells with a moved node
   std::vector<std::uint32_t>
@@ -248,20 +256,20 @@ class GetmeSequential final : public Smoother<dim> {
   std::vector<double> new_quality_;
 };
 
-template <int dim>
-using Sequential = GetmeSequential<dim, ByMeanRatio>;
+template <int dim, int spacedim>
+using Sequential = GetmeSequential<dim, spacedim, ByMeanRatio>;
 
 const RegisteredMethod registered({.name = "getme-sequential",
                                    .title = "GETMe sequential",
                                    .description = "transforms the worst element, one at a time; "
                                                   "second stage of GETMe",
                                    .source = "Section 4.3, Fig. 4.3; parameters of Chapter 6"},
-                                  single_stage<Sequential>());
+                                  single_stage_also_on_surfaces<Sequential>());
 
 /// GETMe, then the sequential method on q_gamma from its mesh.
 Stages<3> make_qgamma_stages() {
   Stages<3> stages = stages_of<3>("getme");
-  stages.push_back(std::make_unique<GetmeSequential<3, ByMeanRatioAndWarpage>>());
+  stages.push_back(std::make_unique<GetmeSequential<3, 3, ByMeanRatioAndWarpage>>());
   return stages;
 }
 

@@ -40,8 +40,8 @@ struct QualityWeighting {
     return {};
   }
 };
-template <int dim>
-using Pass = ElementPass<dim, QualityWeighting>;
+template <int dim, int spacedim = dim>
+using Pass = ElementPass<dim, QualityWeighting, spacedim>;
 
 // Templates cannot be compiled for several kinds of registers; these can.
 SMOOTHFEM_VECTOR_CLONES
@@ -52,6 +52,9 @@ SMOOTHFEM_VECTOR_CLONES
 void add_block(const Pass<3>& pass, const CellBlock& block, double* quality, double* sums) {
   add_whole_block(pass, block, quality, sums);
 }
+void add_block(const Pass<2, 3>& pass, const CellBlock& block, double* quality, double* sums) {
+  add_whole_block(pass, block, quality, sums);
+}
 SMOOTHFEM_VECTOR_CLONES
 void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
@@ -59,6 +62,10 @@ void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
 }
 SMOOTHFEM_VECTOR_CLONES
 void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
+              const std::vector<std::uint8_t>& marked, double* sums) {
+  add_to_marked(pass, cells, marked, sums);
+}
+void add_some(const Pass<2, 3>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
   add_to_marked(pass, cells, marked, sums);
 }
@@ -85,8 +92,8 @@ ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
 /// transformed elements (thesis, Section 4.2, Eq. 4.2 and Fig. 4.2). One pass over the elements
 /// gives their quality and the sums for the next iteration, so that each is fetched and looked at
 /// once: the pass after an iteration's movements starts the next one.
-template <int dim>
-class GetmeSimultaneous final : public Smoother<dim> {
+template <int dim, int spacedim>
+class GetmeSimultaneous final : public Smoother<dim, spacedim> {
  public:
   std::string_view name() const override { return "simultaneous"; }
 
@@ -101,25 +108,27 @@ class GetmeSimultaneous final : public Smoother<dim> {
   SmoothingRule rule() const override {
     SmoothingRule rule = stopping_.rule();
     rule.quality_use = QualityUse::smoother;
+    rule.keeps_constraints = true;
     return rule;
   }
 
-  void initialize(const SmoothingState<dim>& state) override {
+  void initialize(const SmoothingState<dim, spacedim>& state) override {
     element_.prepare();
     sums_.prepare(state.mesh.topology());
     parts_.resize(state.mesh.topology().blocks().size());
     ready_ = false;
   }
 
-  StepReport step(SmoothingState<dim>& state) override {
+  StepReport step(SmoothingState<dim, spacedim>& state) override {
     const Topology& topology = state.mesh.topology();
     if (!ready_) pass_over_all(state);
     ready_ = true;
     // Where all weights are zero the node's elements are regular already: it stays.
     previous_.resize(topology.n_nodes());
     sums_.for_each_node([&](NodeIndex i, const double* sums) {
-      const bool moves = !topology.is_fixed(i) && sums[dim] > 0.0;
-      previous_[i] = moves ? mean_place<dim>(sums) : state.mesh.coordinates()[i];
+      const bool moves = !topology.is_fixed(i) && sums[spacedim] > 0.0;
+      previous_[i] = moves ? allowed_place(state.mesh, i, mean_place<spacedim>(sums))
+                           : state.mesh.coordinates()[i];
     });
     previous_.swap(state.mesh.coordinates());
     StepReport report;
@@ -133,9 +142,9 @@ class GetmeSimultaneous final : public Smoother<dim> {
   }
 
  private:
-  MeshQuality pass_over_all(SmoothingState<dim>& state) {
+  MeshQuality pass_over_all(SmoothingState<dim, spacedim>& state) {
     const Topology& topology = state.mesh.topology();
-    const Pass<dim> pass{state.mesh, element_, {eta_}};
+    const Pass<dim, spacedim> pass{state.mesh, element_, {eta_}};
     parallel_for(topology.blocks().size(), [&](std::size_t b) {
       const CellBlock& block = topology.blocks()[b];
       add_block(pass, block, state.cell_quality.data(), sums_.start_block(b));
@@ -146,7 +155,8 @@ class GetmeSimultaneous final : public Smoother<dim> {
 
   /// Makes the sums those of the present mesh again after some nodes were put back: the sums of the
   /// nodes of their cells, from all cells around those. Same bits as a pass over all cells.
-  MeshQuality pass_around(SmoothingState<dim>& state, const std::vector<NodeIndex>& nodes) {
+  MeshQuality pass_around(SmoothingState<dim, spacedim>& state,
+                          const std::vector<NodeIndex>& nodes) {
     const Topology& topology = state.mesh.topology();
     marked_nodes_.assign(topology.n_nodes(), 0);
     marked_cells_.assign(topology.n_cells(), 0);
@@ -159,7 +169,7 @@ class GetmeSimultaneous final : public Smoother<dim> {
     for (const NodeIndex i : changed_sums)
       for (const CellIndex c : topology.node_cells(i)) marked_cells_[c] = 1;
 
-    const Pass<dim> pass{state.mesh, element_, {eta_}};
+    const Pass<dim, spacedim> pass{state.mesh, element_, {eta_}};
     const auto& blocks = topology.blocks();
     parallel_for(blocks.size(), [&](std::size_t b) {
       std::vector<CellIndex> cells;
@@ -173,12 +183,13 @@ class GetmeSimultaneous final : public Smoother<dim> {
     return mesh_quality(parts_, topology.n_cells());
   }
 
-  ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
+  ElementRegularization<dim, spacedim> element_ =
+      default_element(std::integral_constant<int, dim>{});
   double eta_ = 0.0;
   QualityGainStopping stopping_;
   NodeSums sums_;
   std::vector<PartialQuality> parts_;  ///< of each block of cells
-  std::vector<Point<dim>> previous_;
+  std::vector<Point<spacedim>> previous_;
   std::vector<std::uint8_t> marked_nodes_;  ///< whose sums have to be added again
   std::vector<std::uint8_t> marked_cells_;  ///< that add to them
   bool ready_ = false;                      ///< sums_ are those of the present mesh
@@ -189,7 +200,7 @@ const RegisteredMethod registered({.name = "getme-simultaneous",
                                    .description = "transforms all elements at once and averages; "
                                                   "first stage of GETMe",
                                    .source = "Section 4.2, Fig. 4.2; parameters of Chapter 6"},
-                                  single_stage<GetmeSimultaneous>());
+                                  single_stage_also_on_surfaces<GetmeSimultaneous>());
 
 }  // namespace
 }  // namespace smoothfem

@@ -5,15 +5,15 @@ namespace smoothfem {
 namespace {
 
 /// Each free node moves to the mean of its edge neighbours (thesis, Eq. 1.1).
-template <int dim>
-class Laplace final : public Smoother<dim> {
+template <int dim, int spacedim>
+class Laplace final : public Smoother<dim, spacedim> {
  public:
   std::string_view name() const override { return "laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
   SmoothingRule rule() const override { return stopping_.rule(); }
 
-  StepReport step(SmoothingState<dim>& state) override {
-    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<dim> {
+  StepReport step(SmoothingState<dim, spacedim>& state) override {
+    return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<spacedim> {
       return mean_of_neighbours(state.mesh, i) - state.mesh.coordinates()[i];
     });
   }
@@ -27,7 +27,7 @@ const RegisteredMethod registered({.name = "laplace",
                                    .description = "each node moves to the mean of its edge "
                                                   "neighbours; no quality control",
                                    .source = "Section 1.3.2, Eq. (1.1)"},
-                                  single_stage<Laplace>());
+                                  single_stage_also_on_surfaces<Laplace>());
 
 }  // namespace
 }  // namespace smoothfem

@@ -42,6 +42,20 @@ class PolygonTransformation {
     }
   }
 
+  /// The same of a polygon in space that need not be flat: turning by 90 degrees is turning about a
+  /// unit normal, the cross product with it.
+  template <std::size_t extent>
+  void apply(Vector3<double> normal, std::span<const Vector3<double>, extent> polygon,
+             std::span<Vector3<double>, extent> result) const {
+    const std::size_t n = polygon.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto& before = polygon[k == 0 ? n - 1 : k - 1];
+      const auto& after = polygon[k + 1 == n ? 0 : k + 1];
+      result[k] = diagonal_ * polygon[k] + real_ * (before + after) +
+                  imaginary_ * cross(normal, before - after);
+    }
+  }
+
  private:
   double diagonal_;
   double real_, imaginary_;  ///< of w (1 - conj w)

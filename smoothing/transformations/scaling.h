@@ -17,22 +17,21 @@ SMOOTHFEM_INLINE Vector centroid(std::span<const Vector, extent> nodes) {
 }
 
 /// Sum of the lengths of a polygon's sides.
-template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE Real perimeter(std::span<const Vector2<Real>, extent> polygon) {
+template <class Corner, std::size_t extent>
+SMOOTHFEM_INLINE auto perimeter(std::span<const Corner, extent> polygon) {
   const std::size_t n = polygon.size();
-  Real sum = length(polygon[0] - polygon[n - 1]);
+  auto sum = length(polygon[0] - polygon[n - 1]);
   for (std::size_t k = 0; k + 1 < n; ++k) sum += length(polygon[k + 1] - polygon[k]);
   return sum;
 }
 
 /// Scales a transformed polygon about the original's centroid, which the transformation must have
 /// kept, so that it has the original's mean edge length (thesis, Eq. 3.11).
-template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE void keep_mean_edge_length(std::span<const Vector2<Real>, extent> original,
-                                            std::span<Vector2<Real>, extent> transformed) {
+template <class Corner, std::size_t extent>
+SMOOTHFEM_INLINE void keep_mean_edge_length(std::span<const Corner, extent> original,
+                                            std::span<Corner, extent> transformed) {
   const auto centre = centroid(original);
-  const Real factor =
-      perimeter(original) / perimeter(std::span<const Vector2<Real>, extent>(transformed));
+  const auto factor = perimeter(original) / perimeter(std::span<const Corner, extent>(transformed));
   for (auto& node : transformed) node = centre + factor * (node - centre);
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include "smoothing/mesh/lanes.h"
+
+namespace smoothfem {
+
+/// Unit vector along a polygon's area vector, its mean normal: the polygon runs counterclockwise
+/// when it points to the viewer. Zero for a polygon without area. Three or more corners.
+template <std::size_t extent>
+inline Vector3<double> unit_normal(std::span<const Vector3<double>, extent> corners) {
+  Vector3<double> area{};
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    area = area + cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
+  const double size = length(area);
+  return (size > 0.0 ? 1.0 / size : 0.0) * area;
+}
+
+}  // namespace smoothfem

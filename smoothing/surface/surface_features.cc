@@ -1,0 +1,180 @@
+#include "smoothing/surface/surface_features.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+namespace smoothfem {
+
+namespace {
+
+using Edge = std::array<NodeIndex, 2>;
+
+Edge sorted_edge(NodeIndex a, NodeIndex b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// A side of a facet.
+struct Side {
+  Edge edge;
+  std::uint32_t facet;
+  bool reversed;  ///< runs from the higher node to the lower one
+
+  bool operator<(const Side& other) const {
+    return std::tie(edge, facet) < std::tie(other.edge, other.facet);
+  }
+};
+
+std::vector<Side> sides_of(const CompressedRows<NodeIndex>& facets) {
+  std::vector<Side> sides;
+  sides.reserve(facets.n_entries());
+  for (std::uint32_t f = 0; f < facets.size(); ++f)
+    for (std::size_t k = 0; k < facets[f].size(); ++k) {
+      const NodeIndex a = facets[f][k], b = facets[f][k + 1 < facets[f].size() ? k + 1 : 0];
+      sides.push_back({sorted_edge(a, b), f, a > b});
+    }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// Things that belong together, and in the end a number for each group of them, by first member.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : parents_(n) {
+    std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<std::uint32_t> numbers() {
+    std::vector<std::uint32_t> result(parents_.size());
+    std::uint32_t n = 0;
+    for (std::uint32_t i = 0; i < result.size(); ++i)
+      result[i] = root(i) == i ? n++ : result[root(i)];
+    return result;
+  }
+
+ private:
+  std::uint32_t root(std::uint32_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  std::vector<std::uint32_t> parents_;
+};
+
+class FeatureSearch {
+ public:
+  FeatureSearch(const SurfaceFacets& facets, const std::vector<Point<3>>& coordinates,
+                double angle_degrees)
+      : facets_(facets),
+        x_(coordinates),
+        cosine_(std::cos(angle_degrees * std::numbers::pi / 180.0)) {
+    for (std::uint32_t f = 0; f < facets.nodes.size(); ++f)
+      normals_.push_back(area_vector(facets.nodes[f], coordinates).normalized());
+  }
+
+  SurfaceFeatures find() {
+    find_edges_and_patches();
+    find_lines_and_carriers();
+    return std::move(result_);
+  }
+
+ private:
+  bool is_feature(std::span<const Side> sides) const {
+    if (sides.size() != 2) return true;
+    const auto a = sides[0].facet, b = sides[1].facet;
+    if (sides[0].reversed == sides[1].reversed)
+      throw InputError("facets " + std::to_string(a) + " and " + std::to_string(b) +
+                       " of the surface run along their common edge, nodes " +
+                       std::to_string(sides[0].edge[0]) + " and " +
+                       std::to_string(sides[0].edge[1]) +
+                       ", in the same direction; orient all facets alike");
+    if (!facets_.tags.empty() && facets_.tags[a] != facets_.tags[b]) return true;
+    if (std::binary_search(marked_.begin(), marked_.end(), sides[0].edge)) return true;
+    return normals_[a].dot(normals_[b]) < cosine_;
+  }
+
+  void find_edges_and_patches() {
+    for (const Edge& edge : facets_.marked_edges) marked_.push_back(sorted_edge(edge[0], edge[1]));
+    std::sort(marked_.begin(), marked_.end());
+    const auto sides = sides_of(facets_.nodes);
+    Groups patches(facets_.nodes.size());
+    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+      while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+      if (is_feature({sides.data() + first, last - first}))
+        result_.feature_edges.push_back(sides[first].edge);
+      else
+        patches.join(sides[first].facet, sides[first + 1].facet);
+    }
+    result_.facet_patches = patches.numbers();
+  }
+
+  /// Nodes of a single smooth part, of two edges that go on nearly straight, and the rest.
+  void find_lines_and_carriers() {
+    const auto& edges = result_.feature_edges;
+    auto& carriers = result_.carriers;
+    carriers.resize(x_.size());
+    for (std::uint32_t f = 0; f < facets_.nodes.size(); ++f)
+      for (const NodeIndex i : facets_.nodes[f]) {
+        const std::uint32_t patch = result_.facet_patches[f];
+        if (carriers[i].kind == NodeCarrier::none)
+          carriers[i] = {NodeCarrier::patch, patch};
+        else if (carriers[i].part != patch)
+          carriers[i].kind = NodeCarrier::corner;  // unless it turns out to be on a line
+      }
+    std::vector<std::vector<std::uint32_t>> edges_at(x_.size());
+    for (std::uint32_t e = 0; e < edges.size(); ++e)
+      for (const NodeIndex i : edges[e]) edges_at[i].push_back(e);
+    Groups lines(edges.size());
+    for (NodeIndex i = 0; i < x_.size(); ++i) {
+      if (edges_at[i].empty()) continue;
+      carriers[i].kind = goes_on(i, edges_at[i]) ? NodeCarrier::line : NodeCarrier::corner;
+      if (carriers[i].kind == NodeCarrier::line) lines.join(edges_at[i][0], edges_at[i][1]);
+    }
+    result_.edge_lines = lines.numbers();
+    for (NodeIndex i = 0; i < x_.size(); ++i)
+      if (carriers[i].kind == NodeCarrier::line)
+        carriers[i].part = result_.edge_lines[edges_at[i][0]];
+  }
+
+  bool goes_on(NodeIndex node, const std::vector<std::uint32_t>& edges) const {
+    if (edges.size() != 2) return false;
+    const auto direction_to_other_end = [&](std::uint32_t e) {
+      const Edge& edge = result_.feature_edges[e];
+      return Point<3>((x_[edge[0] == node ? edge[1] : edge[0]] - x_[node]).normalized());
+    };
+    return -direction_to_other_end(edges[0]).dot(direction_to_other_end(edges[1])) >= cosine_;
+  }
+
+  const SurfaceFacets& facets_;
+  const std::vector<Point<3>>& x_;
+  double cosine_;
+  std::vector<Point<3>> normals_;
+  std::vector<Edge> marked_;
+  SurfaceFeatures result_;
+};
+
+}  // namespace
+
+Point<3> area_vector(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& coordinates) {
+  Point<3> sum = Point<3>::Zero();
+  for (std::size_t k = 2; k < nodes.size(); ++k)
+    sum += (coordinates[nodes[k - 1]] - coordinates[nodes[0]])
+               .cross(coordinates[nodes[k]] - coordinates[nodes[0]]);
+  return sum;
+}
+
+SurfaceFeatures find_features(const SurfaceFacets& facets, const std::vector<Point<3>>& coordinates,
+                              const FeatureParameters& parameters) {
+  if (!(parameters.angle_degrees > 0.0 && parameters.angle_degrees <= 180.0))
+    throw InputError("the feature angle is " + std::to_string(parameters.angle_degrees) +
+                     " degrees; give one above 0, at most 180");
+  return FeatureSearch(facets, coordinates, parameters.angle_degrees).find();
+}
+
+}  // namespace smoothfem

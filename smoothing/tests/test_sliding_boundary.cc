@@ -1,0 +1,157 @@
+/// Volume meshes whose boundary nodes slide on the initial boundary.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "smoothing/loop/smooth.h"
+#include "smoothing/mesh/cell_size.h"
+#include "smoothing/mesh/parallel.h"
+#include "smoothing/surface/sliding_boundary.h"
+#include "smoothing/tests/methods.h"
+#include "smoothing/tests/volume_meshes.h"
+
+namespace smoothfem {
+namespace {
+
+using test::box_mesh;
+using test::BoxCells;
+
+double volume(const VolumeMesh& mesh) {
+  double sum = 0.0;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) sum += signed_cell_size(mesh, c);
+  return sum;
+}
+
+/// A box whose nodes, those of its sides too, were moved at random where they may go.
+VolumeMesh disturbed_box(BoxCells cells, std::uint32_t n = 4) {
+  VolumeMesh mesh = with_sliding_boundary(box_mesh(n, n, n, cells));
+  test::Random random(2);
+  for (const NodeIndex i : mesh.topology().free_nodes()) {
+    const Point<3> old = mesh.coordinates()[i];
+    const double a = random(), b = random(), c = random();
+    mesh.coordinates()[i] = allowed_place(mesh, i, Point<3>(old + 0.3 * Point<3>(a, b, c)));
+    for (const CellIndex cell : mesh.topology().node_cells(i))
+      if (!(cell_mean_ratio(mesh, cell) > 0.0)) mesh.coordinates()[i] = old;
+  }
+  return mesh;
+}
+
+/// A quarter of a tube, whose inner and outer sides are curved.
+VolumeMesh tube(std::uint32_t n) {
+  VolumeMesh mesh = box_mesh(n, n, n, BoxCells::hexahedra);
+  for (auto& p : mesh.coordinates()) {
+    const double angle = 0.5 * std::numbers::pi * (1.0 - p.x() / n), radius = 1.0 + p.y() / n;
+    p = {radius * std::cos(angle), radius * std::sin(angle), p.z() / n};
+  }
+  return mesh;
+}
+
+/// Those whose every stage says so.
+std::vector<std::string> sliding_methods() {
+  return {"getme",   "getme-qgamma",  "getme-sequential", "getme-simultaneous",
+          "laplace", "smart-laplace", "weighted-laplace"};
+}
+
+class SlidingBoundary : public testing::TestWithParam<std::string> {
+ protected:
+  static Method<3> method() { return make_method<3>(GetParam()); }
+};
+
+TEST_P(SlidingBoundary, KeepsABoxABox) {
+  for (const auto cells : {BoxCells::tetrahedra, BoxCells::prisms, BoxCells::hexahedra}) {
+    const VolumeMesh mesh = disturbed_box(cells);
+    EXPECT_EQ(mesh.n_nodes() - mesh.topology().free_nodes().size(), 8u) << "its corners";
+    VolumeMesh result = mesh;
+    auto made = method();
+    smooth(result, made);
+    EXPECT_EQ(test::n_moved_fixed_nodes(mesh, result), 0u);
+    EXPECT_LT(boundary_deviation(result), 1e-12);
+    EXPECT_NEAR(volume(result), 64.0, 1e-11);
+    EXPECT_GT(mesh_quality(result).q_mean, mesh_quality(mesh).q_mean);
+    EXPECT_EQ(mesh_quality(result).n_invalid, 0u);
+    std::size_t n_slid = 0;
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      n_slid +=
+          mesh.topology().on_boundary()[i] && result.coordinates()[i] != mesh.coordinates()[i];
+    EXPECT_GT(n_slid, 20u);
+  }
+}
+
+TEST_P(SlidingBoundary, KeepsNodesOnACurvedBoundaryAndTellsHowFarFacetsAreOff) {
+  const VolumeMesh mesh = with_sliding_boundary(tube(6));
+  VolumeMesh result = mesh;
+  auto made = method();
+  smooth(result, made);
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    if (mesh.topology().on_boundary()[i]) {
+      EXPECT_LT(mesh.constraints()->distance(result.coordinates()[i]), 1e-13) << i;
+    }
+  if (test::claims_validity(made)) {
+    EXPECT_EQ(mesh_quality(result).n_invalid, 0u);
+  }
+  // Of a chord between points of the outer side half a circle's division apart, at most.
+  constexpr double outer_sag = 2.0 * (1.0 - 0.9914448613738104);  // cos(7.5 degrees)
+  EXPECT_LT(boundary_deviation(mesh), 1e-13);
+  EXPECT_LT(boundary_deviation(result), 2.0 * outer_sag);
+}
+
+TEST_P(SlidingBoundary, GivesTheSameBitsWithEveryNumberOfThreads) {
+  const int usual = n_threads();
+  const VolumeMesh mesh = disturbed_box(BoxCells::mixed, 8);
+  std::vector<VolumeMesh> results;
+  for (const int threads : {1, 3}) {
+    set_n_threads(threads);
+    results.push_back(mesh);
+    auto made = test::short_method<3>(GetParam(), "3");
+    smooth(results.back(), made);
+    EXPECT_EQ(results.back().coordinates(), results.front().coordinates()) << threads;
+  }
+  set_n_threads(usual);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, SlidingBoundary, testing::ValuesIn(sliding_methods()),
+                         test::test_name);
+
+TEST(SlidingBoundaries, HaveTheBordersOfLabelsAsFeatures) {
+  const VolumeMesh plain = box_mesh(4, 4, 4, BoxCells::hexahedra);
+  MeshLabels labels;
+  const auto& facets = plain.topology().boundary_facets();
+  for (std::size_t f = 0; f < facets.size(); ++f)  // one half of the bottom
+    if (std::all_of(facets[f].begin(), facets[f].end(), [&](NodeIndex i) {
+          return plain.coordinates()[i].z() == 0.0 && plain.coordinates()[i].x() <= 2.0;
+        })) {
+      labels.facets.append(facets[f]);
+      labels.facet_tags.push_back(9);
+    }
+  const VolumeMesh mesh = with_sliding_boundary(
+      VolumeMesh(std::make_shared<const Topology>(3, plain.n_nodes(), plain.topology().cells(),
+                                                  std::nullopt, labels),
+                 plain.coordinates()));
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    const Point<3>& p = mesh.coordinates()[i];
+    if (p.z() != 0.0 || p.x() != 2.0) continue;
+    const bool is_end = p.y() == 0.0 || p.y() == 4.0;
+    EXPECT_EQ(mesh.constraints()->carriers()[i].kind,
+              is_end ? NodeCarrier::corner : NodeCarrier::line);
+  }
+}
+
+TEST(SlidingBoundaries, AreRefusedByMethodsThatCannotKeepThem) {
+  std::set<std::string> taken;
+  for (const auto& info : method_catalogue()) {
+    VolumeMesh mesh = with_sliding_boundary(box_mesh(3, 3, 3, BoxCells::hexahedra));
+    auto made = make_method<3>(info.name);
+    try {
+      smooth(mesh, made);
+      taken.insert(info.name);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("cannot keep boundary nodes on the boundary; "
+                                                   "fix them, or take one of getme, getme-qgamma"));
+    }
+  }
+  EXPECT_THAT(taken, testing::ElementsAreArray(sliding_methods()));
+}
+
+}  // namespace
+}  // namespace smoothfem
