@@ -44,10 +44,10 @@ constexpr std::size_t nodes_a_thread = 64;
 /// In a ball larger than the node's cells few places are valid; some nodes have hardly any.
 constexpr int tries_per_candidate = 20;
 
-template <int dim>
+template <int dim, int spacedim>
 class Distortion {
  public:
-  Distortion(const Mesh<dim>& mesh, const DistortionParameters& parameters)
+  Distortion(const Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters)
       : mesh_(mesh), original_(mesh.coordinates()), parameters_(parameters) {
     const Topology& topology = mesh.topology();
     edge_length_.resize(mesh.n_nodes(), 0.0);
@@ -75,13 +75,13 @@ class Distortion {
   /// Moves further nodes, one after the other, until the mean quality, at present above the target,
   /// has fallen to it; the last one stops on its way. The places that keep a node's cells valid are
   /// convex, because the Jacobian at each point is linear in the node's coordinates, so the way is
-  /// valid. False if the target is not reached.
+  /// valid (on surfaces nearly; it is looked at). False if the target is not reached.
   bool finish(double target, double radius) {
     const auto n_cells = static_cast<double>(mesh_.n_cells());
     double excess = (mesh_quality(mesh_).q_mean - target) * n_cells;
     for (const NodeIndex node : mesh_.topology().free_nodes()) {
-      Point<dim>& place = mesh_.coordinates()[node];
-      const Point<dim> from = place, to = worst_place(node, parameters_.n_sweeps, radius);
+      Point<spacedim>& place = mesh_.coordinates()[node];
+      const Point<spacedim> from = place, to = worst_place(node, parameters_.n_sweeps, radius);
       const auto degree = static_cast<double>(mesh_.topology().node_cells(node).size());
       const double before = quality_around(node);
       place = to;
@@ -96,17 +96,17 @@ class Distortion {
       double low = 0.0, high = 1.0;
       for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
-        place = (1.0 - middle) * from + middle * to;
+        place = allowed_place<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
         const double quality = quality_around(node);
         (quality > 0.0 && degree * (before - quality) < excess ? low : high) = middle;
       }
-      place = (1.0 - low) * from + low * to;
+      place = allowed_place<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
       return true;
     }
     return false;
   }
 
-  const Mesh<dim>& mesh() const { return mesh_; }
+  const Mesh<dim, spacedim>& mesh() const { return mesh_; }
 
  private:
   /// The free nodes in turns that have the outcome of one node after the other: a node's turn comes
@@ -130,15 +130,17 @@ class Distortion {
   }
 
   /// The worst valid place of those a node chooses from; the present one if there is none.
-  Point<dim> worst_place(NodeIndex node, int sweep, double radius) {
-    Point<dim>& place = mesh_.coordinates()[node];
-    const Point<dim> present = place;
-    Point<dim> worst = present;
+  Point<spacedim> worst_place(NodeIndex node, int sweep, double radius) {
+    Point<spacedim>& place = mesh_.coordinates()[node];
+    const Point<spacedim> present = place;
+    Point<spacedim> worst = present;
     double worst_quality = 2.0;  // above every mean ratio
     SplitMix64 random = counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
     const int n_tries = tries_per_candidate * parameters_.n_candidates;
     for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
-      place = original_[node] + radius * edge_length_[node] * point_in_unit_ball<dim>(random);
+      place = allowed_place<dim, spacedim>(
+          mesh_, node,
+          original_[node] + radius * edge_length_[node] * point_in_unit_ball<spacedim>(random));
       const double quality = quality_around(node);
       if (!(quality > 0.0)) continue;
       ++n_valid;
@@ -178,8 +180,8 @@ class Distortion {
     return sum / static_cast<double>(cells.size());
   }
 
-  Mesh<dim> mesh_;
-  std::vector<Point<dim>> original_;
+  Mesh<dim, spacedim> mesh_;
+  std::vector<Point<spacedim>> original_;
   std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
   DistortionParameters parameters_;
   CompressedRows<NodeIndex> turns_;
@@ -198,18 +200,19 @@ std::string not_reached(double target, double q_lowest, double q_initial) {
 
 }  // namespace
 
-template <int dim>
-double distort_within(Mesh<dim>& mesh, double radius, const DistortionParameters& parameters) {
+template <int dim, int spacedim>
+double distort_within(Mesh<dim, spacedim>& mesh, double radius,
+                      const DistortionParameters& parameters) {
   require_in_range(parameters);
   require_valid(mesh);
-  Distortion<dim> distortion(mesh, parameters);
+  Distortion<dim, spacedim> distortion(mesh, parameters);
   const double q_mean = distortion.apply(radius);
   mesh.coordinates() = distortion.mesh().coordinates();
   return q_mean;
 }
 
-template <int dim>
-DistortionResult distort(Mesh<dim>& mesh, const DistortionParameters& parameters) {
+template <int dim, int spacedim>
+DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters) {
   require_in_range(parameters);
   require_valid(mesh);
   const double target = parameters.target_q_mean;
@@ -222,7 +225,7 @@ DistortionResult distort(Mesh<dim>& mesh, const DistortionParameters& parameters
 
   // The mean quality falls with the radius until the balls hold all valid places: the first step
   // below the target brackets the radius.
-  Distortion<dim> distortion(mesh, parameters);
+  Distortion<dim, spacedim> distortion(mesh, parameters);
   double lower = 0.0, upper = 0.0, q_lowest = q_initial;
   for (int step = 1; step <= n_scan_steps && q_lowest >= target; ++step) {
     lower = upper;
@@ -248,5 +251,7 @@ template double distort_within(Mesh<2>&, double, const DistortionParameters&);
 template double distort_within(Mesh<3>&, double, const DistortionParameters&);
 template DistortionResult distort(Mesh<2>&, const DistortionParameters&);
 template DistortionResult distort(Mesh<3>&, const DistortionParameters&);
+template double distort_within(Mesh<2, 3>&, double, const DistortionParameters&);
+template DistortionResult distort(Mesh<2, 3>&, const DistortionParameters&);
 
 }  // namespace smoothfem

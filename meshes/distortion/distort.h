@@ -36,17 +36,19 @@ struct DistortionResult {
 /// no such place turns up stays. The ball's radius, relative to the mean length of the node's edges
 /// in the original mesh, is found by bisection; every radius sees the same random numbers.
 /// Hexahedra keep a positive Jacobian inside, too (has_positive_mapping), because finite elements
-/// need it. The result is valid and depends only on mesh and parameters, not on machine and
-/// threads. Throws InputError, with the mesh unchanged, for an invalid mesh, parameters out of
-/// range (target in (0, 1), n_candidates and n_sweeps >= 1, tolerance > 0) and a target that no
-/// radius reaches, with the range that can be reached.
-template <int dim>
-DistortionResult distort(Mesh<dim>& mesh, const DistortionParameters& parameters);
+/// need it. On surface meshes the places in the ball are projected onto the surface or feature line
+/// first. The result is valid and depends only on mesh and parameters, not on machine and threads.
+/// Throws InputError, with the mesh unchanged, for an invalid mesh, parameters out of range (target
+/// in (0, 1), n_candidates and n_sweeps >= 1, tolerance > 0) and a target that no radius reaches,
+/// with the range that can be reached.
+template <int dim, int spacedim>
+DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters);
 
 /// The same with balls of a given radius (relative, about 0.65 and two sweeps for tetrahedra, 0.9
 /// and one for hexahedra give the mean quality of the thesis' distorted volume meshes) instead of a
 /// target; returns the mean quality that this gives.
-template <int dim>
-double distort_within(Mesh<dim>& mesh, double radius, const DistortionParameters& parameters);
+template <int dim, int spacedim>
+double distort_within(Mesh<dim, spacedim>& mesh, double radius,
+                      const DistortionParameters& parameters);
 
 }  // namespace smoothfem

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "smoothing/mesh/input_error.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
@@ -48,24 +49,20 @@ MeshLabels labels_of(MeshParts& parts, int dim) {
   return labels;
 }
 
+bool is_planar(const std::vector<Point<3>>& points) {
+  return std::all_of(points.begin(), points.end(),
+                     [&](const auto& point) { return point.z() == points.front().z(); });
+}
+
 std::vector<Point<2>> without_z(const std::vector<Point<3>>& points) {
   std::vector<Point<2>> result;
   result.reserve(points.size());
-  for (const auto& point : points) {
-    if (point.z() != points.front().z())
-      throw InputError("node " + std::to_string(result.size()) +
-                       " has z = " + std::to_string(point.z()) +
-                       " and node 0 z = " + std::to_string(points.front().z()) +
-                       "; without volume cells only planar meshes with constant z can be read");
-    result.emplace_back(point.x(), point.y());
-  }
+  for (const auto& point : points) result.emplace_back(point.x(), point.y());
   return result;
 }
 
 std::shared_ptr<const Topology> make_topology(MeshParts& parts, int dim) {
   const std::size_t n_nodes = parts.coordinates.size();
-  if (n_nodes >= std::numeric_limits<NodeIndex>::max())
-    throw InputError("the mesh has more nodes than 32 bits can count");
   MeshLabels labels = labels_of(parts, dim);
   auto& cells = parts.elements[dim].nodes;
   if (parts.fixed && parts.boundary_is_fixed_too) {
@@ -78,6 +75,13 @@ std::shared_ptr<const Topology> make_topology(MeshParts& parts, int dim) {
 }
 
 AnyMesh make_mesh(MeshParts& parts, int dim) {
+  if (parts.coordinates.size() >= std::numeric_limits<NodeIndex>::max())
+    throw InputError("the mesh has more nodes than 32 bits can count");
+  if (dim == 2 && !is_planar(parts.coordinates)) {
+    MeshLabels labels = labels_of(parts, dim);
+    return make_surface_mesh(std::move(parts.elements[dim].nodes), std::move(parts.coordinates),
+                             std::move(labels), std::move(parts.fixed));
+  }
   auto topology = make_topology(parts, dim);
   if (dim == 3) return VolumeMesh(std::move(topology), std::move(parts.coordinates));
   return PlanarMesh(std::move(topology), without_z(parts.coordinates));

@@ -30,10 +30,11 @@ struct MeshParts {
 };
 
 /// Makes the mesh: a volume mesh of the elements of dimension 3 if there are any, otherwise a
-/// planar one of those of dimension 2, which need a constant z. Elements of one dimension less are
-/// labelled facets if they have a tag; all others are left out. Numbers of nodes and cells are kept
-/// if they are positive, all different and not just 1, 2, ... in order. Errors of the mesh become
-/// InputErrors that start with "path:line: " or "path: ".
+/// planar one of those of dimension 2, or a surface mesh where z is not constant (its tags and
+/// labelled edges are features). Elements of one dimension less are labelled facets if they have a
+/// tag; all others are left out. Numbers of nodes and cells are kept if they are positive, all
+/// different and not just 1, 2, ... in order. Errors of the mesh become InputErrors that start with
+/// "path:line: " or "path: ".
 MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts);
 
 /// A physical name as one line "dimension tag name", for formats that have no place of their own.

@@ -29,6 +29,7 @@ MeshFormat vtk_format(const std::string& name, const std::string& description,
           .description = description,
           .holds_planar_meshes = true,
           .holds_volume_meshes = true,
+          .holds_surface_meshes = true,
           .holds_polygons = true,
           .holds_fixed_nodes = true,
           .holds_fields = true,
@@ -61,6 +62,7 @@ const std::vector<MeshFormat>& mesh_formats() {
        .description = "Gmsh 4.1 and 2.2, text or binary",
        .holds_planar_meshes = true,
        .holds_volume_meshes = true,
+       .holds_surface_meshes = true,
        .holds_physical_names = true,
        .holds_numbers = true,
        .read = read_msh,
@@ -126,9 +128,8 @@ MeshFile read_mesh(const std::filesystem::path& path) {
 
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path) {
   if (const auto* mesh = std::get_if<PlanarMesh>(&file.mesh)) return *mesh;
-  throw InputError(path.string() +
-                   ": the file holds a volume mesh, but a planar one is needed here; give another "
-                   "file");
+  throw InputError(path.string() + ": the file holds a " + kind_name(file.mesh) +
+                   " mesh, but a planar one is needed here; give another file");
 }
 
 void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
@@ -136,11 +137,13 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const M
   const std::string prefix = "cannot write " + path.string();
   require_sizes(path.string(), "cell", fields.cell, mesh.n_cells());
   require_sizes(path.string(), "point", fields.point, mesh.n_nodes());
+  const auto holds = mesh.planar()       ? &MeshFormat::holds_planar_meshes
+                     : mesh.is_surface() ? &MeshFormat::holds_surface_meshes
+                                         : &MeshFormat::holds_volume_meshes;
   for (const MeshFormat* format : formats_of(path, prefix))
-    if (mesh.dimension() == 2 ? format->holds_planar_meshes : format->holds_volume_meshes)
-      return format->write(path, mesh, fields, options);
+    if (format->*holds) return format->write(path, mesh, fields, options);
   throw InputError(prefix + ": the format holds no " +
-                   (mesh.dimension() == 2 ? "planar" : "volume") +
+                   mesh_kind_name(mesh.dimension(), mesh.planar() ? 2 : 3) +
                    " meshes; use .vtu or another extension");
 }
 

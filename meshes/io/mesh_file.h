@@ -13,17 +13,18 @@ namespace smoothfem {
 /// A mesh as read. Cells may be invalid (the quality command has to be able to look at them): who
 /// needs valid ones calls require_valid(mesh, path, cell_lines) of smoothing/quality.
 struct MeshFile {
-  AnyMesh mesh;  ///< a volume mesh if the file has volume cells, otherwise a planar one
+  AnyMesh mesh;  ///< a volume mesh if the file has volume cells, otherwise a planar one, or a
+                 ///< surface mesh if z is not constant
   std::vector<std::size_t> cell_lines;  ///< line of each cell in the file; empty if it has none
 };
 
 /// Reads a mesh. The format follows from the extension (mesh_formats()), where two formats share
-/// one from the content. Surface cells of volume meshes become labelled facets if they have a tag;
-/// planar meshes need a constant z. Throws InputError, "path:line: what is wrong" where there is a
+/// one from the content. Surface cells of volume meshes become labelled facets if they have a tag.
+/// Throws InputError, "path:line: what is wrong" where there is a
 /// line.
 MeshFile read_mesh(const std::filesystem::path& path);
 
-/// The planar mesh of a file. Throws InputError if it is a volume mesh; `path` names it.
+/// The planar mesh of a file. Throws InputError if it is another one; `path` names it.
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path);
 
 /// Named numbers to write along with a mesh: one a cell, one a node.
@@ -52,7 +53,7 @@ struct MeshFormat {
   std::string name;
   std::string extension;  ///< with the dot
   std::string description;
-  bool holds_planar_meshes = false, holds_volume_meshes = false;
+  bool holds_planar_meshes = false, holds_volume_meshes = false, holds_surface_meshes = false;
   bool holds_polygons = false;        ///< cells with five and more nodes
   bool holds_fixed_nodes = false;     ///< otherwise boundary nodes are fixed after reading
   bool holds_fields = false;          ///< MeshFields are written

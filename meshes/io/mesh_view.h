@@ -4,33 +4,36 @@
 
 namespace smoothfem {
 
-/// A mesh of either dimension as writers see it: in space, planar ones with z = 0. Refers to the
-/// mesh, which has to outlive it.
+/// A mesh of any kind as writers see it: in space, planar ones with z = 0. Refers to the mesh,
+/// which has to outlive it.
 class MeshView {
  public:
   MeshView(const PlanarMesh& mesh) : topology_(mesh.topology()), planar_(&mesh) {}
-  MeshView(const VolumeMesh& mesh) : topology_(mesh.topology()), volume_(&mesh) {}
+  MeshView(const VolumeMesh& mesh) : topology_(mesh.topology()), in_space_(&mesh.coordinates()) {}
+  MeshView(const SurfaceMesh& mesh) : topology_(mesh.topology()), in_space_(&mesh.coordinates()) {}
   MeshView(const AnyMesh& mesh)
       : MeshView(std::visit([](const auto& m) { return MeshView(m); }, mesh)) {}
 
+  /// Of the cells: 2 or 3.
   int dimension() const { return topology_.dimension(); }
   const Topology& topology() const { return topology_; }
   std::size_t n_nodes() const { return topology_.n_nodes(); }
   std::size_t n_cells() const { return topology_.n_cells(); }
+  bool is_surface() const { return dimension() == 2 && !planar_; }
 
   Point<3> point(NodeIndex node) const {
-    if (volume_) return volume_->coordinates()[node];
+    if (in_space_) return (*in_space_)[node];
     const auto& p = planar_->coordinates()[node];
     return {p.x(), p.y(), 0.0};
   }
 
-  /// The mesh itself; null if it is a volume mesh.
+  /// The mesh itself; null if it is not planar.
   const PlanarMesh* planar() const { return planar_; }
 
  private:
   const Topology& topology_;
   const PlanarMesh* planar_ = nullptr;
-  const VolumeMesh* volume_ = nullptr;
+  const std::vector<Point<3>>* in_space_ = nullptr;
 };
 
 }  // namespace smoothfem

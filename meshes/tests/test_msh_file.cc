@@ -149,7 +149,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadMsh{"element_junk", square("9 0 1 0", "12 2 2 1 1 2 7 x"),
                ":16: the element's line holds 'x'"},
         BadMsh{"same_node_tag_twice", square("7 0 1 0"), ":10: the node tag 7 appears twice"},
-        BadMsh{"not_flat", square("9 0 1 .5"), "only planar meshes with constant z"},
         BadMsh{"second_order", second_order, "save it with element order 1"},
         BadMsh{"only_points",
                head_2 + "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 2 0 1 1\n$EndElements\n",

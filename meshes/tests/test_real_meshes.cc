@@ -44,19 +44,19 @@ class RealMeshes : public testing::TestWithParam<Run> {
     if (!std::filesystem::exists(path())) GTEST_SKIP() << "there is no " << path();
   }
 
-  template <int dim>
-  static void check(const Mesh<dim>& mesh) {
+  template <int dim, int spacedim>
+  static void check(const Mesh<dim, spacedim>& mesh) {
     const auto& [file, preset, name] = GetParam();
-    if (!takes_meshes<dim>(name)) GTEST_SKIP() << "not for meshes of dimension " << dim;
-    Method<dim> method = make_method<dim>(name);
+    if (!takes_meshes<dim, spacedim>(name)) GTEST_SKIP() << "not for meshes of this kind";
+    auto method = make_method<dim, spacedim>(name);
     if (preset != "defaults") {
       const auto refusal = input_error_of([&] { apply_preset(find_preset(preset), method); });
       if (!refusal.empty()) GTEST_SKIP() << refusal;
     }
     const bool stays_valid = test::claims_validity(method);
     const MeshQuality before = mesh_quality(mesh);
-    Mesh<dim> result = mesh;
-    smooth(result, method, [&](const IterationRecord& record, const Mesh<dim>& seen) {
+    Mesh<dim, spacedim> result = mesh;
+    smooth(result, method, [&](const IterationRecord& record, const Mesh<dim, spacedim>& seen) {
       if (stays_valid) {
         EXPECT_EQ(record.quality.n_invalid, 0u) << record.stage << ' ' << record.iteration;
         EXPECT_EQ(mesh_quality(seen).n_invalid, 0u) << record.stage << ' ' << record.iteration;

@@ -74,7 +74,7 @@ class Mesh {
 using PlanarMesh = Mesh<2>;
 using VolumeMesh = Mesh<3>;
 using SurfaceMesh = Mesh<2, 3>;
-using AnyMesh = std::variant<PlanarMesh, VolumeMesh>;
+using AnyMesh = std::variant<PlanarMesh, VolumeMesh, SurfaceMesh>;
 
 /// What users call meshes of these dimensions.
 constexpr const char* mesh_kind_name(int dim, int spacedim) {

@@ -17,8 +17,8 @@ struct Arguments {
   std::uint64_t seed = 1;
 };
 
-template <int dim>
-void distort_and_write(Mesh<dim>& mesh, const Arguments& arguments) {
+template <int dim, int spacedim>
+void distort_and_write(Mesh<dim, spacedim>& mesh, const Arguments& arguments) {
   if (arguments.distort_to > 0.0) {
     DistortionParameters parameters;
     parameters.target_q_mean = arguments.distort_to;
@@ -39,7 +39,7 @@ void generate(Arguments arguments) {
   arguments.elements = domain.elements_named(arguments.elements);
   AnyMesh mesh = domain.generate(
       {.elements = arguments.elements, .edge_scale = arguments.edge_scale, .seed = arguments.seed});
-  std::visit([&](auto& planar_or_volume) { distort_and_write(planar_or_volume, arguments); }, mesh);
+  std::visit([&](auto& of_its_kind) { distort_and_write(of_its_kind, arguments); }, mesh);
 }
 
 }  // namespace

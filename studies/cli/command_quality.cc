@@ -9,6 +9,7 @@
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/quality/warpage.h"
+#include "smoothing/surface/node_constraints.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/histogram_figure.h"
 
@@ -56,6 +57,16 @@ std::vector<NamedNumber> geometry_numbers(const VolumeMesh& mesh) {
           {"dihedral_min", "dihedral_min", angles.min},
           {"dihedral_max", "dihedral_max", angles.max}};
 }
+/// How many nodes cannot move, and how many move on feature lines only.
+std::vector<NamedNumber> geometry_numbers(const SurfaceMesh& mesh) {
+  const auto count = [&](NodeCarrier::Kind kind) {
+    const auto& carriers = mesh.constraints()->carriers();
+    return static_cast<double>(std::count_if(carriers.begin(), carriers.end(),
+                                             [&](const auto& c) { return c.kind == kind; }));
+  };
+  return {{"n_corners", "corners", count(NodeCarrier::corner)},
+          {"n_line_nodes", "on lines", count(NodeCarrier::line)}};
+}
 
 /// All that is said about a mesh.
 struct Report {
@@ -99,8 +110,8 @@ void print_json(const Report& r) {
   std::printf("%s\n", json.dump(2).c_str());
 }
 
-template <int dim>
-void report(const Arguments& arguments, const Mesh<dim>& mesh,
+template <int dim, int spacedim>
+void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
             const std::vector<std::size_t>& cell_lines) {
   const Topology& topology = mesh.topology();
   const auto cell_quality = cell_mean_ratios(mesh);

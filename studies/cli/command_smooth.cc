@@ -10,6 +10,7 @@
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/mesh/parallel.h"
+#include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/untangling/untangle.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/results.h"
@@ -19,15 +20,16 @@ namespace smoothfem {
 namespace {
 
 struct Arguments {
-  std::string in, out, method, preset, fix, log, series;
+  std::string in, out, method, preset, boundary, fix, log, series;
   std::vector<std::string> settings;
+  std::optional<double> feature_angle;
   int n_threads = 0;  ///< 0: as OpenMP finds them
   bool untangle = false, quiet = false;
 };
 
-template <int dim>
-Method<dim> configured_method(const Arguments& arguments) {
-  Method<dim> method = make_method<dim>(arguments.method);
+template <int dim, int spacedim>
+Method<dim, spacedim> configured_method(const Arguments& arguments) {
+  auto method = make_method<dim, spacedim>(arguments.method);
   if (!arguments.preset.empty()) apply_preset(find_preset(arguments.preset), method);
   for (const auto& setting : arguments.settings) {
     const auto equals = setting.find('=');
@@ -38,9 +40,29 @@ Method<dim> configured_method(const Arguments& arguments) {
   return method;
 }
 
+/// The mesh with the constraints that --boundary and --feature-angle ask for.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const Arguments& arguments) {
+  FeatureParameters features;
+  if (arguments.feature_angle) features.angle_degrees = *arguments.feature_angle;
+  if constexpr (spacedim > dim) {
+    if (arguments.feature_angle) mesh = with_features(mesh, features);
+  } else {
+    if constexpr (dim == 3)
+      if (arguments.boundary == "slide") return with_sliding_boundary(mesh, features);
+    if (arguments.feature_angle)
+      throw InputError(
+          "--feature-angle is for surface meshes and '--boundary slide'; leave it out");
+  }
+  if (dim == 2 && !arguments.boundary.empty())
+    throw InputError("--boundary is for volume meshes, but this is a " +
+                     std::string(mesh_kind_name(dim, spacedim)) + " mesh; leave it out");
+  return mesh;
+}
+
 /// The mesh with the nodes fixed that --fix names.
-template <int dim>
-Mesh<dim> with_rule(Mesh<dim> mesh, const std::string& rule) {
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_rule(Mesh<dim, spacedim> mesh, const std::string& rule) {
   if (rule.empty()) return mesh;
   auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule(rule));
   return with_fixed_nodes(std::move(mesh), std::move(fixed));
@@ -57,8 +79,8 @@ class Recorder {
     if (!arguments.series.empty()) series_.emplace(arguments.series);
   }
 
-  template <int dim>
-  void observe(const IterationRecord& record, const Mesh<dim>& mesh) {
+  template <int dim, int spacedim>
+  void observe(const IterationRecord& record, const Mesh<dim, spacedim>& mesh) {
     rows_.push_back({.mesh = std::filesystem::path(arguments_.in).stem().string(),
                      .method = arguments_.method,
                      .iteration = record,
@@ -102,9 +124,9 @@ class Recorder {
 
 /// Makes a tangled mesh valid if --untangle asks for it; otherwise refuses it where a stage needs a
 /// valid one.
-template <int dim>
-void make_valid(const Arguments& arguments, const Method<dim>& method, Mesh<dim>& mesh,
-                const std::vector<std::size_t>& cell_lines) {
+template <int dim, int spacedim>
+void make_valid(const Arguments& arguments, const Method<dim, spacedim>& method,
+                Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines) {
   const bool needs_valid =
       std::any_of(method.stages.begin(), method.stages.end(),
                   [](const auto& stage) { return stage->rule().needs_valid_mesh; });
@@ -112,27 +134,41 @@ void make_valid(const Arguments& arguments, const Method<dim>& method, Mesh<dim>
     if (needs_valid) require_valid(mesh, arguments.in, cell_lines);
     return;
   }
-  const UntangleResult result = untangle(mesh);
-  if (!result.valid) refuse(arguments.in, mesh.topology().labels().cell_ids, result);
-  if (!arguments.quiet && result.n_invalid_before > 0)
-    std::printf("untangled %zu invalid cells in %.4g s\n", result.n_invalid_before, result.seconds);
+  if constexpr (spacedim > dim) {
+    throw InputError(arguments.in +
+                     ": surface meshes cannot be untangled; smooth it without --untangle");
+  } else {
+    const UntangleResult result = untangle(mesh);
+    if (!result.valid) refuse(arguments.in, mesh.topology().labels().cell_ids, result);
+    if (!arguments.quiet && result.n_invalid_before > 0)
+      std::printf("untangled %zu invalid cells in %.4g s\n", result.n_invalid_before,
+                  result.seconds);
+  }
 }
 
-template <int dim>
-void smooth_mesh(const Arguments& arguments, Mesh<dim> mesh,
+template <int dim, int spacedim>
+void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
                  const std::vector<std::size_t>& cell_lines) {
-  Method<dim> method = configured_method<dim>(arguments);
+  auto method = configured_method<dim, spacedim>(arguments);
+  const auto topology_of_file = mesh.shared_topology();
+  mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
   const MeshQuality before = mesh_quality(mesh);
   make_valid(arguments, method, mesh, cell_lines);
   Recorder recorder(arguments);
-  Observer<dim> observer;  // none where nobody looks: it costs a look at all cells
+  Observer<dim, spacedim> observer;  // none where nobody looks: it costs a look at all cells
   if (recorder.looks())
     observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
   const auto result = smooth(mesh, method, observer);
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
-  write_mesh(arguments.out, mesh, fields);
+  // Whoever reads the result knows nothing of a boundary to slide on: its nodes are fixed there.
+  write_mesh(
+      arguments.out,
+      arguments.boundary == "slide"
+          ? Mesh<dim, spacedim>(topology_of_file, mesh.coordinates(), mesh.shared_constraints())
+          : mesh,
+      fields);
   recorder.write_log();
   if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
@@ -141,6 +177,9 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim> mesh,
   std::printf("%s: %s iterations in %.4g s on %d threads; written to %s\n",
               method.info.title.c_str(), result.iterations_text().c_str(), result.smoothing_seconds,
               n_threads(), arguments.out.c_str());
+  if constexpr (dim == 3)
+    if (mesh.constraints())
+      std::printf("the boundary lies within %.3g of the initial one\n", boundary_deviation(mesh));
 }
 
 void smooth_file(const Arguments& arguments) {
@@ -165,6 +204,14 @@ void add_smooth_command(CLI::App& app) {
   command->add_option("--fix", arguments->fix,
                       "nodes that stay: boundary, file, free or group=NAME[,NAME] (as in the file, "
                       "or the boundary, unless given)");
+  command->add_option("--feature-angle", arguments->feature_angle,
+                      "edges of a surface, or of a sliding boundary, whose facets make more than "
+                      "this angle are kept (degrees; 40 unless given)");
+  command
+      ->add_option("--boundary", arguments->boundary,
+                   "boundary nodes of volume meshes: fixed (unless given), or slide on the "
+                   "initial boundary, along its edges, corners staying")
+      ->check(CLI::IsMember({"fixed", "slide"}));
   command->add_flag("--untangle", arguments->untangle, "make a tangled mesh valid first");
   command->add_option("--threads", arguments->n_threads, "threads (all cores unless given)")
       ->check(CLI::Range(1, 1024));

@@ -43,7 +43,7 @@ Json describe_machine(const RunFacts& facts) {
   return {{"cpu", cpu_model()},
           {"system", std::string(system.sysname) + " " + system.release},
           {"smoothing_threads", facts.options.smoothing_threads},
-          {"finite_element_threads", facts.study.dimension == 2 ? facts.n_threads : 1U},
+          {"finite_element_threads", facts.study.dimensions.cells == 2 ? facts.n_threads : 1U},
           {"ranks", facts.options.ranks.size()}};
 }
 
@@ -53,7 +53,7 @@ Json describe_meshes(const RunFacts& facts) {
     const std::string file = "meshes/" + mesh.description.name + "_initial.mesh";
     meshes.push_back({{"name", mesh.description.name},
                       {"title", mesh.description.title},
-                      {"dimension", facts.study.dimension},
+                      {"dimension", facts.study.dimensions.cells},
                       {"origin", mesh.origin},
                       {"source_sha256", mesh.source_sha256},
                       {"published", mesh.published},
@@ -77,9 +77,9 @@ Json json_value(const Parameter& parameter) {
 
 Json describe_methods(const Study& study) {
   Json methods = Json::array();
-  with_dimension(study.dimension, [&]<int dim>() {
+  with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
     for (const auto& entry : study.methods) {
-      Method<dim> method = entry.make<dim>();
+      auto method = entry.make<dim, spacedim>();
       Json parameters;
       for (const auto& parameter : method.parameters())
         parameters[parameter.name] = json_value(parameter);

@@ -12,11 +12,13 @@ namespace {
 
 using dealii::ParameterHandler;
 
-std::vector<std::string> method_labels(const std::string& list, int dimension) {
+std::vector<std::string> method_labels(const std::string& list, MeshDimensions dimensions) {
   if (list != "all") return split_list(list);
   std::vector<std::string> names;
   for (const auto& info : method_catalogue())
-    if (with_dimension(dimension, [&]<int dim>() { return takes_meshes<dim>(info.name); }))
+    if (with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+          return takes_meshes<dim, spacedim>(info.name);
+        }))
       names.push_back(info.name);
   return names;
 }
@@ -76,19 +78,20 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
   return mesh;
 }
 
-StudyMethod read_method_section(ParameterHandler& p, int dimension, const std::string& name) {
+StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
+                                const std::string& name) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name,
                      .type = p.get("type"),
                      .title = p.get("title"),
                      .threads = static_cast<int>(p.get_integer("threads")),
                      .settings = {}};
-  with_dimension(dimension, [&]<int dim>() {
-    Method<dim> defaults = make_method<dim>(method.type);
+  with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+    auto defaults = make_method<dim, spacedim>(method.type);
     for (const auto& parameter : defaults.parameters())
       if (p.get(parameter.name) != value_text(parameter))
         method.settings.emplace_back(parameter.name, p.get(parameter.name));
-    (void)method.make<dim>();  // throws for values out of range
+    (void)method.make<dim, spacedim>();  // throws for values out of range
   });
   return method;
 }
@@ -152,10 +155,20 @@ void read_scale(ParameterHandler& p, const std::string& file, Study& study) {
     study.timing_runs = static_cast<int>(runs);
 }
 
+MeshDimensions read_dimensions(ParameterHandler& p) {
+  const int cells = static_cast<int>(p.get_integer("dimension"));
+  if (!p.get_bool("surface")) return {cells, cells};
+  if (cells != 2) throw InputError("surface meshes have 'dimension = 2', not 3; leave it out");
+  return {cells, 3};
+}
+
 /// Whether what the study names is there; better now than after the first mesh is generated.
 void check_names(const Study& study) {
+  if (!study.degrees.empty() && study.dimensions.space > study.dimensions.cells)
+    throw InputError(
+        "finite elements are not solved on surface meshes; write 'set degrees =' without any");
   if (!study.degrees.empty() && study.solution.name != "expression")
-    with_dimension(study.dimension,
+    with_dimension(study.dimensions.cells,
                    [&]<int dim>() { (void)manufactured_solution<dim>(study.solution.name); });
   for (const auto& mesh : study.meshes)
     if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
@@ -164,9 +177,9 @@ void check_names(const Study& study) {
 /// Stages that are recorded in their own way belong to one of the methods.
 void check_stages(const Study& study) {
   std::vector<std::string> known;
-  with_dimension(study.dimension, [&]<int dim>() {
+  with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
     for (const auto& method : study.methods)
-      for (const auto& stage : method.make<dim>().stages)
+      for (const auto& stage : method.make<dim, spacedim>().stages)
         if (std::find(known.begin(), known.end(), stage->name()) == known.end())
           known.emplace_back(stage->name());
   });
@@ -188,14 +201,15 @@ void check_thresholds(const Study& study, const std::string& file) {
 
 }  // namespace
 
-template <int dim>
-Method<dim> StudyMethod::make() const {
-  Method<dim> method = make_method<dim>(type);
+template <int dim, int spacedim>
+Method<dim, spacedim> StudyMethod::make() const {
+  auto method = make_method<dim, spacedim>(type);
   for (const auto& [parameter, value] : settings) method.set(parameter, value);
   return method;
 }
 template Method<2> StudyMethod::make() const;
 template Method<3> StudyMethod::make() const;
+template Method<2, 3> StudyMethod::make() const;
 
 std::filesystem::path built_in_studies() {
   return std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies";
@@ -217,29 +231,29 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   declare_lists(lists);
   parse_study(lists, text, file, true);
   const auto meshes = split_list(lists.get("meshes"));
-  const int dimension = static_cast<int>(lists.get_integer("dimension"));
-  const auto methods = method_labels(lists.get("methods"), dimension);
+  const MeshDimensions dimensions = in_file(file, [&] { return read_dimensions(lists); });
+  const auto methods = method_labels(lists.get("methods"), dimensions);
   const auto scales = split_list(lists.get("scales"));
   require_scale(scale, scales, file.string());
   check_unique(meshes, "mesh", file.string());
   check_unique(methods, "method", file.string());
 
   ParameterHandler types;
-  for (const auto& method : methods) declare_method(types, dimension, method, "");
+  for (const auto& method : methods) declare_method(types, dimensions, method, "");
   parse_study(types, text, file, true);
 
   ParameterHandler p;
   declare_lists(p);
   declare_problem(p);
   for (const auto& name : scales) declare_scale(p, name);
-  for (const auto& mesh : meshes) declare_mesh(p, dimension, mesh);
+  for (const auto& mesh : meshes) declare_mesh(p, dimensions.cells, mesh);
   for (const auto& method : methods) {
     std::string type;
     {
       const Subsection subsection(types, "method " + method);
       type = types.get("type");
     }
-    in_file(file, [&] { declare_method(p, dimension, method, type, lists.get("preset")); });
+    in_file(file, [&] { declare_method(p, dimensions, method, type, lists.get("preset")); });
   }
   parse_study(p, text, file, false);
 
@@ -248,7 +262,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   study.title = p.get("title");
   study.note = p.get("note");
   study.scale = scale;
-  study.dimension = dimension;
+  study.dimensions = dimensions;
   check_label(study.name, "study", file.string());
   if (study.title.empty()) study.title = study.name;
   for (const auto& mesh : meshes)
@@ -256,15 +270,18 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
         in_file(file, [&] { return read_mesh_section(p, mesh, file.parent_path()); }));
   for (const auto& method : methods)
     study.methods.push_back(
-        in_file(file, [&] { return read_method_section(p, dimension, method); }));
+        in_file(file, [&] { return read_method_section(p, dimensions, method); }));
   read_problem(p, file.string(), study);
   if (!scale.empty()) read_scale(p, file.string(), study);
   in_file(file, [&] { check_names(study); });
   in_file(file, [&] { check_stages(study); });
   check_thresholds(study, file.string());
   study.parameters = effective_parameters(p);
-  // Which reader it is for; results from before there were kinds go on.
-  std::erase_if(study.parameters, [](const auto& entry) { return entry.first == "kind"; });
+  // Which reader it is for; results from before there were kinds, and surfaces, go on.
+  std::erase_if(study.parameters, [](const auto& entry) {
+    return entry.first == "kind" ||
+           entry == std::pair<std::string, std::string>{"surface", "false"};
+  });
   return study;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <int dim>
+template <int dim, int spacedim>
 class StudyRun {
  public:
   StudyRun(const Study& study, const StudyOptions& options)
@@ -75,14 +75,14 @@ class StudyRun {
   std::vector<MeshFacts> mesh_facts() const { return {data_.meshes.begin(), data_.meshes.end()}; }
 
   fs::path initial_mesh_path(const std::string& mesh) const {
-    return mesh_path(options_.out, mesh, "initial", ".mesh");
+    return mesh_path(options_.out, mesh, "initial", dim == spacedim ? ".mesh" : ".vtk");
   }
 
   void prepare_meshes() {
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
       progress_.update(data_.meshes.size(), description.name);
-      data_.meshes.push_back(prepare_mesh<dim>(
+      data_.meshes.push_back(prepare_mesh<dim, spacedim>(
           description, study_, options_.mesh_dir,
           earlier_.status.empty() ? fs::path() : initial_mesh_path(description.name)));
       stop_if_interrupted();
@@ -91,12 +91,12 @@ class StudyRun {
   }
 
   /// Expressions are checked at nodes of the first mesh.
-  ManufacturedSolution<dim> make_solution() const {
+  ManufacturedSolution<spacedim> make_solution() const {
     const auto& points = data_.meshes.front().mesh.coordinates();
-    std::vector<Point<dim>> sample;
+    std::vector<Point<spacedim>> sample;
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
       sample.push_back(points[i]);
-    return study_solution<dim>(study_.solution, sample);
+    return study_solution<spacedim>(study_.solution, sample);
   }
 
   /// The provenance first, so that nobody takes old results for those of this run.
@@ -113,7 +113,7 @@ class StudyRun {
     write_provenance("running");  // now with the checksums
   }
 
-  void write_initial_mesh(PreparedMesh<dim>& prepared) {
+  void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared) {
     const fs::path path = initial_mesh_path(prepared.description.name);
     write_mesh(path, prepared.mesh);
     prepared.sha256 = sha256_of_file(path);
@@ -150,16 +150,16 @@ class StudyRun {
     progress_.end();
   }
 
-  Trajectory trajectory_of(const PreparedMesh<dim>& prepared, const StudyMethod& method) {
+  Trajectory trajectory_of(const PreparedMesh<dim, spacedim>& prepared, const StudyMethod& method) {
     const std::string name = Checkpoint::name(prepared.description.name, method.name);
     if (auto known = data_.checkpoint.load_trajectory(name)) return *std::move(known);
     set_n_threads(method.threads > 0 ? method.threads
                                      : static_cast<int>(options_.smoothing_threads));
-    const Trajectory trajectory = record_trajectory<dim>(
+    const Trajectory trajectory = record_trajectory(
         prepared.mesh, method, study_,
-        [&](std::size_t record, const std::vector<Point<dim>>& coordinates) {
+        [&](std::size_t record, const std::vector<Point<spacedim>>& coordinates) {
           stop_if_interrupted();
-          data_.checkpoint.save_numbers(name, record, numbers_of<dim>(coordinates));
+          data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
         });
     data_.checkpoint.save(name, trajectory);
     return trajectory;
@@ -175,7 +175,9 @@ class StudyRun {
   }
 
   std::vector<SolveQueue::Worker> workers(const std::vector<SolveTask*>& open) {
-    if constexpr (dim == 2)
+    if constexpr (spacedim > dim)
+      return {};
+    else if constexpr (dim == 2)
       return solve_workers(data_, open, n_threads_);
     else
       return solve_workers(data_, open, team_);
@@ -252,7 +254,7 @@ class StudyRun {
   SolverTeam team_;  ///< the other ranks wait for its orders from the beginning
   unsigned int n_threads_;
   mutable Progress progress_;
-  StudyData<dim> data_;
+  StudyData<dim, spacedim> data_;
   EarlierRun earlier_;
   bool writing_ = false;  ///< the folder of the results holds files of this run
   const std::string started_ = now_utc();
@@ -264,12 +266,13 @@ class StudyRun {
 }  // namespace
 
 void run_study(const Study& study, const StudyOptions& options) {
-  if (study.dimension == 2 && options.ranks.size() > 1)
+  if (study.dimensions.cells == 2 && options.ranks.size() > 1)
     throw InputError("the study " + study.name +
                      " has planar meshes, whose records are shared among threads, not processes: "
                      "start it without mpirun");
   if (!options.ranks.is_root()) return serve_solves(study, options.ranks);
-  with_dimension(study.dimension, [&]<int dim>() { StudyRun<dim>(study, options).run(); });
+  with_dimensions(study.dimensions,
+                  [&]<int dim, int spacedim>() { StudyRun<dim, spacedim>(study, options).run(); });
 }
 
 }  // namespace smoothfem

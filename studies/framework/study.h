@@ -43,8 +43,8 @@ struct StudyMethod {
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
 
   /// The method with its settings.
-  template <int dim>
-  Method<dim> make() const;
+  template <int dim, int spacedim = dim>
+  Method<dim, spacedim> make() const;
 };
 
 /// Where the manufactured solution comes from: a name, or expressions.
@@ -71,7 +71,7 @@ struct Study {
   std::string title;
   std::string note;   ///< what can be compared with the literature, in one sentence, or empty
   std::string scale;  ///< the one chosen; empty: as the study file says
-  int dimension = 2;  ///< of the meshes: 2 or 3
+  MeshDimensions dimensions;
   std::vector<StudyMesh> meshes;
   std::vector<StudyMethod> methods;
   std::vector<int> degrees;  ///< of the finite elements; empty: smoothing only

@@ -30,8 +30,8 @@ std::vector<Outcome> outcomes(const Study& study, const Tasks& tasks, bool inval
   return result;
 }
 
-template <int dim>
-void append_rows(const StudyData<dim>& data, std::size_t mesh, std::size_t method,
+template <int dim, int spacedim>
+void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::size_t method,
                  std::size_t record, const Tasks& tasks, std::vector<IterationRow>& rows) {
   const Trajectory& trajectory = data.trajectories[mesh][method];
   const IterationRecord& iteration = trajectory.records[record];
@@ -54,8 +54,9 @@ void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
 }
 
 /// The tasks of a method's resulting mesh: those of the initial mesh if it improved nothing.
-template <int dim>
-const Tasks& result_tasks(const StudyData<dim>& data, std::size_t mesh, std::size_t method) {
+template <int dim, int spacedim>
+const Tasks& result_tasks(const StudyData<dim, spacedim>& data, std::size_t mesh,
+                          std::size_t method) {
   const auto& trajectory = data.trajectories[mesh][method];
   for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s)
     if (trajectory.snapshots[s] == trajectory.result_record)
@@ -64,16 +65,19 @@ const Tasks& result_tasks(const StudyData<dim>& data, std::size_t mesh, std::siz
 }
 
 /// A mesh of a trajectory: record 0 is the initial one.
-template <int dim>
-Mesh<dim> mesh_of(const StudyData<dim>& data, std::size_t m, std::size_t k, std::size_t record) {
+template <int dim, int spacedim>
+Mesh<dim, spacedim> mesh_of(const StudyData<dim, spacedim>& data, std::size_t m, std::size_t k,
+                            std::size_t record) {
   const auto& mesh = data.meshes[m].mesh;
   if (record == 0) return mesh;
   const auto name = Checkpoint::name(data.meshes[m].description.name, data.study.methods[k].name);
-  return {mesh.shared_topology(), points_of<dim>(data.checkpoint.load_numbers(name, record))};
+  return {mesh.shared_topology(), points_of<spacedim>(data.checkpoint.load_numbers(name, record)),
+          mesh.shared_constraints()};
 }
 
-template <int dim>
-MeshFields fields_of(const StudyData<dim>& data, const Mesh<dim>& mesh, const Tasks& tasks) {
+template <int dim, int spacedim>
+MeshFields fields_of(const StudyData<dim, spacedim>& data, const Mesh<dim, spacedim>& mesh,
+                     const Tasks& tasks) {
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   if (!data.solution) return fields;
@@ -85,25 +89,25 @@ MeshFields fields_of(const StudyData<dim>& data, const Mesh<dim>& mesh, const Ta
   return fields;
 }
 
-template <int dim>
-void write_series(const StudyData<dim>& data, std::size_t m, std::size_t k,
+template <int dim, int spacedim>
+void write_series(const StudyData<dim, spacedim>& data, std::size_t m, std::size_t k,
                   const std::filesystem::path& out) {
-  const PreparedMesh<dim>& prepared = data.meshes[m];
+  const PreparedMesh<dim, spacedim>& prepared = data.meshes[m];
   VtuSeries series(mesh_path(out, prepared.description.name, data.study.methods[k].name, ".pvd"));
   series.add(0.0, prepared.mesh, fields_of(data, prepared.mesh, data.mesh_tasks[m].initial));
   const auto& snapshots = data.trajectories[m][k].snapshots;
   for (std::size_t s = 0; s < snapshots.size(); ++s) {
-    const Mesh<dim> mesh = mesh_of(data, m, k, snapshots[s]);
+    const Mesh<dim, spacedim> mesh = mesh_of(data, m, k, snapshots[s]);
     series.add(static_cast<double>(snapshots[s]), mesh,
                fields_of(data, mesh, data.mesh_tasks[m].methods[k][s]));
   }
 }
 
 /// Jobs and their tasks come into being side by side; rows look tasks up by snapshot.
-template <int dim>
+template <int dim, int spacedim>
 class TaskMaker {
  public:
-  explicit TaskMaker(StudyData<dim>& data) : data_(data) {}
+  explicit TaskMaker(StudyData<dim, spacedim>& data) : data_(data) {}
 
   void make() {
     for (std::size_t m = 0; m < data_.meshes.size(); ++m) {
@@ -151,20 +155,20 @@ class TaskMaker {
     return &task;
   }
 
-  StudyData<dim>& data_;
+  StudyData<dim, spacedim>& data_;
 };
 
 }  // namespace
 
-template <int dim>
-std::vector<Point<dim>> StudyData<dim>::coordinates_of(const SolveTask& task) const {
+template <int dim, int spacedim>
+std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const SolveTask& task) const {
   if (task.job.trajectory.empty()) return meshes[task.job.mesh].mesh.coordinates();
-  return points_of<dim>(checkpoint.load_numbers(task.job.trajectory, task.record));
+  return points_of<spacedim>(checkpoint.load_numbers(task.job.trajectory, task.record));
 }
 
-template <int dim>
-void make_tasks(StudyData<dim>& data) {
-  TaskMaker<dim>(data).make();
+template <int dim, int spacedim>
+void make_tasks(StudyData<dim, spacedim>& data) {
+  TaskMaker<dim, spacedim>(data).make();
 }
 
 void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> eigenvectors,
@@ -183,8 +187,8 @@ void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> e
   task.done = true;
 }
 
-template <int dim>
-std::vector<IterationRow> finished_rows(const StudyData<dim>& data) {
+template <int dim, int spacedim>
+std::vector<IterationRow> finished_rows(const StudyData<dim, spacedim>& data) {
   std::vector<IterationRow> rows;
   for (std::size_t m = 0; m < data.mesh_tasks.size(); ++m)
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
@@ -196,8 +200,8 @@ std::vector<IterationRow> finished_rows(const StudyData<dim>& data) {
   return rows;
 }
 
-template <int dim>
-std::vector<SummaryRow> summary_rows(const StudyData<dim>& data) {
+template <int dim, int spacedim>
+std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
   std::vector<SummaryRow> rows;
   for (std::size_t m = 0; m < data.meshes.size(); ++m) {
     const std::string& name = data.meshes[m].description.name;
@@ -228,15 +232,15 @@ std::filesystem::path mesh_path(const std::filesystem::path& out, const std::str
   return out / "meshes" / (mesh + "_" + method + extension);
 }
 
-template <int dim>
-void write_meshes(const StudyData<dim>& data, const std::filesystem::path& out) {
+template <int dim, int spacedim>
+void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::path& out) {
   for (std::size_t m = 0; m < data.meshes.size(); ++m) {
-    const PreparedMesh<dim>& prepared = data.meshes[m];
+    const PreparedMesh<dim, spacedim>& prepared = data.meshes[m];
     const std::string& name = prepared.description.name;
     write_mesh(mesh_path(out, name, "initial", ".vtu"), prepared.mesh,
                fields_of(data, prepared.mesh, data.mesh_tasks[m].initial));
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
-      const Mesh<dim> result = mesh_of(data, m, k, data.trajectories[m][k].result_record);
+      const Mesh<dim, spacedim> result = mesh_of(data, m, k, data.trajectories[m][k].result_record);
       write_mesh(mesh_path(out, name, data.study.methods[k].name, ".vtu"), result,
                  fields_of(data, result, result_tasks(data, m, k)));
       if (data.study.write_series) write_series(data, m, k, out);
@@ -244,14 +248,15 @@ void write_meshes(const StudyData<dim>& data, const std::filesystem::path& out) 
   }
 }
 
-#define SMOOTHFEM_INSTANTIATE(dim)                                         \
-  template struct StudyData<dim>;                                          \
-  template void make_tasks(StudyData<dim>&);                               \
-  template std::vector<IterationRow> finished_rows(const StudyData<dim>&); \
-  template std::vector<SummaryRow> summary_rows(const StudyData<dim>&);    \
-  template void write_meshes(const StudyData<dim>&, const std::filesystem::path&);
-SMOOTHFEM_INSTANTIATE(2)
-SMOOTHFEM_INSTANTIATE(3)
+#define SMOOTHFEM_INSTANTIATE(...)                                                 \
+  template struct StudyData<__VA_ARGS__>;                                          \
+  template void make_tasks(StudyData<__VA_ARGS__>&);                               \
+  template std::vector<IterationRow> finished_rows(const StudyData<__VA_ARGS__>&); \
+  template std::vector<SummaryRow> summary_rows(const StudyData<__VA_ARGS__>&);    \
+  template void write_meshes(const StudyData<__VA_ARGS__>&, const std::filesystem::path&);
+SMOOTHFEM_INSTANTIATE(2, 2)
+SMOOTHFEM_INSTANTIATE(3, 3)
+SMOOTHFEM_INSTANTIATE(2, 3)
 #undef SMOOTHFEM_INSTANTIATE
 
 }  // namespace smoothfem

@@ -43,23 +43,23 @@ struct MeshTasks {
 };
 
 /// What a study has computed so far.
-template <int dim>
+template <int dim, int spacedim = dim>
 struct StudyData {
   const Study& study;
   Checkpoint checkpoint;
-  std::vector<PreparedMesh<dim>> meshes{};
-  std::optional<ManufacturedSolution<dim>> solution{};
+  std::vector<PreparedMesh<dim, spacedim>> meshes{};
+  std::optional<ManufacturedSolution<spacedim>> solution{};
   std::vector<std::vector<Trajectory>> trajectories{};  ///< [mesh][method]
   std::list<SolveJob> jobs{};                           ///< both stay where they are
   std::list<SolveTask> tasks{};                         ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
 
-  std::vector<Point<dim>> coordinates_of(const SolveTask& task) const;
+  std::vector<Point<spacedim>> coordinates_of(const SolveTask& task) const;
 };
 
 /// Makes the jobs and tasks of all trajectories; those that the checkpoint knows are done.
-template <int dim>
-void make_tasks(StudyData<dim>& data);
+template <int dim, int spacedim>
+void make_tasks(StudyData<dim, spacedim>& data);
 
 /// Notes a task's outcome. The checkpoint follows at the end of a job and about every second.
 void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> eigenvectors,
@@ -67,12 +67,12 @@ void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> e
 
 /// Rows for iterations.csv of all records that are done, in the order of meshes, methods, records
 /// and degrees. Safe while tasks are under way.
-template <int dim>
-std::vector<IterationRow> finished_rows(const StudyData<dim>& data);
+template <int dim, int spacedim>
+std::vector<IterationRow> finished_rows(const StudyData<dim, spacedim>& data);
 
 /// Rows for summary.csv; all tasks must be done.
-template <int dim>
-std::vector<SummaryRow> summary_rows(const StudyData<dim>& data);
+template <int dim, int spacedim>
+std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data);
 
 /// Where a method's mesh, or the mesh called `initial`, is written.
 std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,
@@ -80,7 +80,7 @@ std::filesystem::path mesh_path(const std::filesystem::path& out, const std::str
 
 /// Initial and resulting meshes with their fields, and the series if the study asks for them; all
 /// tasks must be done. Throws InputError.
-template <int dim>
-void write_meshes(const StudyData<dim>& data, const std::filesystem::path& out);
+template <int dim, int spacedim>
+void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::path& out);
 
 }  // namespace smoothfem

@@ -53,6 +53,8 @@ void declare_lists(ParameterHandler& p) {
   p.declare_entry("preset", "", Patterns::Anything(),
                   "Parameters of the methods (see 'list'); empty: their defaults.");
   p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
+  p.declare_entry("surface", "false", Patterns::Bool(),
+                  "Whether the meshes, of dimension 2, are surfaces in space; without degrees.");
   p.declare_entry("scales", "", Patterns::Anything(),
                   "Sizes that --scale can choose, separated by commas; each has a subsection "
                   "'scale NAME'.");
@@ -89,13 +91,13 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
 
 /// The parameters of a method are those it registers, with the defaults of a preset, if given, or
 /// its own.
-void declare_method(ParameterHandler& p, int dimension, const std::string& name,
+void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
                     const std::string& type, const std::string& preset) {
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
   if (type.empty()) return;
-  with_dimension(dimension, [&]<int dim>() {
-    Method<dim> method = make_method<dim>(type);
+  with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+    auto method = make_method<dim, spacedim>(type);
     p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
                     "Title in tables and figures.");
     p.declare_entry("threads", "0", Patterns::Integer(0, 1024),

@@ -13,7 +13,7 @@ namespace {
 
 ReadyStudy read_smoothing_study(const std::filesystem::path& file, const std::string& scale) {
   const Study study = read_study(file, scale);
-  const bool solves_in_space = study.dimension == 3 && !study.degrees.empty();
+  const bool solves_in_space = study.dimensions.cells == 3 && !study.degrees.empty();
   return {.name = study.name,
           .title = study.title,
           .note = study.note,

@@ -14,18 +14,21 @@ namespace smoothfem {
 
 namespace {
 
-template <int dim>
-Mesh<dim> of_dimension(AnyMesh&& mesh, const std::string& name) {
-  if (auto* wanted = std::get_if<Mesh<dim>>(&mesh)) return std::move(*wanted);
-  throw InputError(name + " is a " + (dim == 2 ? "volume" : "planar") +
-                   " mesh, but the study has 'dimension = " + std::to_string(dim) +
-                   "'; set it to " + std::to_string(5 - dim));
+template <int dim, int spacedim>
+Mesh<dim, spacedim> of_kind(AnyMesh&& mesh, const std::string& name) {
+  if (auto* wanted = std::get_if<Mesh<dim, spacedim>>(&mesh)) return std::move(*wanted);
+  if (std::holds_alternative<SurfaceMesh>(mesh) || spacedim > dim)
+    throw InputError(name + " is a " + kind_name(mesh) + " mesh, but the study is about " +
+                     mesh_kind_name(dim, spacedim) +
+                     " meshes; set its keys 'dimension' and 'surface' accordingly");
+  throw InputError(name + " is a " + kind_name(mesh) + " mesh, but the study has 'dimension = " +
+                   std::to_string(dim) + "'; set it to " + std::to_string(5 - dim));
 }
 
-template <int dim>
-Mesh<dim> read_valid_mesh(const std::filesystem::path& path) {
+template <int dim, int spacedim>
+Mesh<dim, spacedim> read_valid_mesh(const std::filesystem::path& path) {
   MeshFile file = read_mesh(path);
-  const Mesh<dim> mesh = of_dimension<dim>(std::move(file.mesh), path.string());
+  const auto mesh = of_kind<dim, spacedim>(std::move(file.mesh), path.string());
   require_valid(mesh, path.string(), file.cell_lines);
   return mesh;
 }
@@ -58,15 +61,16 @@ Source source_of(const StudyMesh& description, const std::filesystem::path& mesh
   return {description.file, false, origin.str()};
 }
 
-template <int dim>
-Mesh<dim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale) {
-  Mesh<dim> mesh = source.file.empty()
-                       ? of_dimension<dim>(find_domain(description.domain)
-                                               .generate({.elements = description.elements,
-                                                          .edge_scale = edge_scale,
-                                                          .seed = description.seed}),
-                                           "the domain " + description.domain)
-                       : read_valid_mesh<dim>(source.file);
+template <int dim, int spacedim>
+Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source,
+                              double edge_scale) {
+  Mesh<dim, spacedim> mesh =
+      source.file.empty() ? of_kind<dim, spacedim>(find_domain(description.domain)
+                                                       .generate({.elements = description.elements,
+                                                                  .edge_scale = edge_scale,
+                                                                  .seed = description.seed}),
+                                                   "the domain " + description.domain)
+                          : read_valid_mesh<dim, spacedim>(source.file);
   if (source.published || !is_distorted(description)) return mesh;
   DistortionParameters parameters;
   parameters.n_candidates = description.distortion_candidates;
@@ -83,16 +87,17 @@ Mesh<dim> make_mesh(const StudyMesh& description, const Source& source, double e
 
 }  // namespace
 
-template <int dim>
-PreparedMesh<dim> prepare_mesh(const StudyMesh& description, const Study& study,
-                               const std::filesystem::path& mesh_dir,
-                               const std::filesystem::path& kept) {
+template <int dim, int spacedim>
+PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Study& study,
+                                         const std::filesystem::path& mesh_dir,
+                                         const std::filesystem::path& kept) {
   const Source source = source_of(description, mesh_dir);
   const bool as_read = !source.file.empty() && (source.published || !is_distorted(description));
-  Mesh<dim> mesh =
-      !as_read && std::filesystem::exists(kept)
-          ? read_valid_mesh<dim>(kept)
-          : make_mesh<dim>(description, source, study.edge_scale * description.edge_scale);
+  Mesh<dim, spacedim> mesh =
+      dim == spacedim && !as_read && std::filesystem::exists(kept)
+          ? read_valid_mesh<dim, spacedim>(kept)
+          : make_mesh<dim, spacedim>(description, source,
+                                     study.edge_scale * description.edge_scale);
   if (!study.degrees.empty()) require_finite_elements<dim>(mesh.topology());
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),
@@ -108,6 +113,9 @@ template PreparedMesh<2> prepare_mesh(const StudyMesh&, const Study&, const std:
                                       const std::filesystem::path&);
 template PreparedMesh<3> prepare_mesh(const StudyMesh&, const Study&, const std::filesystem::path&,
                                       const std::filesystem::path&);
+template PreparedMesh<2, 3> prepare_mesh(const StudyMesh&, const Study&,
+                                         const std::filesystem::path&,
+                                         const std::filesystem::path&);
 
 std::string sha256_of_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);

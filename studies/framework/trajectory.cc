@@ -39,8 +39,8 @@ class Schedule {
 
 }  // namespace
 
-template <int dim>
-MeshWarpage warpage_of(const Mesh<dim>& mesh) {
+template <int dim, int spacedim>
+MeshWarpage warpage_of(const Mesh<dim, spacedim>& mesh) {
   if constexpr (dim == 3)
     return mesh_warpage(mesh);
   else
@@ -48,17 +48,19 @@ MeshWarpage warpage_of(const Mesh<dim>& mesh) {
 }
 template MeshWarpage warpage_of(const Mesh<2>&);
 template MeshWarpage warpage_of(const Mesh<3>&);
+template MeshWarpage warpage_of(const Mesh<2, 3>&);
 
-template <int dim>
-Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, const Study& study,
-                             const KeepSnapshot<dim>& keep) {
+template <int dim, int spacedim>
+Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
+                             const Study& study,
+                             const std::type_identity_t<KeepSnapshot<spacedim>>& keep) {
   Trajectory trajectory;
   std::vector<std::vector<double>> times;
   std::vector<double> totals;
   Schedule schedule(study.record_every);
   const bool keeps_all = !study.degrees.empty() || study.write_series;
-  std::vector<Point<dim>> last;
-  const auto record_all = [&](const IterationRecord& record, const Mesh<dim>& now) {
+  std::vector<Point<spacedim>> last;
+  const auto record_all = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
     trajectory.records.push_back(record);
     times.push_back({record.smoothing_seconds});
     if (study.record_warpage) trajectory.warpage_of_records.push_back(warpage_of(now));
@@ -70,8 +72,8 @@ Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, c
     if (keeps_all) last = now.coordinates();
   };
   const PeakMemory memory;
-  Mesh<dim> smoothed = mesh;
-  Method<dim> first = method.make<dim>();
+  Mesh<dim, spacedim> smoothed = mesh;
+  auto first = method.make<dim, spacedim>();
   const SmoothingResult result = smooth(smoothed, first, record_all);
   totals.push_back(result.smoothing_seconds);
   trajectory.iterations_text = result.iterations_text();
@@ -79,7 +81,7 @@ Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, c
   trajectory.warpage = warpage_of(smoothed);
   trajectory.peak_memory_gib = memory.gib();
   trajectory.result_record = result.result_record;
-  const auto also = [&](std::size_t record, const std::vector<Point<dim>>& coordinates) {
+  const auto also = [&](std::size_t record, const std::vector<Point<spacedim>>& coordinates) {
     auto& snapshots = trajectory.snapshots;
     const auto place = std::lower_bound(snapshots.begin(), snapshots.end(), record);
     if (record == 0 || (place != snapshots.end() && *place == record)) return;
@@ -92,9 +94,9 @@ Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, c
     keep(trajectory.result_record, smoothed.coordinates());
 
   for (int run = 1; run < study.timing_runs; ++run) {
-    Mesh<dim> again = mesh;
-    Method<dim> made = method.make<dim>();
-    totals.push_back(smooth(again, made, [&](const IterationRecord& record, const Mesh<dim>&) {
+    Mesh<dim, spacedim> again = mesh;
+    auto made = method.make<dim, spacedim>();
+    totals.push_back(smooth(again, made, [&](const IterationRecord& record, const auto&) {
                        times[record.record].push_back(record.smoothing_seconds);
                      }).smoothing_seconds);
   }
@@ -107,6 +109,8 @@ Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, c
 template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&,
                                       const KeepSnapshot<2>&);
 template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&,
+                                      const KeepSnapshot<3>&);
+template Trajectory record_trajectory(const Mesh<2, 3>&, const StudyMethod&, const Study&,
                                       const KeepSnapshot<3>&);
 
 }  // namespace smoothfem

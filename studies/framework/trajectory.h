@@ -24,22 +24,23 @@ struct Trajectory {
   double peak_memory_gib = 0.0;  ///< of the process, the study's other meshes included
 };
 
-/// Warpage of the quadrilateral faces of a volume mesh; planar meshes have none.
-template <int dim>
-MeshWarpage warpage_of(const Mesh<dim>& mesh);
+/// Warpage of the quadrilateral faces of a volume mesh; others have none.
+template <int dim, int spacedim>
+MeshWarpage warpage_of(const Mesh<dim, spacedim>& mesh);
 
 /// Puts the mesh of a record away.
-template <int dim>
+template <int spacedim>
 using KeepSnapshot =
-    std::function<void(std::size_t record, const std::vector<Point<dim>>& coordinates)>;
+    std::function<void(std::size_t record, const std::vector<Point<spacedim>>& coordinates)>;
 
 /// Runs a method timing_runs times on copies of the mesh and keeps the median of the accumulated
 /// times of each record; the meshes are the same every time. Snapshots: every k-th record of each
 /// stage, the result and the last, as the study says; `keep` gets their meshes in any order, and
 /// may get others too. A study that neither solves nor writes series needs the result's mesh only:
 /// then `keep` gets no other.
-template <int dim>
-Trajectory record_trajectory(const Mesh<dim>& mesh, const StudyMethod& method, const Study& study,
-                             const KeepSnapshot<dim>& keep);
+template <int dim, int spacedim>
+Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
+                             const Study& study,
+                             const std::type_identity_t<KeepSnapshot<spacedim>>& keep);
 
 }  // namespace smoothfem

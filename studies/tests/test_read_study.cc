@@ -64,7 +64,7 @@ TEST(GearStudy, QuickChangesWhatItsSubsectionSaysAndNothingElse) {
 TEST(VolumeStudy, IsThatOfSection63) {
   const auto file = find_study("volume");
   const Study study = read_study(file);
-  EXPECT_EQ(study.dimension, 3);
+  EXPECT_EQ(study.dimensions.cells, 3);
   ASSERT_EQ(study.meshes.size(), 2u);
   EXPECT_EQ(study.meshes[0].elements, "tetrahedra");
   EXPECT_EQ(study.meshes[0].distort_to_q_mean, 0.4178);
@@ -114,6 +114,17 @@ class StudyFile : public FileTest {
 };
 
 const std::string one_mesh = "set meshes = a\nsubsection mesh a\n set file = a.mesh\nend\n";
+
+TEST_F(StudyFile, OfSurfacesHasMethodsForThemAndNoFiniteElements) {
+  const std::string head = "set meshes = a\nset surface = true\n";
+  EXPECT_EQ(names_of(read(head + "set degrees =\nset methods = all\n").methods),
+            (std::vector<std::string>{"getme", "getme-sequential", "getme-simultaneous", "laplace",
+                                      "smart-laplace"}));
+  expect_error(head + "set methods = getme\nset degrees = 1\n", "finite elements are not solved");
+  expect_error(head + "set dimension = 3\nset degrees =\n", "'dimension = 2'");
+  expect_error(head + "set methods = getme-adaptive\nset degrees =\n",
+               "does not take surface meshes; choose one of getme");
+}
 
 TEST_F(StudyFile, NamesItsMeshFileRelativeToItself) {
   const Study study = read(one_mesh + "set methods = laplace\n");
