@@ -14,7 +14,7 @@ constexpr double bowl_radius = 2.2, bowl_depth = 0.5;
 constexpr double pin_radius = 0.9, pin_height = 2.8;
 constexpr double groove_depth = 0.3, groove_height = 0.25, groove_distance = 0.55;
 constexpr int n_grooves = 3;
-constexpr double edge_length = 0.0533;  // of the mesh with 4.1 million tetrahedra
+constexpr double edge_length = 0.0527;  // of the mesh with 4.1 million tetrahedra
 
 void build_geometry() {
   namespace occ = gmsh::model::occ;
