@@ -11,14 +11,11 @@ from .read_results import INITIAL
 BINS = 50
 
 
-def draw_histograms(results, qualities, logarithmic=False):
-    """A panel for each mesh with a stepped line for each method.
+def draw_histograms(results, meshes, qualities, logarithmic=False):
+    """A panel for each of the meshes with a stepped line for each method.
 
     `qualities` maps (mesh, method) to the mean ratios of all cells; what is missing has no line.
     """
-    meshes = [mesh for mesh in results.meshes if any(name == mesh for name, _ in qualities)]
-    if not meshes:
-        return None
     present = {method for _, method in qualities}
     styles = {name: look for name, look in method_order(results).items() if name in present}
     width, height = figure_size(1, len(meshes))

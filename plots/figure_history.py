@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figure 6.4 of the thesis: mesh quality and solution errors against smoothing time."""
 
+import math
+
 import matplotlib.pyplot as pyplot
 import numpy as np
 from matplotlib.lines import Line2D
@@ -10,11 +12,18 @@ from . import style
 from .read_results import INITIAL
 from .table_descriptions import SYMBOLS
 
+# Of the mesh, hence the same for every degree; numbers that lie between 0 and 1 have linear axes.
 QUALITY = ("q_min", "q_star_min", "q_mean", "w_mean")
+LINEAR = ("q_min", "q_star_min", "q_mean")
 
-# A row of panels is logarithmic from this ratio of largest to smallest error on: the thesis' own
-# figure spans a factor of 7 at most and is linear, errors of quadratic elements span more than 20.
+# A row of other panels is logarithmic from this ratio of largest to smallest number on: the thesis'
+# own figure of errors spans a factor of 7 at most and is linear, errors of quadratic elements span
+# more than 20.
 LOGARITHMIC_FROM = 12.0
+
+# One method that takes so many times as long as every other would squeeze all of them into a line:
+# then a linear time axis ends at so many times the second longest time, and says when that one ends.
+DOMINANT_FROM, SHOWN_OF_DOMINANT = 20.0, 5.0
 
 # Inches: the titles of the columns, the time axis, and a row of panels with the gap below it.
 HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.4, 1.72
@@ -25,20 +34,22 @@ MARKER_SIZE = 2.8
 MARKER_DISTANCE = 3.5  # points between the markers of one line that are drawn
 
 
-def draw_history(results, columns, degree, log_time=False):
+def draw_history(results, columns, degree, log_time=False, meshes=None):
     """A figure with a row for each measure and a column for each mesh; None if there is no number.
 
-    `columns` are columns of iterations.csv, `degree` a string as in the file.
+    `columns` are columns of iterations.csv, `degree` a string as in the file; `meshes` are some of
+    the study's, or None for all.
     """
+    meshes = results.meshes if meshes is None else meshes
     lines = {(name, mesh): panel_lines(results, name, mesh, degree)
-             for name in columns for mesh in results.meshes}
+             for name in columns for mesh in meshes}
     columns = [name for name in columns
-               if any(np.isfinite(v).any() for mesh in results.meshes
+               if any(np.isfinite(v).any() for mesh in meshes
                       for _, v in lines[name, mesh].values())]
     if not columns:
         return None
-    width, height = figure_size(len(columns), len(results.meshes))
-    figure, axes = pyplot.subplots(len(columns), len(results.meshes), squeeze=False, sharex="col",
+    width, height = figure_size(len(columns), len(meshes))
+    figure, axes = pyplot.subplots(len(columns), len(meshes), squeeze=False, sharex="col",
                                    figsize=(width, height))
     styles = method_order(results)
     legend_height = draw_legend(figure, results, styles)
@@ -46,18 +57,23 @@ def draw_history(results, columns, degree, log_time=False):
     height += legend_height
     figure.subplots_adjust(left=0.6 / width, right=1 - 0.1 / width, bottom=FOOT / height,
                            top=1 - (HEAD + legend_height) / height, hspace=0.1,
-                           wspace=0.52 * len(results.meshes) / width)
+                           wspace=0.52 * len(meshes) / width)
     for letter, row, name in zip("abcdefghij", axes, columns):
-        logarithmic = name not in QUALITY and any(
-            spans_magnitudes(finite_values(lines[name, mesh])) for mesh in results.meshes)
-        for ax, mesh in zip(row, results.meshes):
-            draw_panel(ax, lines[name, mesh], styles, log_time)
+        logarithmic = name not in LINEAR and any(
+            spans_magnitudes(finite_values(lines[name, mesh])) for mesh in meshes)
+        for ax, mesh in zip(row, meshes):
+            dominant, limit = ("", np.inf) if log_time else dominant_method(lines[name, mesh])
+            draw_panel(ax, lines[name, mesh], styles, log_time, limit)
             scale_values(ax, finite_values(lines[name, mesh]), logarithmic)
+            if dominant:
+                seconds, values = lines[name, mesh][dominant]
+                write_into_free_place(ax, f"{results.title(dominant)} ends after {seconds[-1]:.3g} s "
+                                          f"at {values[-1]:.3g}")
         row[0].set_ylabel(f"({letter})  {SYMBOLS[name].tex}"
                           + (f"  ($d={degree}$)" if name not in QUALITY else ""))
         # A fixed distance aligns the labels of all rows, whatever their ticks are.
         row[0].yaxis.set_label_coords(-LABEL_DISTANCE / (row[0].get_position().width * width), 0.5)
-    for ax, mesh in zip(axes[0], results.meshes):
+    for ax, mesh in zip(axes[0], meshes):
         ax.set_title(results.title(mesh))
     for ax in axes[-1]:
         ax.set_xlabel("Smoothing time (s)")
@@ -66,9 +82,9 @@ def draw_history(results, columns, degree, log_time=False):
 
 
 def figure_size(n_rows, n_columns):
-    """Width and height in inches, without the legend: page width for up to three columns."""
+    """Width and height in inches, without the legend; up to three columns can be read."""
     width = style.FULL_WIDTH if n_columns > 1 else 1.3 * style.SINGLE_WIDTH
-    return max(width, 2.3 * n_columns), HEAD + FOOT + PANEL_HEIGHT * n_rows
+    return width, HEAD + FOOT + PANEL_HEIGHT * n_rows
 
 
 def method_order(results):
@@ -96,15 +112,16 @@ def panel_lines(results, name, mesh, degree):
     return lines
 
 
-def draw_panel(ax, lines, styles, log_time):
-    """The lines of all methods and a level line for the initial mesh."""
+def draw_panel(ax, lines, styles, log_time, limit):
+    """The lines of all methods up to a time and a level line for the initial mesh."""
     for method, (seconds, values) in lines.items():
         look = styles[method]
         if method == INITIAL:
             continue
-        shown = seconds > 0 if log_time else np.ones(len(seconds), dtype=bool)
+        shown = seconds > 0 if log_time else seconds <= limit
         line, = ax.plot(seconds[shown], values[shown], color=look.colour, marker=look.marker,
-                        markersize=MARKER_SIZE, markeredgewidth=0.4, clip_on=True, label=method)
+                        markersize=MARKER_SIZE, markeredgewidth=0.4,
+                        markerfacecolor=look.marker_fill, clip_on=True, label=method)
         if look.dashes:
             line.set_dashes(look.dashes)
     level = initial_level(lines)
@@ -112,7 +129,31 @@ def draw_panel(ax, lines, styles, log_time):
         ax.axhline(level, color=styles[INITIAL].colour, linewidth=0.8, dashes=INITIAL_DASHES, zorder=1)
     if log_time:
         ax.set_xscale("log")
-    ax.margins(x=0.02)
+        ax.margins(x=0.02)
+    else:
+        last = max((seconds[-1] for seconds, _ in lines.values()), default=0.0)
+        if last > 0:
+            ax.set_xlim(-0.02 * min(last, limit), min(1.02 * last, limit))
+
+
+def dominant_method(lines):
+    """(method, time at which the axis ends) if one method takes far longer than all others; else no
+    name and an infinite time."""
+    ends = sorted((seconds[-1], method) for method, (seconds, _) in lines.items() if method != INITIAL)
+    if len(ends) < 2 or not 0 < DOMINANT_FROM * ends[-2][0] < ends[-1][0]:
+        return "", np.inf
+    return ends[-1][1], SHOWN_OF_DOMINANT * ends[-2][0]
+
+
+def write_into_free_place(ax, sentence):
+    """Writes at the right of a panel at the height that is farthest from all lines there."""
+    points = np.concatenate([line.get_transform().transform(line.get_xydata())
+                             for line in ax.get_lines()])
+    points = ax.transAxes.inverted().transform(points[np.isfinite(points).all(axis=1)])
+    taken = points[points[:, 0] > 0.4, 1]
+    height = max(np.linspace(0.1, 0.9, 9), key=lambda y: np.abs(taken - y).min(initial=1.0))
+    ax.text(0.98, height, sentence, transform=ax.transAxes, ha="right", va="center",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1})
 
 
 def initial_level(lines):
@@ -164,7 +205,7 @@ def draw_legend(figure, results, styles, markers=True):
     handles = []
     for method, look in styles.items():
         handle = Line2D([], [], color=look.colour, marker=(look.marker or None) if markers else None,
-                        markersize=MARKER_SIZE + 0.8)
+                        markersize=MARKER_SIZE + 0.8, markerfacecolor=look.marker_fill)
         handle.set_label("Initial mesh" if method == INITIAL else results.title(method))
         if method == INITIAL:
             handle.set_linewidth(0.8)
@@ -172,7 +213,8 @@ def draw_legend(figure, results, styles, markers=True):
         elif look.dashes:
             handle.set_dashes(look.dashes)
         handles.append(handle)
-    for per_line in range(len(handles), 0, -1):
+    for n_lines in range(1, len(handles) + 1):
+        per_line = math.ceil(len(handles) / n_lines)  # lines of about the same length
         legend = figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0),
                                ncol=per_line, columnspacing=1.2, handlelength=2.9,
                                handletextpad=0.5, borderaxespad=0.1)

@@ -12,7 +12,7 @@ from matplotlib.patches import PathPatch, Rectangle
 from . import style
 from .mesh_geometry import bounding_box, cells_in, outline_path, polygons_of, window_of
 
-COLUMNS = 3
+MOST_COLUMNS = 4
 DETAIL_ASPECT = 1.3
 # Centre and width of the detail, relative to the bounding box: a tooth and part of a hole of the gear.
 DETAIL_CENTRE, DETAIL_WIDTH = (0.83, 0.62), 0.33
@@ -35,13 +35,21 @@ def draw_meshes(blocks, detail=None):
     def overview(axes, number):
         draw_overview(axes, blocks[number][1][0][1], windows[number])
         caption(axes, "Position of the detail")
-    return draw_blocks(blocks, COLUMNS, aspect,
+    return draw_blocks(blocks, columns_of(blocks, MOST_COLUMNS, bool(detail)), aspect,
                        lambda axes, grid, number: draw_mesh(axes, grid, windows[number]),
                        overview if detail else None)
 
 
-def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None):
-    """A figure of blocks of panels below each other, in rows of `columns`, with a colour bar.
+def columns_of(blocks, most, with_free=False):
+    """The least number of columns that needs no more rows than `most` columns do, so that rows are
+    about equally full; `with_free` if each block shall have a free panel."""
+    n_panels = max(len(panels) for _, panels in blocks) + with_free
+    return math.ceil(n_panels / math.ceil(n_panels / most))
+
+
+def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None, draw_foot=None):
+    """A figure of blocks of panels below each other, in rows of `columns`, with a colour bar or what
+    `draw_foot` draws into the figure of a height in inches.
 
     `blocks` is a list of (title, [(panel title, content), ...]), `aspect` width over height of a
     panel. `draw_panel` gets axes, content and the number of the block, `draw_free` draws the first
@@ -71,11 +79,11 @@ def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None):
             else:
                 axes.axis("off")
         top -= n_rows * (height + CAPTION)
-    colour_bar(figure, total)
+    (draw_foot or colour_bar)(figure, total)
     return figure
 
 
-def rows_of_panels(panels, columns=COLUMNS):
+def rows_of_panels(panels, columns):
     """How many rows a block of panels takes."""
     return math.ceil(len(panels) / columns)
 
@@ -87,8 +95,10 @@ def box_aspect(grid):
 
 
 def caption(axes, text):
-    """The caption below a panel."""
-    axes.text(0.5, -0.025, text, transform=axes.transAxes, ha="center", va="top")
+    """The caption below a panel; a long one is smaller, so that it does not touch the next one."""
+    label = axes.text(0.5, -0.025, text, transform=axes.transAxes, ha="center", va="top")
+    extent = label.get_window_extent(axes.figure.canvas.get_renderer())
+    label.set_fontsize(label.get_fontsize() * min(1.0, axes.bbox.width / extent.width))
 
 
 def draw_mesh(axes, grid, window):

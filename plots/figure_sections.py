@@ -2,22 +2,20 @@
 """Figure 6.6 of the thesis: initial and smoothed volume meshes, cut open, cells coloured by their
 mean ratio."""
 
-from dataclasses import replace
-
 import numpy as np
 from matplotlib import colormaps
 
 from . import style
-from .figure_meshes import QUALITY_RANGE, draw_blocks
+from .figure_meshes import QUALITY_RANGE, columns_of, draw_blocks
 from .render_volume import Scene, render
 from .volume_geometry import Cut, same_box, widest_cut
 
-COLUMNS = 5
+MOST_COLUMNS = 5
 DETAIL_ASPECT = 1.0
 DETAIL_CELLS = 16  # along the width of a detail: enough to see a pattern, few enough to see each
 IMAGE_DPI = 600  # of the printed panel
-# Below this distance in pixels between neighbours, edges would hide the colours between them.
-PIXELS_FOR_EDGES = 22.0
+# Where most cells are smaller than so many pixels, edges would hide the colours between them.
+PIXELS_FOR_EDGES = 14.0
 AMBIENT = 0.78  # bright enough to find the colours in the colour bar, shaded enough to see the faces
 
 
@@ -27,14 +25,17 @@ def draw_sections(blocks, detail=False, normal=None):
     `blocks` is a list of (title, [(panel title, grid or None), ...]), None for a mesh that is
     missing. `normal` of the cut, or None for the cut that crosses most cells.
     """
-    columns = min(COLUMNS, max(len(panels) for _, panels in blocks))
+    columns = columns_of(blocks, MOST_COLUMNS)
     cuts = cuts_of(blocks, normal)
     views = views_of(blocks, cuts, detail)
     aspect = DETAIL_ASPECT if detail else min(max(views[0].width / views[0].height, 0.5), 3.0)
-    width = round(IMAGE_DPI * style.FULL_WIDTH / columns)
-    scenes = [section_scene(grid, cut, view.fitted(aspect), (width, round(width / aspect)))
-              for (_, panels), cut, view in zip(blocks, cuts, views)
-              for _, grid in panels if grid is not None]
+    pixels = pixels_of(columns, aspect)
+    scenes = []
+    for (_, panels), cut, view in zip(blocks, cuts, views):
+        view = view.fitted(aspect)
+        edges = shows_edges(first_grid(panels), cut, view, pixels)
+        scenes += [section_scene(grid, cut, view, pixels, edges, quality_colours(grid))
+                   for _, grid in panels if grid is not None]
     pictures = iter(render(scenes))
     shown = [(title, [(name, None if grid is None else next(pictures)) for name, grid in panels])
              for title, panels in blocks]
@@ -73,13 +74,28 @@ def views_of(blocks, cuts, detail):
     return found
 
 
-def section_scene(grid, cut, view, pixels):
-    """The cells on the far side of the cut in the colours of their mean ratios."""
-    colours = colormaps[style.QUALITY_MAP](QUALITY_RANGE(grid.cell_data["mean_ratio"]), bytes=True)
-    scene = Scene(grid, view, pixels, cells=cut.kept(grid), cell_colours=colours[:, :3],
-                  ambient=AMBIENT)
-    spacing = cut.spacing(grid) * pixels[0] / view.width
-    return replace(scene, cell_edges=bool(spacing >= PIXELS_FOR_EDGES))
+def pixels_of(columns, aspect):
+    """Width and height of the picture of a panel."""
+    width = round(IMAGE_DPI * style.FULL_WIDTH / columns)
+    return width, round(width / aspect)
+
+
+def shows_edges(grid, cut, view, pixels):
+    """Whether cells are large enough in the picture for edges; decided once for all panels of a
+    block, so that they can be compared."""
+    return bool(cut.seen_spacing(grid) * pixels[0] / view.width >= PIXELS_FOR_EDGES)
+
+
+def quality_colours(grid):
+    """The colours of the cells' mean ratios, shape (n_cells, 3), uint8."""
+    return colormaps[style.QUALITY_MAP](QUALITY_RANGE(grid.cell_data["mean_ratio"]),
+                                        bytes=True)[:, :3]
+
+
+def section_scene(grid, cut, view, pixels, edges, colours):
+    """The cells on the far side of the cut in these colours, shape (n_cells, 3)."""
+    return Scene(grid, view, pixels, cells=cut.kept(grid), cell_colours=colours, ambient=AMBIENT,
+                 cell_edges=edges)
 
 
 def show(axes, picture, boxed):

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which figures belong to a study, what they are called, and what they need."""
 
+import numpy as np
+
 from . import style
+from .figure_element_types import draw_element_types, is_mixed
 from .figure_histograms import draw_histograms
 from .figure_history import draw_history
-from .figure_meshes import COLUMNS as PLANAR_COLUMNS, DETAIL_CENTRE, DETAIL_WIDTH
-from .figure_meshes import draw_meshes, rows_of_panels
+from .figure_meshes import DETAIL_CENTRE, DETAIL_WIDTH, MOST_COLUMNS as PLANAR_COLUMNS
+from .figure_meshes import columns_of, draw_meshes, rows_of_panels
 from .figure_model import draw_model
-from .figure_sections import COLUMNS as SECTION_COLUMNS, draw_sections
+from .figure_sections import MOST_COLUMNS as SECTION_COLUMNS, draw_sections, first_grid
 from .figure_solid import draw_solid
 from .read_results import INITIAL
 from .read_vtu import read_vtu
@@ -25,9 +28,9 @@ THESIS_NUMBERS = {
     "subdivision": {"meshes": "5_21", "histograms": "5_22", "history": "5_23"},
     "sweep": {"meshes": "5_25", "histograms": "5_26", "history": "5_27"},
     "car": {"meshes": "5_31", "histograms": "5_30", "history": "5_34"},
-    "plate": {"meshes": "5_36", "histograms": "5_37", "history": "5_38"},
-    "ring": {"meshes": "5_40", "histograms": "5_41", "history": "5_42"},
-    "aorta": {"meshes": "5_44", "histograms": "5_45", "history": "5_46"},
+    "plate": {"element_types": "5_35", "meshes": "5_36", "histograms": "5_37", "history": "5_38"},
+    "ring": {"element_types": "5_39", "meshes": "5_40", "histograms": "5_41", "history": "5_42"},
+    "aorta": {"element_types": "5_43", "meshes": "5_44", "histograms": "5_45", "history": "5_46"},
     "warpage": {"history": "5_47"},
     "piston": {"meshes": "5_49", "history": "5_50"},
     "pump": {"meshes": "5_52", "history": "5_53"},
@@ -36,8 +39,12 @@ THESIS_NUMBERS = {
 # The degree whose errors the history figure shows; the lowest one for any other study.
 HISTORY_DEGREES = {"volume": "2"}
 
-# Rows of panels that fit a page; with more of them each mesh gets figures of its own.
+# What fits a page: rows of panels of meshes, and columns of panels of diagrams, one for each mesh.
 ROWS_OF_A_PAGE = 4
+MESHES_OF_A_PAGE = 3
+
+# How the name of a mesh ends that is a distorted one of the name before.
+DISTORTED_SUFFIX = "-distorted"
 
 
 def figure_name(study, kind, variant=""):
@@ -65,8 +72,20 @@ def draw_figures(results, report):
     if volume:
         # A study of both kinds has two figures of each sort.
         draw_volume_figures(results, volume, save, report, "_volume" if planar else "")
+    if planar or volume:
+        draw_histogram_figures(results, {**planar, **volume}, save)
     draw_history_figures(results, save)
     return paths
+
+
+def draw_histogram_figures(results, grids, save):
+    """How many cells of which quality there are, with linear and logarithmic counts."""
+    qualities = {key: grid.cell_data["mean_ratio"] for key, grid in grids.items()}
+    meshes = [mesh for mesh in results.meshes if any(mesh == name for name, _ in qualities)]
+    for part, shown in pages(meshes, fits_as_columns).items():
+        for logarithmic, variant in ((False, ""), (True, "_log")):
+            save(draw_histograms(results, shown, qualities, logarithmic),
+                 figure_name(results.study, "histograms", part + variant), "histograms of quality")
 
 
 def draw_history_figures(results, save):
@@ -76,16 +95,19 @@ def draw_history_figures(results, save):
     shown = shown if shown in results.degrees else first
     main = (("q_min", "q_mean", "e_max", "e_mean") if results.degrees else
             ("q_star_min", "q_mean", "w_mean"))
-    for log_time, variant, title in ((False, "", "history"), (True, "_log_time", "history, log time")):
-        save(draw_history(results, main, shown, log_time),
-             figure_name(results.study, "history", variant), title)
-    for degree in results.degrees:
-        # Without number: the thesis has these for one degree only, and no true errors.
-        prefix = "figure_history" if results.study in THESIS_NUMBERS else "history"
-        if degree != shown:
-            save(draw_history(results, main, degree), f"{prefix}_d{degree}", f"history, d = {degree}")
-        save(draw_history(results, ("e_l2", "e_h1", "l2_error", "h1_error"), degree),
-             f"{prefix}_norms_d{degree}", f"error norms, d = {degree}")
+    for part, meshes in pages(results.meshes, fits_as_columns).items():
+        def draw(columns, degree, name, title, log_time=False):
+            save(draw_history(results, columns, degree, log_time, meshes), name, title)
+        for log_time, variant, title in ((False, "", "history"),
+                                         (True, "_log_time", "history, log time")):
+            draw(main, shown, figure_name(results.study, "history", part + variant), title, log_time)
+        for degree in results.degrees:
+            # Without number: the thesis has these for one degree only, and no true errors.
+            prefix = ("figure_history" if results.study in THESIS_NUMBERS else "history") + part
+            if degree != shown:
+                draw(main, degree, f"{prefix}_d{degree}", f"history, d = {degree}")
+            draw(("e_l2", "e_h1", "l2_error", "h1_error"), degree, f"{prefix}_norms_d{degree}",
+                 f"error norms, d = {degree}")
 
 
 def read_grids(results, report):
@@ -99,6 +121,8 @@ def read_grids(results, report):
                 missing.append(path.name)
                 continue
             grid = read_vtu(path)
+            if same_as_sequential(grid, {**planar, **volume}, mesh, method):
+                continue
             kind = planar if grid.is_planar else volume if grid.is_volume else None
             if kind is None or "mean_ratio" not in grid.cell_data:
                 unknown.append(path.name)
@@ -109,6 +133,14 @@ def read_grids(results, report):
         if names:
             report(f"Not drawn, because meshes {reason}: {', '.join(names)}.")
     return planar, volume
+
+
+def same_as_sequential(grid, found, mesh, method):
+    """Whether this is the mesh of a parallel run that is bit for bit the one of the sequential run:
+    that is shown once."""
+    twin = found.get((mesh, style.sequential_name(method)))
+    return (method != style.sequential_name(method) and twin is not None
+            and np.array_equal(twin.points, grid.points))
 
 
 def solved_grid(results, grids, report):
@@ -129,11 +161,31 @@ def figure_settings(results):
     return settings if isinstance(settings, dict) else {}
 
 
-def pages(blocks, columns):
-    """Suffix -> blocks of one figure: all of them where they fit a page, else one for each mesh."""
-    if sum(rows_of_panels(panels, columns) for _, _, panels in blocks) <= ROWS_OF_A_PAGE:
-        return {"": [block[1:] for block in blocks]}
-    return {f"_{name}": [(title, panels)] for name, title, panels in blocks}
+def pages(meshes, fits):
+    """Suffix -> meshes of one figure: all of them if `fits` says that they fit a page, else each mesh
+    together with its distorted one, else one for each mesh."""
+    families = {}
+    for mesh in meshes:
+        base = mesh.removesuffix(DISTORTED_SUFFIX)
+        families.setdefault(base if base in meshes else mesh, []).append(mesh)
+    for groups in ({"": list(meshes)}, {f"_{name}": family for name, family in families.items()}):
+        if all(fits(group) for group in groups.values()):
+            return groups
+    return {f"_{mesh}": [mesh] for mesh in meshes}
+
+
+def fits_as_columns(meshes):
+    """Whether a column of diagrams for each mesh can be read on one page."""
+    return len(meshes) <= MESHES_OF_A_PAGE
+
+
+def draw_pages(blocks, columns, draw):
+    """Calls `draw` with a suffix and the blocks of each figure; `blocks` maps meshes to
+    (title, panels), which take so many columns."""
+    def fits(meshes):
+        return sum(rows_of_panels(blocks[mesh][1], columns) for mesh in meshes) <= ROWS_OF_A_PAGE
+    for part, meshes in pages(list(blocks), fits).items():
+        draw(part, [blocks[mesh] for mesh in meshes])
 
 
 def draw_mesh_figures(results, grids, save, report):
@@ -141,37 +193,49 @@ def draw_mesh_figures(results, grids, save, report):
     grid = solved_grid(results, grids, report)
     if grid is not None:
         save(draw_model(grid), figure_name(results.study, "model"), "model and exact solution")
-    names = list(dict.fromkeys(mesh for mesh, _ in grids))
-    blocks = [(mesh, results.title(mesh), [(results.title(method), grid)
+    blocks = {mesh: (results.title(mesh), [(results.title(method), grid)
                                            for (name, method), grid in grids.items() if name == mesh])
-              for mesh in names]
+              for mesh in dict.fromkeys(mesh for mesh, _ in grids)}
     settings = figure_settings(results)
     detail = (settings.get("detail_centre", DETAIL_CENTRE), settings.get("detail_width", DETAIL_WIDTH))
-    for part, shown in pages(blocks, PLANAR_COLUMNS).items():
+
+    def draw(part, shown):
         for variant, window in (("", detail), ("_full", None)):
             save(draw_meshes(shown, window), figure_name(results.study, "meshes", part + variant),
                  "meshes" if window is None else "details of the meshes")
+    draw_pages(blocks, columns_of(blocks.values(), PLANAR_COLUMNS, with_free=True), draw)
 
 
 def draw_volume_figures(results, grids, save, report, suffix):
-    """The same for volume meshes, cut open, and histograms of their quality."""
-    qualities = {key: grid.cell_data["mean_ratio"] for key, grid in grids.items()}
-    for logarithmic, variant in ((False, ""), (True, "_log")):
-        save(draw_histograms(results, qualities, logarithmic),
-             figure_name(results.study, "histograms", suffix + variant), "histograms of quality")
+    """The same for volume meshes, cut open, and the types of their cells where they are mixed."""
     normal = figure_settings(results).get("cut_normal")
-    blocks = [(mesh, results.title(mesh), [(results.title(method), grids.get((mesh, method)))
-                                           for method in (INITIAL, *results.methods)])
-              for mesh in dict.fromkeys(mesh for mesh, _ in grids)]
+    # Methods without any mesh have no panel; one that is missing of some meshes has an empty one.
+    methods = [m for m in (INITIAL, *results.methods) if any(m == method for _, method in grids)]
+    blocks = {mesh: (results.title(mesh), [(results.title(method), grids.get((mesh, method)))
+                                           for method in methods])
+              for mesh in dict.fromkeys(mesh for mesh, _ in grids)}
+
+    def draw(part, shown):
+        for variant, detail in (("", False), ("_detail", True)):
+            save(draw_sections(shown, detail, normal),
+                 figure_name(results.study, "meshes", suffix + part + variant),
+                 "details of the cut meshes" if detail else "cut meshes")
     try:
         grid = solved_grid(results, grids, report)
         if grid is not None:
             save(draw_solid(grid), figure_name(results.study, "model", suffix),
                  "model and exact solution")
-        for part, shown in pages(blocks, SECTION_COLUMNS).items():
-            for variant, detail in (("", False), ("_detail", True)):
-                save(draw_sections(shown, detail, normal),
-                     figure_name(results.study, "meshes", suffix + part + variant),
-                     "details of the cut meshes" if detail else "cut meshes")
+        draw_pages(blocks, columns_of(blocks.values(), SECTION_COLUMNS), draw)
+        mixed = [(title, panels_of_types(panels)) for title, panels in blocks.values()
+                 if is_mixed(first_grid(panels))]
+        if mixed:
+            save(draw_element_types(mixed, normal),
+                 figure_name(results.study, "element_types", suffix), "types of elements")
     except NoDisplay as error:
         report(f"No pictures of volume meshes: {error}.")
+
+
+def panels_of_types(panels):
+    """The first and the last mesh of a block: thin layers are better seen after smoothing."""
+    there = [panel for panel in panels if panel[1] is not None]
+    return there[:1] + there[1:][-1:]

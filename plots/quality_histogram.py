@@ -10,21 +10,11 @@ import sys
 from pathlib import Path
 
 from . import style
+from .number_format import counted
 from .write_files import write_atomically
 
 SIZE = (4.6, 3.0)  # inches
 SUFFIXES = ("pdf", "png", "svg")
-
-# A type has the same colour in every figure.
-COLOURS = {"triangle": "#0072B2", "quadrilateral": "#E69F00", "polygon": "#009E73",
-           "tetrahedron": "#0072B2", "hexahedron": "#E69F00", "prism": "#009E73",
-           "pyramid": "#CC79A7"}
-PLURALS = {"tetrahedron": "tetrahedra", "hexahedron": "hexahedra"}
-
-
-def counted(count, name):
-    """'1 prism', '10,600 hexahedra'."""
-    return f"{count:,} {name if count == 1 else PLURALS.get(name, name + 's')}"
 
 
 def draw_quality_histogram(numbers):
@@ -36,7 +26,7 @@ def draw_quality_histogram(numbers):
     below = [0] * n_bins
     shown = []
     for name, counts in sorted(histogram.items(), key=lambda item: -sum(item[1])):
-        bars = axes.bar(lefts, counts, 1 / n_bins, below, align="edge", color=COLOURS[name],
+        bars = axes.bar(lefts, counts, 1 / n_bins, below, align="edge", color=style.ELEMENT_COLOURS[name],
                         edgecolor="white", linewidth=0.3, label=counted(sum(counts), name))
         shown.append(bars)
         below = [low + count for low, count in zip(below, counts)]

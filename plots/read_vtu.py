@@ -21,7 +21,7 @@ NUMPY_TYPES = {"Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int3
 # Planar cells whose connectivity walks around the cell: VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
 PLANAR_CELL_TYPES = (5, 7, 9)
 # VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID.
-VOLUME_CELL_TYPES = (10, 12, 13, 14)
+VOLUME_CELL_TYPES = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid"}
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class UnstructuredGrid:
     @property
     def is_volume(self):
         """Whether every cell is a tetrahedron, hexahedron, prism or pyramid."""
-        return bool(np.isin(self.types, VOLUME_CELL_TYPES).all())
+        return bool(np.isin(self.types, list(VOLUME_CELL_TYPES)).all())
 
     def cells(self):
         """The cells as a list of arrays of node numbers."""

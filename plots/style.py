@@ -6,7 +6,7 @@ is too light for thin lines. Marker and dashes differ as well, so that print in 
 """
 
 import io
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import matplotlib
 
@@ -38,6 +38,10 @@ QUALITY_MAP = "RdYlBu"  # low quality red, high quality blue; safe for the colou
 SOLUTION_MAP = "viridis"
 INITIAL_COLOUR = "0.45"
 FILL_COLOUR, OUTLINE_COLOUR = "#dbe7f0", "0.15"
+# A type of elements has the same colour in every figure.
+ELEMENT_COLOURS = {"triangle": "#0072B2", "quadrilateral": "#E69F00", "polygon": "#009E73",
+                   "tetrahedron": "#0072B2", "hexahedron": "#E69F00", "prism": "#009E73",
+                   "pyramid": "#CC79A7"}
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,12 @@ class MethodStyle:
     colour: str
     marker: str
     dashes: tuple  # on, off, ... in line widths; empty: solid
+    hollow: bool = False  # whether the marker is white inside
+
+    @property
+    def marker_fill(self):
+        """The colour inside the marker."""
+        return "white" if self.hollow else self.colour
 
 
 KNOWN_METHODS = {
@@ -69,12 +79,27 @@ OTHER_METHODS = tuple(
          (12, 1.5, 2, 1.5))))
 
 
+# How the name of a method ends that is the one of the same name on several threads.
+PARALLEL_SUFFIX = "-parallel"
+PARALLEL_DASHES = (6, 1.5, 1, 1.5, 1, 1.5)
+
+
+def sequential_name(method):
+    """The name of the method on one thread."""
+    return method.removesuffix(PARALLEL_SUFFIX)
+
+
 def method_styles(methods):
     """A style for each method. The known ones always have the same; any other takes the next free
-    one in the alphabetical order of the names, whatever the order of the study."""
-    others = sorted(set(methods) - KNOWN_METHODS.keys())
-    styles = {name: OTHER_METHODS[i % len(OTHER_METHODS)] for i, name in enumerate(others)}
-    styles.update((name, style) for name, style in KNOWN_METHODS.items() if name in methods)
+    one in the alphabetical order of the names, whatever the order of the study. A parallel method
+    looks like its sequential one with a hollow marker and other dashes."""
+    sequential = {sequential_name(name) for name in methods}
+    others = sorted(sequential - KNOWN_METHODS.keys())
+    found = {**KNOWN_METHODS,
+             **{name: OTHER_METHODS[i % len(OTHER_METHODS)] for i, name in enumerate(others)}}
+    styles = {name: found[sequential_name(name)] for name in methods}
+    styles.update((name, replace(look, dashes=PARALLEL_DASHES, hollow=True))
+                  for name, look in styles.items() if name != sequential_name(name))
     styles[INITIAL] = MethodStyle(INITIAL_COLOUR, "", ())
     return styles
 

@@ -3,14 +3,15 @@
 
 import contextlib
 import io
+from unittest import mock
 
 import numpy as np
 
 from plots import style
 from plots.__main__ import main
-from plots.figure_history import draw_history
+from plots.figure_history import dominant_method, draw_history, write_into_free_place
 from plots.read_results import read_results
-from plots.tests.synthetic_results import write_results
+from plots.tests.synthetic_results import without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
 
 
@@ -31,6 +32,7 @@ class Figures(InFolder):
         self.assertEqual(contents[0], contents[1])
         names = {"figure_6_2_model", "figure_6_3_meshes", "figure_6_3_meshes_full",
                  "figure_6_4_history", "figure_6_4_history_log_time", "figure_history_d2",
+                 "figure_histograms", "figure_histograms_log",
                  "figure_history_norms_d1", "figure_history_norms_d2"}
         self.assertEqual({path.name for path in folder.glob("figures/*")},
                          {name + suffix for name in names for suffix in (".pdf", ".png")})
@@ -64,6 +66,41 @@ class Figures(InFolder):
             self.assertFalse(np.isnan(lines["getme"].get_ydata()).any())
         style.pyplot.close(figure)
 
+    def test_a_dominant_method_ends_the_axis_early(self):
+        def lines(*seconds):
+            return {str(i): (np.array([0, end]), np.array([0.1, 0.2])) for i, end in enumerate(seconds)}
+        self.assertEqual(dominant_method(lines(1.0, 30.0)), ("1", 5.0))
+        for seconds in ((1.0, 10.0), (1.0,), (0.0, 10.0)):
+            self.assertEqual(dominant_method(lines(*seconds)), ("", np.inf))
+
+    def test_words_stay_off_the_lines(self):
+        for height, expected in ((0.1, 0.9), (0.95, 0.1)):
+            figure, axes = style.pyplot.subplots()
+            axes.plot([0, 1], [height, height])
+            axes.set(xlim=(0, 1), ylim=(0, 1))
+            write_into_free_place(axes, "words")
+            self.assertAlmostEqual(axes.texts[0].get_position()[1], expected)
+            style.pyplot.close(figure)
+
+    def test_warpage_that_spans_magnitudes_has_a_logarithmic_axis(self):
+        results = read_results(write_results(self.folder / "r"))
+        numbers = results.iterations.columns["w_mean"]
+        style.apply_style()
+        for factor, scale in ((0.9, "linear"), (0.1, "log")):
+            numbers[:] = [str(0.5 * factor ** (i % 4)) for i in range(len(numbers))]
+            figure = draw_history(results, ("q_mean", "w_mean"), "1")
+            self.assertEqual([axes.get_yscale() for axes in figure.axes], ["linear", scale])
+            style.pyplot.close(figure)
+
+    def test_figures_of_many_meshes(self):
+        folder = without_finite_elements(
+            write_results(self.folder / "r", "slab", ("a", "a-distorted", "b", "b-distorted")))
+        with mock.patch("plots.style.DPI", 40):  # what they look like is not looked at here
+            self.run_main(folder, "--quiet")
+        names = {path.stem for path in folder.glob("figures/*.pdf")}
+        self.assertLessEqual({"history_a", "history_b_log_time", "histograms_a", "histograms_b_log",
+                              "meshes", "meshes_full"}, names)
+
     def test_markers_and_dashes_tell_methods_apart(self):
         methods = (*style.KNOWN_METHODS, "mine", "yours", "another")
         styles = style.method_styles(methods)
@@ -73,5 +110,10 @@ class Figures(InFolder):
         for attribute in ("marker", "dashes"):
             values = [getattr(styles[name], attribute) for name in methods]
             self.assertEqual(len(set(values)), len(values), attribute)
+        parallel = style.method_styles((*methods, "getme-parallel"))
+        self.assertEqual({name: parallel[name] for name in styles}, styles)
+        self.assertEqual(parallel["getme-parallel"].colour, styles["getme"].colour)
+        self.assertNotEqual(parallel["getme-parallel"].dashes, styles["getme"].dashes)
+        self.assertTrue(parallel["getme-parallel"].hollow)
         # The order of the study does not change the looks.
         self.assertEqual(styles, style.method_styles(tuple(reversed(methods))))

@@ -7,19 +7,23 @@ import os
 import shutil
 import socket
 import unittest
+from dataclasses import replace
 from unittest import mock
 
 import numpy as np
 
 from plots import style
 from plots.__main__ import main
+from plots.figure_element_types import (counts_of_types, draw_element_types, is_mixed,
+                                        type_colours)
 from plots.figure_histograms import draw_histograms
+from plots.figure_meshes import columns_of
 from plots.figures import pages, read_grids
 from plots.read_results import read_results
-from plots.read_vtu import read_vtu
+from plots.read_vtu import UnstructuredGrid, read_vtu
 from plots.render_volume import Scene, render
 from plots.tests.synthetic_results import write_vtu
-from plots.tests.synthetic_volume import write_volume_results, write_volume_vtu
+from plots.tests.synthetic_volume import box, write_volume_results, write_volume_vtu
 from plots.tests.test_read_results import InFolder
 from plots.virtual_display import NoDisplay, virtual_display
 from plots.volume_geometry import Cut, view_of, widest_cut
@@ -60,7 +64,16 @@ class Geometry(InFolder):
         cut = Cut((1.2, 0, 0), (1, 0, 0))
         self.assertEqual(cut.kept(grid).sum(), 6)  # the centres of the second layer are at x = 1.5
         self.assertEqual(cut.crossed(grid).sum(), 6)
-        self.assertEqual(Cut((2, 1, 1), (0, 0, 1)).spacing(grid), 1.0)
+        middle = Cut((2, 1, 1), (0, 0, 1))
+        self.assertEqual((middle.spacing(grid), middle.seen_spacing(grid)), (1.0, 1.0))
+
+    def test_few_large_cells_are_what_is_seen(self):
+        grid = self.grid("hex")
+        points = grid.points.copy()
+        points[points[:, 0] == 4, 0] = 40.0  # the first edge of a cell is along x: 1, 1, 1 and 37
+        middle = Cut((2, 1, 1), (0, 0, 1))
+        graded = replace(grid, points=points)
+        self.assertEqual((middle.spacing(graded), middle.seen_spacing(graded)), (1.0, 37.0))
 
     def test_view_holds_all_points(self):
         points = self.grid("tet").points
@@ -70,9 +83,56 @@ class Geometry(InFolder):
         self.assertTrue((np.abs(flat) <= (0.5 * view.width, 0.5 * view.height)).all())
 
     def test_pages(self):
-        blocks = [(name, name, [1] * 6) for name in ("a", "b", "c")]
-        self.assertEqual(list(pages(blocks, 6)), [""])
-        self.assertEqual(list(pages(blocks, 5)), ["_a", "_b", "_c"])
+        meshes = ["a", "a-distorted", "b", "b-distorted", "c"]
+        for most, expected in ((5, [""]), (4, ["_a", "_b", "_c"]),
+                               (1, ["_a", "_a-distorted", "_b", "_b-distorted", "_c"])):
+            found = pages(meshes, lambda group: len(group) <= most)
+            self.assertEqual(list(found), expected)
+            self.assertEqual([mesh for group in found.values() for mesh in group], meshes)
+
+    def test_rows_are_about_equally_full(self):
+        for n_panels, most, with_free, expected in ((4, 4, False, 4), (4, 4, True, 3), (5, 4, False, 3),
+                                                    (5, 5, False, 5), (6, 5, False, 3), (8, 5, False, 4)):
+            self.assertEqual(columns_of([("", [1] * n_panels)], most, with_free), expected)
+
+
+class ElementTypes(InFolder):
+    def mixed(self):
+        """Six tetrahedra and a hexahedron for each brick of a box."""
+        parts = [box(kind) for kind in ("tet", "hex")]
+        (points, _), sizes = parts[0], [np.full(len(cells), cells.shape[1]) for _, cells in parts]
+        return UnstructuredGrid(
+            points=points, connectivity=np.concatenate([cells.ravel() for _, cells in parts]),
+            offsets=np.concatenate(([0], np.cumsum(np.concatenate(sizes)))),
+            types=np.repeat([10, 12], [len(cells) for _, cells in parts]), point_data={}, cell_data={})
+
+    def test_counts_and_colours(self):
+        grid = self.mixed()
+        self.assertTrue(is_mixed(grid))
+        self.assertEqual(counts_of_types(grid), "144 tetrahedra, 24 hexahedra")
+        colours = type_colours(grid)
+        self.assertEqual(len(np.unique(colours, axis=0)), 2)
+        self.assertEqual(len(np.unique(colours[grid.types == 12], axis=0)), 1)
+
+    @needs_rendering
+    def test_picture_of_each_mesh_as_a_whole_and_in_detail(self):
+        style.apply_style()
+        grid = self.mixed()
+        with mock.patch("plots.figure_sections.IMAGE_DPI", 60):
+            figure = draw_element_types([("Box", [("Initial", grid), ("GETMe", grid)])])
+        captions = [axes.texts[0].get_text() for axes in figure.axes]
+        self.assertEqual(captions, ["Initial", "GETMe", "Initial, detail", "GETMe, detail"])
+        self.assertEqual([text.get_text() for text in figure.legends[0].get_texts()],
+                         ["Tetrahedron", "Hexahedron"])
+        style.pyplot.close(figure)
+
+
+class ParallelRuns(InFolder):
+    def test_the_same_mesh_is_shown_once(self):
+        methods = ("getme", "getme-parallel", "own-parallel")
+        results = read_results(write_volume_results(self.folder / "r", "own", ("hex",), methods))
+        _, volume = read_grids(results, self.fail)
+        self.assertEqual([method for _, method in volume], ["initial", "getme", "own-parallel"])
 
 
 class Histograms(InFolder):
@@ -81,7 +141,7 @@ class Histograms(InFolder):
         _, volume = read_grids(results, self.fail)
         style.apply_style()
         qualities = {key: grid.cell_data["mean_ratio"] for key, grid in volume.items()}
-        figure = draw_histograms(results, qualities)
+        figure = draw_histograms(results, results.meshes, qualities)
         for axes, n_cells in zip(figure.axes, (6 * 24, 24)):
             self.assertEqual([patch.get_data().values.sum() for patch in axes.patches], [n_cells] * 5)
             self.assertEqual({patch.get_data().values[0] for patch in axes.patches}, {1})
@@ -150,7 +210,7 @@ class VolumeStudy(InFolder):
         errors, names = self.run_main(folder)
         self.assertIn("hexes_initial.vtu", errors)
         self.assertLessEqual({"model", "model_volume", "meshes", "meshes_volume", "history",
-                              "meshes_volume_detail", "histograms_volume"}, names)
+                              "meshes_volume_detail", "histograms"}, names)
 
     def test_without_a_server_the_other_figures_are_made(self):
         folder = write_volume_results(self.folder / "r")
