@@ -14,6 +14,7 @@ from .expressions import Missing, evaluate
 from .number_format import MISSING
 from .printed_values import THESIS_FOLDER
 from .read_results import ResultsError, entries
+from .table_formats import escape_markdown
 
 HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
 # More numbers than these are shown as a range.
@@ -145,8 +146,8 @@ def as_markdown(outcomes, results):
         claim = outcome.claim
         verdict = outcome.verdict if outcome.verdict == HOLDS else f"**{outcome.verdict}**"
         cells = (claim["id"], claim["section"], claim["statement"], claim["criterion"],
-                 outcome.printed, outcome.ours, verdict)
-        lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
+                 outcome.printed, outcome.ours)
+        lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells) + f" | {verdict} |")
     lines += known_reasons(outcomes)
     return "\n".join(lines) + "\n"
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes a Table as aligned text, as Markdown and as LaTeX (booktabs, graphicx)."""
 
+import re
 import textwrap
 from dataclasses import replace
 
@@ -92,11 +93,15 @@ def joined(group, texts, left=False):
                     for text, w in zip(texts, column_widths(group)))
 
 
+def escape_markdown(text):
+    """Text with the characters escaped that would end a cell or begin emphasis."""
+    return re.sub(r"([|*_])", r"\\\1", text)
+
+
 def as_markdown(table):
     """The table for a Markdown page; headings are repeated in each column."""
     def marked(cell):
-        text = cell.text.replace("|", "\\|").replace("*", "\\*").replace("_", "\\_")
-        return text + (f"<sup>{cell.mark}</sup>" if cell.mark else "")
+        return escape_markdown(cell.text) + (f"<sup>{cell.mark}</sup>" if cell.mark else "")
 
     headings = [h.text for h in table.key_headings]
     alignment = [":--" for _ in headings]
@@ -104,14 +109,14 @@ def as_markdown(table):
         headings += [f"{group.heading.text} {sub}".strip() for sub in group.subheadings]
         left = group.heading.text in table.left_aligned
         alignment += [":--" if left else "--:" for _ in group.subheadings]
-    headings = [h.replace("|", "\\|").replace("*", "\\*").replace("_", "\\_") for h in headings]
-    lines = [f"**{table.caption}**", "", f"| {' | '.join(headings)} |", f"|{'|'.join(alignment)}|"]
+    headings = " | ".join(escape_markdown(heading) for heading in headings)
+    lines = [f"**{escape_markdown(table.caption)}**", "", f"| {headings} |", f"|{'|'.join(alignment)}|"]
     for number, key in enumerate(table.keys):
         cells = list(key) + [cell for group in table.groups for cell in group.cells[number]]
         lines.append("| " + " | ".join(marked(cell) for cell in cells) + " |")
     lines.append("")
     for letter, sentence in table.notes:
-        lines.append((f"<sup>{letter}</sup> " if letter else "") + sentence + "  ")
+        lines.append((f"<sup>{letter}</sup> " if letter else "") + escape_markdown(sentence) + "  ")
     return "\n".join(lines).rstrip() + "\n"
 
 

@@ -13,7 +13,8 @@ from .table_descriptions import DETAILS, KEY_HEADINGS, SYMBOLS, Heading, TABLES
 
 
 COLUMNS_NOTE = ("Columns: our value, the printed one, and where it makes sense the relative difference "
-                "in %, from ten times the printed one on the factor (=: the same in all printed digits).")
+                "in %, from ten times the printed one on as a factor (=: the same in all printed "
+                "digits).")
 
 
 @dataclass(frozen=True)
@@ -209,7 +210,8 @@ def number_cell(text, mark=""):
 def escape_tex(text):
     """Text with LaTeX's special characters escaped."""
     special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-               "–": "--", "×": r"$\times$", "<": "$<$", ">": "$>$", "|": "$|$", **{c: "\\" + c for c in "&%$#_{}"}}
+               "–": "--", "×": r"$\times$", "<": "$<$", ">": "$>$", "|": "$|$",
+               **{c: "\\" + c for c in "&%$#_{}"}}
     return "".join(special.get(character, character) for character in text)
 
 
