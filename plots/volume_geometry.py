@@ -9,6 +9,7 @@ import numpy as np
 MODEL_DIRECTION = (-0.55, -1.0, 0.75)
 # Seen from the removed side, slightly from the right and from above.
 CUT_TILT = (0.28, 0.42)
+LARGEST_DETAIL = 0.5  # of a view's shorter side: a detail of a small mesh is to be one, too
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,9 @@ class Cut:
     def densest_window(self, grid, view, cells_across):
         """(centre, width) of the window of so many cells that holds most of the cells that are cut,
         moved to the middle of these, lest half of it is empty."""
-        width = cells_across * self.spacing(grid)
+        # On graded meshes neither the many small cells nor the large ones alone say how much to show.
+        cell = np.sqrt(self.spacing(grid) * self.seen_spacing(grid))
+        width = min(cells_across * cell, LARGEST_DETAIL * min(view.width, view.height))
         middles = cell_centres(grid)[self.crossed(grid)]
         flat = view.flattened(middles)
         # Some hundreds of candidates are enough to find a place that is filled.

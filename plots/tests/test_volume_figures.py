@@ -75,6 +75,13 @@ class Geometry(InFolder):
         graded = replace(grid, points=points)
         self.assertEqual((middle.spacing(graded), middle.seen_spacing(graded)), (1.0, 37.0))
 
+    def test_a_detail_is_smaller_than_the_whole(self):
+        grid = self.grid("hex")
+        cut = Cut((2, 1, 1), (0, 0, 1))
+        view = cut.view(grid)
+        for cells, width in ((1, 1.0), (100, 0.5 * min(view.width, view.height))):
+            self.assertAlmostEqual(cut.densest_window(grid, view, cells)[1], width)
+
     def test_view_holds_all_points(self):
         points = self.grid("tet").points
         view = view_of(points, (-1, -2, 0.5)).fitted(1.7)
