@@ -12,6 +12,7 @@ from .figure_meshes import columns_of, draw_meshes, rows_of_panels
 from .figure_model import draw_model
 from .figure_sections import MOST_COLUMNS as SECTION_COLUMNS, draw_sections, first_grid
 from .figure_solid import draw_solid
+from .figure_surfaces import MOST_COLUMNS as SURFACE_COLUMNS, draw_surfaces
 from .read_results import INITIAL
 from .read_vtu import read_vtu
 from .virtual_display import NoDisplay
@@ -66,14 +67,16 @@ def draw_figures(results, report):
             paths.extend(style.save_figure(figure, results.folder / "figures", name,
                                            f"{results.study_title}: {title}"))
 
-    planar, volume = read_grids(results, report)
+    planar, volume, surface = read_grids(results, report)
     if planar:
         draw_mesh_figures(results, planar, save, report)
     if volume:
         # A study of both kinds has two figures of each sort.
         draw_volume_figures(results, volume, save, report, "_volume" if planar else "")
-    if planar or volume:
-        draw_histogram_figures(results, {**planar, **volume}, save)
+    if surface:
+        draw_surface_figures(results, surface, save, report)
+    if planar or volume or surface:
+        draw_histogram_figures(results, {**planar, **volume, **surface}, save)
     draw_history_figures(results, save)
     return paths
 
@@ -112,8 +115,8 @@ def draw_history_figures(results, save):
 
 def read_grids(results, report):
     """(mesh, method) -> grid for all meshes that are there, in the order of the study: the planar
-    ones, and those of volume cells."""
-    planar, volume, missing, unknown = {}, {}, [], []
+    ones, those of volume cells, and surfaces in space."""
+    planar, volume, surface, missing, unknown = {}, {}, {}, [], []
     for mesh in results.meshes:
         for method in (INITIAL, *results.methods):
             path = results.mesh_file(mesh, method)
@@ -121,9 +124,10 @@ def read_grids(results, report):
                 missing.append(path.name)
                 continue
             grid = read_vtu(path)
-            if same_as_sequential(grid, {**planar, **volume}, mesh, method):
+            if same_as_sequential(grid, {**planar, **volume, **surface}, mesh, method):
                 continue
-            kind = planar if grid.is_planar else volume if grid.is_volume else None
+            kind = (planar if grid.is_planar else volume if grid.is_volume else
+                    surface if grid.is_surface else None)
             if kind is None or "mean_ratio" not in grid.cell_data:
                 unknown.append(path.name)
             else:
@@ -132,7 +136,7 @@ def read_grids(results, report):
                           (unknown, "have cells of other kinds or lack `mean_ratio`")):
         if names:
             report(f"Not drawn, because meshes {reason}: {', '.join(names)}.")
-    return planar, volume
+    return planar, volume, surface
 
 
 def same_as_sequential(grid, found, mesh, method):
@@ -188,14 +192,31 @@ def draw_pages(blocks, columns, draw):
         draw(part, [blocks[mesh] for mesh in meshes])
 
 
+def blocks_of(results, grids):
+    """Mesh -> (title, panels), one a method."""
+    return {mesh: (results.title(mesh), [(results.title(method), grid)
+                                         for (name, method), grid in grids.items() if name == mesh])
+            for mesh in dict.fromkeys(mesh for mesh, _ in grids)}
+
+
+def draw_surface_figures(results, grids, save, report):
+    """The meshes of surfaces, as a whole."""
+    blocks = blocks_of(results, grids)
+
+    def draw(part, shown):
+        save(draw_surfaces(shown), figure_name(results.study, "meshes", part), "meshes")
+    try:
+        draw_pages(blocks, columns_of(blocks.values(), SURFACE_COLUMNS), draw)
+    except NoDisplay as error:
+        report(f"No pictures of surface meshes: {error}.")
+
+
 def draw_mesh_figures(results, grids, save, report):
     """The figures of the model and of the meshes."""
     grid = solved_grid(results, grids, report)
     if grid is not None:
         save(draw_model(grid), figure_name(results.study, "model"), "model and exact solution")
-    blocks = {mesh: (results.title(mesh), [(results.title(method), grid)
-                                           for (name, method), grid in grids.items() if name == mesh])
-              for mesh in dict.fromkeys(mesh for mesh, _ in grids)}
+    blocks = blocks_of(results, grids)
     settings = figure_settings(results)
     detail = (settings.get("detail_centre", DETAIL_CENTRE), settings.get("detail_width", DETAIL_WIDTH))
 

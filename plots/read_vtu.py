@@ -37,6 +37,16 @@ class UnstructuredGrid:
 
     @property
     def is_planar(self):
+        """Whether every cell is a triangle, quadrilateral or polygon, of one plane."""
+        return self.has_polygons and bool((self.points[:, 2] == self.points[0, 2]).all())
+
+    @property
+    def is_surface(self):
+        """The same in space."""
+        return self.has_polygons and not self.is_planar
+
+    @property
+    def has_polygons(self):
         """Whether every cell is a triangle, quadrilateral or polygon."""
         return bool(np.isin(self.types, PLANAR_CELL_TYPES).all())
 

@@ -27,14 +27,15 @@ class Scene:
     """One picture: the faces that are seen of some cells of a grid, in plain or given colours.
 
     With `cell_colours` only faces that are no faces of the whole grid's surface are coloured: those
-    that taking cells away has opened.
+    that taking cells away has opened; with `outside_coloured` all of them.
     """
 
-    grid: object  # UnstructuredGrid with volume cells
+    grid: object  # UnstructuredGrid with volume cells, or the cells of a surface
     view: View
     pixels: tuple  # width, height
     cells: Optional[np.ndarray] = None  # which are there, (n_cells,) bool; None: all
     cell_colours: Optional[np.ndarray] = None  # (n_cells, 3) uint8
+    outside_coloured: bool = False
     point_colours: Optional[np.ndarray] = None  # (n_points, 3) uint8
     plain_colour: tuple = (0.80, 0.86, 0.90)
     cell_edges: bool = False  # of the coloured faces
@@ -101,6 +102,7 @@ def actors_of(scene):
         whole = surface_of(vtk_grid(replace(scene, cells=None)))
         n_points = len(scene.grid.points)
         opened = ~np.isin(face_keys(surface, n_points), face_keys(whole, n_points))
+        opened |= scene.outside_coloured
         found = [actor_of(with_faces(surface, chosen), scene, coloured)
                  for chosen, coloured in ((~opened, False), (opened, True)) if chosen.any()]
     if scene.feature_edges:

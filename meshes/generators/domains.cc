@@ -15,6 +15,7 @@
 #include "meshes/generators/pump_housing.h"
 #include "meshes/generators/random_planar.h"
 #include "meshes/generators/revolved_profile.h"
+#include "meshes/generators/roof.h"
 #include "meshes/generators/stem.h"
 #include "meshes/generators/subdivided_cube.h"
 #include "meshes/generators/vessel.h"
@@ -58,6 +59,10 @@ AnyMesh make_pump(const DomainParameters& p) {
 
 AnyMesh make_car(const DomainParameters& p) {
   return generate_car_flow(p.edge_scale);
+}
+
+AnyMesh make_roof(const DomainParameters& p) {
+  return generate_roof(p.edge_scale);
 }
 
 AnyMesh make_sweep(const DomainParameters& p) {
@@ -136,6 +141,11 @@ const std::vector<Domain>& domains() {
        2,
        {"triangles", "quadrilaterals", "mixed"},
        make_random_planar},
+      {"roof",
+       "stand-in for Section 5.1.2's surface mesh: its counts, a membrane with two peaks",
+       2,
+       {"quadrilaterals"},
+       make_roof},
       {"bridge",
        "stand-in for Section 5.1.3's meshes: their size, a box girder with four tendon ducts",
        3,

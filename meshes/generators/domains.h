@@ -20,7 +20,7 @@ struct DomainParameters {
 struct Domain {
   std::string name;
   std::string description;
-  int dimension;                      ///< of its meshes: 2 or 3
+  int dimension;                      ///< of its meshes' cells: 2 or 3
   std::vector<std::string> elements;  ///< of element_names(), that it can be meshed with; the
                                       ///< usual ones first
   AnyMesh (*make)(const DomainParameters&);  ///< its `elements` are one of the domain's

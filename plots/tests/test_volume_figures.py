@@ -138,14 +138,14 @@ class ParallelRuns(InFolder):
     def test_the_same_mesh_is_shown_once(self):
         methods = ("getme", "getme-parallel", "own-parallel")
         results = read_results(write_volume_results(self.folder / "r", "own", ("hex",), methods))
-        _, volume = read_grids(results, self.fail)
+        _, volume, _ = read_grids(results, self.fail)
         self.assertEqual([method for _, method in volume], ["initial", "getme", "own-parallel"])
 
 
 class Histograms(InFolder):
     def test_every_cell_is_counted_once(self):
         results = read_results(write_volume_results(self.folder / "r"))
-        _, volume = read_grids(results, self.fail)
+        _, volume, _ = read_grids(results, self.fail)
         style.apply_style()
         qualities = {key: grid.cell_data["mean_ratio"] for key, grid in volume.items()}
         figure = draw_histograms(results, results.meshes, qualities)

@@ -81,6 +81,18 @@ TEST(VolumeStudy, IsThatOfSection63) {
   EXPECT_EQ(paper.edge_scale, 1.0);
 }
 
+TEST(SurfaceStudy, IsThatOfSection512) {
+  const Study study = read_study(find_study("surface"));
+  EXPECT_EQ(study.dimensions.cells, 2);
+  EXPECT_EQ(study.dimensions.space, 3);
+  ASSERT_EQ(study.meshes.size(), 2u);
+  EXPECT_EQ(study.meshes[0].domain, "roof");
+  EXPECT_EQ(study.meshes[0].distort_to_q_mean, 0.0);
+  EXPECT_EQ(study.meshes[1].distort_to_q_mean, 0.4983);
+  EXPECT_EQ(names_of(study.methods), (std::vector<std::string>{"smart-laplace", "getme"}));
+  EXPECT_TRUE(study.degrees.empty());
+}
+
 class StudyFile : public FileTest {
  protected:
   Study read(const std::string& content) const { return read_study(file_with("own.prm", content)); }
