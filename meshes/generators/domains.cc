@@ -25,6 +25,18 @@ namespace smoothfem {
 
 namespace {
 
+/// For domains with one kind of elements and nothing random.
+template <auto generate>
+AnyMesh of_one_kind(const DomainParameters& p) {
+  return generate(p.edge_scale);
+}
+
+/// The same with a seed.
+template <auto generate>
+AnyMesh of_one_random_kind(const DomainParameters& p) {
+  return generate(p.edge_scale, p.seed);
+}
+
 AnyMesh make_gear(const DomainParameters& p) {
   const auto type = p.elements == "triangles" ? ElementType::triangle : ElementType::quadrilateral;
   GearParameters gear = gear_of_the_thesis(type, p.edge_scale);
@@ -41,60 +53,8 @@ AnyMesh make_flange(const DomainParameters& p) {
   return generate_flange({volume_type(p.elements), p.edge_scale});
 }
 
-AnyMesh make_subdivision(const DomainParameters& p) {
-  return generate_subdivided_cube(p.edge_scale);
-}
-
-AnyMesh make_nonuniform_grid(const DomainParameters& p) {
-  return generate_nonuniform_grid(p.edge_scale);
-}
-
 AnyMesh make_bridge(const DomainParameters& p) {
   return generate_box_girder(volume_type(p.elements), p.edge_scale);
-}
-
-AnyMesh make_pump(const DomainParameters& p) {
-  return generate_pump_housing(p.edge_scale);
-}
-
-AnyMesh make_car(const DomainParameters& p) {
-  return generate_car_flow(p.edge_scale);
-}
-
-AnyMesh make_roof(const DomainParameters& p) {
-  return generate_roof(p.edge_scale);
-}
-
-AnyMesh make_sweep(const DomainParameters& p) {
-  return generate_revolved_profile(p.edge_scale);
-}
-
-AnyMesh make_sphere(const DomainParameters& p) {
-  return generate_ball(p.edge_scale, p.seed);
-}
-
-AnyMesh make_prosthesis(const DomainParameters& p) {
-  return generate_stem(p.edge_scale, p.seed);
-}
-
-AnyMesh make_axle(const DomainParameters& p) {
-  return generate_axle(p.edge_scale);
-}
-
-AnyMesh make_plate(const DomainParameters& p) {
-  return generate_embedded_plate(p.edge_scale);
-}
-
-AnyMesh make_ring(const DomainParameters& p) {
-  return generate_embedded_ring(p.edge_scale);
-}
-
-AnyMesh make_aorta(const DomainParameters& p) {
-  return generate_vessel(p.edge_scale);
-}
-
-AnyMesh make_piston(const DomainParameters& p) {
-  return generate_piston(p.edge_scale);
 }
 
 AnyMesh make_random_planar(const DomainParameters& p) {
@@ -145,7 +105,7 @@ const std::vector<Domain>& domains() {
        "stand-in for Section 5.1.2's surface mesh: its counts, a membrane with two peaks",
        2,
        {"quadrilaterals"},
-       make_roof},
+       of_one_kind<generate_roof>},
       {"bridge",
        "stand-in for Section 5.1.3's meshes: their size, a box girder with four tendon ducts",
        3,
@@ -155,62 +115,62 @@ const std::vector<Domain>& domains() {
        "Section 5.2.1's ball: its 258 surface and 346 inner nodes, other random numbers",
        3,
        {"tetrahedra"},
-       make_sphere},
+       of_one_random_kind<generate_ball>},
       {"prosthesis",
        "stand-in for Section 5.2.2's mesh: its counts of nodes, random inside, a simpler stem",
        3,
        {"tetrahedra"},
-       make_prosthesis},
+       of_one_random_kind<generate_stem>},
       {"axle",
        "stand-in for Section 5.2.3's meshes: their genus and size, graded towards 16 holes",
        3,
        {"tetrahedra"},
-       make_axle},
+       of_one_kind<generate_axle>},
       {"nonuniform-grid",
        "Section 5.3.1's grid: its 13 x 4 x 11 nodes and printed mean ratios, planes of our own",
        3,
        {"hexahedra"},
-       make_nonuniform_grid},
+       of_one_kind<generate_nonuniform_grid>},
       {"subdivision",
        "Section 5.3.2's cube, refined ten times towards its centre: the same mesh, undistorted",
        3,
        {"hexahedra"},
-       make_subdivision},
+       of_one_kind<generate_subdivided_cube>},
       {"sweep",
        "stand-in for Section 5.3.3's mesh: its counts, the profile of a wheel turned in 15 layers",
        3,
        {"hexahedra"},
-       make_sweep},
+       of_one_kind<generate_revolved_profile>},
       {"car",
        "stand-in for Section 5.3.4's mesh: its size and quality, a grid around a body of two boxes",
        3,
        {"hexahedra"},
-       make_car},
+       of_one_kind<generate_car_flow>},
       {"plate",
        "stand-in for Section 5.4.1's mesh: about its counts, a plate with two holes in a cuboid",
        3,
        {"mixed"},
-       make_plate},
+       of_one_kind<generate_embedded_plate>},
       {"ring",
        "stand-in for Section 5.4.2's mesh: its grid and counts, around a torus",
        3,
        {"mixed"},
-       make_ring},
+       of_one_kind<generate_embedded_ring>},
       {"aorta",
        "stand-in for Section 5.4.3's mesh: about its counts, an arch with two branches",
        3,
        {"mixed"},
-       make_aorta},
+       of_one_kind<generate_vessel>},
       {"piston",
        "stand-in for Section 5.5.2's mesh: its size, a piston with bowl, grooves and pin hole",
        3,
        {"tetrahedra"},
-       make_piston},
+       of_one_kind<generate_piston>},
       {"pump",
        "stand-in for Section 5.5.3's mesh: its size and regularity, a swept plate with 18 bores",
        3,
        {"hexahedra"},
-       make_pump},
+       of_one_kind<generate_pump_housing>},
   };
   return all;
 }
