@@ -35,7 +35,7 @@ ConditionNumberMethod condition_number_method(const std::string& text) {
                              : ConditionNumberMethod::verified;
 }
 
-/// "getme-sequential: 10, ..."; deal.II has checked the numbers.
+/// "sequential: 10, ..."; deal.II has checked the numbers.
 std::map<std::string, int> stage_numbers(const std::string& text) {
   std::map<std::string, int> numbers;
   for (const auto& item : split_list(text)) {

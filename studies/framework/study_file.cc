@@ -102,14 +102,24 @@ std::vector<std::pair<std::string, std::string>> effective_parameters(ParameterH
   return result;
 }
 
+void declare_scales(ParameterHandler& p) {
+  p.declare_entry("scales", "", dealii::Patterns::Anything(),
+                  "Sizes that --scale can choose, separated by commas; each has a subsection "
+                  "'scale NAME'.");
+}
+
+std::string commented_keys(ParameterHandler& p) {
+  std::ostringstream text;
+  p.print_parameters(text, ParameterHandler::PRM);
+  return text.str();
+}
+
 void declare_table_study(ParameterHandler& p, const std::string& kind) {
   namespace Patterns = dealii::Patterns;
   p.declare_entry("kind", kind, Patterns::Selection(kind),
                   "What the study does; other kinds have other keys.");
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
-  p.declare_entry("scales", "", Patterns::Anything(),
-                  "Sizes that --scale can choose, separated by commas; each has a subsection "
-                  "'scale NAME'.");
+  declare_scales(p);
 }
 
 Study read_table_study(
@@ -117,7 +127,7 @@ Study read_table_study(
     const std::function<void(ParameterHandler&, const std::string&)>& declare_sizes) {
   const std::string text = read_study_text(file);
   ParameterHandler lists;  // which subsections there are depends on what the file says
-  lists.declare_entry("scales", "");
+  declare_scales(lists);
   parse_study(lists, text, file, true);
   const auto scales = split_list(lists.get("scales"));
   require_scale(scale, scales, file.string());

@@ -59,6 +59,12 @@ void require_scale(const std::string& scale, const std::vector<std::string>& kno
 /// "key = value" lines in force, subsections as prefix.
 std::vector<std::pair<std::string, std::string>> effective_parameters(dealii::ParameterHandler& p);
 
+/// Declares the list of a study's scales.
+void declare_scales(dealii::ParameterHandler& p);
+
+/// All keys declared, with what they mean and their defaults, as a study file.
+std::string commented_keys(dealii::ParameterHandler& p);
+
 /// Declares what files of studies whose results are tables have in common (table_study.h): kind,
 /// title, scales.
 void declare_table_study(dealii::ParameterHandler& p, const std::string& kind);

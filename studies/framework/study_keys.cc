@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <sstream>
 
 #include "meshes/distortion/distort.h"
 #include "meshes/generators/domains.h"
@@ -55,9 +54,7 @@ void declare_lists(ParameterHandler& p) {
   p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
   p.declare_entry("surface", "false", Patterns::Bool(),
                   "Whether the meshes, of dimension 2, are surfaces in space; without degrees.");
-  p.declare_entry("scales", "", Patterns::Anything(),
-                  "Sizes that --scale can choose, separated by commas; each has a subsection "
-                  "'scale NAME'.");
+  declare_scales(p);
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Labels of the meshes, separated by commas; each has a subsection 'mesh LABEL'.");
   p.declare_entry(
@@ -179,9 +176,7 @@ std::string study_template() {
   declare_problem(p);
   declare_scale(p, "NAME");
   declare_mesh(p, 2, "LABEL");
-  std::ostringstream text;
-  p.print_parameters(text, ParameterHandler::PRM);
-  return text.str();
+  return commented_keys(p);
 }
 
 }  // namespace smoothfem

@@ -132,9 +132,7 @@ std::string polygon_study_template() {
   ParameterHandler p;
   declare_keys(p);
   declare_sizes(p, "NAME");
-  std::ostringstream text;
-  p.print_parameters(text, ParameterHandler::PRM);
-  return text.str();
+  return commented_keys(p);
 }
 
 }  // namespace smoothfem

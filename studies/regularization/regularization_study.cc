@@ -1,7 +1,5 @@
 #include "studies/regularization/regularization_study.h"
 
-#include <sstream>
-
 #include "studies/framework/csv_text.h"
 #include "studies/framework/study_file.h"
 
@@ -115,9 +113,7 @@ std::string regularization_study_template() {
   ParameterHandler p;
   declare_keys(p);
   declare_sizes(p, "NAME");
-  std::ostringstream text;
-  p.print_parameters(text, ParameterHandler::PRM);
-  return text.str();
+  return commented_keys(p);
 }
 
 std::vector<StudyTable> regularization_tables(const RegularizationStudy& study) {
