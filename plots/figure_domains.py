@@ -8,7 +8,7 @@ from matplotlib.ticker import FixedLocator
 
 from . import style
 from .figure_polygons import domain_text
-from .polygon_results import groups_of
+from .read_results import groups_of
 
 # Light ones, so that lines and names on them can be read; used again for more than these.
 DOMAIN_COLOURS = ("#f2c5b3", "#bcd7ea", "#bfe3d3", "#f7e3b5", "#e6cbdc", "#d9d9d9", "#cfe9f5")

@@ -7,7 +7,8 @@ import matplotlib.pyplot as pyplot
 import numpy as np
 
 from . import style
-from .polygon_results import groups_of, nodes_of
+from .polygon_results import nodes_of
+from .read_results import groups_of
 
 # The first three nodes tell the orientation, as in the thesis; the others are all alike.
 NODE_COLOURS = ("#D55E00", "#009E73", "#0072B2")

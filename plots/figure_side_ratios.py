@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from . import style
-from .polygon_results import groups_of
+from .read_results import groups_of
 
 TITLES = {"equilateral": "Equilateral case: $1-y/x$", "right-isosceles": "Right isosceles case: $1-z/y$"}
 LEAST = 1e-13  # below is rounding

@@ -48,16 +48,6 @@ def read_polygon_results(folder):
                           study_title=str(provenance.get("study_title") or study), **files)
 
 
-def groups_of(rows, *names):
-    """The rows as (values of these columns, rows that have them), in the order of the file."""
-    keys = list(zip(*(rows.text(name) for name in names)))
-    found = {}
-    for number, key in enumerate(keys):
-        found.setdefault(key, []).append(number)
-    return [(key, Rows(rows.path, {name: column[numbers] for name, column in rows.columns.items()}))
-            for key, numbers in found.items()]
-
-
 def nodes_of(rows):
     """The nodes of the one polygon in the rows, shape (n, 2)."""
     order = np.argsort(rows.number("node"))

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .number_format import format_scientific
-from .polygon_results import groups_of
+from .read_results import groups_of
 from .table_descriptions import Heading
 from .tables import Cell, Group, Table, escape_tex, number_cell
 

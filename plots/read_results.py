@@ -124,6 +124,16 @@ def read_rows(path, required=()):
     return Rows(path, {name: table[:, i] for i, name in enumerate(header)})
 
 
+def groups_of(rows, *names):
+    """The rows as (values of these columns, rows that have them), in the order of the file."""
+    keys = list(zip(*(rows.text(name) for name in names)))
+    found = {}
+    for number, key in enumerate(keys):
+        found.setdefault(key, []).append(number)
+    return [(key, Rows(rows.path, {name: column[numbers] for name, column in rows.columns.items()}))
+            for key, numbers in found.items()]
+
+
 def read_provenance(path):
     """Reads provenance.json; an empty dictionary if there is none."""
     try:

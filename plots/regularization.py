@@ -10,9 +10,8 @@ import numpy as np
 
 from . import style
 from .number_format import MISSING, relative_difference
-from .polygon_results import groups_of
 from .printed_values import THESIS_FOLDER
-from .read_results import Rows, read_provenance, read_rows
+from .read_results import Rows, groups_of, read_provenance, read_rows
 from .table_descriptions import Heading
 from .tables import Group, Table, number_cell
 
