@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "meshes/generators/gmsh_tetrahedra.h"
+#include "meshes/generators/gmsh_volume.h"
 
 namespace smoothfem {
 
@@ -21,22 +22,17 @@ constexpr double small_edge = 0.0123, large_edge = 0.657;
 constexpr double most_edge = 1.2;  // longer ones do not fit the flange
 constexpr double growth = 0.24;    // of the edge length over the distance from a hole
 
-/// Returns the holes' curves.
-std::vector<double> build_geometry() {
-  namespace occ = gmsh::model::occ;
-  gmsh::vectorpair solid, rest;
-  std::vector<gmsh::vectorpair> origin;
-  occ::fuse({{3, occ::addCylinder(0, 0, 0, 0, 0, flange_height, flange_radius)}},
-            {{3, occ::addCylinder(0, 0, 0, 0, 0, shaft_end, shaft_radius)}}, solid, origin);
-  gmsh::vectorpair removed{{3, occ::addCylinder(0, 0, -1, 0, 0, shaft_end + 2, bore_radius)}};
-  for (int i = 0; i < n_holes; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / n_holes;
-    removed.emplace_back(
-        3, occ::addCylinder(hole_circle * std::cos(angle), hole_circle * std::sin(angle), -1, 0, 0,
-                            flange_height + 2, hole_radius));
-  }
-  occ::cut(solid, removed, rest, origin);
-  occ::synchronize();
+void add_axle() {
+  const Point<2> axis(0, 0);
+  std::vector<Cylinder> removed{{axis, bore_radius, -1, shaft_end + 1}};
+  for (int i = 0; i < n_holes; ++i)
+    removed.push_back({on_circle(axis, hole_circle, 2.0 * std::numbers::pi * i / n_holes),
+                       hole_radius, -1, flange_height + 1});
+  add_solid({{axis, flange_radius, 0, flange_height}, {axis, shaft_radius, 0, shaft_end}}, removed);
+}
+
+/// Of the model.
+std::vector<double> curves_of_holes() {
   gmsh::vectorpair curves;
   gmsh::model::getEntities(curves, 1);
   std::vector<double> small;
@@ -74,7 +70,8 @@ void set_edge_lengths(GmshSession& session, const std::vector<double>& holes, do
 VolumeMesh generate_axle(double edge_scale) {
   require_edge_scale("axle", edge_scale, 6);
   VolumeCells mesh = mesh_with_tetrahedra("the axle", [&](GmshSession& session) {
-    set_edge_lengths(session, build_geometry(), edge_scale);
+    add_axle();
+    set_edge_lengths(session, curves_of_holes(), edge_scale);
   });
   return mesh_of(std::move(mesh), "generated axle");
 }

@@ -5,8 +5,7 @@
 #include <numbers>
 
 #include "meshes/generators/embedding.h"
-#include "meshes/generators/gmsh_planar.h"
-#include "meshes/generators/quad_split.h"
+#include "meshes/generators/quadrilateral_region.h"
 #include "meshes/generators/sweep.h"
 
 namespace smoothfem {
@@ -35,33 +34,22 @@ std::vector<Point<2>> rectangle() {
   std::vector<Point<2>> polygon;
   for (std::size_t k = 0; k < 4; ++k) {
     const Point<2> side = corners[(k + 1) % 4] - corners[k];
-    const int n = static_cast<int>(std::lround(0.5 * side.norm() / edge_length));
+    const int n = 2 * static_cast<int>(std::lround(0.5 * side.norm() / edge_length));
     for (int i = 0; i < n; ++i) polygon.push_back(corners[k] + side * i / n);
   }
   return polygon;
 }
 
-/// Quadrilaterals of the plate's outline; those of the holes lie on their circles.
+/// Quadrilaterals of the plate's outline; nodes of the holes lie on their circles.
 PlanarCells footprint() {
-  std::vector<std::vector<Point<2>>> polygons{rectangle()};
-  std::vector<std::size_t> polygon_of_node(polygons.front().size(), 0);
+  Polygons polygons{rectangle()};
   for (const Hole& hole : holes) {
-    const int n = hole.n_edges / 2;
-    polygon_of_node.insert(polygon_of_node.end(), static_cast<std::size_t>(n), polygons.size());
     polygons.emplace_back();
-    for (int i = 0; i < n; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / n;
-      polygons.back().push_back(hole.centre +
-                                hole.radius * Point<2>(std::cos(angle), std::sin(angle)));
-    }
+    for (int i = 0; i < hole.n_edges; ++i)
+      polygons.back().push_back(
+          on_circle(hole.centre, hole.radius, 2.0 * std::numbers::pi * i / hole.n_edges));
   }
-  const PlanarCells coarse = mesh_region(polygons, 2.0 * edge_length, true);
-  return split_to_quadrilaterals(coarse, [&](NodeIndex a, NodeIndex b) -> Point<2> {
-    const Point<2> chord = 0.5 * (coarse.coordinates[a] + coarse.coordinates[b]);
-    if (polygon_of_node[a] == 0) return chord;
-    const Hole& hole = holes[polygon_of_node[a] - 1];
-    return hole.centre + hole.radius * (chord - hole.centre).normalized();
-  });
+  return mesh_quadrilaterals(polygons, edge_length);
 }
 
 /// The sides of the cuboid around the plate, as triangles.

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "meshes/generators/embedding.h"
+#include "meshes/generators/tensor_grid.h"
 
 namespace smoothfem {
 
@@ -29,32 +31,15 @@ bool in_cavity(const Point<3>& p) {
   return std::hypot(std::hypot(d.x(), d.y()) - ring_radius, d.z()) < cavity_radius;
 }
 
-/// The grid's hexahedra outside the cavity, and no node that they do not use.
+/// The grid's hexahedra outside the cavity.
 VolumeCells outer_grid() {
-  VolumeCells grid;
-  const auto [nx, ny, nz] = n_cells;
-  std::vector<NodeIndex> number((nx + 1) * (ny + 1) * (nz + 1), static_cast<NodeIndex>(-1));
-  const auto node = [&](std::size_t i, std::size_t j, std::size_t k) {
-    NodeIndex& known = number[i + (nx + 1) * (j + (ny + 1) * k)];
-    if (known == static_cast<NodeIndex>(-1)) {
-      known = static_cast<NodeIndex>(grid.coordinates.size());
-      grid.coordinates.emplace_back(static_cast<double>(i), static_cast<double>(j),
-                                    static_cast<double>(k));
-    }
-    return known;
-  };
-  for (std::size_t k = 0; k < nz; ++k)
-    for (std::size_t j = 0; j < ny; ++j)
-      for (std::size_t i = 0; i < nx; ++i) {
-        const Point<3> corner(static_cast<double>(i), static_cast<double>(j),
-                              static_cast<double>(k));
-        if (in_cavity(corner + Point<3>::Constant(0.5))) continue;
-        grid.cells.append(
-            std::array<NodeIndex, 8>{node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
-                                     node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
-                                     node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
-      }
-  return grid;
+  std::array<std::vector<double>, 3> planes;
+  for (std::size_t d = 0; d < 3; ++d)
+    for (std::size_t i = 0; i <= n_cells[d]; ++i) planes[d].push_back(static_cast<double>(i));
+  return tensor_grid(planes, [&](std::size_t i, std::size_t j, std::size_t k) {
+    const Point<3> corner(planes[0][i], planes[1][j], planes[2][k]);
+    return !in_cavity(corner + Point<3>::Constant(0.5));
+  });
 }
 
 /// Faces between the hexahedra and the cavity.

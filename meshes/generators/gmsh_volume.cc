@@ -21,22 +21,7 @@ gmsh::vectorpair add(const std::vector<Cylinder>& cylinders) {
   return solids;
 }
 
-void build_geometry(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed) {
-  gmsh::vectorpair solid = add(joined);
-  std::vector<gmsh::vectorpair> origin;
-  if (solid.size() > 1) {
-    gmsh::vectorpair whole;
-    gmsh::model::occ::fuse({solid.front()}, {solid.begin() + 1, solid.end()}, whole, origin);
-    solid = whole;
-  }
-  if (!removed.empty()) {
-    gmsh::vectorpair rest;
-    gmsh::model::occ::cut(solid, add(removed), rest, origin);
-  }
-  gmsh::model::occ::synchronize();
-}
-
-void build_geometry(const Polygons& polygons, double length) {
+void add_extrusion(const Polygons& polygons, double length) {
   std::vector<int> loops;
   for (const auto& polygon : polygons) {
     std::vector<int> points, lines;
@@ -79,13 +64,28 @@ VolumeCells mesh_model(const std::function<void()>& build, const EdgeLengths& le
 
 }  // namespace
 
+void add_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed) {
+  gmsh::vectorpair solid = add(joined);
+  std::vector<gmsh::vectorpair> origin;
+  if (solid.size() > 1) {
+    gmsh::vectorpair whole;
+    gmsh::model::occ::fuse({solid.front()}, {solid.begin() + 1, solid.end()}, whole, origin);
+    solid = whole;
+  }
+  if (!removed.empty()) {
+    gmsh::vectorpair rest;
+    gmsh::model::occ::cut(solid, add(removed), rest, origin);
+  }
+  gmsh::model::occ::synchronize();
+}
+
 VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed,
                        const EdgeLengths& lengths) {
-  return mesh_model([&] { build_geometry(joined, removed); }, lengths);
+  return mesh_model([&] { add_solid(joined, removed); }, lengths);
 }
 
 VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths) {
-  return mesh_model([&] { build_geometry(polygons, length); }, lengths);
+  return mesh_model([&] { add_extrusion(polygons, length); }, lengths);
 }
 
 }  // namespace smoothfem

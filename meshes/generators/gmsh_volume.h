@@ -19,6 +19,9 @@ struct EdgeLengths {
   double inside;    ///< between cells' nodes inside the solid
 };
 
+/// Adds the union of some cylinders without others to Gmsh's model.
+void add_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed);
+
 /// Meshes the union of some cylinders without others with tetrahedra by Gmsh (Delaunay, one
 /// thread). Curves are divided into equal edges, circles into a multiple of four of them from the
 /// positive x direction on, so the extremes in x and y are nodes; boundary nodes lie on the

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "meshes/generators/gmsh_tetrahedra.h"
+#include "smoothing/surface/surface_features.h"
 
 namespace smoothfem {
 
@@ -48,10 +49,8 @@ std::vector<Point<3>> node_normals(const VolumeCells& mesh,
                                    const CompressedRows<NodeIndex>& triangles) {
   std::vector<Point<3>> normals(mesh.coordinates.size(), Point<3>::Zero());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto row = triangles[t];
-    const auto& x = mesh.coordinates;
-    const Point<3> normal = (x[row[1]] - x[row[0]]).cross(x[row[2]] - x[row[0]]);
-    for (const NodeIndex node : row) normals[node] += normal;
+    const Point<3> normal = area_vector(triangles[t], mesh.coordinates);
+    for (const NodeIndex node : triangles[t]) normals[node] += normal;
   }
   for (auto& normal : normals)
     if (normal.squaredNorm() > 0.0) normal.normalize();
