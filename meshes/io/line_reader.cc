@@ -1,5 +1,6 @@
 #include "meshes/io/line_reader.h"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -34,8 +35,11 @@ std::string read_whole_file(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string content;
-  if (file) content.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || file.bad())
+  if (std::filesystem::is_regular_file(status)) content.reserve(std::filesystem::file_size(path));
+  std::array<char, 65536> block;
+  while (file.read(block.data(), block.size()) || file.gcount() > 0)
+    content.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  if (!file.is_open() || file.bad())
     throw InputError(path.string() + ": the file cannot be read (" +
                      (errno ? std::strerror(errno) : "input error") + ")");
   if (content.empty()) throw InputError(path.string() + ": the file is empty");

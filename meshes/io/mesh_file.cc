@@ -18,8 +18,8 @@ namespace {
 
 /// Two formats share this extension.
 MeshFile read_dot_mesh(const std::filesystem::path& path) {
-  const std::string content = read_whole_file(path);
-  return is_medit_text(content) ? read_medit_text(path) : read_polygonal_text(path);
+  const bool medit = is_medit_text(read_whole_file(path));
+  return medit ? read_medit_text(path) : read_polygonal_text(path);
 }
 
 MeshFormat vtk_format(const std::string& name, const std::string& description,

@@ -234,16 +234,18 @@ void require_consistent(const std::string& path, vtkUnstructuredGrid& grid) {
                      "file is truncated or damaged");
 }
 
-}  // namespace
-
-MeshFile read_legacy_vtk(const std::filesystem::path& path) {
-  const std::string content = read_whole_file(path);
+/// VTK's copy of a file is gone when the mesh is made of its parts, and the text before VTK reads:
+/// large meshes would need twice the memory.
+MeshParts legacy_vtk_parts(const std::filesystem::path& path) {
   const std::string name = path.string();
-  if (!content.starts_with("# vtk DataFile"))
-    throw InputError(name +
-                     ":1: the first line is not '# vtk DataFile Version ...'; this is not a "
-                     "legacy VTK file");
-  check_legacy_vtk_structure(path, content);
+  {
+    const std::string content = read_whole_file(path);
+    if (!content.starts_with("# vtk DataFile"))
+      throw InputError(name +
+                       ":1: the first line is not '# vtk DataFile Version ...'; this is not a "
+                       "legacy VTK file");
+    check_legacy_vtk_structure(path, content);
+  }
   const VtkMessages messages;
   vtkNew<vtkGenericDataObjectReader> reader;
   reader->SetFileName(name.c_str());
@@ -253,7 +255,7 @@ MeshFile read_legacy_vtk(const std::filesystem::path& path) {
   require_no_message(name, messages);
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(reader->GetOutput())) {
     require_consistent(name, *grid);
-    return assemble_mesh(path, DataSetReader(name, *grid).parts());
+    return DataSetReader(name, *grid).parts();
   }
   auto* polygons = vtkPolyData::SafeDownCast(reader->GetOutput());
   if (!polygons)
@@ -262,15 +264,17 @@ MeshFile read_legacy_vtk(const std::filesystem::path& path) {
     if (cells && !cells->IsValid())
       throw InputError(name + ": the numbers of cells and cell nodes do not fit together");
   polygons->BuildCells();
-  return assemble_mesh(path, DataSetReader(name, *polygons).parts());
+  return DataSetReader(name, *polygons).parts();
 }
 
-MeshFile read_vtu(const std::filesystem::path& path) {
-  const std::string content = read_whole_file(path);
+MeshParts vtu_parts(const std::filesystem::path& path) {
   const std::string name = path.string();
-  if (content.find("<VTKFile") == std::string::npos)
-    throw InputError(name + ": the file has no element <VTKFile>; this is not a .vtu file");
-  check_vtu_field_data(path, content);
+  {
+    const std::string content = read_whole_file(path);
+    if (content.find("<VTKFile") == std::string::npos)
+      throw InputError(name + ": the file has no element <VTKFile>; this is not a .vtu file");
+    check_vtu_field_data(path, content);
+  }
   const VtkMessages messages;
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!reader->CanReadFile(name.c_str()))
@@ -279,7 +283,17 @@ MeshFile read_vtu(const std::filesystem::path& path) {
   reader->Update();
   require_no_message(name, messages);
   require_consistent(name, *reader->GetOutput());
-  return assemble_mesh(path, DataSetReader(name, *reader->GetOutput()).parts());
+  return DataSetReader(name, *reader->GetOutput()).parts();
+}
+
+}  // namespace
+
+MeshFile read_legacy_vtk(const std::filesystem::path& path) {
+  return assemble_mesh(path, legacy_vtk_parts(path));
+}
+
+MeshFile read_vtu(const std::filesystem::path& path) {
+  return assemble_mesh(path, vtu_parts(path));
 }
 
 }  // namespace smoothfem

@@ -5,6 +5,7 @@
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkTypeInt64Array.h>
@@ -14,7 +15,11 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "meshes/io/atomic_file.h"
@@ -154,45 +159,102 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFie
   return grid;
 }
 
-/// Into memory first: VTK does not notice every failed write, write_atomically does.
 template <class Writer>
-void run(Writer& writer, const std::filesystem::path& path, const MeshView& mesh,
-         const MeshFields& fields, std::string (*output_of)(Writer&)) {
+void run(Writer& writer, const std::filesystem::path& path) {
   const VtkMessages messages;
-  writer.SetInputData(grid_of(mesh, fields));
-  writer.WriteToOutputStringOn();
   const bool written = writer.Write() == 1;
   const std::string message = messages.first();
   if (!written || !message.empty())
     throw InputError("cannot write " + path.string() +
                      ": VTK: " + (message.empty() ? "unknown error" : message));
-  write_atomically(path, output_of(writer));
 }
+
+/// A file that takes everything and remembers what it could not write: VTK's writer may crash where
+/// a write fails.
+class PatientFile final : public std::filebuf {
+ public:
+  explicit PatientFile(const std::filesystem::path& path) {
+    if (!open(path, std::ios::out | std::ios::binary)) remember();
+  }
+
+  /// Throws std::runtime_error with the reason unless everything is in the file.
+  void finish() {
+    if (!close()) remember();
+    if (error_ != 0) throw std::runtime_error(std::strerror(error_));
+  }
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (traits_type::eq_int_type(std::filebuf::overflow(c), traits_type::eof())) remember();
+    return traits_type::not_eof(c);
+  }
+  std::streamsize xsputn(const char* bytes, std::streamsize n) override {
+    if (error_ == 0 && std::filebuf::xsputn(bytes, n) != n) remember();
+    return n;
+  }
+  int sync() override {
+    if (std::filebuf::sync() != 0) remember();
+    return 0;
+  }
+
+ private:
+  void remember() {
+    if (error_ == 0) error_ = errno != 0 ? errno : EIO;
+  }
+  int error_ = 0;
+};
+
+/// VTK's writer into a buffer of ours; as a string it would hold the file twice.
+class StreamingWriter final : public vtkXMLUnstructuredGridWriter {
+ public:
+  static StreamingWriter* New();
+  vtkTypeMacro(StreamingWriter, vtkXMLUnstructuredGridWriter);
+
+  void set_buffer(std::streambuf& buffer) {
+    buffer_ = &buffer;
+    WriteToOutputStringOn();  // no file of its own
+  }
+
+ protected:
+  int StartFile() override {
+    Stream->rdbuf(buffer_);
+    return vtkXMLUnstructuredGridWriter::StartFile();
+  }
+
+ private:
+  std::streambuf* buffer_ = nullptr;
+};
+
+vtkStandardNewMacro(StreamingWriter);
 
 }  // namespace
 
+/// Into memory first: VTK does not notice every failed write, write_atomically does.
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions&) {
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
   writer->SetFileTypeToBinary();
   writer->SetHeader("smoothfem mesh");
-  run<vtkUnstructuredGridWriter>(*writer, path, mesh, fields,
-                                 [](vtkUnstructuredGridWriter& finished) -> std::string {
-                                   return finished.GetOutputStdString();
-                                 });
+  writer->SetInputData(grid_of(mesh, fields));
+  writer->WriteToOutputStringOn();
+  run(*writer, path);
+  write_atomically(path, writer->GetOutputStdString());
 }
 
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions&) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  vtkNew<StreamingWriter> writer;
   writer->SetDataModeToBinary();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToNone();
-  run<vtkXMLUnstructuredGridWriter>(*writer, path, mesh, fields,
-                                    [](vtkXMLUnstructuredGridWriter& finished) {
-                                      return std::string(finished.GetOutputString());
-                                    });
+  writer->SetInputData(grid_of(mesh, fields));
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    PatientFile file(temporary);
+    writer->set_buffer(file);
+    run(*writer, path);
+    file.finish();
+  });
 }
 
 }  // namespace smoothfem

@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -35,6 +37,12 @@ class FileTest : public ::testing::Test {
 
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
+  /// Number of the files and folders directly in a folder of it.
+  std::size_t n_entries(const std::string& folder = "") const {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(file(folder)), {}));
+  }
+
   std::filesystem::path file_with(const std::string& name, const std::string& content) const {
     std::ofstream(file(name), std::ios::binary) << content;
     return file(name);
@@ -42,6 +50,26 @@ class FileTest : public ::testing::Test {
 
  private:
   std::filesystem::path folder_;
+};
+
+/// A disk that is full after some bytes of each file: a limit on the size of files.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t n_bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &former_);
+    const rlimit small = {n_bytes, former_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &former_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit former_;
 };
 
 /// The message of the InputError that a call throws; empty if it throws none.

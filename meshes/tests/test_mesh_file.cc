@@ -80,6 +80,17 @@ TEST_P(EveryFormat, TargetsThatCannotBeWrittenAreNamed) {
               HasSubstr("cannot write " + path.string()));
 }
 
+TEST_P(EveryFormat, AFullDiskIsNamedAndKeepsTheOldFile) {
+  const auto path = file_with(target("a").filename(), "old");
+  const std::string message = [&] {
+    const FullDisk disk(200);
+    return input_error_of([&] { write_mesh(path, mixed_mesh(false)); });
+  }();
+  EXPECT_THAT(message, ::testing::StartsWith("cannot write " + path.string() + ": "));
+  EXPECT_EQ(content_of(path), "old");
+  EXPECT_EQ(n_entries(), 1u);
+}
+
 TEST_P(EveryFormat, FieldsMustFitTheMesh) {
   MeshFields fields;
   fields.cell["quality"] = {1.0, 2.0};
