@@ -212,7 +212,6 @@ class SmoothingRun {
       reordering_.emplace(state_.mesh.topology());
       Mesh<dim> ordered = reordering_->apply(state_.mesh);
       clock_.stop();
-      scratch_.emplace(std::move(state_.mesh));
       state_.mesh = std::move(ordered);
     }
   }
@@ -220,8 +219,8 @@ class SmoothingRun {
   /// The present mesh in the caller's order.
   const Mesh<dim, spacedim>& users_mesh() {
     if (!reordering_) return state_.mesh;
-    reordering_->restore(state_.mesh.coordinates(), scratch_->coordinates());
-    return *scratch_;
+    reordering_->restore(state_.mesh.coordinates(), users_mesh_.coordinates());
+    return users_mesh_;
   }
 
   void evaluate_quality() { quality_ = compute_cell_mean_ratios(state_.mesh, state_.cell_quality); }
@@ -288,8 +287,6 @@ class SmoothingRun {
   SmoothingState<dim, spacedim> state_;
   const Observer<dim, spacedim>& observer_;
   std::optional<Reordering<spacedim>> reordering_;
-  std::optional<Mesh<dim, spacedim>>
-      scratch_;  ///< in the caller's order, where there is another one
   SmoothingClock clock_;
   MeshQuality quality_;
   double mean_edge_length_ = 0.0;

@@ -22,7 +22,8 @@ struct IterationRecord {
 };
 
 /// Gets every iteration's numbers and mesh, the initial one included. Its time does not count as
-/// smoothing time. An exception it throws ends the run.
+/// smoothing time. An exception it throws ends the run; the caller's mesh is then one of those the
+/// observer has seen.
 template <int dim, int spacedim = dim>
 using Observer = std::function<void(const IterationRecord&, const Mesh<dim, spacedim>&)>;
 

@@ -13,22 +13,21 @@ namespace {
 
 /// Nodes in the order of a breadth-first search from `start` over nodes that are not in `visited`
 /// yet, neighbours with few neighbours of their own first; appended to `order`.
-void append_breadth_first(const Topology& topology, NodeIndex start, std::vector<bool>& visited,
-                          std::vector<NodeIndex>& order) {
+void append_breadth_first(const CompressedRows<NodeIndex>& neighbours, NodeIndex start,
+                          std::vector<bool>& visited, std::vector<NodeIndex>& order) {
   std::vector<NodeIndex> next;
   std::size_t head = order.size();
   order.push_back(start);
   visited[start] = true;
   for (; head < order.size(); ++head) {
     next.clear();
-    for (const NodeIndex j : topology.node_neighbours(order[head]))
+    for (const NodeIndex j : neighbours[order[head]])
       if (!visited[j]) {
         visited[j] = true;
         next.push_back(j);
       }
     std::sort(next.begin(), next.end(), [&](NodeIndex a, NodeIndex b) {
-      return std::make_pair(topology.node_neighbours(a).size(), a) <
-             std::make_pair(topology.node_neighbours(b).size(), b);
+      return std::make_pair(neighbours[a].size(), a) < std::make_pair(neighbours[b].size(), b);
     });
     order.insert(order.end(), next.begin(), next.end());
   }
@@ -37,14 +36,15 @@ void append_breadth_first(const Topology& topology, NodeIndex start, std::vector
 /// Each part of the mesh starts at a node that a search from its lowest node finds last: far out,
 /// so that levels are small.
 std::vector<NodeIndex> reverse_cuthill_mckee(const Topology& topology) {
+  const auto neighbours = nodes_by_node(topology);  // not kept: these are large meshes
   std::vector<bool> visited(topology.n_nodes(), false), searched(topology.n_nodes(), false);
   std::vector<NodeIndex> order, search;
   order.reserve(topology.n_nodes());
   for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
     if (visited[i]) continue;
     search.clear();
-    append_breadth_first(topology, i, searched, search);
-    append_breadth_first(topology, search.back(), visited, order);
+    append_breadth_first(neighbours, i, searched, search);
+    append_breadth_first(neighbours, search.back(), visited, order);
   }
   std::reverse(order.begin(), order.end());
   return order;

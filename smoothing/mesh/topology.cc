@@ -80,7 +80,6 @@ Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells
     : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
   check_cells(n_nodes);
   node_cells_ = cells_by_node(n_nodes, cells_);
-  build_neighbours();
   build_boundary();
   build_fixed(fixed);
   build_blocks();
@@ -107,19 +106,11 @@ void Topology::check_cells(std::size_t n_nodes) const {
   }
 }
 
-void Topology::build_neighbours() {
-  node_neighbours_ =
-      make_rows<NodeIndex>(n_nodes(), [&](std::size_t node, std::vector<NodeIndex>& row) {
-        for (const CellIndex c : node_cells_[node]) {
-          const auto nodes = cells_[c];
-          for_each_edge(dim_, nodes.size(), [&](std::size_t a, std::size_t b) {
-            if (nodes[a] == node) row.push_back(nodes[b]);
-            if (nodes[b] == node) row.push_back(nodes[a]);
-          });
-        }
-        std::sort(row.begin(), row.end());
-        row.erase(std::unique(row.begin(), row.end()), row.end());
-      });
+void Topology::look_up_neighbours() const {
+  const std::lock_guard lock(neighbours_lock_);
+  if (neighbours_known_) return;
+  node_neighbours_ = nodes_by_node(*this);
+  neighbours_known_ = true;
 }
 
 void Topology::build_boundary() {
@@ -241,7 +232,6 @@ std::shared_ptr<const Topology> Topology::reordered(
   };
   result->cells_ = mapped(cells_, cell_order, new_node, false);
   result->node_cells_ = mapped(node_cells_, node_order, new_cell, true);
-  result->node_neighbours_ = mapped(node_neighbours_, node_order, new_node, true);
   result->n_facets_ = n_facets_;
   result->on_boundary_.resize(n_nodes());
   std::vector<bool> fixed(n_nodes());
@@ -258,6 +248,21 @@ std::shared_ptr<const Topology> Topology::reordered(
   result->build_fixed(fixed);
   result->build_blocks();
   return result;
+}
+
+CompressedRows<NodeIndex> nodes_by_node(const Topology& topology) {
+  return make_rows<NodeIndex>(
+      topology.n_nodes(), [&](std::size_t node, std::vector<NodeIndex>& row) {
+        for (const CellIndex c : topology.node_cells(static_cast<NodeIndex>(node))) {
+          const auto nodes = topology.cell_nodes(c);
+          for_each_edge(topology.dimension(), nodes.size(), [&](std::size_t a, std::size_t b) {
+            if (nodes[a] == node) row.push_back(nodes[b]);
+            if (nodes[b] == node) row.push_back(nodes[a]);
+          });
+        }
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+      });
 }
 
 }  // namespace smoothfem

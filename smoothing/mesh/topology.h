@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -63,11 +65,10 @@ class Topology {
   std::span<const CellIndex> node_cells(NodeIndex node) const { return node_cells_[node]; }
   /// Cells that use at least one of these nodes, ascending.
   std::vector<CellIndex> cells_around(std::span<const NodeIndex> nodes) const;
-  /// Nodes joined to a node by an edge.
-  std::span<const NodeIndex> node_neighbours(NodeIndex node) const {
-    return node_neighbours_[node];
-  }
-  std::size_t n_edges() const { return node_neighbours_.n_entries() / 2; }
+  /// Nodes joined to a node by an edge. Looked up for all nodes at the first call: large meshes
+  /// that need none save the memory.
+  std::span<const NodeIndex> node_neighbours(NodeIndex node) const { return neighbours()[node]; }
+  std::size_t n_edges() const { return neighbours().n_entries() / 2; }
 
   /// Facets (sides of planar cells, faces of volume cells) with one cell, as that cell's nodes in
   /// its direction, ordered by cell and position in it.
@@ -93,7 +94,11 @@ class Topology {
   Topology() = default;
   void check_cells(std::size_t n_nodes) const;
   void build_node_cells(std::size_t n_nodes);
-  void build_neighbours();
+  const CompressedRows<NodeIndex>& neighbours() const {
+    if (!neighbours_known_) look_up_neighbours();
+    return node_neighbours_;
+  }
+  void look_up_neighbours() const;
   void build_boundary();
   void build_fixed(const std::optional<std::vector<bool>>& fixed);
   void build_blocks();
@@ -102,7 +107,9 @@ class Topology {
   CompressedRows<NodeIndex> cells_;
   MeshLabels labels_;
   CompressedRows<CellIndex> node_cells_;
-  CompressedRows<NodeIndex> node_neighbours_;
+  mutable CompressedRows<NodeIndex> node_neighbours_;
+  mutable std::atomic<bool> neighbours_known_ = false;
+  mutable std::mutex neighbours_lock_;
   CompressedRows<NodeIndex> boundary_facets_;
   std::size_t n_facets_ = 0;
   std::vector<bool> on_boundary_;
@@ -111,5 +118,8 @@ class Topology {
   std::vector<std::uint8_t> cell_has_free_node_;
   std::vector<CellBlock> blocks_;
 };
+
+/// For each node the nodes joined to it by an edge, ascending.
+CompressedRows<NodeIndex> nodes_by_node(const Topology& topology);
 
 }  // namespace smoothfem

@@ -7,6 +7,7 @@
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/loop/min_tree.h"
 #include "smoothing/loop/preset.h"
+#include "smoothing/loop/smooth.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/planar_meshes.h"
 
@@ -218,6 +219,24 @@ TEST(InvalidNodeReset, EndsWhenThePreviousMeshWasInvalidToo) {
   const auto tangled = mesh.coordinates();
   auto quality = cell_mean_ratios(mesh);
   EXPECT_TRUE(reset_nodes_of_invalid_cells(mesh, tangled, quality).empty());
+}
+
+/// Small meshes are smoothed in their own order, large ones in another.
+TEST(Loop, AnObserverThatThrowsLeavesAMeshItHasSeen) {
+  for (const std::uint32_t n : {10u, 150u}) {
+    PlanarMesh mesh = test::grid_mesh(n, test::GridCells::quadrilaterals);
+    test::distort(mesh, 0.3, 1);
+    std::vector<std::vector<Point<2>>> seen;
+    auto method = make_method<2>("getme");
+    EXPECT_THROW(smooth(mesh, method,
+                        [&](const IterationRecord& record, const PlanarMesh& now) {
+                          seen.push_back(now.coordinates());
+                          if (record.record == 2) throw std::runtime_error("enough");
+                        }),
+                 std::runtime_error);
+    ASSERT_EQ(seen.size(), 3u);
+    EXPECT_THAT(seen, testing::Contains(mesh.coordinates())) << n;
+  }
 }
 
 }  // namespace
