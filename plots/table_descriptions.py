@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Callable, Optional
 
 from . import number_format as form
+from .read_results import ResultsError
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,19 @@ class Measure:
     usual: tuple = ()  # the column is left out where all fields are one of these
     if_printed: bool = False  # the column is left out where the print has none
     detail: bool = False  # the same where the table of details stands beside this one
+    ranks_methods: bool = True  # whether the methods' order by it is compared with the printed one
+
+    def numbers(self, fields):
+        """The fields of a column of a CSV file as numbers (None if they are shown as they stand) and
+        as the table shows them. Throws ResultsError if one is no number."""
+        if self.format is None:
+            return None, [field or form.MISSING for field in fields]
+        try:
+            values = [float(field) if field else float("nan") for field in fields]
+        except ValueError as error:
+            raise ResultsError(f"Column `{self.column}` holds something that is not a number "
+                               f"({error}).") from None
+        return values, self.format(values)
 
 
 @dataclass(frozen=True)
@@ -67,7 +81,7 @@ SMOOTHING = TableDescription(
         Measure("iterations", Heading("Iterations", "Iterations"), None, difference=False),
         Measure("smoothing_seconds", TIME, form.format_seconds, difference=False),
         Measure("peak_memory_gib", Heading("Memory (GiB)", "Memory (GiB)"), form.format_memory,
-                difference=False, if_printed=True),
+                difference=False, if_printed=True, ranks_methods=False),
         Measure("q_min", SYMBOLS["q_min"], form.format_quality),
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality, detail=True),
         Measure("q_mean", SYMBOLS["q_mean"], form.format_quality),

@@ -6,6 +6,7 @@ One mechanism for all tables; what differs stands in table_descriptions.py.
 
 from dataclasses import dataclass, replace
 
+from .method_order import order_notes
 from .number_format import MISSING, grouped, relative_difference
 from .printed_values import comparison_notes
 from .read_results import INITIAL, ResultsError
@@ -88,7 +89,8 @@ def make_table(description, results, printed):
         name = f"{printed.number.replace('.', '_')}_{name}"
         caption = f"Table {printed.number}: {caption}"
         sentences = tuple(("", sentence) for sentence in (
-            *comparison_notes(printed, results), COLUMNS_NOTE)) + sentences
+            *comparison_notes(printed, results), COLUMNS_NOTE,
+            *order_notes(description, pairs, results))) + sentences
     return Table(name=f"table_{name}", caption=caption, keys=keys, rules=rules, groups=groups,
                  key_headings=tuple(KEY_HEADINGS[key] for key in description.keys),
                  left_aligned=("Status", "cond(A) by"), notes=sentences)
@@ -171,14 +173,7 @@ def make_group(measure, pairs, notes, if_printed):
     prints = [printed.get(measure.column) for _, printed in pairs]
     if not any(prints) and (if_printed or all(field in ("", *measure.usual) for field in fields)):
         return None
-    values, texts = None, [field or MISSING for field in fields]
-    if measure.format is not None:
-        try:
-            values = [float(field) if field else float("nan") for field in fields]
-        except ValueError as error:
-            raise ResultsError(f"Column `{measure.column}` holds something that is not a number "
-                               f"({error}).") from None
-        texts = measure.format(values)
+    values, texts = measure.numbers(fields)
     columns, subheadings = [[number_cell(text) for text in texts]], ["ours"]
     if any(prints):
         marks = ["" if printed is None else notes.letter(measure.column, row)
@@ -210,7 +205,7 @@ def number_cell(text, mark=""):
 def escape_tex(text):
     """Text with LaTeX's special characters escaped."""
     special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-               "–": "--", "×": r"$\times$", "<": "$<$", ">": "$>$", "|": "$|$",
+               "–": "--", "×": r"$\times$", "•": r"\textbullet{}", "<": "$<$", ">": "$>$", "|": "$|$",
                **{c: "\\" + c for c in "&%$#_{}"}}
     return "".join(special.get(character, character) for character in text)
 
