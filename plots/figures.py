@@ -5,7 +5,7 @@ import numpy as np
 
 from . import style
 from .figure_element_types import draw_element_types, is_mixed
-from .figure_histograms import draw_histograms
+from .figure_histograms import draw_histogram_differences, draw_histograms
 from .figure_history import draw_history
 from .figure_meshes import DETAIL_CENTRE, DETAIL_WIDTH, MOST_COLUMNS as PLANAR_COLUMNS
 from .figure_meshes import columns_of, draw_meshes, rows_of_panels
@@ -28,7 +28,8 @@ THESIS_NUMBERS = {
     "nonuniform-grid": {"meshes": "5_18", "history": "5_19"},
     "subdivision": {"meshes": "5_21", "histograms": "5_22", "history": "5_23"},
     "sweep": {"meshes": "5_25", "histograms": "5_26", "history": "5_27"},
-    "car": {"meshes": "5_31", "histograms": "5_30", "history": "5_34"},
+    "car": {"meshes": "5_31", "histograms": "5_30", "histogram_differences": "5_33",
+            "history": "5_34"},
     "plate": {"element_types": "5_35", "meshes": "5_36", "histograms": "5_37", "history": "5_38"},
     "ring": {"element_types": "5_39", "meshes": "5_40", "histograms": "5_41", "history": "5_42"},
     "aorta": {"element_types": "5_43", "meshes": "5_44", "histograms": "5_45", "history": "5_46"},
@@ -82,13 +83,18 @@ def draw_figures(results, report):
 
 
 def draw_histogram_figures(results, grids, save):
-    """How many cells of which quality there are, with linear and logarithmic counts."""
+    """How many cells of which quality there are, with linear and logarithmic counts, and what
+    distortion changes in that."""
     qualities = {key: grid.cell_data["mean_ratio"] for key, grid in grids.items()}
     meshes = [mesh for mesh in results.meshes if any(mesh == name for name, _ in qualities)]
+    pairs = [(mesh, mesh + DISTORTED_SUFFIX) for mesh in meshes if mesh + DISTORTED_SUFFIX in meshes]
     for part, shown in pages(meshes, fits_as_columns).items():
         for logarithmic, variant in ((False, ""), (True, "_log")):
             save(draw_histograms(results, shown, qualities, logarithmic),
                  figure_name(results.study, "histograms", part + variant), "histograms of quality")
+    for part, shown in pages([mesh for mesh, _ in pairs], fits_as_columns).items() if pairs else ():
+        save(draw_histogram_differences(results, [pair for pair in pairs if pair[0] in shown], qualities),
+             figure_name(results.study, "histogram_differences", part), "what distortion changes")
 
 
 def draw_history_figures(results, save):

@@ -99,7 +99,7 @@ class Figures(InFolder):
             self.run_main(folder, "--quiet")
         names = {path.stem for path in folder.glob("figures/*.pdf")}
         self.assertLessEqual({"history_a", "history_b_log_time", "histograms_a", "histograms_b_log",
-                              "meshes", "meshes_full"}, names)
+                              "histogram_differences", "meshes", "meshes_full"}, names)
 
     def test_markers_and_dashes_tell_methods_apart(self):
         methods = (*style.KNOWN_METHODS, "mine", "yours", "another")

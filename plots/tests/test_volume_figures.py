@@ -16,7 +16,7 @@ from plots import style
 from plots.__main__ import main
 from plots.figure_element_types import (counts_of_types, draw_element_types, is_mixed,
                                         type_colours)
-from plots.figure_histograms import draw_histograms
+from plots.figure_histograms import draw_histogram_differences, draw_histograms
 from plots.figure_meshes import columns_of
 from plots.figures import pages, read_grids
 from plots.read_results import read_results
@@ -152,6 +152,22 @@ class Histograms(InFolder):
         for axes, n_cells in zip(figure.axes, (6 * 24, 24)):
             self.assertEqual([patch.get_data().values.sum() for patch in axes.patches], [n_cells] * 5)
             self.assertEqual({patch.get_data().values[0] for patch in axes.patches}, {1})
+        style.pyplot.close(figure)
+
+    def test_differences_are_those_of_the_distorted_mesh(self):
+        results = read_results(write_volume_results(self.folder / "r", "own", ("hex", "hex-distorted"),
+                                                    ("getme", "own")))
+        qualities = {("hex", "initial"): [0.5, 0.99, 1.0], ("hex-distorted", "initial"): [-0.1, 0.5, 0.5],
+                     ("hex", "getme"): [0.9, 0.9, 0.9], ("hex-distorted", "getme"): [0.9, 0.9, 0.9],
+                     ("hex", "own"): [0.5, 0.5, 0.5]}  # without a result on the distorted mesh
+        style.apply_style()
+        figure = draw_histogram_differences(results, [("hex", "hex-distorted")], qualities)
+        lines = {line.get_label(): line for line in figure.axes[0].get_lines()}
+        middles, counts = lines["initial"].get_data()
+        self.assertEqual({f"{q:.2f}": n for q, n in zip(middles, counts) if n},
+                         {"0.02": 1, "0.52": 1, "0.98": -2})
+        self.assertFalse(lines["getme"].get_ydata().any())
+        self.assertNotIn("own", lines)
         style.pyplot.close(figure)
 
 
