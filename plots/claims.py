@@ -7,6 +7,7 @@ The claims stand in studies/thesis/claims.json; its README.md says how they are 
 import itertools
 import json
 import math
+import re
 from dataclasses import dataclass
 
 from .claim_values import Values
@@ -19,6 +20,8 @@ from .table_formats import escape_markdown
 HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
 # More numbers than these are shown as a range.
 MOST_SHOWN = 4
+# A number in a note: ours, or the printed one.
+NUMBER_IN_NOTE = re.compile(r"\{(printed )?(.+?)\}")
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,7 @@ class Outcome:
     verdict: str
     printed: str
     ours: str
+    note: str = ""
 
 
 def read_claims(study, path=THESIS_FOLDER / "claims.json"):
@@ -66,7 +70,16 @@ def check_claim(claim, ours, theirs):
                        shown(numbers, cases, met_in(check, numbers, numbers)))
         own.append(shown(found, cases, met))
     worst = next(v for v in (FAILS, UNKNOWN, HOLDS) if v in verdicts)
-    return Outcome(claim, worst, "; ".join(printed), "; ".join(own))
+    return Outcome(claim, worst, "; ".join(printed), "; ".join(own),
+                   filled(claim.get("note", ""), ours, theirs))
+
+
+def filled(note, ours, theirs):
+    """A note with the numbers for which it has expressions in braces."""
+    def number(match):
+        value = number_of(match[2], {}, theirs if match[1] else ours)
+        return MISSING if value is None else written(value)
+    return NUMBER_IN_NOTE.sub(number, note)
 
 
 def cases_of(check):
@@ -154,9 +167,9 @@ def as_markdown(outcomes, results):
 
 def known_reasons(outcomes):
     """Why claims may not hold, where it is known, as lines below the table."""
-    claims = [o.claim for o in outcomes if o.verdict == FAILS and "note" in o.claim]
-    notes = dict.fromkeys(claim["note"] for claim in claims)
-    lines = [f"- {', '.join(c['id'] for c in claims if c['note'] == note)}: {note}" for note in notes]
+    failed = [o for o in outcomes if o.verdict == FAILS and o.note]
+    lines = [f"- {', '.join(o.claim['id'] for o in failed if o.note == note)}: {escape_markdown(note)}"
+             for note in dict.fromkeys(o.note for o in failed)]
     return ["", "Known reasons for what does not hold:", "", *lines] if lines else []
 
 

@@ -7,8 +7,8 @@ import re
 
 from plots.__main__ import main
 from plots.claim_values import TRAJECTORY, Values
-from plots.claims import (FAILS, HOLDS, UNKNOWN, as_markdown, cases_of, check_claim, check_claims,
-                          met_in, number_of, read_claims, verdict_of)
+from plots.claims import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, as_markdown, cases_of, check_claim,
+                          check_claims, met_in, number_of, read_claims, verdict_of)
 from plots.expressions import Missing, evaluate
 from plots.printed_values import THESIS_FOLDER, read_printed_tables
 from plots.read_results import read_results
@@ -77,6 +77,16 @@ class Verdicts(InFolder):
         self.assertEqual(self.outcome({**check, "at_least": 3}).verdict, UNKNOWN)
         many = self.outcome({**check, "for": {"method": ["getme", "other"], "degree": [1, 2, 1]}})
         self.assertEqual(many.ours, "0.5 to 4, met in 3 of 6")
+
+    def test_numbers_in_a_note(self):
+        note = ("{e_max('tri', 'getme', 1) / 3}, not {printed q_min('tri', 'getme')} "
+                "or {e_max('quad', 'getme')}")
+        theirs = Values([{"mesh": "tri", "method": "getme", "q_min": "0.25"}], [])
+        outcome = check_claim({"checks": [], "reason": "", "note": note}, Values(ROWS, []), theirs)
+        self.assertEqual(outcome.note, "")  # it cannot be checked
+        check = {"quantity": "1", "condition": "value == 2"}
+        outcome = check_claim({"checks": [check], "note": note}, Values(ROWS, []), theirs)
+        self.assertEqual(outcome.note, "0.667, not 0.25 or –")
 
 
 def all_claims():
@@ -148,8 +158,20 @@ class ClaimsOfTheThesis(InFolder):
         known = {*results.summary.columns, *results.thresholds.columns, *TRAJECTORY, "reached", "column",
                  "min", "max"}
         for claim in all_claims():
-            for check in claim["checks"]:
-                self.assertLessEqual(set(re.findall(r"(\w+)\(", check["quantity"])), known)
+            quantities = [check["quantity"] for check in claim["checks"]]
+            quantities += [match[2] for match in NUMBER_IN_NOTE.finditer(claim.get("note", ""))]
+            for quantity in quantities:
+                self.assertLessEqual(set(re.findall(r"(\w+)\(", quantity)), known)
+
+    def test_notes_ask_for_numbers_there_are(self):
+        for claim in all_claims():
+            printed = {content: table.rows
+                       for content, table in read_printed_tables(claim["study"], {}).items()}
+            theirs = Values([row for rows in printed.values() for row in rows], [])
+            for match in NUMBER_IN_NOTE.finditer(claim.get("note", "")):
+                number_of(match[2], {}, lambda *_: 1.0)  # throws if it is no arithmetic
+                if match[1]:
+                    self.assertIsNotNone(number_of(match[2], {}, theirs), claim["id"])
 
     def test_table_of_claims(self):
         for study, write in (("gear", write_results), ("volume", write_volume_results)):
