@@ -4,6 +4,7 @@
 import math
 
 import matplotlib.pyplot as pyplot
+import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
@@ -52,25 +53,25 @@ def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None, draw_foot=N
     `draw_foot` draws into the figure of a height in inches.
 
     `blocks` is a list of (title, [(panel title, content), ...]), `aspect` width over height of a
-    panel. `draw_panel` gets axes, content and the number of the block, `draw_free` draws the first
-    free panel of a block.
+    panel, or a list of one for each block. `draw_panel` gets axes, content and the number of the
+    block, `draw_free` draws the first free panel of a block.
     """
     gap = 0.08
     width = (style.FULL_WIDTH - (columns + 1) * gap) / columns
-    height = width / aspect
+    heights = width / np.broadcast_to(aspect, len(blocks))
     rows = [rows_of_panels(panels, columns) for _, panels in blocks]
-    total = sum(rows) * (height + CAPTION) + len(blocks) * BLOCK_TITLE + FOOT
+    total = np.dot(rows, heights + CAPTION) + len(blocks) * BLOCK_TITLE + FOOT
     figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
 
-    def place(column, top):
+    def place(column, top, height):
         return figure.add_axes([(gap + column * (width + gap)) / style.FULL_WIDTH,
                                 (top - height) / total, width / style.FULL_WIDTH, height / total])
     top = total
-    for number, ((title, panels), n_rows) in enumerate(zip(blocks, rows)):
+    for number, ((title, panels), n_rows, height) in enumerate(zip(blocks, rows, heights)):
         figure.text(0.5, (top - 0.7 * BLOCK_TITLE) / total, title, ha="center", fontsize=10)
         top -= BLOCK_TITLE
         for i in range(n_rows * columns):
-            axes = place(i % columns, top - i // columns * (height + CAPTION))
+            axes = place(i % columns, top - i // columns * (height + CAPTION), height)
             if i < len(panels):
                 draw_panel(axes, panels[i][1], number)
                 caption(axes, panels[i][0])

@@ -8,11 +8,13 @@ from .figure_element_types import draw_element_types, is_mixed
 from .figure_histograms import draw_histogram_differences, draw_histograms
 from .figure_history import draw_history
 from .figure_meshes import DETAIL_CENTRE, DETAIL_WIDTH, MOST_COLUMNS as PLANAR_COLUMNS
-from .figure_meshes import columns_of, draw_meshes, rows_of_panels
+from .figure_meshes import columns_of, draw_meshes
 from .figure_model import draw_model
+from .figure_plane_sections import draw_plane_sections, is_coarse
 from .figure_sections import MOST_COLUMNS as SECTION_COLUMNS, draw_sections, first_grid
 from .figure_solid import draw_solid
 from .figure_surfaces import MOST_COLUMNS as SURFACE_COLUMNS, draw_surfaces
+from .pages import DISTORTED_SUFFIX, draw_pages, fits_as_columns, pages
 from .read_results import INITIAL
 from .read_vtu import read_vtu
 from .virtual_display import NoDisplay
@@ -25,7 +27,7 @@ THESIS_NUMBERS = {
     "sphere": {"meshes": "5_7", "history": "5_8", "histograms": "5_9"},
     "prosthesis": {"meshes": "5_11", "history": "5_12", "histograms": "5_13"},
     "axle": {"meshes": "5_15", "history": "5_16"},
-    "nonuniform-grid": {"meshes": "5_18", "history": "5_19"},
+    "nonuniform-grid": {"plane_sections": "5_18", "history": "5_19"},
     "subdivision": {"meshes": "5_21", "histograms": "5_22", "history": "5_23"},
     "sweep": {"meshes": "5_25", "histograms": "5_26", "history": "5_27"},
     "car": {"meshes": "5_31", "histograms": "5_30", "histogram_differences": "5_33",
@@ -40,13 +42,6 @@ THESIS_NUMBERS = {
     "volume": {"model": "6_5", "meshes": "6_6", "histograms": "6_7", "history": "6_8"}}
 # The degree whose errors the history figure shows; the lowest one for any other study.
 HISTORY_DEGREES = {"volume": "2"}
-
-# What fits a page: rows of panels of meshes, and columns of panels of diagrams, one for each mesh.
-ROWS_OF_A_PAGE = 4
-MESHES_OF_A_PAGE = 3
-
-# How the name of a mesh ends that is a distorted one of the name before.
-DISTORTED_SUFFIX = "-distorted"
 
 
 def figure_name(study, kind, variant=""):
@@ -92,9 +87,11 @@ def draw_histogram_figures(results, grids, save):
         for logarithmic, variant in ((False, ""), (True, "_log")):
             save(draw_histograms(results, shown, qualities, logarithmic),
                  figure_name(results.study, "histograms", part + variant), "histograms of quality")
-    for part, shown in pages([mesh for mesh, _ in pairs], fits_as_columns).items() if pairs else ():
-        save(draw_histogram_differences(results, [pair for pair in pairs if pair[0] in shown], qualities),
-             figure_name(results.study, "histogram_differences", part), "what distortion changes")
+    for part, shown in pages([mesh for mesh, _ in pairs], fits_as_columns).items():
+        chosen = [pair for pair in pairs if pair[0] in shown]
+        if chosen:
+            save(draw_histogram_differences(results, chosen, qualities),
+                 figure_name(results.study, "histogram_differences", part), "what distortion changes")
 
 
 def draw_history_figures(results, save):
@@ -171,33 +168,6 @@ def figure_settings(results):
     return settings if isinstance(settings, dict) else {}
 
 
-def pages(meshes, fits):
-    """Suffix -> meshes of one figure: all of them if `fits` says that they fit a page, else each mesh
-    together with its distorted one, else one for each mesh."""
-    families = {}
-    for mesh in meshes:
-        base = mesh.removesuffix(DISTORTED_SUFFIX)
-        families.setdefault(base if base in meshes else mesh, []).append(mesh)
-    for groups in ({"": list(meshes)}, {f"_{name}": family for name, family in families.items()}):
-        if all(fits(group) for group in groups.values()):
-            return groups
-    return {f"_{mesh}": [mesh] for mesh in meshes}
-
-
-def fits_as_columns(meshes):
-    """Whether a column of diagrams for each mesh can be read on one page."""
-    return len(meshes) <= MESHES_OF_A_PAGE
-
-
-def draw_pages(blocks, columns, draw):
-    """Calls `draw` with a suffix and the blocks of each figure; `blocks` maps meshes to
-    (title, panels), which take so many columns."""
-    def fits(meshes):
-        return sum(rows_of_panels(blocks[mesh][1], columns) for mesh in meshes) <= ROWS_OF_A_PAGE
-    for part, meshes in pages(list(blocks), fits).items():
-        draw(part, [blocks[mesh] for mesh in meshes])
-
-
 def blocks_of(results, grids):
     """Mesh -> (title, panels), one a method."""
     return {mesh: (results.title(mesh), [(results.title(method), grid)
@@ -253,6 +223,11 @@ def draw_volume_figures(results, grids, save, report, suffix):
             save(draw_solid(grid), figure_name(results.study, "model", suffix),
                  "model and exact solution")
         draw_pages(blocks, columns_of(blocks.values(), SECTION_COLUMNS), draw)
+        coarse = [mesh for mesh, (_, panels) in blocks.items() if is_coarse(first_grid(panels))]
+        for mesh in coarse:
+            part = f"_{mesh}" if len(coarse) > 1 else ""
+            save(draw_plane_sections(*blocks[mesh]),
+                 figure_name(results.study, "plane_sections", suffix + part), "sections by planes")
         mixed = [(title, panels_of_types(panels)) for title, panels in blocks.values()
                  if is_mixed(first_grid(panels))]
         if mixed:

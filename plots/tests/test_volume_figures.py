@@ -223,7 +223,7 @@ class VolumeStudy(InFolder):
             "figure_6_5_model", "figure_6_6_meshes", "figure_6_6_meshes_detail",
             "figure_6_7_histograms", "figure_6_7_histograms_log", "figure_6_8_history",
             "figure_6_8_history_log_time", "figure_history_d1", "figure_history_norms_d1",
-            "figure_history_norms_d2"})
+            "figure_history_norms_d2", "figure_plane_sections_tet", "figure_plane_sections_hex"})
 
     @needs_rendering
     def test_own_study_of_both_dimensions_with_a_missing_file(self):
@@ -233,7 +233,8 @@ class VolumeStudy(InFolder):
         errors, names = self.run_main(folder)
         self.assertIn("hexes_initial.vtu", errors)
         self.assertLessEqual({"model", "model_volume", "meshes", "meshes_volume", "history",
-                              "meshes_volume_detail", "histograms"}, names)
+                              "meshes_volume_detail", "plane_sections_volume_tets", "histograms"},
+                             names)
 
     def test_without_a_server_the_other_figures_are_made(self):
         folder = write_volume_results(self.folder / "r")
