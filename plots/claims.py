@@ -157,12 +157,17 @@ def as_markdown(outcomes, results):
     lines += ["", "| | Section | Claim | Criterion | Printed | Ours | |", "|:--|:--|:--|:--|:--|:--|:--|"]
     for outcome in outcomes:
         claim = outcome.claim
-        verdict = outcome.verdict if outcome.verdict == HOLDS else f"**{outcome.verdict}**"
         cells = (claim["id"], claim["section"], claim["statement"], claim["criterion"],
                  outcome.printed, outcome.ours)
-        lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells) + f" | {verdict} |")
+        lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
+                     + f" | {bold_unless_it_holds(outcome.verdict)} |")
     lines += known_reasons(outcomes)
     return "\n".join(lines) + "\n"
+
+
+def bold_unless_it_holds(verdict):
+    """A verdict as a table shows it."""
+    return verdict if verdict == HOLDS else f"**{verdict}**"
 
 
 def known_reasons(outcomes):
