@@ -73,7 +73,18 @@ ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
   return element;
 }
 
-/// What both stages of GETMe adaptive share (thesis, Section 4.5, Fig. 4.4): nodes move to the
+/// Tables and arrays of a run; the stages, which follow each other, use the same ones.
+template <int dim>
+struct AdaptiveArrays {
+  NeighbourWeights weights;
+  NodeSums sums;
+  std::vector<std::uint8_t> marked;  ///< free nodes of transformed elements
+  std::vector<std::uint8_t> level;   ///< position in the relaxation values of each node
+  std::vector<CellIndex> active_cells;
+  std::vector<Point<dim>> previous, targets;
+};
+
+/// What both stages of GETMe adaptive do (thesis, Section 4.5, Fig. 4.4): nodes move to the
 /// weighted means of their places in the transformed elements of low quality and the untransformed
 /// other ones; where that makes elements invalid, their nodes move less, by a table of relaxation
 /// values that ends with zero.
@@ -94,27 +105,27 @@ class AdaptiveStage : public Smoother<dim> {
       throw InputError("method getme-adaptive: the parameter relaxation has to end with 0");
     const Topology& topology = state.mesh.topology();
     element_.prepare();
-    sums_.prepare(topology);
-    weights_->prepare(state.mesh.shared_topology());
-    marked_.assign(topology.n_nodes(), 0);
-    level_.assign(topology.n_nodes(), 0);
+    arrays_->sums.prepare(topology);
+    arrays_->weights.prepare(state.mesh.shared_topology());
+    arrays_->marked.assign(topology.n_nodes(), 0);
+    arrays_->level.assign(topology.n_nodes(), 0);
   }
 
  protected:
-  AdaptiveStage(std::vector<double> relaxation, std::shared_ptr<NeighbourWeights> weights)
-      : relaxation_(std::move(relaxation)), weights_(std::move(weights)) {}
+  AdaptiveStage(std::vector<double> relaxation, std::shared_ptr<AdaptiveArrays<dim>> arrays)
+      : relaxation_(std::move(relaxation)), arrays_(std::move(arrays)) {}
 
   /// One iteration that transforms the elements of at most this quality.
   StepReport smooth_below(SmoothingState<dim>& state, double threshold) {
     find_active(state, threshold);
-    weights_->compute(active_cells_, state.cell_quality);
+    arrays_->weights.compute(arrays_->active_cells, state.cell_quality);
     add_active(state, threshold);
-    previous_ = state.mesh.coordinates();
-    targets_ = previous_;
-    sums_.for_each_node([&](NodeIndex i, const double* sums) {
-      level_[i] = 0;
-      if (!marked_[i] || !(sums[dim] > 0.0)) return;
-      targets_[i] = mean_place<dim>(sums);
+    arrays_->previous = state.mesh.coordinates();
+    arrays_->targets = arrays_->previous;
+    arrays_->sums.for_each_node([&](NodeIndex i, const double* sums) {
+      arrays_->level[i] = 0;
+      if (!arrays_->marked[i] || !(sums[dim] > 0.0)) return;
+      arrays_->targets[i] = mean_place<dim>(sums);
       place(state.mesh, i);
     });
     StepReport report;
@@ -130,39 +141,40 @@ class AdaptiveStage : public Smoother<dim> {
   void find_active(const SmoothingState<dim>& state, double threshold) {
     const Topology& topology = state.mesh.topology();
     if (threshold >= 1.0) {
-      for (NodeIndex i = 0; i < topology.n_nodes(); ++i) marked_[i] = !topology.is_fixed(i);
-      active_cells_.resize(topology.n_cells());
-      std::iota(active_cells_.begin(), active_cells_.end(), CellIndex{0});
+      for (NodeIndex i = 0; i < topology.n_nodes(); ++i) arrays_->marked[i] = !topology.is_fixed(i);
+      arrays_->active_cells.resize(topology.n_cells());
+      std::iota(arrays_->active_cells.begin(), arrays_->active_cells.end(), CellIndex{0});
       return;
     }
-    active_cells_.clear();
-    std::fill(marked_.begin(), marked_.end(), 0);
+    arrays_->active_cells.clear();
+    std::fill(arrays_->marked.begin(), arrays_->marked.end(), 0);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
       if (state.cell_quality[c] <= threshold)
         for (const NodeIndex i : topology.cell_nodes(c))
-          if (!topology.is_fixed(i)) marked_[i] = 1;
+          if (!topology.is_fixed(i)) arrays_->marked[i] = 1;
     for (CellIndex c = 0; c < topology.n_cells(); ++c) {
       const auto nodes = topology.cell_nodes(c);
-      if (std::any_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return marked_[i] != 0; }))
-        active_cells_.push_back(c);
+      if (std::any_of(nodes.begin(), nodes.end(),
+                      [&](NodeIndex i) { return arrays_->marked[i] != 0; }))
+        arrays_->active_cells.push_back(c);
     }
   }
 
   void add_active(const SmoothingState<dim>& state, double threshold) {
     const auto& blocks = state.mesh.topology().blocks();
-    const Pass<dim> pass{state.mesh, element_, {weights_->weights().data(), threshold}};
+    const Pass<dim> pass{state.mesh, element_, {arrays_->weights.weights().data(), threshold}};
     parallel_for(blocks.size(), [&](std::size_t b) {
-      const auto first =
-          std::lower_bound(active_cells_.begin(), active_cells_.end(), blocks[b].first);
-      const auto last = std::lower_bound(first, active_cells_.end(), blocks[b].last);
-      add_some(pass, {first, last}, marked_, sums_.start_block(b));
+      const auto first = std::lower_bound(arrays_->active_cells.begin(),
+                                          arrays_->active_cells.end(), blocks[b].first);
+      const auto last = std::lower_bound(first, arrays_->active_cells.end(), blocks[b].last);
+      add_some(pass, {first, last}, arrays_->marked, arrays_->sums.start_block(b));
     });
   }
 
   void place(Mesh<dim>& mesh, NodeIndex i) const {
-    const double share = relaxation_[level_[i]];
-    mesh.coordinates()[i] = (1.0 - share) * previous_[i] + share * targets_[i];
-    if (share == 0.0) mesh.coordinates()[i] = previous_[i];
+    const double share = relaxation_[arrays_->level[i]];
+    mesh.coordinates()[i] = (1.0 - share) * arrays_->previous[i] + share * arrays_->targets[i];
+    if (share == 0.0) mesh.coordinates()[i] = arrays_->previous[i];
   }
 
   void evaluate_cells(SmoothingState<dim>& state, std::span<const CellIndex> cells) {
@@ -177,7 +189,7 @@ class AdaptiveStage : public Smoother<dim> {
   std::size_t relax_until_valid(SmoothingState<dim>& state) {
     const Topology& topology = state.mesh.topology();
     std::size_t n_reset = 0;
-    std::span<const CellIndex> cells = active_cells_;
+    std::span<const CellIndex> cells = arrays_->active_cells;
     std::vector<CellIndex> around;
     while (true) {
       evaluate_cells(state, cells);
@@ -185,14 +197,15 @@ class AdaptiveStage : public Smoother<dim> {
       for (const CellIndex c : cells)
         if (!(state.cell_quality[c] > 0.0))
           for (const NodeIndex i : topology.cell_nodes(c))
-            if (marked_[i] && level_[i] + 1u < relaxation_.size()) shortened.push_back(i);
+            if (arrays_->marked[i] && arrays_->level[i] + 1u < relaxation_.size())
+              shortened.push_back(i);
       if (shortened.empty()) return n_reset;
       std::sort(shortened.begin(), shortened.end());
       shortened.erase(std::unique(shortened.begin(), shortened.end()), shortened.end());
       for (const NodeIndex i : shortened) {
-        ++level_[i];
+        ++arrays_->level[i];
         place(state.mesh, i);
-        if (relaxation_[level_[i]] == 0.0) ++n_reset;
+        if (relaxation_[arrays_->level[i]] == 0.0) ++n_reset;
       }
       around = topology.cells_around(shortened);
       cells = around;
@@ -200,20 +213,15 @@ class AdaptiveStage : public Smoother<dim> {
   }
 
   std::vector<double> relaxation_;
-  NodeSums sums_;
-  std::shared_ptr<NeighbourWeights> weights_;  ///< both stages use the same tables
-  std::vector<std::uint8_t> marked_;           ///< free nodes of transformed elements
-  std::vector<std::uint8_t> level_;            ///< position in relaxation_ of each node
-  std::vector<CellIndex> active_cells_;
-  std::vector<Point<dim>> previous_, targets_;
+  std::shared_ptr<AdaptiveArrays<dim>> arrays_;
 };
 
 /// First stage: all elements are transformed until q_mean hardly rises.
 template <int dim>
 class AdaptiveMeanStage final : public AdaptiveStage<dim> {
  public:
-  explicit AdaptiveMeanStage(std::shared_ptr<NeighbourWeights> weights)
-      : AdaptiveStage<dim>({1.0, 0.25, 0.0625, 0.0}, std::move(weights)) {}
+  explicit AdaptiveMeanStage(std::shared_ptr<AdaptiveArrays<dim>> arrays)
+      : AdaptiveStage<dim>({1.0, 0.25, 0.0625, 0.0}, std::move(arrays)) {}
   std::string_view name() const override { return "mean"; }
 
   Parameters parameters() override {
@@ -245,8 +253,8 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
 template <int dim>
 class AdaptiveMinStage final : public AdaptiveStage<dim> {
  public:
-  explicit AdaptiveMinStage(std::shared_ptr<NeighbourWeights> weights)
-      : AdaptiveStage<dim>({0.5, 0.25, 0.1, 0.01, 0.0}, std::move(weights)) {}
+  explicit AdaptiveMinStage(std::shared_ptr<AdaptiveArrays<dim>> arrays)
+      : AdaptiveStage<dim>({0.5, 0.25, 0.1, 0.01, 0.0}, std::move(arrays)) {}
   std::string_view name() const override { return "min"; }
 
   Parameters parameters() override {
@@ -313,9 +321,9 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
 template <int dim>
 Stages<dim> make_stages() {
   Stages<dim> stages;
-  const auto weights = std::make_shared<NeighbourWeights>();
-  stages.push_back(std::make_unique<AdaptiveMeanStage<dim>>(weights));
-  stages.push_back(std::make_unique<AdaptiveMinStage<dim>>(weights));
+  const auto arrays = std::make_shared<AdaptiveArrays<dim>>();
+  stages.push_back(std::make_unique<AdaptiveMeanStage<dim>>(arrays));
+  stages.push_back(std::make_unique<AdaptiveMinStage<dim>>(arrays));
   return stages;
 }
 

@@ -4,6 +4,7 @@
 #include "smoothfem_versions.h"
 #include "smoothing/mesh/input_error.h"
 #include "studies/cli/commands.h"
+#include "studies/framework/peak_memory.h"
 
 namespace smoothfem {
 
@@ -39,6 +40,7 @@ int run(int argc, char** argv) {
 }  // namespace smoothfem
 
 int main(int argc, char** argv) {
+  smoothfem::return_freed_memory();
   try {
     return smoothfem::run(argc, argv);
   } catch (const smoothfem::InputError& error) {

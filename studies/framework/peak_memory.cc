@@ -7,6 +7,14 @@
 
 namespace smoothfem {
 
+void return_freed_memory() {
+  constexpr int most_maps = 65536;            // the C library's default
+  constexpr int least_map = 4 * 1024 * 1024;  // smaller ones are reused, which costs no page faults
+  mallopt(M_MMAP_MAX, most_maps);
+  mallopt(M_MMAP_THRESHOLD, least_map);
+  mallopt(M_TRIM_THRESHOLD, 2 * least_map);
+}
+
 PeakMemory::PeakMemory() {
   malloc_trim(0);  // what earlier work has freed is not ours
   std::ofstream("/proc/self/clear_refs") << 5;

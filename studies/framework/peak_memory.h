@@ -2,6 +2,11 @@
 
 namespace smoothfem {
 
+/// Lets large arrays go back to the system when they are freed. SuperLU_DIST, which comes with
+/// Trilinos, tells the C library otherwise when it is loaded: programs then need up to twice the
+/// memory. To be called first of all.
+void return_freed_memory();
+
 /// The most memory that this process holds from now on, as the Linux kernel counts it.
 class PeakMemory {
  public:
