@@ -153,6 +153,18 @@ void read_scale(ParameterHandler& p, const std::string& file, Study& study) {
   }
   if (const long runs = p.get_integer("timing runs"); runs > 0)
     study.timing_runs = static_cast<int>(runs);
+  if (const auto names = split_list(p.get("meshes")); !names.empty()) {
+    std::vector<StudyMesh> taken;
+    for (const auto& name : names) {
+      const auto mesh = std::find_if(study.meshes.begin(), study.meshes.end(),
+                                     [&](const StudyMesh& known) { return known.name == name; });
+      if (mesh == study.meshes.end())
+        throw InputError(file + ": the scale " + study.scale + " takes the mesh '" + name +
+                         "', which is not in the list 'meshes'");
+      taken.push_back(*mesh);
+    }
+    study.meshes = std::move(taken);
+  }
 }
 
 MeshDimensions read_dimensions(ParameterHandler& p) {

@@ -168,6 +168,8 @@ void declare_scale(ParameterHandler& p, const std::string& name) {
                   "In place of the value above; 0: as it is.");
   p.declare_entry("timing runs", "0", Patterns::Integer(0),
                   "In place of the value above; 0: as it is.");
+  p.declare_entry("meshes", "", Patterns::Anything(),
+                  "Those of the list above to take; empty: all.");
 }
 
 std::string study_template() {

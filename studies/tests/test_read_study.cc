@@ -287,6 +287,20 @@ TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
   EXPECT_NE(message.find("large"), std::string::npos) << message;
 }
 
+TEST_F(StudyFile, AScaleMayTakeSomeOfTheMeshes) {
+  const auto path = file_with("own.prm",
+                              "set meshes = a, b, c\nset scales = small, odd\n"
+                              "subsection scale small\n set meshes = c, a\nend\n"
+                              "subsection scale odd\n set meshes = d\nend\n");
+  EXPECT_EQ(read_study(path).meshes.size(), 3u);
+  const auto meshes = read_study(path, "small").meshes;
+  ASSERT_EQ(meshes.size(), 2u);
+  EXPECT_EQ(meshes[0].name, "c");
+  EXPECT_EQ(meshes[1].name, "a");
+  const std::string message = checked(input_error_of([&] { read_study(path, "odd"); }), path);
+  EXPECT_NE(message.find("'d'"), std::string::npos) << message;
+}
+
 TEST_F(StudyFile, StagesMayBeRecordedOtherwise) {
   const Study study =
       read("set meshes = a\nset record every = 2\nset record stages every = sequential: 30\n");
