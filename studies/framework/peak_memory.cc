@@ -8,8 +8,8 @@
 namespace smoothfem {
 
 void return_freed_memory() {
-  constexpr int most_maps = 65536;            // the C library's default
-  constexpr int least_map = 4 * 1024 * 1024;  // smaller ones are reused, which costs no page faults
+  constexpr int most_maps = 65536;             // the C library's default
+  constexpr int least_map = 16 * 1024 * 1024;  // smaller ones are reused, without page faults
   mallopt(M_MMAP_MAX, most_maps);
   mallopt(M_MMAP_THRESHOLD, least_map);
   mallopt(M_TRIM_THRESHOLD, 2 * least_map);
