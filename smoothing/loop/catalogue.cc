@@ -1,5 +1,6 @@
 #include "smoothing/loop/catalogue.h"
 
+#include <algorithm>
 #include <map>
 
 #include "smoothing/mesh/input_error.h"
@@ -53,25 +54,44 @@ const auto& factory_of(const StageFactories& factories) {
     return factories.volume;
 }
 
-template <int dim, int spacedim>
-[[noreturn]] void refuse(const std::string& method) {
-  std::vector<std::string> others;
-  for (const auto& [name, entry] : entries())
-    if (factory_of<dim, spacedim>(entry.factories)) others.push_back(name);
-  throw InputError("method " + method + " does not take " + mesh_kind_name(dim, spacedim) +
-                   " meshes; " + choose_one_of(others));
-}
-
 }  // namespace
 
 template <int dim, int spacedim>
-bool takes_meshes(const std::string& method) {
-  return static_cast<bool>(factory_of<dim, spacedim>(entry(method).factories));
+bool keeps_constraints(const Method<dim, spacedim>& method) {
+  return std::all_of(method.stages.begin(), method.stages.end(),
+                     [](const auto& stage) { return stage->rule().keeps_constraints; });
+}
+
+template <int dim, int spacedim>
+bool takes_meshes(const std::string& method, bool with_constraints) {
+  const auto& make_stages = factory_of<dim, spacedim>(entry(method).factories);
+  return make_stages && (!with_constraints || keeps_constraints(Method<dim, spacedim>{
+                                                  entry(method).info, make_stages()}));
+}
+
+template <int dim, int spacedim>
+std::vector<std::string> methods_that_take(bool with_constraints) {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : entries())
+    if (takes_meshes<dim, spacedim>(name, with_constraints)) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> mesh_kinds(const std::string& method) {
+  std::vector<std::string> kinds;
+  if (takes_meshes<2>(method)) kinds.emplace_back(mesh_kind_name(2, 2));
+  if (takes_meshes<3>(method)) kinds.emplace_back(mesh_kind_name(3, 3));
+  if (takes_meshes<3>(method, true))
+    kinds.push_back(mesh_kind_name(3, 3) + std::string(" with sliding boundary"));
+  if (takes_meshes<2, 3>(method)) kinds.emplace_back(mesh_kind_name(2, 3));
+  return kinds;
 }
 
 template <int dim, int spacedim>
 Stages<dim, spacedim> stages_of(const std::string& name) {
-  if (!takes_meshes<dim, spacedim>(name)) refuse<dim, spacedim>(name);
+  if (!takes_meshes<dim, spacedim>(name))
+    throw InputError("method " + name + " does not take " + mesh_kind_name(dim, spacedim) +
+                     " meshes; " + choose_one_of(methods_that_take<dim, spacedim>()));
   return factory_of<dim, spacedim>(entry(name).factories)();
 }
 
@@ -97,10 +117,12 @@ void Method<dim, spacedim>::set(const std::string& name, const std::string& valu
   set_value(find_parameter(parameters(), name, owner), value, owner);
 }
 
-#define SMOOTHFEM_INSTANTIATE(...)                              \
-  template bool takes_meshes<__VA_ARGS__>(const std::string&);  \
-  template Stages<__VA_ARGS__> stages_of(const std::string&);   \
-  template Method<__VA_ARGS__> make_method(const std::string&); \
+#define SMOOTHFEM_INSTANTIATE(...)                                        \
+  template bool keeps_constraints(const Method<__VA_ARGS__>&);            \
+  template bool takes_meshes<__VA_ARGS__>(const std::string&, bool);      \
+  template std::vector<std::string> methods_that_take<__VA_ARGS__>(bool); \
+  template Stages<__VA_ARGS__> stages_of(const std::string&);             \
+  template Method<__VA_ARGS__> make_method(const std::string&);           \
   template struct Method<__VA_ARGS__>;
 SMOOTHFEM_INSTANTIATE(2, 2)
 SMOOTHFEM_INSTANTIATE(3, 3)

@@ -47,9 +47,21 @@ struct RegisteredMethod {
 /// All registered methods, sorted by name.
 std::vector<MethodInfo> method_catalogue();
 
-/// True if the method takes meshes of this kind.
+/// True if every stage keeps nodes where the constraints of a mesh have them (SmoothingRule).
+template <int dim, int spacedim>
+bool keeps_constraints(const Method<dim, spacedim>& method);
+
+/// True if the method takes meshes of this kind; with_constraints: also those whose nodes have to
+/// stay on a surface, as those of surface meshes and of sliding boundaries of volume meshes.
 template <int dim, int spacedim = dim>
-bool takes_meshes(const std::string& method);
+bool takes_meshes(const std::string& method, bool with_constraints = (spacedim > dim));
+
+/// The names of the methods that do, in the order of the catalogue.
+template <int dim, int spacedim = dim>
+std::vector<std::string> methods_that_take(bool with_constraints = (spacedim > dim));
+
+/// What a method takes, in words: some of planar, volume, volume with sliding boundary, surface.
+std::vector<std::string> mesh_kinds(const std::string& method);
 
 /// A method with its default parameters. Throws InputError listing the names there are, or saying
 /// that the method does not take meshes of this kind, and which ones do.

@@ -1,26 +1,39 @@
 #include "smoothing/loop/invalid_node_reset.h"
 
-#include <algorithm>
-
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// Moves back the nodes of the invalid cells that are not back yet.
+/// Facets beyond the bound that the mesh has for them: all, or those around some nodes.
+template <int dim, int spacedim, class... Around>
+std::vector<std::uint32_t> facets_out_of_bound(const Mesh<dim, spacedim>& mesh,
+                                               const Around&... around) {
+  if constexpr (spacedim == 3)
+    if (has_facet_bound(mesh))
+      return mesh.constraints()->facets_out_of_bound(mesh.coordinates(), around...);
+  return {};
+}
+
+/// Moves back the nodes of these cells and facets that are not back yet.
 template <int dim, int spacedim>
 std::vector<NodeIndex> put_back(Mesh<dim, spacedim>& mesh,
                                 const std::vector<Point<spacedim>>& previous,
-                                const std::vector<CellIndex>& invalid) {
+                                const std::vector<CellIndex>& cells,
+                                const std::vector<std::uint32_t>& facets) {
   std::vector<NodeIndex> moved;
-  for (const CellIndex c : invalid)
-    for (const NodeIndex i : mesh.topology().cell_nodes(c))
+  const auto put_back_nodes = [&](std::span<const NodeIndex> nodes) {
+    for (const NodeIndex i : nodes)
       if (mesh.coordinates()[i] != previous[i]) {
         mesh.coordinates()[i] = previous[i];
         moved.push_back(i);
       }
+  };
+  for (const CellIndex c : cells) put_back_nodes(mesh.topology().cell_nodes(c));
+  for (const std::uint32_t f : facets) put_back_nodes(mesh.constraints()->facet_nodes(f));
   return moved;
 }
 
@@ -31,18 +44,19 @@ std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim, spacedim>& mesh,
                                                     const std::vector<Point<spacedim>>& previous,
                                                     std::vector<double>& cell_quality) {
   std::vector<CellIndex> invalid = invalid_cells(cell_quality);
+  std::vector<std::uint32_t> facets = facets_out_of_bound(mesh);
   std::vector<NodeIndex> all_moved;
-  while (!invalid.empty()) {
-    const auto moved = put_back(mesh, previous, invalid);
-    if (moved.empty()) break;  // the cells were invalid before
+  while (true) {
+    const auto moved = put_back(mesh, previous, invalid, facets);
+    if (moved.empty()) return all_moved;  // what is left was so before
     all_moved.insert(all_moved.end(), moved.begin(), moved.end());
     invalid.clear();
     for (const CellIndex c : mesh.topology().cells_around(moved)) {
       cell_quality[c] = cell_mean_ratio(mesh, c);
       if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
     }
+    facets = facets_out_of_bound(mesh, moved);
   }
-  return all_moved;
 }
 
 template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2>&, const std::vector<Point<2>>&,

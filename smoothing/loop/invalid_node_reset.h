@@ -6,9 +6,10 @@
 
 namespace smoothfem {
 
-/// Puts the nodes of invalid cells back to where they were, again and again until no cell is
-/// invalid (thesis, Fig. 4.2, IterativeInvalidElementResetting). cell_quality: of mesh, kept up to
-/// date. Ends with a valid mesh if `previous` is valid. Returns the nodes that were put back.
+/// Puts the nodes of invalid cells, and of facets beyond the bound that the mesh has for them, back
+/// to where they were, again and again until there is none (thesis, Fig. 4.2,
+/// IterativeInvalidElementResetting). cell_quality: of mesh, kept up to date. Ends with a valid
+/// mesh that keeps the bound if `previous` is one. Returns the nodes that were put back.
 template <int dim, int spacedim>
 std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim, spacedim>& mesh,
                                                     const std::vector<Point<spacedim>>& previous,

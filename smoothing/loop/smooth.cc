@@ -7,6 +7,7 @@
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/mesh/reordering.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
@@ -116,18 +117,6 @@ bool any_stage(const Method<dim, spacedim>& method, const auto& condition) {
                      [&](const auto& stage) { return condition(stage->rule()); });
 }
 
-template <int dim, int spacedim>
-std::vector<std::string> methods_that_keep_constraints() {
-  std::vector<std::string> names;
-  for (const auto& info : method_catalogue()) {
-    if (!takes_meshes<dim, spacedim>(info.name)) continue;
-    const auto method = make_method<dim, spacedim>(info.name);
-    if (!any_stage(method, [](const auto& rule) { return !rule.keeps_constraints; }))
-      names.push_back(info.name);
-  }
-  return names;
-}
-
 /// The run of one method: what its stages share.
 template <int dim, int spacedim>
 class SmoothingRun {
@@ -193,11 +182,10 @@ class SmoothingRun {
 
  private:
   void require_constraints_kept(const Method<dim, spacedim>& method) const {
-    if (state_.mesh.constraints() &&
-        any_stage(method, [](const auto& rule) { return !rule.keeps_constraints; }))
+    if (state_.mesh.constraints() && !keeps_constraints(method))
       throw InputError("method " + method.info.name +
                        " cannot keep boundary nodes on the boundary; fix them, or take one of " +
-                       joined(methods_that_keep_constraints<dim, spacedim>()));
+                       joined(methods_that_take<dim, spacedim>(true)));
   }
 
   /// Small meshes stay in the cache in any order, and keep the sums of the published numbers.
@@ -231,7 +219,7 @@ class SmoothingRun {
     StepReport report = smoother.step(state_);
     if (rule.quality_use == QualityUse::loop) {
       evaluate_quality();
-      if (quality_.n_invalid > 0) {
+      if (quality_.n_invalid > 0 || has_facet_bound(state_.mesh)) {
         report.n_reset +=
             reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality).size();
         quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);

@@ -66,8 +66,9 @@ struct SmoothingRule {
   /// The step visits nodes one after the other, so that its result depends on their order: the mesh
   /// keeps the order it has.
   bool needs_node_order = false;
-  /// The step puts nodes only where allowed_place (smoothing/surface/node_constraints.h) has them;
-  /// other methods do not take meshes with constraints.
+  /// The step puts nodes only where allowed_place (smoothing/surface/node_constraints.h) has them,
+  /// and, unless the quality is evaluated by the loop, where keeps_facet_bound holds; other methods
+  /// do not take meshes with constraints.
   bool keeps_constraints = false;
 };
 

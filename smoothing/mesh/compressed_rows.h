@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,5 +47,18 @@ class CompressedRows {
   std::vector<std::size_t> offsets_;
   std::vector<T> entries_;
 };
+
+/// For each number below n_numbers, the rows that have it as an entry, ascending.
+inline CompressedRows<std::uint32_t> rows_by_entry(const CompressedRows<std::uint32_t>& rows,
+                                                   std::size_t n_numbers) {
+  std::vector<std::size_t> offsets(n_numbers + 1, 0);
+  for (const std::uint32_t number : rows.entries()) ++offsets[number + 1];
+  for (std::size_t i = 0; i < n_numbers; ++i) offsets[i + 1] += offsets[i];
+  std::vector<std::uint32_t> entries(rows.n_entries());
+  auto next = offsets;
+  for (std::uint32_t row = 0; row < rows.size(); ++row)
+    for (const std::uint32_t number : rows[row]) entries[next[number]++] = row;
+  return {std::move(offsets), std::move(entries)};
+}
 
 }  // namespace smoothfem

@@ -15,19 +15,6 @@ namespace smoothfem {
 
 namespace {
 
-/// For each node the cells that use it, ascending.
-CompressedRows<CellIndex> cells_by_node(std::size_t n_nodes,
-                                        const CompressedRows<NodeIndex>& cells) {
-  std::vector<std::size_t> offsets(n_nodes + 1, 0);
-  for (const NodeIndex node : cells.entries()) ++offsets[node + 1];
-  for (std::size_t i = 0; i < n_nodes; ++i) offsets[i + 1] += offsets[i];
-  std::vector<CellIndex> entries(cells.n_entries());
-  auto next = offsets;
-  for (CellIndex c = 0; c < cells.size(); ++c)
-    for (const NodeIndex node : cells[c]) entries[next[node]++] = c;
-  return {std::move(offsets), std::move(entries)};
-}
-
 /// A cell's facet: its nodes, sorted, behind the smallest one (which tells where it is looked for).
 struct FacetKey {
   std::array<NodeIndex, 3> others;
@@ -79,7 +66,7 @@ Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells
                    std::optional<std::vector<bool>> fixed, MeshLabels labels)
     : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
   check_cells(n_nodes);
-  node_cells_ = cells_by_node(n_nodes, cells_);
+  node_cells_ = rows_by_entry(cells_, n_nodes);
   build_boundary();
   build_fixed(fixed);
   build_blocks();

@@ -86,16 +86,16 @@ SMOOTHFEM_INLINE auto upper_side(const Mesh<dim, spacedim>& mesh, CellIndex cell
     return vector_of(mesh.constraints()->facet_normals()[cell]);
 }
 
-/// The same of a polygon in space: lengths as they are, areas signed by the polygon's own mean
-/// normal, so that the mean ratio is 1 exactly for regular and flat polygons. Invalid is also a
-/// polygon whose mean normal does not point to the upper side of the surface (`upper`, a vector
-/// along the normal that the surface has there): it has been turned over.
+/// The same of a polygon in space: lengths and areas of its corners' triangles as they are, so that
+/// the mean ratio is 1 exactly for regular and flat polygons. A corner is invalid where it does not
+/// show the upper side of the surface (`upper`, a vector along the normal that the surface has
+/// there), even if the polygon's mean normal does: that of a thin polygon on a curved surface says
+/// nothing.
 template <std::size_t extent>
 inline double mean_ratio(Vector3<double> upper, std::span<const Vector3<double>, extent> corners) {
-  const Vector3<double> normal = unit_normal(corners);
-  if (!(dot(normal, upper) > 0.0)) return 0.0;
   return polygon_mean_ratio(corners, [&](Vector3<double> next, Vector3<double> previous) {
-    return dot(normal, cross(next, previous));
+    const Vector3<double> area = cross(next, previous);
+    return dot(area, upper) > 0.0 ? length(area) : -length(area);
   });
 }
 

@@ -17,17 +17,17 @@ Point<spacedim> mean_of_neighbours(const Mesh<dim, spacedim>& mesh, NodeIndex no
 }
 
 /// One sweep over the free nodes in node order, each moved at once by movement(node), as far as the
-/// mesh's constraints let it, so that later nodes see the new places of earlier ones. Reports the
-/// longest movement.
+/// mesh's constraints and the bound of its facets let it, so that later nodes see the new places of
+/// earlier ones. Reports the longest movement.
 template <int dim, int spacedim, class Movement>
 StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movement) {
   double longest = 0.0;
   for (const NodeIndex i : mesh.topology().free_nodes()) {
     Point<spacedim> move = movement(i);
-    const Point<spacedim> wanted = mesh.coordinates()[i] + move;
-    const Point<spacedim> place = allowed_place(mesh, i, wanted);
-    if (mesh.constraints()) move = place - mesh.coordinates()[i];
-    mesh.coordinates()[i] = place;
+    const Point<spacedim> old = mesh.coordinates()[i];
+    mesh.coordinates()[i] = allowed_place<dim, spacedim>(mesh, i, old + move);
+    if (!keeps_facet_bound(mesh, {&i, 1})) mesh.coordinates()[i] = old;
+    if (mesh.constraints()) move = mesh.coordinates()[i] - old;
     longest = std::max(longest, move.squaredNorm());
   }
   return {.max_displacement = std::sqrt(longest)};

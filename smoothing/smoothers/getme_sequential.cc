@@ -148,7 +148,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     for (int i = 0; i < cycle_ && !by_corrected_quality_.empty(); ++i) {
       const CellIndex worst = worst_cell(state);
       transform(state, worst);
-      const bool kept = accept_or_undo(state);
+      const bool kept = accept_or_undo(state, worst);
       update_penalty(worst, kept);
       if (kept)
         for (const CellIndex c : touched_) {
@@ -213,10 +213,12 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     });
   }
 
-  /// Evaluates the cells around the moved nodes; puts the nodes back if one of them is invalid.
-  bool accept_or_undo(SmoothingState<dim, spacedim>& state) {
+  /// Evaluates the cells around the nodes of a cell that have moved; puts these back if one of them
+  /// is invalid, or if a facet there is beyond its bound.
+  bool accept_or_undo(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     new_quality_.resize(touched_.size());
-    if (!evaluate(state.mesh, touched_, new_quality_)) {
+    if (!evaluate(state.mesh, touched_, new_quality_) ||
+        !keeps_facet_bound(state.mesh, state.mesh.topology().cell_nodes(cell))) {
       for (const auto& [node, position] : moved_) state.mesh.coordinates()[node] = position;
       return false;
     }

@@ -1,37 +1,14 @@
 #include "smoothing/surface/node_constraints.h"
 
-#include <array>
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
-#include <boost/iterator/function_output_iterator.hpp>
-#include <limits>
+#include <algorithm>
 #include <optional>
 
-#include "smoothing/surface/nearest_point.h"
+#include "smoothing/mesh/parallel.h"
+#include "smoothing/surface/piece_index.h"
 
 namespace smoothfem {
 
 namespace {
-
-namespace bg = boost::geometry;
-namespace bgi = boost::geometry::index;
-using Corner = bg::model::point<double, 3, bg::cs::cartesian>;
-using Box = bg::model::box<Corner>;
-
-Box box_between(const Point<3>& low, const Point<3>& high) {
-  return {Corner(low.x(), low.y(), low.z()), Corner(high.x(), high.y(), high.z())};
-}
-
-/// A triangle of a smooth part, or a segment (c = b) of a feature line.
-struct Piece {
-  Point<3> a, b, c;
-  std::uint32_t part;
-
-  Point<3> nearest(const Point<3>& p) const {
-    return c == b ? nearest_on_segment(p, a, b) : nearest_on_triangle(p, a, b, c);
-  }
-  Box box() const { return box_between(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)); }
-};
 
 std::vector<Piece> triangles_of(const SurfaceFacets& facets, const std::vector<Point<3>>& x,
                                 const std::vector<std::uint32_t>& patches) {
@@ -60,74 +37,34 @@ std::vector<Piece> segments_of(const SurfaceFeatures& features, const std::vecto
   return segments;
 }
 
-}  // namespace
-
-/// Pieces, found by their boxes. Boost's R-tree rather than VTK's locator: it needs no more than
-/// headers, and it lets the pieces of other parts of the surface be left out.
-class NodeConstraints::Index {
- public:
-  explicit Index(std::vector<Piece> pieces) : pieces_(std::move(pieces)), tree_(entries()) {}
-
-  /// Nearest point to p on the pieces of a part, or of all of them. Every piece within `radius`
-  /// meets the box of that size; where none is as near, a larger box is taken.
-  Point<3> nearest(const Point<3>& p, std::optional<std::uint32_t> part, double radius) const {
-    Point<3> best = p;
-    for (double best_square = infinite; best_square > radius * radius; radius *= 2.0) {
-      best_square = infinite;
-      std::uint32_t best_piece = 0;
-      const auto look_at = [&](const Entry& entry) {
-        const Piece& piece = pieces_[entry.second];
-        if (part && piece.part != *part) return;
-        const Point<3> point = piece.nearest(p);
-        const double square = (point - p).squaredNorm();
-        const bool tie = square == best_square && entry.second < best_piece;
-        if (!(square < best_square || tie)) return;
-        best = point;
-        best_square = square;
-        best_piece = entry.second;
-      };
-      const Point<3> half = Point<3>::Constant(radius);
-      tree_.query(bgi::intersects(box_between(p - half, p + half)),
-                  boost::make_function_output_iterator(std::ref(look_at)));
-    }
-    return best;
-  }
-
-  /// Longest side of the box around all pieces.
-  double extent() const {
-    const Box box = tree_.bounds();
-    return std::max({bg::get<bg::max_corner, 0>(box) - bg::get<bg::min_corner, 0>(box),
-                     bg::get<bg::max_corner, 1>(box) - bg::get<bg::min_corner, 1>(box),
-                     bg::get<bg::max_corner, 2>(box) - bg::get<bg::min_corner, 2>(box)});
-  }
-
- private:
-  using Entry = std::pair<Box, std::uint32_t>;
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-
-  std::vector<Entry> entries() const {
-    std::vector<Entry> all;
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) all.emplace_back(pieces_[i].box(), i);
-    return all;
-  }
-
-  std::vector<Piece> pieces_;
-  bgi::rtree<Entry, bgi::rstar<16>> tree_;
-};
-
-namespace {
-
 /// Smallest radius to begin a search with, relative to the surface: above rounding.
 constexpr double least_radius = 1e-10;
 
+/// Whether is_bad(point) is true of the middle of a facet or of one of its sides.
+template <class IsBad>
+bool any_middle(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& x,
+                const IsBad& is_bad) {
+  const std::size_t n = nodes.size();
+  Point<3> middle = Point<3>::Zero();
+  for (std::size_t k = 0; k < n; ++k) {
+    middle += x[nodes[k]] / static_cast<double>(n);
+    if (is_bad(Point<3>(0.5 * (x[nodes[k]] + x[nodes[k + 1 < n ? k + 1 : 0]])))) return true;
+  }
+  return is_bad(middle);
+}
+
 }  // namespace
 
-NodeConstraints::NodeConstraints(const SurfaceFacets& facets, std::vector<Point<3>> coordinates,
-                                 const FeatureParameters& parameters)
+NodeConstraints::NodeConstraints(const SurfaceFacets& facets,
+                                 const std::vector<Point<3>>& coordinates,
+                                 const FeatureParameters& parameters, double facet_bound)
     : features_(find_features(facets, coordinates, parameters)),
+      facets_(facets.nodes),
+      node_facets_(rows_by_entry(facets.nodes, coordinates.size())),
+      facet_bound_(facet_bound),
       triangles_(
-          std::make_unique<Index>(triangles_of(facets, coordinates, features_.facet_patches))),
-      segments_(std::make_unique<Index>(segments_of(features_, coordinates))) {
+          std::make_unique<PieceIndex>(triangles_of(facets, coordinates, features_.facet_patches))),
+      segments_(std::make_unique<PieceIndex>(segments_of(features_, coordinates))) {
   for (std::size_t f = 0; f < facets.nodes.size(); ++f)
     facet_normals_.push_back(area_vector(facets.nodes[f], coordinates).normalized());
 }
@@ -138,14 +75,61 @@ Point<3> NodeConstraints::project(NodeIndex node, const Point<3>& from,
   const NodeCarrier carrier = features_.carriers[node];
   if (carrier.kind == NodeCarrier::none || wanted == from) return wanted;
   if (carrier.kind == NodeCarrier::corner) return from;
-  const Index& index = carrier.kind == NodeCarrier::patch ? *triangles_ : *segments_;
+  const PieceIndex& index = carrier.kind == NodeCarrier::patch ? *triangles_ : *segments_;
   const double radius = (wanted - from).norm() + least_radius * triangles_->extent();
   return index.nearest(wanted, carrier.part, radius);
 }
 
 double NodeConstraints::distance(const Point<3>& point) const {
-  const double extent = triangles_->extent();
-  return (triangles_->nearest(point, std::nullopt, least_radius * extent) - point).norm();
+  return distance(point, least_radius * triangles_->extent());
+}
+
+double NodeConstraints::distance(const Point<3>& point, double radius) const {
+  return (triangles_->nearest(point, std::nullopt, radius) - point).norm();
+}
+
+double NodeConstraints::facet_distance(const std::vector<Point<3>>& coordinates) const {
+  double largest = 0.0;
+  for (std::size_t f = 0; f < facets_.size(); ++f)
+    any_middle(facets_[f], coordinates, [&](const Point<3>& point) {
+      largest = std::max(largest, distance(point));
+      return false;
+    });
+  return largest;
+}
+
+bool NodeConstraints::is_out_of_bound(std::uint32_t facet,
+                                      const std::vector<Point<3>>& coordinates) const {
+  return any_middle(facets_[facet], coordinates, [&](const Point<3>& point) {
+    return !(distance(point, facet_bound_) <= facet_bound_);
+  });
+}
+
+std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
+    const std::vector<Point<3>>& coordinates) const {
+  if (facet_bound_ == unbounded) return {};
+  constexpr std::size_t grain = 256;
+  std::vector<std::uint8_t> is_out(facets_.size());
+  parallel_for_ranges(facets_.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f)
+      is_out[f] = is_out_of_bound(static_cast<std::uint32_t>(f), coordinates);
+  });
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t f = 0; f < is_out.size(); ++f)
+    if (is_out[f]) found.push_back(f);
+  return found;
+}
+
+std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
+    const std::vector<Point<3>>& coordinates, std::span<const NodeIndex> around) const {
+  if (facet_bound_ == unbounded) return {};
+  std::vector<std::uint32_t> facets;
+  for (const NodeIndex node : around)
+    facets.insert(facets.end(), node_facets_[node].begin(), node_facets_[node].end());
+  std::sort(facets.begin(), facets.end());
+  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  std::erase_if(facets, [&](std::uint32_t f) { return !is_out_of_bound(f, coordinates); });
+  return facets;
 }
 
 SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point<3>> coordinates,

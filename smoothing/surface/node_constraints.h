@@ -1,6 +1,8 @@
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "smoothing/mesh/mesh.h"
@@ -8,17 +10,22 @@
 
 namespace smoothfem {
 
+class PieceIndex;  // smoothing/surface/piece_index.h
+
 /// Keeps nodes where they belong on a surface: those of its smooth parts on them, those of a
 /// feature line on it, corners where they are (thesis, Section 5.1.2). The surface is the initial
 /// mesh of it, a facet of more than three nodes seen as triangles around the mean of its nodes; a
 /// node's own smooth part or line counts only, so that it cannot change over to another sheet of
-/// the surface. Immutable; any number of threads may ask at a time.
+/// the surface. Facets between moved nodes cut across what is curved; they may be bounded, too.
+/// Immutable; any number of threads may ask at a time.
 class NodeConstraints {
  public:
-  /// facets: a surface of nodes with these coordinates, its initial mesh. Throws InputError as
-  /// find_features does.
-  NodeConstraints(const SurfaceFacets& facets, std::vector<Point<3>> coordinates,
-                  const FeatureParameters& parameters = {});
+  static constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+  /// facets: a surface of nodes with these coordinates, its initial mesh. facet_bound: how far
+  /// facets may come off it, above 0. Throws InputError as find_features does.
+  NodeConstraints(const SurfaceFacets& facets, const std::vector<Point<3>>& coordinates,
+                  const FeatureParameters& parameters = {}, double facet_bound = unbounded);
   ~NodeConstraints();
 
   /// Where a node that is at `from` and should go to `wanted` comes to lie: at the nearest point of
@@ -29,6 +36,16 @@ class NodeConstraints {
   /// Distance of a point from the initial surface.
   double distance(const Point<3>& point) const;
 
+  /// How far the facets between nodes at these coordinates are off the initial surface: at their
+  /// middles and those of their sides.
+  double facet_distance(const std::vector<Point<3>>& coordinates) const;
+  double facet_bound() const { return facet_bound_; }
+  /// The facets that are farther off than the bound, ascending: of all, or of those around nodes.
+  std::vector<std::uint32_t> facets_out_of_bound(const std::vector<Point<3>>& coordinates) const;
+  std::vector<std::uint32_t> facets_out_of_bound(const std::vector<Point<3>>& coordinates,
+                                                 std::span<const NodeIndex> around) const;
+  std::span<const NodeIndex> facet_nodes(std::uint32_t facet) const { return facets_[facet]; }
+
   const std::vector<NodeCarrier>& carriers() const { return features_.carriers; }
   bool is_corner(NodeIndex node) const {
     return features_.carriers[node].kind == NodeCarrier::corner;
@@ -37,11 +54,16 @@ class NodeConstraints {
   const std::vector<Point<3>>& facet_normals() const { return facet_normals_; }
 
  private:
-  class Index;
+  /// radius: where the search begins.
+  double distance(const Point<3>& point, double radius) const;
+  bool is_out_of_bound(std::uint32_t facet, const std::vector<Point<3>>& coordinates) const;
 
   SurfaceFeatures features_;
+  CompressedRows<NodeIndex> facets_;
+  CompressedRows<std::uint32_t> node_facets_;
+  double facet_bound_;
   std::vector<Point<3>> facet_normals_;
-  std::unique_ptr<const Index> triangles_, segments_;
+  std::unique_ptr<const PieceIndex> triangles_, segments_;
 };
 
 /// Where a free node of a mesh that should go to `wanted` may go: there, or where the mesh's
@@ -53,6 +75,23 @@ Point<spacedim> allowed_place(const Mesh<dim, spacedim>& mesh, NodeIndex node,
     if (const NodeConstraints* constraints = mesh.constraints())
       return constraints->project(node, mesh.coordinates()[node], wanted);
   return wanted;
+}
+
+/// True if facets of the mesh have a bound to keep.
+template <int dim, int spacedim>
+bool has_facet_bound(const Mesh<dim, spacedim>& mesh) {
+  if constexpr (spacedim == 3)
+    return mesh.constraints() && mesh.constraints()->facet_bound() < NodeConstraints::unbounded;
+  return false;
+}
+
+/// True if the facets around these nodes keep the bound that the mesh has for them, if any.
+template <int dim, int spacedim>
+bool keeps_facet_bound(const Mesh<dim, spacedim>& mesh, std::span<const NodeIndex> around) {
+  if constexpr (spacedim == 3)
+    return !has_facet_bound(mesh) ||
+           mesh.constraints()->facets_out_of_bound(mesh.coordinates(), around).empty();
+  return true;
 }
 
 /// A mesh of the surface that these cells are, which its nodes never leave: its features follow

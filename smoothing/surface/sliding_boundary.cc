@@ -30,37 +30,33 @@ std::vector<int> boundary_tags(const Topology& topology) {
   return result;
 }
 
+/// Over the sides of all facets: each is one of two.
+double mean_edge_length(const CompressedRows<NodeIndex>& facets, const std::vector<Point<3>>& x) {
+  double sum = 0.0;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    for (std::size_t k = 0, n = facets[f].size(); k < n; ++k)
+      sum += (x[facets[f][k]] - x[facets[f][k + 1 < n ? k + 1 : 0]]).norm();
+  return sum / static_cast<double>(facets.n_entries());
+}
+
 }  // namespace
 
-VolumeMesh with_sliding_boundary(const VolumeMesh& mesh, const FeatureParameters& parameters) {
+VolumeMesh with_sliding_boundary(const VolumeMesh& mesh, const FeatureParameters& parameters,
+                                 double slide_distance) {
+  if (!(slide_distance > 0.0))
+    throw InputError("the slide distance is " + std::to_string(slide_distance) +
+                     "; give a share of the boundary's mean edge length above 0");
   const Topology& topology = mesh.topology();
   const SurfaceFacets boundary{topology.boundary_facets(), boundary_tags(topology), {}};
-  auto constraints =
-      std::make_shared<const NodeConstraints>(boundary, mesh.coordinates(), parameters);
+  auto constraints = std::make_shared<const NodeConstraints>(
+      boundary, mesh.coordinates(), parameters,
+      slide_distance * mean_edge_length(boundary.nodes, mesh.coordinates()));
   std::vector<bool> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     fixed[i] = topology.is_fixed(i) && !topology.on_boundary()[i];
   return with_fixed_nodes(
       VolumeMesh(mesh.shared_topology(), mesh.coordinates(), std::move(constraints)),
       std::move(fixed));
-}
-
-double boundary_deviation(const VolumeMesh& mesh) {
-  const auto& x = mesh.coordinates();
-  double largest = 0.0;
-  const auto& facets = mesh.topology().boundary_facets();
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto nodes = facets[f];
-    const std::size_t n = nodes.size();
-    Point<3> middle = Point<3>::Zero();
-    for (std::size_t k = 0; k < n; ++k) {
-      middle += x[nodes[k]] / static_cast<double>(n);
-      const Point<3> of_side = 0.5 * (x[nodes[k]] + x[nodes[k + 1 < n ? k + 1 : 0]]);
-      largest = std::max(largest, mesh.constraints()->distance(of_side));
-    }
-    largest = std::max(largest, mesh.constraints()->distance(middle));
-  }
-  return largest;
 }
 
 }  // namespace smoothfem

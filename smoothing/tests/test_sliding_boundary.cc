@@ -37,20 +37,27 @@ VolumeMesh disturbed_box(BoxCells cells, std::uint32_t n = 4) {
   return mesh;
 }
 
-/// A quarter of a tube, whose inner and outer sides are curved.
-VolumeMesh tube(std::uint32_t n) {
+/// A quarter of a tube, whose inner and outer sides are curved. unevenness: cells at one end are
+/// longer by this share than in the middle, and those at the other one shorter.
+VolumeMesh tube(std::uint32_t n, double unevenness = 0.0) {
   VolumeMesh mesh = box_mesh(n, n, n, BoxCells::hexahedra);
   for (auto& p : mesh.coordinates()) {
-    const double angle = 0.5 * std::numbers::pi * (1.0 - p.x() / n), radius = 1.0 + p.y() / n;
+    const double x = p.x() / n, along = x + unevenness * x * (1.0 - x);
+    const double angle = 0.5 * std::numbers::pi * (1.0 - along), radius = 1.0 + p.y() / n;
     p = {radius * std::cos(angle), radius * std::sin(angle), p.z() / n};
   }
   return mesh;
 }
 
-/// Those whose every stage says so.
-std::vector<std::string> sliding_methods() {
-  return {"getme",   "getme-qgamma",  "getme-sequential", "getme-simultaneous",
-          "laplace", "smart-laplace", "weighted-laplace"};
+double facet_distance(const VolumeMesh& mesh) {
+  return mesh.constraints()->facet_distance(mesh.coordinates());
+}
+
+std::size_t n_slid_nodes(const VolumeMesh& before, const VolumeMesh& after) {
+  std::size_t n = 0;
+  for (NodeIndex i = 0; i < before.n_nodes(); ++i)
+    n += before.topology().on_boundary()[i] && before.coordinates()[i] != after.coordinates()[i];
+  return n;
 }
 
 class SlidingBoundary : public testing::TestWithParam<std::string> {
@@ -66,15 +73,11 @@ TEST_P(SlidingBoundary, KeepsABoxABox) {
     auto made = method();
     smooth(result, made);
     EXPECT_EQ(test::n_moved_fixed_nodes(mesh, result), 0u);
-    EXPECT_LT(boundary_deviation(result), 1e-12);
+    EXPECT_LT(facet_distance(result), 1e-12);
     EXPECT_NEAR(volume(result), 64.0, 1e-11);
     EXPECT_GT(mesh_quality(result).q_mean, mesh_quality(mesh).q_mean);
     EXPECT_EQ(mesh_quality(result).n_invalid, 0u);
-    std::size_t n_slid = 0;
-    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      n_slid +=
-          mesh.topology().on_boundary()[i] && result.coordinates()[i] != mesh.coordinates()[i];
-    EXPECT_GT(n_slid, 20u);
+    EXPECT_GT(n_slid_nodes(mesh, result), 20u);
   }
 }
 
@@ -92,25 +95,45 @@ TEST_P(SlidingBoundary, KeepsNodesOnACurvedBoundaryAndTellsHowFarFacetsAreOff) {
   }
   // Of a chord between points of the outer side half a circle's division apart, at most.
   constexpr double outer_sag = 2.0 * (1.0 - 0.9914448613738104);  // cos(7.5 degrees)
-  EXPECT_LT(boundary_deviation(mesh), 1e-13);
-  EXPECT_LT(boundary_deviation(result), 2.0 * outer_sag);
+  EXPECT_LT(facet_distance(mesh), 1e-13);
+  EXPECT_LT(facet_distance(result), 2.0 * outer_sag);
+}
+
+TEST_P(SlidingBoundary, KeepsFacetsWithinTheirBound) {
+  const VolumeMesh initial = tube(6, 0.6);
+  const auto smoothed = [&](double slide_distance) {
+    VolumeMesh mesh = with_sliding_boundary(initial, {}, slide_distance);
+    auto made = method();
+    smooth(mesh, made);
+    EXPECT_GT(n_slid_nodes(initial, mesh), 0u) << slide_distance;
+    return mesh;
+  };
+  const double unbounded = facet_distance(smoothed(NodeConstraints::unbounded));
+  const double edge = with_sliding_boundary(initial, {}, 1.0).constraints()->facet_bound();
+  for (const double share : {0.7, 0.3}) {
+    const VolumeMesh mesh = smoothed(share * unbounded / edge);
+    EXPECT_DOUBLE_EQ(mesh.constraints()->facet_bound(), share * unbounded);
+    EXPECT_LE(facet_distance(mesh), mesh.constraints()->facet_bound());
+  }
 }
 
 TEST_P(SlidingBoundary, GivesTheSameBitsWithEveryNumberOfThreads) {
   const int usual = n_threads();
-  const VolumeMesh mesh = disturbed_box(BoxCells::mixed, 8);
-  std::vector<VolumeMesh> results;
-  for (const int threads : {1, 3}) {
-    set_n_threads(threads);
-    results.push_back(mesh);
-    auto made = test::short_method<3>(GetParam(), "3");
-    smooth(results.back(), made);
-    EXPECT_EQ(results.back().coordinates(), results.front().coordinates()) << threads;
+  for (const VolumeMesh& mesh :
+       {disturbed_box(BoxCells::mixed, 8), with_sliding_boundary(tube(8, 0.6), {}, 0.02)}) {
+    std::vector<VolumeMesh> results;
+    for (const int threads : {1, 3}) {
+      set_n_threads(threads);
+      results.push_back(mesh);
+      auto made = test::short_method<3>(GetParam(), "3");
+      smooth(results.back(), made);
+      EXPECT_EQ(results.back().coordinates(), results.front().coordinates()) << threads;
+    }
   }
   set_n_threads(usual);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, SlidingBoundary, testing::ValuesIn(sliding_methods()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, SlidingBoundary, testing::ValuesIn(methods_that_take<3>(true)),
                          test::test_name);
 
 TEST(SlidingBoundaries, HaveTheBordersOfLabelsAsFeatures) {
@@ -137,6 +160,12 @@ TEST(SlidingBoundaries, HaveTheBordersOfLabelsAsFeatures) {
   }
 }
 
+TEST(SlidingBoundaries, NeedADistanceAboveZero) {
+  for (const double distance : {0.0, -1.0, std::nan("")})
+    EXPECT_THROW(with_sliding_boundary(box_mesh(2, 2, 2, BoxCells::hexahedra), {}, distance),
+                 InputError);
+}
+
 TEST(SlidingBoundaries, AreRefusedByMethodsThatCannotKeepThem) {
   std::set<std::string> taken;
   for (const auto& info : method_catalogue()) {
@@ -150,7 +179,8 @@ TEST(SlidingBoundaries, AreRefusedByMethodsThatCannotKeepThem) {
                                                    "fix them, or take one of getme, getme-qgamma"));
     }
   }
-  EXPECT_THAT(taken, testing::ElementsAreArray(sliding_methods()));
+  EXPECT_THAT(taken, testing::ElementsAreArray(methods_that_take<3>(true)));
+  EXPECT_THAT(taken, testing::IsSupersetOf({"getme", "laplace", "smart-laplace"}));
 }
 
 }  // namespace

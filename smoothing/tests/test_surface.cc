@@ -247,12 +247,6 @@ TEST(SurfaceQuality, OfAFlatCellIsThatOfThePlanarOne) {
 
 // --- Methods -------------------------------------------------------------------------------------
 
-std::vector<std::string> surface_methods() {
-  auto names = test::method_names();
-  std::erase_if(names, [](const auto& name) { return !takes_meshes<2, 3>(name); });
-  return names;
-}
-
 class SurfaceMethod : public testing::TestWithParam<std::string> {
  protected:
   static Method<2, 3> method() { return make_method<2, 3>(GetParam()); }
@@ -337,11 +331,11 @@ TEST_P(SurfaceMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
   set_n_threads(usual);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, SurfaceMethod, testing::ValuesIn(surface_methods()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, SurfaceMethod, testing::ValuesIn(methods_that_take<2, 3>()),
                          test::test_name);
 
 TEST(SurfaceMethods, AreTheFiveOfTheThesisAndNamedToWhoeverAsksForAnother) {
-  EXPECT_THAT(surface_methods(),
+  EXPECT_THAT((methods_that_take<2, 3>()),
               testing::ElementsAre("getme", "getme-sequential", "getme-simultaneous", "laplace",
                                    "smart-laplace"));
   try {

@@ -33,8 +33,9 @@ void list_parameters(const std::string& method, std::set<std::string>& known) {
 void list_methods() {
   std::printf("METHODS (smooth -m NAME, 'methods' in study files)\n");
   for (const auto& info : method_catalogue()) {
-    std::printf("\n  %s: %s\n      %s. Source: %s.\n", info.name.c_str(), info.title.c_str(),
-                info.description.c_str(), info.source.c_str());
+    std::printf("\n  %s: %s\n      %s. Source: %s.\n      Meshes: %s.\n", info.name.c_str(),
+                info.title.c_str(), info.description.c_str(), info.source.c_str(),
+                joined(mesh_kinds(info.name)).c_str());
     std::set<std::string> known;
     list_parameters<2>(info.name, known);
     list_parameters<3>(info.name, known);

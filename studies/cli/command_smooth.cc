@@ -22,7 +22,7 @@ namespace {
 struct Arguments {
   std::string in, out, method, preset, boundary, fix, log, series;
   std::vector<std::string> settings;
-  std::optional<double> feature_angle;
+  std::optional<double> feature_angle, slide_distance;
   int n_threads = 0;  ///< 0: as OpenMP finds them
   bool untangle = false, quiet = false;
 };
@@ -40,16 +40,20 @@ Method<dim, spacedim> configured_method(const Arguments& arguments) {
   return method;
 }
 
-/// The mesh with the constraints that --boundary and --feature-angle ask for.
+/// The mesh with the constraints that --boundary, --slide-distance and --feature-angle ask for.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const Arguments& arguments) {
+  if (arguments.slide_distance && arguments.boundary != "slide")
+    throw InputError("--slide-distance is for '--boundary slide'; leave it out");
   FeatureParameters features;
   if (arguments.feature_angle) features.angle_degrees = *arguments.feature_angle;
   if constexpr (spacedim > dim) {
     if (arguments.feature_angle) mesh = with_features(mesh, features);
   } else {
     if constexpr (dim == 3)
-      if (arguments.boundary == "slide") return with_sliding_boundary(mesh, features);
+      if (arguments.boundary == "slide")
+        return with_sliding_boundary(mesh, features,
+                                     arguments.slide_distance.value_or(usual_slide_distance));
     if (arguments.feature_angle)
       throw InputError(
           "--feature-angle is for surface meshes and '--boundary slide'; leave it out");
@@ -178,8 +182,9 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
               method.info.title.c_str(), result.iterations_text().c_str(), result.smoothing_seconds,
               n_threads(), arguments.out.c_str());
   if constexpr (dim == 3)
-    if (mesh.constraints())
-      std::printf("the boundary lies within %.3g of the initial one\n", boundary_deviation(mesh));
+    if (const auto* constraints = mesh.constraints())
+      std::printf("the boundary lies within %.3g of the initial one (at most %.3g)\n",
+                  constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
 }
 
 void smooth_file(const Arguments& arguments) {
@@ -212,6 +217,9 @@ void add_smooth_command(CLI::App& app) {
                    "boundary nodes of volume meshes: fixed (unless given), or slide on the "
                    "initial boundary, along its edges, corners staying")
       ->check(CLI::IsMember({"fixed", "slide"}));
+  command->add_option("--slide-distance", arguments->slide_distance,
+                      "facets of a sliding boundary come off the initial one by no more than this "
+                      "share of its mean edge length (0.1 unless given; inf: no bound)");
   command->add_flag("--untangle", arguments->untangle, "make a tangled mesh valid first");
   command->add_option("--threads", arguments->n_threads, "threads (all cores unless given)")
       ->check(CLI::Range(1, 1024));

@@ -40,6 +40,30 @@ TEST_F(CommandLine, GeneratesDistortsAndSmoothsASurface) {
   EXPECT_THAT(quality.out, HasSubstr("corners "));
 }
 
+/// What `list` says, against what happens.
+TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
+  ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "4"}).exit_code, 0);
+  write_mesh(file("box.vtu"), test::box_mesh(2, 2, 2, test::BoxCells::hexahedra));
+  const Outcome list =
+      smoothfem({"list", "--studies", (std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies").string()});
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  for (const auto& info : method_catalogue()) {
+    SCOPED_TRACE(info.name);
+    const auto method = list.out.find("\n  " + info.name + ": ");
+    ASSERT_NE(method, std::string::npos);
+    const auto kinds = list.out.find("Meshes: ", method);
+    const std::string line = list.out.substr(kinds, list.out.find('\n', kinds) - kinds);
+    const auto is_taken = [&](std::vector<std::string> words) {
+      words.insert(words.end(), {"-m", info.name, "-o", "out.vtu"});
+      return smoothfem(words).exit_code == 0;
+    };
+    EXPECT_EQ(line.find("surface") != std::string::npos, is_taken({"smooth", "roof.vtu"})) << line;
+    EXPECT_EQ(line.find("sliding boundary") != std::string::npos,
+              is_taken({"smooth", "box.vtu", "--boundary", "slide"}))
+        << line;
+  }
+}
+
 TEST_F(CommandLine, RefusesWhatSurfacesCannotHave) {
   ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "4"}).exit_code, 0);
   const auto refusal = [&](std::vector<std::string> options) {
@@ -77,6 +101,35 @@ TEST_F(CommandLine, SlidesTheBoundaryOfAVolumeMesh) {
       smoothfem({"smooth", "in.msh", "-m", "getme-adaptive", "-o", "x.msh", "--boundary", "slide"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("cannot keep boundary nodes on the boundary"));
+}
+
+TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
+  VolumeMesh bent = test::box_mesh(6, 4, 4, test::BoxCells::hexahedra);
+  for (auto& p : bent.coordinates()) {
+    const double angle = 0.3 * p.x() + 0.02 * p.x() * (6.0 - p.x()), radius = 6.0 + p.y();
+    p = {radius * std::sin(angle), radius * std::cos(angle), p.z()};
+  }
+  write_mesh(file("in.vtu"), bent);
+  const auto distance = [&](const std::string& share) {
+    const Outcome outcome = smoothfem({"smooth", "in.vtu", "-m", "getme", "-o", "out.vtu",
+                                       "--boundary", "slide", "--slide-distance", share});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto place = outcome.out.find("within ");
+    return place == std::string::npos ? -1.0 : std::stod(outcome.out.substr(place + 7));
+  };
+  const double shortest_edge = 0.5;
+  EXPECT_GT(distance("inf"), 0.02 * shortest_edge);
+  EXPECT_LT(distance("0.005"), 0.02 * shortest_edge);
+  const auto refusal = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> line{"smooth", "in.vtu", "-m", "getme", "-o", "x.vtu"};
+    line.insert(line.end(), options.begin(), options.end());
+    const Outcome outcome = smoothfem(line);
+    EXPECT_EQ(outcome.exit_code, 2);
+    return outcome.err;
+  };
+  EXPECT_THAT(refusal({"--slide-distance", "0.1"}), HasSubstr("is for '--boundary slide'"));
+  EXPECT_THAT(refusal({"--boundary", "slide", "--slide-distance", "0"}),
+              HasSubstr("mean edge length above 0"));
 }
 
 }  // namespace

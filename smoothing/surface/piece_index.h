@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "smoothing/surface/nearest_point.h"
+
+namespace smoothfem {
+
+/// A triangle of a smooth part, or a segment (c = b) of a feature line.
+struct Piece {
+  Point<3> a, b, c;
+  std::uint32_t part;
+
+  Point<3> nearest(const Point<3>& p) const {
+    return c == b ? nearest_on_segment(p, a, b) : nearest_on_triangle(p, a, b, c);
+  }
+};
+
+/// Pieces, found by their boxes. Boost's R-tree rather than VTK's locator: it needs no more than
+/// headers, and it lets the pieces of other parts of the surface be left out.
+class PieceIndex {
+ public:
+  explicit PieceIndex(std::vector<Piece> pieces) : pieces_(std::move(pieces)), tree_(entries()) {}
+
+  /// Nearest point to p on the pieces of a part, or of all of them. Every piece within `radius`
+  /// meets the box of that size; where none is as near, a larger box is taken.
+  Point<3> nearest(const Point<3>& p, std::optional<std::uint32_t> part, double radius) const {
+    Point<3> best = p;
+    for (double best_square = infinite; best_square > radius * radius; radius *= 2.0) {
+      best_square = infinite;
+      std::uint32_t best_piece = 0;
+      const auto look_at = [&](const Entry& entry) {
+        const Piece& piece = pieces_[entry.second];
+        if (part && piece.part != *part) return;
+        const Point<3> point = piece.nearest(p);
+        const double square = (point - p).squaredNorm();
+        const bool tie = square == best_square && entry.second < best_piece;
+        if (!(square < best_square || tie)) return;
+        best = point;
+        best_square = square;
+        best_piece = entry.second;
+      };
+      tree_.query(boost::geometry::index::intersects(box_around(p, radius)),
+                  boost::make_function_output_iterator(std::ref(look_at)));
+    }
+    return best;
+  }
+
+  /// Longest side of the box around all pieces.
+  double extent() const {
+    const Box box = tree_.bounds();
+    return std::max({box.max_corner().get<0>() - box.min_corner().get<0>(),
+                     box.max_corner().get<1>() - box.min_corner().get<1>(),
+                     box.max_corner().get<2>() - box.min_corner().get<2>()});
+  }
+
+ private:
+  using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+  using Box = boost::geometry::model::box<Corner>;
+  using Entry = std::pair<Box, std::uint32_t>;
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  static Box box_between(const Point<3>& low, const Point<3>& high) {
+    return {Corner(low.x(), low.y(), low.z()), Corner(high.x(), high.y(), high.z())};
+  }
+  static Box box_around(const Point<3>& p, double radius) {
+    const Point<3> half = Point<3>::Constant(radius);
+    return box_between(p - half, p + half);
+  }
+  std::vector<Entry> entries() const {
+    std::vector<Entry> all;
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+      const auto& [a, b, c, part] = pieces_[i];
+      all.emplace_back(box_between(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)), i);
+    }
+    return all;
+  }
+
+  std::vector<Piece> pieces_;
+  boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<16>> tree_;
+};
+
+}  // namespace smoothfem
