@@ -53,7 +53,8 @@ PlanarCells quadrilaterals(const std::vector<Circle>& circles, double edge_lengt
     polygons.emplace_back();
     for (int i = 0; i < n; ++i) polygons.back().push_back(point_on(circle, i, n));
   }
-  const PlanarCells coarse = mesh_region(polygons, 2.0 * edge_length, true);
+  const PlanarCells coarse =
+      mesh_region(polygons, 2.0 * edge_length, PlanarPattern::quadrilaterals);
   PlanarCells cells = split_to_quadrilaterals(coarse, [&](NodeIndex a, NodeIndex b) -> Point<2> {
     const Circle& circle = circles[circle_of_node[a]];
     const Point<2> chord = 0.5 * (coarse.coordinates[a] + coarse.coordinates[b]);

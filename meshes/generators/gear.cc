@@ -29,7 +29,7 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
   PlanarCells best;
   double best_deviation = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_tries && best_deviation > close_enough * target; ++i) {
-    PlanarCells mesh = tri ? mesh_region(polygons, search.length(), false)
+    PlanarCells mesh = tri ? mesh_region(polygons, search.length(), PlanarPattern::triangles)
                            : mesh_quadrilaterals(polygons, search.length());
     const auto n = static_cast<double>(mesh.cells.size());
     search.found(n);

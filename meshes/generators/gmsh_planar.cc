@@ -3,10 +3,12 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <string>
 
 #include "meshes/generators/gmsh_nodes.h"
+#include "meshes/generators/grid_region.h"
 #include "meshes/io/gmsh_session.h"
 #include "smoothing/mesh/input_error.h"
 #include "smoothing/quality/mean_ratio.h"
@@ -18,8 +20,29 @@ namespace {
 constexpr int frontal_delaunay = 6;
 constexpr int blossom = 1;
 
-/// One point a corner, one undivided line an edge, one plane surface.
-void build_geometry(const std::vector<std::vector<Point<2>>>& polygons) {
+double distance(const Polygons& polygons, const Point<2>& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& polygon : polygons)
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Point<2> side = polygon[(k + 1) % polygon.size()] - polygon[k];
+      const Point<2> from = p - polygon[k];
+      const double along = std::clamp(from.dot(side) / side.squaredNorm(), 0.0, 1.0);
+      least = std::min(least, (from - along * side).norm());
+    }
+  return least;
+}
+
+/// Not too near to the boundary for good cells between them and it.
+std::vector<Point<2>> grid_points(const Polygons& polygons, double spacing) {
+  constexpr double clearance = 0.7;
+  std::vector<Point<2>> points = GridRegion(polygons, spacing).cells().coordinates;
+  std::erase_if(points,
+                [&](const Point<2>& p) { return distance(polygons, p) < clearance * spacing; });
+  return points;
+}
+
+/// One point a corner, one undivided line an edge, one plane surface with the inner points in it.
+void build_geometry(const Polygons& polygons, const std::vector<Point<2>>& inner_points) {
   std::vector<int> loops;
   int point = 0;
   for (const auto& polygon : polygons) {
@@ -33,7 +56,11 @@ void build_geometry(const std::vector<std::vector<Point<2>>>& polygons) {
     loops.push_back(gmsh::model::geo::addCurveLoop(lines));
   }
   gmsh::model::geo::addPlaneSurface(loops, 1);
+  std::vector<int> embedded;
+  for (const auto& p : inner_points)
+    embedded.push_back(gmsh::model::geo::addPoint(p.x(), p.y(), 0.0));
   gmsh::model::geo::synchronize();
+  gmsh::model::mesh::embed(0, embedded, 2, 1);
   for (int line = 1; line <= point; ++line) gmsh::model::mesh::setTransfiniteCurve(line, 2);
 }
 
@@ -87,13 +114,15 @@ PlanarCells mesh_of_model() {
 
 }  // namespace
 
-PlanarCells mesh_region(const std::vector<std::vector<Point<2>>>& polygons, double edge_length,
-                        bool recombine) {
+PlanarCells mesh_region(const Polygons& polygons, double edge_length, PlanarPattern pattern) {
+  constexpr double sparse = 2.0;  // adds points only where the grid leaves gaps
+  const bool in_rows = pattern == PlanarPattern::quadrilaterals_in_rows;
   GmshSession session;
-  set_options(session, edge_length, recombine);
+  set_options(session, (in_rows ? sparse : 1.0) * edge_length, pattern != PlanarPattern::triangles);
   PlanarCells mesh;
   session.run("the region cannot be meshed", [&] {
-    build_geometry(polygons);
+    build_geometry(polygons,
+                   in_rows ? grid_points(polygons, edge_length) : std::vector<Point<2>>{});
     gmsh::model::mesh::generate(2);
     mesh = mesh_of_model();
   });

@@ -54,7 +54,7 @@ VolumeMesh generate_pump_housing(double edge_scale) {
   const Polygons polygons = divide(outlines(), n_coarse_edges * stride, stride);
   PlanarCells base = mesh_with_n_quadrilaterals(
       polygons, static_cast<std::size_t>(std::lround(n_cells / (edge_scale * edge_scale))),
-      n_halvings);
+      {.n_halvings = n_halvings});
   smooth_quadrilaterals(base);
   // Layers as thick as the edges are long.
   const double edge = std::sqrt(area(polygons) / static_cast<double>(base.cells.size()));

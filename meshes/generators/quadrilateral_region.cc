@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "meshes/generators/edge_length_search.h"
-#include "meshes/generators/gmsh_planar.h"
 #include "meshes/generators/quad_split.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/untangling/untangle.h"
@@ -46,8 +45,10 @@ class SkippedCorners {
   std::map<std::pair<double, double>, std::pair<std::size_t, std::size_t>> places_;
 };
 
-PlanarCells coarse_mesh(const Polygons& polygons, double edge_length, std::size_t stride) {
-  return mesh_region(every_nth(polygons, stride), static_cast<double>(stride) * edge_length, true);
+PlanarCells coarse_mesh(const Polygons& polygons, double edge_length, std::size_t stride,
+                        PlanarPattern pattern) {
+  return mesh_region(every_nth(polygons, stride), static_cast<double>(stride) * edge_length,
+                     pattern);
 }
 
 /// Halved until all corners are in. Arcs reach into the cells at their chords: such cells are made
@@ -78,14 +79,14 @@ void smooth_quadrilaterals(PlanarCells& cells) {
 }
 
 PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length) {
-  return halved(coarse_mesh(polygons, edge_length, 2), polygons, 2);
+  return halved(coarse_mesh(polygons, edge_length, 2, PlanarPattern::quadrilaterals), polygons, 2);
 }
 
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
-                                       int n_halvings) {
+                                       const QuadrilateralMeshing& meshing) {
   constexpr int most_tries = 24;
   constexpr double few = 0.03, mendable = 0.25;  // shares of the cells
-  const std::size_t stride = std::size_t{1} << n_halvings;
+  const std::size_t stride = std::size_t{1} << meshing.n_halvings;
   const std::size_t n_cells_halved_once = n_cells / (stride * stride / 4);
   const auto wanted = static_cast<double>(n_cells_halved_once);
   EdgeLengthSearch search(std::sqrt(area(polygons) / static_cast<double>(n_cells)),
@@ -95,7 +96,7 @@ PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_c
     PlanarCells mesh;
   } below{mendable, {}}, above{std::numeric_limits<double>::infinity(), {}};
   for (int i = 0; i < most_tries && below.deviation > few; ++i) {
-    PlanarCells coarse = coarse_mesh(polygons, search.length(), stride);
+    PlanarCells coarse = coarse_mesh(polygons, search.length(), stride, meshing.pattern);
     cut_invalid_quadrilaterals(coarse);
     // Halving makes as many cells of each as it has corners.
     const auto n = static_cast<double>(coarse.cells.n_entries());
@@ -112,11 +113,14 @@ PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_c
 }
 
 PlanarCells mesh_with_n_quadrilaterals(const std::vector<Outline>& outlines, std::size_t n_cells,
-                                       std::size_t n_boundary_edges, double edge_scale) {
-  const auto n_pairs = std::lround(static_cast<double>(n_boundary_edges / 2) / edge_scale);
+                                       std::size_t n_boundary_edges, double edge_scale,
+                                       const QuadrilateralMeshing& meshing) {
+  const std::size_t stride = std::size_t{1} << meshing.n_halvings;
+  const auto n_coarse = static_cast<std::size_t>(
+      std::lround(static_cast<double>(n_boundary_edges / stride) / edge_scale));
   const auto n = std::lround(static_cast<double>(n_cells) / (edge_scale * edge_scale));
-  return mesh_with_n_quadrilaterals(divide(outlines, 2 * static_cast<std::size_t>(n_pairs), 2),
-                                    static_cast<std::size_t>(n));
+  return mesh_with_n_quadrilaterals(divide(outlines, stride * n_coarse, stride),
+                                    static_cast<std::size_t>(n), meshing);
 }
 
 }  // namespace smoothfem

@@ -20,8 +20,8 @@ void expect_valid(const Mesh<dim>& mesh) {
 }
 
 /// Nodes less edges plus facets, less volume cells.
-template <int dim>
-long euler_characteristic(const Mesh<dim>& mesh) {
+template <int dim, int spacedim>
+long euler_characteristic(const Mesh<dim, spacedim>& mesh) {
   const Topology& topology = mesh.topology();
   const long n = static_cast<long>(mesh.n_nodes()) - static_cast<long>(topology.n_edges());
   if (dim == 2) return n + static_cast<long>(mesh.n_cells());

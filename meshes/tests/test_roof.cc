@@ -1,15 +1,19 @@
 #include "meshes/generators/roof.h"
 
+#include "meshes/distortion/distort.h"
 #include "meshes/tests/domain_tests.h"
+#include "smoothing/loop/preset.h"
+#include "smoothing/loop/smooth.h"
 #include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 namespace {
 
-std::size_t n_of_kind(const SurfaceMesh& mesh, NodeCarrier::Kind kind) {
-  const auto& carriers = mesh.constraints()->carriers();
-  return std::count_if(carriers.begin(), carriers.end(),
-                       [&](const NodeCarrier& carrier) { return carrier.kind == kind; });
+std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, NodeCarrier::Kind kind) {
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    if (mesh.constraints()->carriers()[i].kind == kind) nodes.push_back(i);
+  return nodes;
 }
 
 TEST(Roof, HasTheCountsAndTheQualityOfTheThesis) {
@@ -18,35 +22,58 @@ TEST(Roof, HasTheCountsAndTheQualityOfTheThesis) {
   EXPECT_EQ(mesh.n_cells(), 22676u);
   const MeshQuality quality = mesh_quality(mesh);
   EXPECT_EQ(quality.n_invalid, 0u);
-  EXPECT_NEAR(quality.q_mean, 0.9814, 0.001);
-  EXPECT_NEAR(quality.q_star_min, 0.2467, 0.001);
-  // Nodes less edges plus cells: a disc with two holes.
-  EXPECT_EQ(static_cast<long>(mesh.n_nodes() + mesh.n_cells()) -
-                static_cast<long>(mesh.topology().n_edges()),
-            -1);
-  // Corners: four anchors, and four of each frame. Other boundary nodes move along cables and
-  // frames.
-  EXPECT_EQ(n_of_kind(mesh, NodeCarrier::corner), 12u);
-  EXPECT_EQ(n_of_kind(mesh, NodeCarrier::line), 852u - 12u);
+  EXPECT_NEAR(quality.q_mean, 0.9814, 0.0005);
+  EXPECT_NEAR(quality.q_star_min, 0.2467, 0.0005);
+  EXPECT_EQ(euler_characteristic(mesh), 1 - 2) << "a disc without two rings";
 }
 
-TEST(Roof, HasItsPeaksAtTheFrames) {
-  const SurfaceMesh mesh = generate_roof(4.0);
-  double highest = -1e9, top = -1e9, anchor = 1e9;
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    highest = std::max(highest, mesh.coordinates()[i].z());
-    if (mesh.constraints()->is_corner(i)) {
-      top = std::max(top, mesh.coordinates()[i].z());
-      anchor = std::min(anchor, mesh.coordinates()[i].z());
+TEST(Roof, HasNoFeaturesButAnchorsCablesAndRings) {
+  for (const double scale : {1.0, 2.0, 3.0}) {
+    SCOPED_TRACE(scale);
+    const SurfaceMesh mesh = generate_roof(scale);
+    EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::corner).size(), 6u);
+    std::set<std::uint32_t> lines;
+    for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::line)) {
+      EXPECT_TRUE(mesh.topology().on_boundary()[i]) << i;
+      lines.insert(mesh.constraints()->carriers()[i].part);
     }
+    EXPECT_EQ(lines.size(), 6u + 2u);
   }
-  EXPECT_EQ(top, highest);
-  EXPECT_GT(top, anchor + 20.0) << "above 172 edges of length";
+}
+
+TEST(Roof, IsHighestAtItsRingsAndLowestAtItsAnchors) {
+  const SurfaceMesh mesh = generate_roof(2.0);
+  const auto height = [&](NodeIndex i) { return mesh.coordinates()[i].z(); };
+  double anchors = -1e9, others = 1e9;
+  for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::corner))
+    anchors = std::max(anchors, height(i));
+  NodeIndex highest = 0;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    if (height(i) > height(highest)) highest = i;
+    if (!mesh.topology().on_boundary()[i]) others = std::min(others, height(i));
+  }
+  EXPECT_TRUE(mesh.topology().on_boundary()[highest]);
+  EXPECT_GT(height(highest), anchors + 5.0) << "metres, of a roof 36 metres wide";
+}
+
+/// As in the thesis, whose q_mean differ by 0.0001.
+TEST(Roof, SmoothsToABetterMeanQualityTheSameWhetherDistortedOrNot) {
+  SurfaceMesh mesh = generate_roof(2.0), distorted = mesh;
+  const double initial = mesh_quality(mesh).q_mean;
+  distort(distorted, {.target_q_mean = 0.4983});
+  std::vector<double> q_mean;
+  for (SurfaceMesh* start : {&mesh, &distorted}) {
+    auto method = make_method<2, 3>("getme");
+    apply_preset(find_preset("thesis-5.1"), method);
+    q_mean.push_back(smooth(*start, method).quality.q_mean);
+  }
+  EXPECT_NEAR(q_mean[0], q_mean[1], 0.001);
+  EXPECT_GT(q_mean[0], initial + 0.001);
 }
 
 TEST(Roof, CanBeCoarserAndIsTheSameEveryTime) {
-  std::size_t n_cells_before = 22676 / 3;
-  for (const double scale : {2.0, 3.0, 4.0}) {
+  std::size_t n_cells_before = 22676 / 2;
+  for (const double scale : {1.5, 2.0, 3.0}) {
     SCOPED_TRACE(scale);
     const SurfaceMesh mesh = generate_roof(scale);
     EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
@@ -54,8 +81,7 @@ TEST(Roof, CanBeCoarserAndIsTheSameEveryTime) {
     n_cells_before = mesh.n_cells();
     EXPECT_EQ(generate_roof(scale).coordinates(), mesh.coordinates());
   }
-  EXPECT_THROW(generate_roof(0.9), InputError);
-  EXPECT_THROW(generate_roof(4.1), InputError);
+  expect_edge_scales("roof", 3);
 }
 
 }  // namespace

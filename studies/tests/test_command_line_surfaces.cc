@@ -17,7 +17,7 @@ SurfaceMesh read_surface(const std::filesystem::path& path) {
 
 TEST_F(CommandLine, GeneratesDistortsAndSmoothsASurface) {
   const Outcome made =
-      smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "4", "--distort-to", "0.6"});
+      smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3", "--distort-to", "0.6"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("q_mean 0.6"));
   const SurfaceMesh before = read_surface(file("roof.vtu"));
@@ -42,7 +42,7 @@ TEST_F(CommandLine, GeneratesDistortsAndSmoothsASurface) {
 
 /// What `list` says, against what happens.
 TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
-  ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "4"}).exit_code, 0);
+  ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3"}).exit_code, 0);
   write_mesh(file("box.vtu"), test::box_mesh(2, 2, 2, test::BoxCells::hexahedra));
   const Outcome list =
       smoothfem({"list", "--studies", (std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies").string()});
@@ -65,7 +65,7 @@ TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
 }
 
 TEST_F(CommandLine, RefusesWhatSurfacesCannotHave) {
-  ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "4"}).exit_code, 0);
+  ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3"}).exit_code, 0);
   const auto refusal = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"smooth", "roof.vtu", "-o", "out.vtu"});
     const Outcome outcome = smoothfem(options);
