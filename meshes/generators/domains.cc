@@ -102,7 +102,7 @@ const std::vector<Domain>& domains() {
        {"triangles", "quadrilaterals", "mixed"},
        make_random_planar},
       {"roof",
-       "stand-in for Section 5.1.2's surface mesh: its counts, a membrane with two peaks",
+       "stand-in for Section 5.1.2's surface mesh: its counts and quality, a tent with two peaks",
        2,
        {"quadrilaterals"},
        of_one_kind<generate_roof>},

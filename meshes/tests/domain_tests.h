@@ -48,8 +48,8 @@ struct Adjacency {
   double mean = 0.0, irregular_share = 0.0;
 };
 
-template <int dim>
-Adjacency adjacency(const Mesh<dim>& mesh, std::size_t regular) {
+template <int dim, int spacedim>
+Adjacency adjacency(const Mesh<dim, spacedim>& mesh, std::size_t regular) {
   Adjacency result;
   std::size_t n_inner = 0, n_irregular = 0;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
