@@ -57,6 +57,18 @@ SMOOTHFEM_INLINE void store_lanes(Lanes lanes, double* numbers) {
       double __attribute__((vector_size(sizeof(Lanes)), aligned(sizeof(double)), may_alias));
   *reinterpret_cast<Unaligned*>(numbers) = lanes;
 }
+/// As many numbers of half the length.
+using HalfLanes = float __attribute__((vector_size(n_lanes * sizeof(float))));
+SMOOTHFEM_INLINE HalfLanes load_lanes(const float* numbers) {
+  using Unaligned =
+      float __attribute__((vector_size(sizeof(HalfLanes)), aligned(sizeof(float)), may_alias));
+  return *reinterpret_cast<const Unaligned*>(numbers);
+}
+SMOOTHFEM_INLINE void store_lanes(HalfLanes lanes, float* numbers) {
+  using Unaligned =
+      float __attribute__((vector_size(sizeof(HalfLanes)), aligned(sizeof(float)), may_alias));
+  *reinterpret_cast<Unaligned*>(numbers) = lanes;
+}
 
 SMOOTHFEM_INLINE double square_root(double value) {
   return std::sqrt(value);
@@ -66,11 +78,13 @@ SMOOTHFEM_INLINE Lanes square_root(Lanes value) {
 }
 
 /// Four vectors of lanes, entry by entry, as one vector of four entries for each lane.
-SMOOTHFEM_INLINE std::array<Lanes, n_lanes> transposed(Lanes a, Lanes b, Lanes c, Lanes d) {
-  const Lanes even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Lanes odd_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Lanes even_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Lanes odd_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+template <class AnyLanes>
+SMOOTHFEM_INLINE std::array<AnyLanes, n_lanes> transposed(AnyLanes a, AnyLanes b, AnyLanes c,
+                                                          AnyLanes d) {
+  const AnyLanes even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const AnyLanes odd_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const AnyLanes even_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const AnyLanes odd_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
   return {__builtin_shufflevector(even_ab, even_cd, 0, 1, 4, 5),
           __builtin_shufflevector(odd_ab, odd_cd, 0, 1, 4, 5),
           __builtin_shufflevector(even_ab, even_cd, 2, 3, 6, 7),

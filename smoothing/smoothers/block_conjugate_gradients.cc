@@ -8,53 +8,15 @@ namespace smoothfem {
 
 namespace {
 
-/// L^-1 of a block L L', by Cholesky's method.
-template <int dim>
-Eigen::Matrix<double, dim, dim> inverse_factor(Eigen::Matrix<double, dim, dim> block) {
-  // A block of elements that have almost collapsed is singular to rounding.
-  constexpr double relative_shift = 1e-14;
-  const double size = block.trace(), shift = relative_shift * size;
-  Eigen::Matrix<double, dim, dim> factor = Eigen::Matrix<double, dim, dim>::Zero(),
-                                  inverse = factor;
-  for (int j = 0; j < dim; ++j) {
-    double pivot = block(j, j) + shift;
-    for (int k = 0; k < j; ++k) pivot -= factor(j, k) * factor(j, k);
-    factor(j, j) = std::sqrt(std::max(pivot, shift));
-    for (int i = j + 1; i < dim; ++i) {
-      double sum = block(i, j);
-      for (int k = 0; k < j; ++k) sum -= factor(i, k) * factor(j, k);
-      factor(i, j) = sum / factor(j, j);
-    }
-  }
-  for (int j = 0; j < dim; ++j)
-    for (int i = j; i < dim; ++i) {
-      double sum = i == j ? 1.0 : 0.0;
-      for (int k = j; k < i; ++k) sum -= factor(i, k) * inverse(k, j);
-      inverse(i, j) = sum / factor(i, i);
-    }
-  return inverse;
-}
-
-SMOOTHFEM_INLINE Lanes load_column(const double* numbers) {
-  return load_lanes(numbers);
-}
-SMOOTHFEM_INLINE Lanes load_column(const float* numbers) {
-  using Floats = float __attribute__((vector_size(n_lanes * sizeof(float))));
-  using Unaligned = float
-      __attribute__((vector_size(n_lanes * sizeof(float)), aligned(sizeof(float)), may_alias));
-  const Floats floats = *reinterpret_cast<const Unaligned*>(numbers);
-  return __builtin_convertvector(floats, Lanes);
-}
-
 /// Adds a block times an entry to `sum`: in the plane its two halves are to be added up in the end,
 /// in space its last number means nothing.
 SMOOTHFEM_INLINE void add_product(const double* block, const Point<2>& x, Lanes& sum) {
-  sum += load_column(block) * Lanes{x[0], x[0], x[1], x[1]};
+  sum += load_lanes(block) * Lanes{x[0], x[0], x[1], x[1]};
 }
 SMOOTHFEM_INLINE void add_product(const float* block, const Point<3>& x, Lanes& sum) {
-  sum += load_column(block) * x[0];
-  sum += load_column(block + 3) * x[1];
-  sum += load_column(block + 6) * x[2];
+  sum += __builtin_convertvector(load_lanes(block), Lanes) * x[0];
+  sum += __builtin_convertvector(load_lanes(block + 3), Lanes) * x[1];
+  sum += __builtin_convertvector(load_lanes(block + 6), Lanes) * x[2];
 }
 SMOOTHFEM_INLINE Point<2> total(Lanes sum, const double*) {
   return {sum[0] + sum[2], sum[1] + sum[3]};
@@ -99,29 +61,10 @@ double multiply_rows(const CompressedRows<std::uint32_t>& columns, const float* 
 
 template <int dim>
 void BlockConjugateGradients<dim>::prepare(const BlockMatrix<dim>& matrix) {
-  columns_ = &matrix.columns();
-  const std::size_t n = matrix.n_rows();
-  inverse_factors_.resize(n);
-  for_row_ranges(n, [&](std::size_t first, std::size_t last) {
-    for (std::size_t row = first; row < last; ++row)
-      inverse_factors_[row] = inverse_factor<dim>(matrix.diagonal_block(row));
-  });
-  scaled_.resize(dim * dim * columns_->n_entries() +
-                 n_lanes);  // columns are read n_lanes at a time
-  for_row_ranges(n, [&](std::size_t first, std::size_t last) {
-    for (std::size_t row = first; row < last; ++row)
-      for (std::size_t k = columns_->offset(row); k < columns_->offset(row + 1); ++k) {
-        const auto column = columns_->entries()[k];
-        const Block scaled = inverse_factors_[row] *
-                             matrix.entry(static_cast<std::uint32_t>(row), k) *
-                             inverse_factors_[column].transpose();
-        for (int i = 0; i < dim * dim; ++i)
-          scaled_[dim * dim * k + i] = static_cast<Number>(scaled.data()[i]);
-      }
-  });
-  residual_.resize(n);
-  direction_.resize(n);
-  product_.resize(n);
+  matrix_ = &matrix;
+  residual_.resize(matrix.n_rows());
+  direction_.resize(matrix.n_rows());
+  product_.resize(matrix.n_rows());
 }
 
 template <int dim>
@@ -129,7 +72,7 @@ double BlockConjugateGradients<dim>::norm(const BlockVector<dim>& residual) cons
   return std::sqrt(sum_over_ranges(residual.size(), [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
     for (std::size_t i = first; i < last; ++i)
-      sum += (inverse_factors_[i] * residual[i]).squaredNorm();
+      sum += (matrix_->inverse_factor(i) * residual[i]).squaredNorm();
     return sum;
   }));
 }
@@ -139,7 +82,8 @@ void BlockConjugateGradients<dim>::precondition(const BlockVector<dim>& residual
                                                 BlockVector<dim>& result) const {
   for_row_ranges(residual.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-      result[i] = inverse_factors_[i].transpose() * (inverse_factors_[i] * residual[i]);
+      result[i] =
+          matrix_->inverse_factor(i).transpose() * (matrix_->inverse_factor(i) * residual[i]);
   });
 }
 
@@ -147,14 +91,16 @@ template <int dim>
 double BlockConjugateGradients<dim>::multiply_scaled(const BlockVector<dim>& x,
                                                      BlockVector<dim>& y) const {
   return sum_over_ranges(x.size(), [&](std::size_t first, std::size_t last) {
-    return multiply_rows(*columns_, scaled_.data(), x, y, first, last);
+    return multiply_rows(matrix_->columns(), matrix_->scaled_block(0), x, y, first, last);
   });
 }
 
 template <int dim>
 std::size_t BlockConjugateGradients<dim>::bytes_of_multiplication() const {
-  return columns_->n_entries() * (dim * dim * sizeof(Number) + sizeof(std::uint32_t)) +
-         columns_->size() * (2 * sizeof(Point<dim>) + sizeof(std::size_t));
+  const auto& columns = matrix_->columns();
+  return columns.n_entries() *
+             (dim * dim * sizeof(typename BlockMatrix<dim>::Number) + sizeof(std::uint32_t)) +
+         columns.size() * (2 * sizeof(Point<dim>) + sizeof(std::size_t));
 }
 
 template <int dim>
@@ -165,14 +111,14 @@ typename BlockConjugateGradients<dim>::Result BlockConjugateGradients<dim>::solv
   const auto scale_back = [&](BlockVector<dim>& scaled) {
     for_row_ranges(n, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)
-        scaled[i] = (inverse_factors_[i].transpose() * scaled[i]).eval();
+        scaled[i] = (matrix_->inverse_factor(i).transpose() * scaled[i]).eval();
     });
   };
   double rho = sum_over_ranges(n, [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
     for (std::size_t i = first; i < last; ++i) {
       result[i].setZero();
-      residual_[i] = direction_[i] = inverse_factors_[i] * right[i];
+      residual_[i] = direction_[i] = matrix_->inverse_factor(i) * right[i];
       sum += residual_[i].squaredNorm();
     }
     return sum;

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <type_traits>
-
 #include "smoothing/smoothers/block_matrix.h"
 
 namespace smoothfem {
 
 /// Conjugate gradients for A x = b, preconditioned by the inverses of A's diagonal blocks L L',
-/// which must be positive definite. A itself need not be: that is found out. It works on a scaled
-/// copy of A, L^-1 A L'^-1, which needs no preconditioner and has blocks of one size whatever the
-/// size of the elements: in space, where reading the matrix takes most of the time, numbers of half
-/// the length are enough for them.
+/// which must be positive definite. A itself need not be: that is found out.
 template <int dim>
 class BlockConjugateGradients {
  public:
@@ -19,7 +14,7 @@ class BlockConjugateGradients {
     bool negative_curvature = false;  ///< a direction d with d' A d <= 0 turned up
   };
 
-  /// Takes a matrix, scaled.
+  /// Takes a filled matrix, which has to stay as it is while it is in use here.
   void prepare(const BlockMatrix<dim>& matrix);
 
   /// Length of a residual as the preconditioner measures it.
@@ -40,12 +35,7 @@ class BlockConjugateGradients {
   std::size_t bytes_of_multiplication() const;
 
  private:
-  using Number = std::conditional_t<dim == 2, double, float>;
-  using Block = Eigen::Matrix<double, dim, dim>;
-
-  const CompressedRows<std::uint32_t>* columns_ = nullptr;
-  std::vector<Number> scaled_;          ///< dim x dim, columns first, for each entry of columns_
-  std::vector<Block> inverse_factors_;  ///< L^-1 of each row
+  const BlockMatrix<dim>* matrix_ = nullptr;
   BlockVector<dim> residual_, direction_, product_;
 };
 

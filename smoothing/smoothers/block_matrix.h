@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "smoothing/mesh/compressed_rows.h"
@@ -49,64 +51,52 @@ double dot(const BlockVector<dim>& a, const BlockVector<dim>& b) {
   });
 }
 
-/// A symmetric sparse matrix of dim x dim blocks, one for each pair of nodes, on a fixed pattern.
-/// Only the diagonal blocks and those right of them are stored, row by row.
+/// A symmetric sparse matrix A of dim x dim blocks, one for each pair of nodes, on a fixed pattern.
+/// It is kept scaled by its own diagonal blocks L L', as L^-1 A L'^-1: that needs no preconditioner
+/// and has blocks of one size whatever the size of the elements, so that in space, where reading
+/// them takes most of the time, numbers of half the length are enough. To fill it, add up the
+/// diagonal blocks, call factor_diagonal, and add the other blocks, scaled.
 template <int dim>
 class BlockMatrix {
  public:
   using Block = Eigen::Matrix<double, dim, dim>;  ///< columns first
+  using Number = std::conditional_t<dim == 2, double, float>;
 
   BlockMatrix() = default;
   /// columns: those of each row, sorted ascending, the diagonal among them; a symmetric pattern.
-  explicit BlockMatrix(CompressedRows<std::uint32_t> columns) : columns_(std::move(columns)) {
-    std::uint32_t n_stored = 0;
-    for (std::uint32_t row = 0; row < n_rows(); ++row) {
-      diagonal_.push_back(n_stored);
-      for (const std::uint32_t column : columns_[row]) n_stored += column >= row;
-    }
-    blocks_.resize(n_stored);
-    // Row after row meets the blocks of the rows above it in their order.
-    std::vector<std::uint32_t> next;
-    for (std::uint32_t row = 0; row < n_rows(); ++row) {
-      std::uint32_t own = diagonal_[row];
-      for (const std::uint32_t column : columns_[row])
-        positions_.push_back(column < row ? next[column]++ : own++);
-      next.push_back(diagonal_[row] + 1);
-    }
-  }
+  explicit BlockMatrix(CompressedRows<std::uint32_t> columns);
 
   std::size_t n_rows() const { return columns_.size(); }
   BlockVector<dim> make_vector() const { return BlockVector<dim>(n_rows(), Point<dim>::Zero()); }
+  const CompressedRows<std::uint32_t>& columns() const { return columns_; }
 
-  /// Where the block of row <= column is stored; it must be in the pattern.
+  /// The first step: diagonal blocks of zeros, to be added to by diagonal_block.
+  void start_diagonal();
+  Block& diagonal_block(std::size_t row) { return diagonal_[row]; }
+
+  /// The second step: the diagonal blocks, which have to be positive semidefinite, give the
+  /// factors; the other blocks are zero.
+  void factor_diagonal();
+  /// L^-1 of a row; zero for row number n_rows().
+  const Block& inverse_factor(std::size_t row) const { return diagonal_[row]; }
+
+  /// Where the block of a row and a column of the pattern is: its number in columns().entries().
   std::uint32_t position(std::uint32_t row, std::uint32_t column) const {
     const auto all = columns_[row];
-    const auto diagonal = std::lower_bound(all.begin(), all.end(), row);
-    const auto found = std::lower_bound(diagonal, all.end(), column);
-    assert(row <= column && found != all.end() && *found == column);
-    return diagonal_[row] + static_cast<std::uint32_t>(found - diagonal);
+    const auto found = std::lower_bound(all.begin(), all.end(), column);
+    assert(found != all.end() && *found == column);
+    return static_cast<std::uint32_t>(columns_.offset(row) + (found - all.begin()));
   }
-
-  Block& block(std::uint32_t position) { return blocks_[position]; }
-  const Block& diagonal_block(std::size_t row) const { return blocks_[diagonal_[row]]; }
-  void set_zero() {
-    for_row_ranges(blocks_.size(), [&](std::size_t first, std::size_t last) {
-      std::fill(blocks_.begin() + first, blocks_.begin() + last, Block::Zero());
-    });
-  }
-
-  const CompressedRows<std::uint32_t>& columns() const { return columns_; }
-  /// Block number k of columns().entries(), in the row given.
-  Block entry(std::uint32_t row, std::size_t k) const {
-    const Block& stored = blocks_[positions_[k]];
-    return columns_.entries()[k] < row ? Block(stored.transpose()) : stored;
+  /// The dim x dim numbers of a scaled block, columns first.
+  Number* scaled_block(std::size_t position) { return scaled_.data() + dim * dim * position; }
+  const Number* scaled_block(std::size_t position) const {
+    return scaled_.data() + dim * dim * position;
   }
 
  private:
   CompressedRows<std::uint32_t> columns_;
-  std::vector<std::uint32_t> positions_;  ///< of the block (or its transpose) of each column
-  std::vector<std::uint32_t> diagonal_;   ///< position of each row's diagonal block
-  std::vector<Block> blocks_;
+  std::vector<Block> diagonal_;  ///< of each row: the diagonal block, later its L^-1
+  std::vector<Number> scaled_;
 };
 
 }  // namespace smoothfem

@@ -56,8 +56,11 @@ enum class HessianModel {
   convex
 };
 
+/// Which blocks of a cell's Hessian are wanted.
+enum class HessianBlocks { diagonal, all };
+
 /// Gradient and Hessian of one cell's h: an entry for each node, and a block for each pair of nodes
-/// p <= q (the others are their transposes).
+/// p <= q (the others are their transposes), or for each p = q only.
 template <int dim, class Real, std::size_t extent>
 class CellDerivatives;
 
@@ -71,8 +74,9 @@ class CellDerivatives<2, Real, extent> {
   CellArray<Block<2, Real>, n_node_pairs(extent)> hessian;
 
   /// x: the n corners of a valid cell.
-  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector2<Real>, extent> x, HessianModel model)
-      : gradient(x.size()), hessian(n_node_pairs(x.size())), n_(x.size()) {
+  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector2<Real>, extent> x, HessianModel model,
+                                   HessianBlocks blocks = HessianBlocks::all)
+      : gradient(x.size()), hessian(n_node_pairs(x.size())), n_(x.size()), blocks_(blocks) {
     const CornerWeights weights = corner_weights(n_);
     const std::size_t n_corners = n_ == 3 ? 1 : n_;  // a triangle's corners are all alike
     const double share = 1.0 / static_cast<double>(n_corners);
@@ -85,7 +89,7 @@ class CellDerivatives<2, Real, extent> {
     // 2 m Hess(m) stands there now; h adds 2 grad(m) grad(m)', h Hess(log h) subtracts it.
     const Real factor = (model == HessianModel::exact ? 0.5 : -0.5) / (mean * mean);
     for (std::size_t p = 0; p < n_; ++p)
-      for (std::size_t q = p; q < n_; ++q)
+      for (std::size_t q = p; q < (blocks == HessianBlocks::all ? n_ : p + 1); ++q)
         hessian[node_pair(n_, p, q)].add_product(factor * gradient[p], gradient[q]);
   }
 
@@ -120,7 +124,7 @@ class CellDerivatives<2, Real, extent> {
     const Real even = aa_one + bb_one, odd = aa_one - bb_one;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
-        if (places[i] > places[j]) continue;
+        if (places[i] > places[j] || (i != j && blocks_ == HessianBlocks::diagonal)) continue;
         auto& block = hessian[node_pair(n_, places[i], places[j])];
         block.add_product(u[i], hu[j]);
         block.add_product(v[i], hv[j]);
@@ -134,6 +138,7 @@ class CellDerivatives<2, Real, extent> {
   }
 
   std::size_t n_;
+  HessianBlocks blocks_;
 };
 
 }  // namespace smoothfem

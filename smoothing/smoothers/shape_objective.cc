@@ -1,13 +1,14 @@
 #include "smoothing/smoothers/shape_objective.h"
 
 #include "smoothing/mesh/cell_blocks.h"
+#include "smoothing/mesh/parallel_rows.h"
 #include "smoothing/smoothers/volume_cell_derivatives.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// Where a block goes: twice its position in the matrix, and one more if it has to be transposed.
+/// Where the block of a pair with a fixed node goes.
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
 SMOOTHFEM_INLINE Point<2> lane_of(Vector2<Lanes> v, std::size_t l) {
@@ -23,13 +24,94 @@ SMOOTHFEM_INLINE Point<3> lane_of(Vector3<double> v, std::size_t) {
   return point_of(v);
 }
 
-/// The derivatives of some cells, added up where they belong. Each cell is added to the matrix in
-/// the order of the cells, so sums have one order.
+/// A block of one cell, ready to be added: n_lanes entries at a time, and the last one of an odd
+/// number.
+template <int dim, class Number>
+struct AddedBlock {
+  using NumberLanes = decltype(load_lanes(static_cast<const Number*>(nullptr)));
+  NumberLanes first{}, second{};
+  Number last{};
+
+  SMOOTHFEM_INLINE void add_to(Number* sum) const {
+    store_lanes(load_lanes(sum) + first, sum);
+    if constexpr (dim == 3) {
+      store_lanes(load_lanes(sum + n_lanes) + second, sum + n_lanes);
+      sum[2 * n_lanes] += last;
+    }
+  }
+  SMOOTHFEM_INLINE AddedBlock transpose() const {
+    if constexpr (dim == 2)
+      return {__builtin_shufflevector(first, first, 0, 2, 1, 3)};
+    else
+      return {__builtin_shufflevector(first, second, 0, 3, 6, 1),
+              __builtin_shufflevector(first, second, 4, 7, 2, 5), last};
+  }
+};
+
+/// The blocks of some cells (of one, if Real is a number), one after the other.
+template <class Number, int dim>
+SMOOTHFEM_INLINE auto added_blocks(const Block<dim, Lanes>& block) {
+  using Added = AddedBlock<dim, Number>;
+  const auto entries = [&](std::size_t k) SMOOTHFEM_INLINE_LAMBDA {
+    return __builtin_convertvector(block.entries[k], typename Added::NumberLanes);
+  };
+  std::array<Added, n_lanes> result;
+  const auto first = transposed(entries(0), entries(1), entries(2), entries(3));
+  for (std::size_t l = 0; l < n_lanes; ++l) result[l].first = first[l];
+  if constexpr (dim == 3) {
+    const auto second = transposed(entries(4), entries(5), entries(6), entries(7));
+    for (std::size_t l = 0; l < n_lanes; ++l) {
+      result[l].second = second[l];
+      result[l].last = static_cast<Number>(block.entries[8][l]);
+    }
+  }
+  return result;
+}
+template <class Number, int dim>
+SMOOTHFEM_INLINE auto added_blocks(const Block<dim, double>& block) {
+  using Added = AddedBlock<dim, Number>;
+  const auto entries = [&](std::size_t k) SMOOTHFEM_INLINE_LAMBDA {
+    return __builtin_convertvector(load_lanes(block.entries.data() + k),
+                                   typename Added::NumberLanes);
+  };
+  Added result{entries(0)};
+  if constexpr (dim == 3) {
+    result.second = entries(n_lanes);
+    result.last = static_cast<Number>(block.entries[2 * n_lanes]);
+  }
+  return std::array{result};
+}
+
+SMOOTHFEM_INLINE void set_lane(Lanes& lanes, std::size_t l, double value) {
+  lanes[l] = value;
+}
+SMOOTHFEM_INLINE void set_lane(double& number, std::size_t, double value) {
+  number = value;
+}
+
+/// a b c' for lower triangular a and c.
+template <int dim, class Real>
+SMOOTHFEM_INLINE Block<dim, Real> scaled(const Block<dim, Real>& a, const Block<dim, Real>& b,
+                                         const Block<dim, Real>& c) {
+  Block<dim, Real> left, result;
+  for (std::size_t j = 0; j < dim; ++j)
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t k = 0; k <= i; ++k)
+        left.entries[dim * j + i] += a.entries[dim * k + i] * b.entries[dim * j + k];
+  for (std::size_t j = 0; j < dim; ++j)
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t k = 0; k <= j; ++k)
+        result.entries[dim * j + i] += left.entries[dim * k + i] * c.entries[dim * k + j];
+  return result;
+}
+
+/// Adds the gradients of cells and the diagonal blocks of their Hessians where they belong. Both
+/// this and OtherBlockSums take cells in their order, so that sums have one order.
 template <int dim>
-struct Derivatives {
+struct DiagonalSums {
+  static constexpr HessianBlocks blocks = HessianBlocks::diagonal;
   const Topology& topology;
   const std::vector<std::uint32_t>& unknown;
-  const std::uint32_t* places;  ///< of the next cell's blocks
   BlockVector<dim>& gradient;
   BlockMatrix<dim>& hessian;
 
@@ -37,68 +119,53 @@ struct Derivatives {
   template <class Real, std::size_t extent>
   SMOOTHFEM_INLINE void add(CellIndex first, const CellDerivatives<dim, Real, extent>& cell) {
     constexpr std::size_t lanes = sizeof(Real) / sizeof(double);
-    const std::size_t n = cell.gradient.size(), n_pairs = n_node_pairs(n);
+    const std::size_t n = cell.gradient.size();
     const NodeIndex* const nodes = topology.cell_nodes(first).data();
-    for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t p = 0; p < n; ++p) {
+      const auto blocks_of_cells = added_blocks<double>(cell.hessian[node_pair(n, p, p)]);
       for (std::size_t l = 0; l < lanes; ++l) {
         const std::uint32_t row = unknown[nodes[l * n + p]];
-        if (row < gradient.size()) gradient[row] += lane_of(cell.gradient[p], l);
+        if (row >= gradient.size()) continue;
+        gradient[row] += lane_of(cell.gradient[p], l);
+        blocks_of_cells[l].add_to(hessian.diagonal_block(row).data());
       }
-    for (std::size_t k = 0; k < n_pairs; ++k) {
-      const auto of_cell = blocks_by_cell(cell.hessian[k]);
+    }
+  }
+};
+
+/// Adds the other blocks, scaled.
+template <int dim>
+struct OtherBlockSums {
+  static constexpr HessianBlocks blocks = HessianBlocks::all;
+  const Topology& topology;
+  const std::vector<std::uint32_t>& unknown;
+  const std::array<std::uint32_t, 2>* places;  ///< of the next cell's pairs
+  BlockMatrix<dim>& hessian;
+
+  template <class Real, std::size_t extent>
+  SMOOTHFEM_INLINE void add(CellIndex first, const CellDerivatives<dim, Real, extent>& cell) {
+    constexpr std::size_t lanes = sizeof(Real) / sizeof(double);
+    const std::size_t n = cell.gradient.size(), n_pairs = n_node_pairs(n) - n;
+    const NodeIndex* const nodes = topology.cell_nodes(first).data();
+    CellArray<Block<dim, Real>, extent> factors(n);
+    for (std::size_t p = 0; p < n; ++p)
       for (std::size_t l = 0; l < lanes; ++l) {
-        const std::uint32_t place = places[l * n_pairs + k];
-        if (place != nowhere)
-          add_block(of_cell[l], place % 2 != 0, hessian.block(place / 2).data());
+        const double* const factor = hessian.inverse_factor(unknown[nodes[l * n + p]]).data();
+        for (std::size_t i = 0; i < dim * dim; ++i) set_lane(factors[p].entries[i], l, factor[i]);
       }
-    }
+    const auto* pair = places;
+    for (std::size_t p = 0; p < n; ++p)
+      for (std::size_t q = p + 1; q < n; ++q, ++pair) {
+        const auto blocks_of_cells = added_blocks<typename BlockMatrix<dim>::Number>(
+            scaled<dim>(factors[p], cell.hessian[node_pair(n, p, q)], factors[q]));
+        for (std::size_t l = 0; l < lanes; ++l) {
+          const auto [right, left] = pair[l * n_pairs];
+          if (right == nowhere) continue;
+          blocks_of_cells[l].add_to(hessian.scaled_block(right));
+          blocks_of_cells[l].transpose().add_to(hessian.scaled_block(left));
+        }
+      }
     places += lanes * n_pairs;
-  }
-
- private:
-  /// The entries of one block, n_lanes at a time, and the last of an odd number.
-  struct Entries {
-    Lanes first, second;
-    double last;
-  };
-
-  static SMOOTHFEM_INLINE auto blocks_by_cell(const Block<dim, Lanes>& block) {
-    const auto& m = block.entries;
-    const auto first = transposed(m[0], m[1], m[2], m[3]);
-    std::array<Entries, n_lanes> result{};
-    for (std::size_t l = 0; l < n_lanes; ++l) result[l].first = first[l];
-    if constexpr (dim == 3) {
-      const auto second = transposed(m[4], m[5], m[6], m[7]);
-      for (std::size_t l = 0; l < n_lanes; ++l) {
-        result[l].second = second[l];
-        result[l].last = m[8][l];
-      }
-    }
-    return result;
-  }
-  static SMOOTHFEM_INLINE std::array<Entries, 1> blocks_by_cell(const Block<dim, double>& block) {
-    const auto& m = block.entries;
-    Entries result{load_lanes(m.data()), {}, 0.0};
-    if constexpr (dim == 3) {
-      result.second = load_lanes(m.data() + n_lanes);
-      result.last = m[8];
-    }
-    return {result};
-  }
-
-  static SMOOTHFEM_INLINE void add_block(const Entries& e, bool transpose, double* sum) {
-    Lanes first = e.first, second = e.second;
-    if constexpr (dim == 2) {
-      if (transpose) first = __builtin_shufflevector(first, first, 0, 2, 1, 3);
-    } else {
-      if (transpose) {
-        first = __builtin_shufflevector(e.first, e.second, 0, 3, 6, 1);
-        second = __builtin_shufflevector(e.first, e.second, 4, 7, 2, 5);
-      }
-      store_lanes(load_lanes(sum + n_lanes) + second, sum + n_lanes);
-      sum[2 * n_lanes] += e.last;
-    }
-    store_lanes(load_lanes(sum) + first, sum);
   }
 };
 
@@ -120,19 +187,20 @@ SMOOTHFEM_INLINE double sum_of_block(const Topology& topology, const std::vector
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-template <int dim>
+template <int dim, class Sums>
 SMOOTHFEM_INLINE void add_block_derivatives(const std::vector<Point<dim>>& x,
-                                            const CellBlock& block, HessianModel model,
-                                            Derivatives<dim> sums) {
+                                            const CellBlock& block, HessianModel model, Sums sums) {
   for_each_block<dim>(
       sums.topology, x, block.first, block.last,
       [&]<std::size_t n>(CellIndex c, const std::array<Vector<dim, Lanes>, n>& corners)
           SMOOTHFEM_INLINE_LAMBDA {
             const std::span<const Vector<dim, Lanes>, n> nodes(corners);
-            sums.add(c, CellDerivatives<dim, Lanes, n>(nodes, model));
+            sums.add(c, CellDerivatives<dim, Lanes, n>(nodes, model, Sums::blocks));
           },
       [&]<std::size_t n>(CellIndex c, std::span<const Vector<dim, double>, n> nodes)
-          SMOOTHFEM_INLINE_LAMBDA { sums.add(c, CellDerivatives<dim, double, n>(nodes, model)); });
+          SMOOTHFEM_INLINE_LAMBDA {
+            sums.add(c, CellDerivatives<dim, double, n>(nodes, model, Sums::blocks));
+          });
 }
 
 // Templates cannot be compiled for several kinds of registers; these can.
@@ -146,12 +214,22 @@ double value_of(const Topology& topology, const std::vector<Point<3>>& x, const 
 }
 SMOOTHFEM_VECTOR_CLONES
 void add_derivatives(const std::vector<Point<2>>& x, const CellBlock& block, HessianModel model,
-                     const Derivatives<2>& sums) {
+                     const DiagonalSums<2>& sums) {
   add_block_derivatives<2>(x, block, model, sums);
 }
 SMOOTHFEM_VECTOR_CLONES
 void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, HessianModel model,
-                     const Derivatives<3>& sums) {
+                     const DiagonalSums<3>& sums) {
+  add_block_derivatives<3>(x, block, model, sums);
+}
+SMOOTHFEM_VECTOR_CLONES
+void add_derivatives(const std::vector<Point<2>>& x, const CellBlock& block, HessianModel model,
+                     const OtherBlockSums<2>& sums) {
+  add_block_derivatives<2>(x, block, model, sums);
+}
+SMOOTHFEM_VECTOR_CLONES
+void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, HessianModel model,
+                     const OtherBlockSums<3>& sums) {
   add_block_derivatives<3>(x, block, model, sums);
 }
 
@@ -159,26 +237,15 @@ void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, Hes
 CompressedRows<std::uint32_t> coupled_unknowns(const Topology& topology,
                                                const std::vector<std::uint32_t>& unknown) {
   const auto& free_nodes = topology.free_nodes();
-  std::vector<std::vector<std::uint32_t>> parts((free_nodes.size() + row_grain - 1) / row_grain);
-  std::vector<std::size_t> offsets(free_nodes.size() + 1, 0);
-  for_row_ranges(free_nodes.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> row;
-    auto& part = parts[first / row_grain];
-    for (std::size_t i = first; i < last; ++i) {
-      row.clear();
-      for (const CellIndex c : topology.node_cells(free_nodes[i]))
-        for (const NodeIndex j : topology.cell_nodes(c))
-          if (unknown[j] < free_nodes.size()) row.push_back(unknown[j]);
-      std::sort(row.begin(), row.end());
-      const auto end = std::unique(row.begin(), row.end());
-      part.insert(part.end(), row.begin(), end);
-      offsets[i + 1] = static_cast<std::size_t>(end - row.begin());
-    }
-  });
-  std::vector<std::uint32_t> columns;
-  for (const auto& part : parts) columns.insert(columns.end(), part.begin(), part.end());
-  for (std::size_t i = 0; i < free_nodes.size(); ++i) offsets[i + 1] += offsets[i];
-  return {std::move(offsets), std::move(columns)};
+  return make_rows<std::uint32_t>(free_nodes.size(),
+                                  [&](std::size_t i, std::vector<std::uint32_t>& row) {
+                                    for (const CellIndex c : topology.node_cells(free_nodes[i]))
+                                      for (const NodeIndex j : topology.cell_nodes(c))
+                                        if (unknown[j] < free_nodes.size())
+                                          row.push_back(unknown[j]);
+                                    std::sort(row.begin(), row.end());
+                                    row.erase(std::unique(row.begin(), row.end()), row.end());
+                                  });
 }
 
 }  // namespace
@@ -207,11 +274,12 @@ BlockMatrix<dim> ShapeObjective<dim>::make_hessian() {
     for (CellIndex c = block.first; c < block.last; ++c) {
       const auto nodes = topology_->cell_nodes(c);
       for (std::size_t p = 0; p < nodes.size(); ++p)
-        for (std::size_t q = p; q < nodes.size(); ++q) {
+        for (std::size_t q = p + 1; q < nodes.size(); ++q) {
           const std::uint32_t i = unknown_[nodes[p]], j = unknown_[nodes[q]];
-          places_[b].push_back(i == fixed || j == fixed
-                                   ? nowhere
-                                   : 2 * matrix.position(std::min(i, j), std::max(i, j)) + (i > j));
+          if (i == fixed || j == fixed)
+            places_[b].push_back({nowhere, nowhere});
+          else
+            places_[b].push_back({matrix.position(i, j), matrix.position(j, i)});
         }
     }
   });
@@ -234,13 +302,16 @@ void ShapeObjective<dim>::derivatives(const std::vector<Point<dim>>& coordinates
                                       HessianModel model, BlockVector<dim>& gradient,
                                       BlockMatrix<dim>& hessian) const {
   std::fill(gradient.begin(), gradient.end(), Point<dim>::Zero());
-  hessian.set_zero();
-  for (const auto& group : groups_)
-    parallel_for(group.size(), [&](std::size_t i) {
-      const std::size_t b = group[i];
-      add_derivatives(coordinates, topology_->blocks()[b], model,
-                      {*topology_, unknown_, places_[b].data(), gradient, hessian});
-    });
+  hessian.start_diagonal();
+  for_each_block([&](std::size_t b) {
+    add_derivatives(coordinates, topology_->blocks()[b], model,
+                    DiagonalSums<dim>{*topology_, unknown_, gradient, hessian});
+  });
+  hessian.factor_diagonal();
+  for_each_block([&](std::size_t b) {
+    add_derivatives(coordinates, topology_->blocks()[b], model,
+                    OtherBlockSums<dim>{*topology_, unknown_, places_[b].data(), hessian});
+  });
 }
 
 template class ShapeObjective<2>;

@@ -31,16 +31,24 @@ class ShapeObjective {
   /// A matrix with the Hessian's pattern, to be filled by derivatives() of this objective only.
   BlockMatrix<dim> make_hessian();
 
-  /// Gradient and Hessian (or the model of it) at coordinates where value is finite.
+  /// Gradient and Hessian (or the model of it) at coordinates where value is finite. Goes over the
+  /// cells twice: other blocks are scaled by what the diagonal ones add up to.
   void derivatives(const std::vector<Point<dim>>& coordinates, HessianModel model,
                    BlockVector<dim>& gradient, BlockMatrix<dim>& hessian) const;
 
  private:
+  /// Calls work(b) for all blocks of cells, those that share no nodes by several threads.
+  template <class Work>
+  void for_each_block(const Work& work) const {
+    for (const auto& group : groups_)
+      parallel_for(group.size(), [&](std::size_t i) { work(group[i]); });
+  }
+
   std::shared_ptr<const Topology> topology_;
   DisjointGroups groups_;               ///< of topology_->blocks() that share no nodes
   std::vector<std::uint32_t> unknown_;  ///< number of each free node; n_unknown_nodes for fixed
-  /// Where the blocks of each cell's pairs of nodes p <= q go: see BlockPlace.
-  std::vector<std::vector<std::uint32_t>> places_;
+  /// Where the blocks of each cell's pairs of nodes p < q go, and their transposes.
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> places_;
 };
 
 }  // namespace smoothfem

@@ -21,15 +21,17 @@ class CellDerivatives<3, Real, n> {
   std::array<Block<3, Real>, n_node_pairs(n)> hessian{};
 
   /// x: the nodes of a valid cell.
-  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector3<Real>, n> x, HessianModel model) {
+  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector3<Real>, n> x, HessianModel model,
+                                   HessianBlocks blocks = HessianBlocks::all) {
     constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
     const Real mean = mean_inverse_mean_ratio(x);
     const Real scale = (2.0 / static_cast<double>(n_corners)) * mean;
-    unrolled<n_corners>([&](auto k) SMOOTHFEM_INLINE_LAMBDA { add_corner<k>(x, scale, model); });
+    unrolled<n_corners>([&](auto k)
+                            SMOOTHFEM_INLINE_LAMBDA { add_corner<k>(x, scale, model, blocks); });
     // 2 m Hess(m) stands there now; grad(h) = 2 m grad(m), and h adds 2 grad(m) grad(m)'.
     const Real factor = (model == HessianModel::exact ? 0.5 : -5.0 / 36.0) / (mean * mean);
     for (std::size_t p = 0; p < n; ++p)
-      for (std::size_t q = p; q < n; ++q)
+      for (std::size_t q = p; q < (blocks == HessianBlocks::all ? n : p + 1); ++q)
         hessian[node_pair(n, p, q)].add_product(factor * gradient[p], gradient[q]);
   }
 
@@ -37,7 +39,7 @@ class CellDerivatives<3, Real, n> {
   /// Adds `scale` times the derivatives of the inverse mean ratio of corner k.
   template <std::size_t k>
   SMOOTHFEM_INLINE void add_corner(std::span<const Vector3<Real>, n> x, Real scale,
-                                   HessianModel model) {
+                                   HessianModel model, HessianBlocks blocks) {
     const CornerGradients<Real> corner = corner_gradients<k>(x);
     const auto& u = corner.of_half_squared_norm;
     const auto& c = corner.of_log_determinant;
@@ -53,7 +55,7 @@ class CellDerivatives<3, Real, n> {
     }
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) {
-        if (places[i] > places[j]) continue;
+        if (places[i] > places[j] || (i != j && blocks == HessianBlocks::diagonal)) continue;
         auto& block = hessian[node_pair(n, places[i], places[j])];
         block.add_product(a[i], c[j]);
         block.add_product(c[i], b[j]);

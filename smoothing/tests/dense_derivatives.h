@@ -18,10 +18,17 @@ template <int dim>
 Eigen::MatrixXd dense_matrix(const BlockMatrix<dim>& matrix) {
   const auto n = static_cast<Eigen::Index>(dim * matrix.n_rows());
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  const auto factor = [&](std::size_t row) -> Eigen::Matrix<double, dim, dim> {
+    return matrix.inverse_factor(row).inverse();
+  };
   for (std::uint32_t row = 0; row < matrix.n_rows(); ++row)
-    for (std::size_t k = matrix.columns().offset(row); k < matrix.columns().offset(row + 1); ++k)
-      dense.template block<dim, dim>(dim * row, dim * matrix.columns().entries()[k]) =
-          matrix.entry(row, k);
+    for (std::size_t k = matrix.columns().offset(row); k < matrix.columns().offset(row + 1); ++k) {
+      const auto column = matrix.columns().entries()[k];
+      const Eigen::Map<const Eigen::Matrix<typename BlockMatrix<dim>::Number, dim, dim>> scaled(
+          matrix.scaled_block(k));
+      dense.template block<dim, dim>(dim * row, dim * column) =
+          factor(row) * scaled.template cast<double>() * factor(column).transpose();
+    }
   return dense;
 }
 
