@@ -3,11 +3,27 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "smoothing/mesh/input_error.h"
+
 namespace smoothfem {
+
+/// Counts the entries of all rows: half the length of std::size_t, since large meshes have many
+/// short rows.
+using RowOffset = std::uint32_t;
+
+/// Throws InputError if there are too many entries for RowOffset.
+inline void require_countable(std::size_t n_entries) {
+  if (n_entries > std::numeric_limits<RowOffset>::max())
+    throw InputError("a table of the mesh would have " + std::to_string(n_entries) +
+                     " entries; at most " + std::to_string(std::numeric_limits<RowOffset>::max()) +
+                     " are possible: take a smaller mesh");
+}
 
 /// Rows of different lengths in two arrays (CSR): row i is entries[offsets[i]] ..
 /// entries[offsets[i+1]]. Valid after default construction (no rows).
@@ -17,7 +33,7 @@ class CompressedRows {
   CompressedRows() : offsets_{0} {}
 
   /// offsets: n_rows + 1 ascending values starting at 0; the last one is entries.size().
-  CompressedRows(std::vector<std::size_t> offsets, std::vector<T> entries)
+  CompressedRows(std::vector<RowOffset> offsets, std::vector<T> entries)
       : offsets_(std::move(offsets)), entries_(std::move(entries)) {
     assert(!offsets_.empty() && offsets_.front() == 0 && offsets_.back() == entries_.size());
   }
@@ -35,25 +51,39 @@ class CompressedRows {
   std::size_t offset(std::size_t row) const { return offsets_[row]; }
   const std::vector<T>& entries() const { return entries_; }
 
+  /// Throws InputError if there are too many entries then.
   template <class Range>
   void append(const Range& row) {
     entries_.insert(entries_.end(), std::begin(row), std::end(row));
-    offsets_.push_back(entries_.size());
+    require_countable(entries_.size());
+    offsets_.push_back(static_cast<RowOffset>(entries_.size()));
   }
 
   bool operator==(const CompressedRows&) const = default;
 
  private:
-  std::vector<std::size_t> offsets_;
+  std::vector<RowOffset> offsets_;
   std::vector<T> entries_;
 };
+
+/// Offsets of rows whose lengths are lengths[1], lengths[2], ...; lengths[0] is 0. Throws
+/// InputError if there are too many entries.
+inline std::vector<RowOffset> row_offsets(std::vector<RowOffset> lengths) {
+  std::size_t sum = 0;
+  for (RowOffset& length : lengths) {
+    sum += length;
+    require_countable(sum);
+    length = static_cast<RowOffset>(sum);
+  }
+  return lengths;
+}
 
 /// For each number below n_numbers, the rows that have it as an entry, ascending.
 inline CompressedRows<std::uint32_t> rows_by_entry(const CompressedRows<std::uint32_t>& rows,
                                                    std::size_t n_numbers) {
-  std::vector<std::size_t> offsets(n_numbers + 1, 0);
-  for (const std::uint32_t number : rows.entries()) ++offsets[number + 1];
-  for (std::size_t i = 0; i < n_numbers; ++i) offsets[i + 1] += offsets[i];
+  std::vector<RowOffset> lengths(n_numbers + 1, 0);
+  for (const std::uint32_t number : rows.entries()) ++lengths[number + 1];
+  auto offsets = row_offsets(std::move(lengths));
   std::vector<std::uint32_t> entries(rows.n_entries());
   auto next = offsets;
   for (std::uint32_t row = 0; row < rows.size(); ++row)

@@ -9,52 +9,45 @@
 
 namespace smoothfem {
 
-/// Rows made by several threads: make_row(i, row) fills an empty row, row after row within a part.
+/// Rows made by several threads: make_row(i, row) fills an empty row. Batch after batch, so that
+/// tables larger than the mesh need hardly any memory besides the result. Throws InputError if
+/// there are too many entries.
 template <class T, class MakeRow>
 CompressedRows<T> make_rows(std::size_t n_rows, const MakeRow& make_row) {
-  constexpr std::size_t grain = 4096;  ///< rows that one thread makes at a time
-  std::vector<std::vector<T>> parts((n_rows + grain - 1) / grain);
-  std::vector<std::size_t> offsets(n_rows + 1, 0);
-  parallel_for(parts.size(), [&](std::size_t part) {
-    std::vector<T> row;
-    for (std::size_t i = part * grain; i < std::min(n_rows, (part + 1) * grain); ++i) {
-      row.clear();
-      make_row(i, row);
-      parts[part].insert(parts[part].end(), row.begin(), row.end());
-      offsets[i + 1] = row.size();
-    }
-  });
-  for (std::size_t i = 0; i < n_rows; ++i) offsets[i + 1] += offsets[i];
-  std::vector<T> entries(offsets.back());
-  parallel_for(parts.size(), [&](std::size_t part) {
-    std::copy(parts[part].begin(), parts[part].end(), entries.begin() + offsets[part * grain]);
-    std::vector<T>().swap(parts[part]);
-  });
-  return {std::move(offsets), std::move(entries)};
-}
-
-/// The same, making each row twice: once for its length. Needs no memory besides the result.
-template <class T, class MakeRow>
-CompressedRows<T> make_large_rows(std::size_t n_rows, const MakeRow& make_row) {
-  std::vector<std::size_t> offsets(n_rows + 1, 0);
-  const auto for_each_row = [&](const auto& use) {
-    constexpr std::size_t grain = 4096;
-    parallel_for_ranges(n_rows, grain, [&](std::size_t first, std::size_t last) {
+  constexpr std::size_t grain = 4096;  // rows that one thread makes at a time
+  constexpr std::size_t rows_a_batch = 64 * grain;
+  constexpr double spare = 1.25;  // costs addresses only, as long as nothing is written there
+  std::vector<RowOffset> lengths(n_rows + 1, 0);
+  std::vector<T> entries;
+  std::vector<std::vector<T>> parts(std::min(n_rows, rows_a_batch) / grain + 1);
+  for (std::size_t begin = 0; begin < n_rows; begin += rows_a_batch) {
+    const std::size_t end = std::min(n_rows, begin + rows_a_batch);
+    parallel_for((end - begin + grain - 1) / grain, [&](std::size_t p) {
+      const std::size_t first = begin + p * grain;
       std::vector<T> row;
-      for (std::size_t i = first; i < last; ++i) {
+      parts[p].clear();
+      for (std::size_t i = first; i < std::min(end, first + grain); ++i) {
         row.clear();
         make_row(i, row);
-        use(i, row);
+        parts[p].insert(parts[p].end(), row.begin(), row.end());
+        lengths[i + 1] = static_cast<RowOffset>(row.size());
       }
     });
-  };
-  for_each_row([&](std::size_t i, const std::vector<T>& row) { offsets[i + 1] = row.size(); });
-  for (std::size_t i = 0; i < n_rows; ++i) offsets[i + 1] += offsets[i];
-  std::vector<T> entries(offsets.back());
-  for_each_row([&](std::size_t i, const std::vector<T>& row) {
-    std::copy(row.begin(), row.end(), entries.begin() + static_cast<std::ptrdiff_t>(offsets[i]));
-  });
-  return {std::move(offsets), std::move(entries)};
+    std::size_t n_new = 0;
+    for (const auto& part : parts) n_new += part.size();
+    if (entries.size() + n_new > entries.capacity()) {
+      const double mean_length =
+          static_cast<double>(entries.size() + n_new) / static_cast<double>(end);
+      entries.reserve(end == n_rows ? entries.size() + n_new
+                                    : static_cast<std::size_t>(spare * mean_length *
+                                                               static_cast<double>(n_rows)));
+    }
+    for (auto& part : parts) {
+      entries.insert(entries.end(), part.begin(), part.end());
+      part.clear();
+    }
+  }
+  return {row_offsets(std::move(lengths)), std::move(entries)};
 }
 
 }  // namespace smoothfem

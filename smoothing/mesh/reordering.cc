@@ -36,7 +36,9 @@ void append_breadth_first(const CompressedRows<NodeIndex>& neighbours, NodeIndex
 /// Each part of the mesh starts at a node that a search from its lowest node finds last: far out,
 /// so that levels are small.
 std::vector<NodeIndex> reverse_cuthill_mckee(const Topology& topology) {
-  const auto neighbours = nodes_by_node(topology);  // not kept: these are large meshes
+  // The topology's own tables would be kept, but these are large meshes.
+  const auto neighbours =
+      nodes_by_node(topology, rows_by_entry(topology.cells(), topology.n_nodes()));
   std::vector<bool> visited(topology.n_nodes(), false), searched(topology.n_nodes(), false);
   std::vector<NodeIndex> order, search;
   order.reserve(topology.n_nodes());

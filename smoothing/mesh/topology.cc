@@ -66,9 +66,16 @@ Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells
                    std::optional<std::vector<bool>> fixed, MeshLabels labels)
     : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
   check_cells(n_nodes);
-  node_cells_ = rows_by_entry(cells_, n_nodes);
-  build_boundary();
-  build_fixed(fixed);
+  // Not kept: whoever only reads a mesh and writes it needs it no more.
+  const auto node_cells = rows_by_entry(cells_, n_nodes);
+  build_boundary(node_cells);
+  if (fixed && fixed->size() != n_nodes)
+    throw InputError("the mesh has " + std::to_string(n_nodes) + " nodes but " +
+                     std::to_string(fixed->size()) + " fixed flags");
+  auto flags = fixed ? std::move(*fixed) : on_boundary_;
+  for (NodeIndex i = 0; i < n_nodes; ++i)
+    if (node_cells[i].empty()) flags[i] = true;
+  build_fixed(flags);
   build_blocks();
 }
 
@@ -93,24 +100,18 @@ void Topology::check_cells(std::size_t n_nodes) const {
   }
 }
 
-void Topology::look_up_neighbours() const {
-  const std::lock_guard lock(neighbours_lock_);
-  if (neighbours_known_) return;
-  node_neighbours_ = nodes_by_node(*this);
-  neighbours_known_ = true;
-}
-
-void Topology::build_boundary() {
+void Topology::build_boundary(const CompressedRows<CellIndex>& node_cells) {
   constexpr std::size_t grain = 4096;
+  const std::size_t n_nodes = node_cells.size();
   struct Part {
     std::vector<std::pair<CellIndex, std::uint32_t>> boundary;
     std::size_t n_facets = 0;
     bool bad = false;
   };
   // Each facet is looked at by the part of its smallest node.
-  std::vector<Part> parts((n_nodes() + grain - 1) / grain);
+  std::vector<Part> parts((n_nodes + grain - 1) / grain);
   const auto visit = [&](Part& part, NodeIndex node, std::vector<FacetKey>& facets, bool refuse) {
-    facets_of(node, dim_, node_cells_[node], cells_, facets);
+    facets_of(node, dim_, node_cells[node], cells_, facets);
     for (std::size_t first = 0; first < facets.size();) {
       std::size_t last = first + 1;
       while (last < facets.size() && facets[last].same_nodes(facets[first])) ++last;
@@ -125,21 +126,21 @@ void Topology::build_boundary() {
   };
   parallel_for(parts.size(), [&](std::size_t p) {
     std::vector<FacetKey> facets;
-    for (std::size_t i = p * grain; i < std::min(n_nodes(), (p + 1) * grain); ++i)
+    for (std::size_t i = p * grain; i < std::min(n_nodes, (p + 1) * grain); ++i)
       visit(parts[p], static_cast<NodeIndex>(i), facets, false);
   });
   std::vector<std::pair<CellIndex, std::uint32_t>> boundary;
   std::vector<FacetKey> facets;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (parts[p].bad)  // once more for the sentence, from where it can be thrown
-      for (std::size_t i = p * grain; i < std::min(n_nodes(), (p + 1) * grain); ++i)
+      for (std::size_t i = p * grain; i < std::min(n_nodes, (p + 1) * grain); ++i)
         visit(parts[p], static_cast<NodeIndex>(i), facets, true);
     boundary.insert(boundary.end(), parts[p].boundary.begin(), parts[p].boundary.end());
     n_facets_ += parts[p].n_facets;
   }
   std::sort(boundary.begin(), boundary.end());
 
-  on_boundary_.assign(n_nodes(), false);
+  on_boundary_.assign(n_nodes, false);
   std::vector<NodeIndex> row;
   for (const auto& [cell, wanted] : boundary) {
     const auto nodes = cells_[cell];
@@ -154,17 +155,10 @@ void Topology::build_boundary() {
   }
 }
 
-void Topology::build_fixed(const std::optional<std::vector<bool>>& fixed) {
-  const std::size_t n = n_nodes();
-  if (fixed && fixed->size() != n)
-    throw InputError("the mesh has " + std::to_string(n) + " nodes but " +
-                     std::to_string(fixed->size()) + " fixed flags");
-  const auto& flags = fixed ? *fixed : on_boundary_;
-  fixed_.resize(n);
-  for (NodeIndex i = 0; i < n; ++i) {
-    fixed_[i] = flags[i] || node_cells_[i].empty();
+void Topology::build_fixed(const std::vector<bool>& fixed) {
+  fixed_.assign(fixed.begin(), fixed.end());
+  for (NodeIndex i = 0; i < n_nodes(); ++i)
     if (!fixed_[i]) free_nodes_.push_back(i);
-  }
   cell_has_free_node_.resize(n_cells());
   for (CellIndex c = 0; c < n_cells(); ++c) {
     const auto nodes = cells_[c];
@@ -193,7 +187,7 @@ void Topology::build_blocks() {
 std::vector<CellIndex> Topology::cells_around(std::span<const NodeIndex> nodes) const {
   std::vector<CellIndex> cells;
   for (const NodeIndex i : nodes) {
-    const auto attached = node_cells_[i];
+    const auto attached = node_cells(i);
     cells.insert(cells.end(), attached.begin(), attached.end());
   }
   std::sort(cells.begin(), cells.end());
@@ -205,20 +199,11 @@ std::shared_ptr<const Topology> Topology::reordered(
     const std::vector<NodeIndex>& node_order, const std::vector<CellIndex>& cell_order) const {
   std::vector<NodeIndex> new_node(n_nodes());
   for (NodeIndex i = 0; i < n_nodes(); ++i) new_node[node_order[i]] = i;
-  std::vector<CellIndex> new_cell(n_cells());
-  for (CellIndex c = 0; c < n_cells(); ++c) new_cell[cell_order[c]] = c;
-
   std::shared_ptr<Topology> result(new Topology);
   result->dim_ = dim_;
-  const auto mapped = [](const auto& rows, const auto& order, const auto& new_index, bool sorted) {
-    using Index = typename std::decay_t<decltype(new_index)>::value_type;
-    return make_rows<Index>(order.size(), [&](std::size_t i, std::vector<Index>& row) {
-      for (const Index old : rows[order[i]]) row.push_back(new_index[old]);
-      if (sorted) std::sort(row.begin(), row.end());
-    });
-  };
-  result->cells_ = mapped(cells_, cell_order, new_node, false);
-  result->node_cells_ = mapped(node_cells_, node_order, new_cell, true);
+  result->cells_ = make_rows<NodeIndex>(n_cells(), [&](std::size_t c, std::vector<NodeIndex>& row) {
+    for (const NodeIndex node : cells_[cell_order[c]]) row.push_back(new_node[node]);
+  });
   result->n_facets_ = n_facets_;
   result->on_boundary_.resize(n_nodes());
   std::vector<bool> fixed(n_nodes());
@@ -237,10 +222,11 @@ std::shared_ptr<const Topology> Topology::reordered(
   return result;
 }
 
-CompressedRows<NodeIndex> nodes_by_node(const Topology& topology) {
+CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
+                                        const CompressedRows<CellIndex>& node_cells) {
   return make_rows<NodeIndex>(
       topology.n_nodes(), [&](std::size_t node, std::vector<NodeIndex>& row) {
-        for (const CellIndex c : topology.node_cells(static_cast<NodeIndex>(node))) {
+        for (const CellIndex c : node_cells[node]) {
           const auto nodes = topology.cell_nodes(c);
           for_each_edge(topology.dimension(), nodes.size(), [&](std::size_t a, std::size_t b) {
             if (nodes[a] == node) row.push_back(nodes[b]);

@@ -39,6 +39,36 @@ struct CellBlock {
   NodeIndex first_node, last_node;  ///< all their nodes are in first_node .. last_node - 1
 };
 
+class Topology;
+
+/// For each node the nodes joined to it by an edge, ascending. node_cells: the cells of each node.
+CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
+                                        const CompressedRows<CellIndex>& node_cells);
+
+/// A table that is made when it is needed first: large meshes that need none save the memory.
+class TableOnDemand {
+ public:
+  /// make() returns the table. May be called by several threads at a time.
+  template <class Make>
+  const CompressedRows<std::uint32_t>& get(const Make& make) {
+    if (!is_known_) look_up(make);
+    return rows_;
+  }
+
+ private:
+  template <class Make>
+  void look_up(const Make& make) {
+    const std::lock_guard lock(lock_);
+    if (is_known_) return;
+    rows_ = make();
+    is_known_ = true;
+  }
+
+  CompressedRows<std::uint32_t> rows_;
+  std::atomic<bool> is_known_ = false;
+  std::mutex lock_;
+};
+
 /// The connectivity of a planar or a volume mesh: which nodes make which cell, and everything that
 /// follows from it alone. Immutable. All adjacency rows are sorted ascending, so sums over them
 /// have one order.
@@ -53,7 +83,7 @@ class Topology {
            std::optional<std::vector<bool>> fixed = std::nullopt, MeshLabels labels = {});
 
   int dimension() const { return dim_; }
-  std::size_t n_nodes() const { return node_cells_.size(); }
+  std::size_t n_nodes() const { return fixed_.size(); }
   std::size_t n_cells() const { return cells_.size(); }
 
   const CompressedRows<NodeIndex>& cells() const { return cells_; }
@@ -62,11 +92,10 @@ class Topology {
   const std::vector<CellBlock>& blocks() const { return blocks_; }
 
   /// Cells that use a node.
-  std::span<const CellIndex> node_cells(NodeIndex node) const { return node_cells_[node]; }
+  std::span<const CellIndex> node_cells(NodeIndex node) const { return cells_by_node()[node]; }
   /// Cells that use at least one of these nodes, ascending.
   std::vector<CellIndex> cells_around(std::span<const NodeIndex> nodes) const;
-  /// Nodes joined to a node by an edge. Looked up for all nodes at the first call: large meshes
-  /// that need none save the memory.
+  /// Nodes joined to a node by an edge.
   std::span<const NodeIndex> node_neighbours(NodeIndex node) const { return neighbours()[node]; }
   std::size_t n_edges() const { return neighbours().n_entries() / 2; }
 
@@ -93,23 +122,20 @@ class Topology {
  private:
   Topology() = default;
   void check_cells(std::size_t n_nodes) const;
-  void build_node_cells(std::size_t n_nodes);
-  const CompressedRows<NodeIndex>& neighbours() const {
-    if (!neighbours_known_) look_up_neighbours();
-    return node_neighbours_;
+  const CompressedRows<CellIndex>& cells_by_node() const {
+    return node_cells_.get([this] { return rows_by_entry(cells_, n_nodes()); });
   }
-  void look_up_neighbours() const;
-  void build_boundary();
-  void build_fixed(const std::optional<std::vector<bool>>& fixed);
+  const CompressedRows<NodeIndex>& neighbours() const {
+    return node_neighbours_.get([this] { return nodes_by_node(*this, cells_by_node()); });
+  }
+  void build_boundary(const CompressedRows<CellIndex>& node_cells);
+  void build_fixed(const std::vector<bool>& fixed);
   void build_blocks();
 
   int dim_ = 2;
   CompressedRows<NodeIndex> cells_;
   MeshLabels labels_;
-  CompressedRows<CellIndex> node_cells_;
-  mutable CompressedRows<NodeIndex> node_neighbours_;
-  mutable std::atomic<bool> neighbours_known_ = false;
-  mutable std::mutex neighbours_lock_;
+  mutable TableOnDemand node_cells_, node_neighbours_;
   CompressedRows<NodeIndex> boundary_facets_;
   std::size_t n_facets_ = 0;
   std::vector<bool> on_boundary_;
@@ -118,8 +144,5 @@ class Topology {
   std::vector<std::uint8_t> cell_has_free_node_;
   std::vector<CellBlock> blocks_;
 };
-
-/// For each node the nodes joined to it by an edge, ascending.
-CompressedRows<NodeIndex> nodes_by_node(const Topology& topology);
 
 }  // namespace smoothfem

@@ -13,59 +13,39 @@ namespace {
 
 constexpr std::uint32_t count_bits = 4, largest_count = (1u << count_bits) - 1;
 
-/// The cells of a cell's nodes, ascending, each as often as it shares a node: merges the nodes'
-/// rows, which is faster than sorting.
-class CellsAround {
+/// Finds the cells that share several nodes with a cell. Counts them, which is faster than
+/// sorting: the numbers of the cells around a cell lie close together in meshes that are
+/// large enough for it to matter.
+class SharedCells {
  public:
-  const std::vector<CellIndex>& find(const Topology& topology, CellIndex cell) {
-    cells_.clear();
-    ends_.assign(1, 0);
+  /// Appends them to an empty row, coded as NeighbourWeights has them, ascending.
+  void find(const Topology& topology, CellIndex cell, std::vector<std::uint32_t>& row) {
+    CellIndex first = cell, last = cell;
     for (const NodeIndex node : topology.cell_nodes(cell)) {
-      const auto row = topology.node_cells(node);
-      cells_.insert(cells_.end(), row.begin(), row.end());
-      ends_.push_back(cells_.size());
+      const auto cells = topology.node_cells(node);
+      first = std::min(first, cells.front());
+      last = std::max(last, cells.back());
     }
-    while (ends_.size() > 2) merge_pairs();
-    return cells_;
+    if (counts_.size() <= last - first) counts_.resize(last - first + 1, 0);
+    shared_.clear();
+    for (const NodeIndex node : topology.cell_nodes(cell))
+      for (const CellIndex other : topology.node_cells(node))
+        if (++counts_[other - first] == 2) shared_.push_back(other);
+    std::sort(shared_.begin(), shared_.end());
+    for (const CellIndex other : shared_)
+      for (std::uint32_t surplus = counts_[other - first] - 1; other != cell && surplus > 0;) {
+        const std::uint32_t part = std::min(surplus, largest_count);
+        row.push_back(other << count_bits | part);
+        surplus -= part;
+      }
+    for (const NodeIndex node : topology.cell_nodes(cell))
+      for (const CellIndex other : topology.node_cells(node)) counts_[other - first] = 0;
   }
 
  private:
-  void merge_pairs() {
-    merged_.resize(cells_.size());
-    std::size_t n_ends = 1;
-    for (std::size_t r = 0; r + 1 < ends_.size(); r += 2) {
-      const auto at = [&](std::size_t end) {
-        return cells_.begin() + static_cast<std::ptrdiff_t>(ends_[end]);
-      };
-      const std::size_t last = std::min(r + 2, ends_.size() - 1);
-      std::merge(at(r), at(r + 1), at(r + 1), at(last),
-                 merged_.begin() + static_cast<std::ptrdiff_t>(ends_[r]));
-      ends_[n_ends++] = ends_[last];
-    }
-    ends_.resize(n_ends);
-    cells_.swap(merged_);
-  }
-
-  std::vector<CellIndex> cells_, merged_;
-  std::vector<std::size_t> ends_;  ///< of the runs that are sorted, behind a 0
+  std::vector<std::uint32_t> counts_;  ///< of the nodes that cells share; zero between two calls
+  std::vector<CellIndex> shared_;
 };
-
-/// The cells that share several nodes with a cell, coded as NeighbourWeights has them.
-void find_shared(const Topology& topology, CellIndex cell, std::vector<std::uint32_t>& row) {
-  thread_local CellsAround around;
-  const auto& found = around.find(topology, cell);
-  for (std::size_t first = 0; first < found.size();) {
-    std::size_t last = first + 1;
-    while (last < found.size() && found[last] == found[first]) ++last;
-    if (found[first] != cell)
-      for (auto surplus = static_cast<std::uint32_t>(last - first - 1); surplus > 0;) {
-        const std::uint32_t count = std::min(surplus, largest_count);
-        row.push_back(found[first] << count_bits | count);
-        surplus -= count;
-      }
-    first = last;
-  }
-}
 
 }  // namespace
 
@@ -75,9 +55,10 @@ void NeighbourWeights::prepare(std::shared_ptr<const Topology> topology) {
     throw InputError("GETMe adaptive takes at most " +
                      std::to_string(std::size_t{1} << (32 - count_bits)) + " cells");
   topology_ = std::move(topology);
-  counted_too_often_ = make_large_rows<std::uint32_t>(
+  counted_too_often_ = make_rows<std::uint32_t>(
       topology_->n_cells(), [&](std::size_t cell, std::vector<std::uint32_t>& row) {
-        find_shared(*topology_, static_cast<CellIndex>(cell), row);
+        thread_local SharedCells shared;
+        shared.find(*topology_, static_cast<CellIndex>(cell), row);
       });
   node_sums_.resize(topology_->n_nodes());
   weights_.assign(topology_->n_cells(), 1.0);

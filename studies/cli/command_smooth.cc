@@ -150,20 +150,32 @@ void make_valid(const Arguments& arguments, const Method<dim, spacedim>& method,
   }
 }
 
+struct Outcome {
+  std::string method_title;
+  SmoothingResult smoothing;
+};
+
+/// The method and its tables are gone afterwards: writing needs memory, too.
+template <int dim, int spacedim>
+Outcome smooth_by_method(const Arguments& arguments, Mesh<dim, spacedim>& mesh,
+                         const std::vector<std::size_t>& cell_lines, Recorder& recorder) {
+  auto method = configured_method<dim, spacedim>(arguments);
+  make_valid(arguments, method, mesh, cell_lines);
+  Observer<dim, spacedim> observer;  // none where nobody looks: it costs a look at all cells
+  if (recorder.looks())
+    observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
+  return {method.info.title, smooth(mesh, method, observer)};
+}
+
 template <int dim, int spacedim>
 void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
                  const std::vector<std::size_t>& cell_lines) {
-  auto method = configured_method<dim, spacedim>(arguments);
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
   const MeshQuality before = mesh_quality(mesh);
-  make_valid(arguments, method, mesh, cell_lines);
   Recorder recorder(arguments);
-  Observer<dim, spacedim> observer;  // none where nobody looks: it costs a look at all cells
-  if (recorder.looks())
-    observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
-  const auto result = smooth(mesh, method, observer);
+  const Outcome outcome = smooth_by_method(arguments, mesh, cell_lines, recorder);
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Whoever reads the result knows nothing of a boundary to slide on: its nodes are fixed there.
@@ -177,10 +189,10 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
   if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
   print_row("before", before);
-  print_row("after", result.quality);
+  print_row("after", outcome.smoothing.quality);
   std::printf("%s: %s iterations in %.4g s on %d threads; written to %s\n",
-              method.info.title.c_str(), result.iterations_text().c_str(), result.smoothing_seconds,
-              n_threads(), arguments.out.c_str());
+              outcome.method_title.c_str(), outcome.smoothing.iterations_text().c_str(),
+              outcome.smoothing.smoothing_seconds, n_threads(), arguments.out.c_str());
   if constexpr (dim == 3)
     if (const auto* constraints = mesh.constraints())
       std::printf("the boundary lies within %.3g of the initial one (at most %.3g)\n",
