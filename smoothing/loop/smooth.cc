@@ -255,7 +255,8 @@ class SmoothingRun {
       case StoppingCriterion::max_displacement:
         return report.max_displacement < rule.tolerance * mean_edge_length_;
       case StoppingCriterion::result_stall:
-        return n_without_best >= (highest.q_star_min() < state_.initial_quality.q_star_min
+        return report.converged ||
+               n_without_best >= (highest.q_star_min() < state_.initial_quality.q_star_min
                                       ? patience_below_start
                                       : 1) *
                                      rule.patience;

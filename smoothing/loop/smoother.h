@@ -50,7 +50,7 @@ enum class StoppingCriterion {
   q_mean_change,
   max_displacement,  ///< no node moved `tolerance` times the initial mean edge length
   /// `patience` iterations in a row without a new best mesh (ResultMesh); patience_below_start
-  /// times as many while the best q*_min is below that at the method's start
+  /// times as many while the best q*_min is below that at the method's start; or the step says so
   result_stall,
   converged,  ///< the step says so
 };
@@ -76,8 +76,8 @@ struct SmoothingRule {
 struct StepReport {
   std::size_t n_counted = 1;      ///< iterations in the method's own count (100 for a cycle of 100)
   double max_displacement = 0.0;  ///< longest movement of a node; needed by that criterion only
-  bool converged = false;
-  std::size_t n_reset = 0;  ///< nodes (or elements) put back because a cell became invalid
+  bool converged = false;         ///< see StoppingCriterion
+  std::size_t n_reset = 0;        ///< nodes (or elements) put back because a cell became invalid
   /// From steps that keep the quality up to date themselves: the quality of the mesh, or just its
   /// q*_min where the rest would take a look at every cell.
   std::optional<MeshQuality> quality = {};

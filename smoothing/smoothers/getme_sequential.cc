@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/min_tree.h"
@@ -110,7 +111,11 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
          1.0, 1e9},
         {"patience", "stop after this many looks without a higher lowest quality", &patience_, 1.0,
          1e9},
-        {"max_cycles", "stop after this many cycles at the latest", &max_cycles_, 1.0, 1e9}};
+        {"max_cycles", "stop after this many cycles at the latest", &max_cycles_, 1.0, 1e9},
+        {"max_mean_loss",
+         "stop when q_mean has fallen by more than this share of its value at the stage's start "
+         "(Section 5.2)",
+         &max_mean_loss_, 0.0, 1.0}};
     all.insert(all.end(), own.begin(), own.end());
     for (auto& parameter : assess_.parameters()) all.push_back(std::move(parameter));
     return all;
@@ -136,6 +141,9 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     by_corrected_quality_.build(std::move(keys));
     penalties_.assign(topology.n_cells(), 0.0);
     touched_in_.assign(topology.n_cells(), 0);
+    quality_gain_ = 0.0;
+    initial_quality_sum_ =
+        std::accumulate(state.cell_quality.begin(), state.cell_quality.end(), 0.0);
     n_transformations_ = 0;
     last_picked_ = no_cell;
   }
@@ -164,6 +172,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     if (Assessment::result == ResultMesh::best_q_star_min && !by_quality_.empty())
       report.q_star_min = report.score;
     report.moved = &moved_in_cycle_;
+    report.converged = quality_gain_ < -max_mean_loss_ * initial_quality_sum_;
     return report;
   }
 
@@ -222,8 +231,10 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
       for (const auto& [node, position] : moved_) state.mesh.coordinates()[node] = position;
       return false;
     }
-    for (std::size_t i = 0; i < touched_.size(); ++i)
+    for (std::size_t i = 0; i < touched_.size(); ++i) {
+      quality_gain_ += new_quality_[i] - state.cell_quality[touched_[i]];
       state.cell_quality[touched_[i]] = new_quality_[i];
+    }
     for (const auto& [node, position] : moved_) moved_in_cycle_.push_back(node);
     return true;
   }
@@ -245,10 +256,12 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   int cycle_ = Assessment::cycle;
   int patience_ = Assessment::patience;
   int max_cycles_ = 100000;
+  double max_mean_loss_ = 1.0;
 
   MinTree by_quality_, by_corrected_quality_;
   std::vector<double> penalties_;
   CellIndex last_picked_ = no_cell;
+  double initial_quality_sum_ = 0.0, quality_gain_ = 0.0;  ///< of all cells
   std::vector<std::pair<NodeIndex, Point<spacedim>>> moved_;
   std::vector<NodeIndex> moved_in_cycle_;
   std::vector<CellIndex> touched_;  ///< cells with a moved node

@@ -44,12 +44,18 @@ class GlobalOptimization final : public Smoother<dim> {
          "distorted meshes 10 shorten the whole run most",
          &start_sweeps_, 0.0, 1e9},
         {"max_iterations", "stop after this many Newton steps at the latest", &max_iterations_, 1.0,
-         1e9}};
+         1e9},
+        {"result",
+         "the mesh to end with: the last one, whose objective is the lowest, or that of the "
+         "highest "
+         "q_mean on the way (Section 5.2)",
+         Choice{&result_, {"last", "best-q-mean"}}}};
   }
 
   SmoothingRule rule() const override {
-    return {.quality_use = QualityUse::none,
-            .result = ResultMesh::last,
+    const bool best = result_ != 0;  // the method itself looks at no mean ratio
+    return {.quality_use = best ? QualityUse::loop : QualityUse::none,
+            .result = best ? ResultMesh::best_q_mean : ResultMesh::last,
             .criterion = StoppingCriterion::converged,
             .max_iterations = max_iterations_};
   }
@@ -161,6 +167,7 @@ class GlobalOptimization final : public Smoother<dim> {
   int max_cg_iterations_ = 1000;
   int start_sweeps_ = 0;
   int max_iterations_ = 1000;
+  int result_ = 0;
 
   std::optional<ShapeObjective<dim>> objective_;
   HessianModel model_ = HessianModel::convex;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "smoothing/loop/catalogue.h"
@@ -9,7 +10,7 @@
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/tests/planar_meshes.h"
+#include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
 namespace {
@@ -135,6 +136,11 @@ TEST(Presets, HaveTheParametersOfTheText) {
     return value_text(find_parameter(method.parameters(), parameter, "test"));
   };
   EXPECT_EQ(text("thesis-5.2", "getme", "simultaneous.scaling"), "mean-volume");
+  EXPECT_EQ(text("thesis-5.2", "getme", "sequential.max_mean_loss"), "0.01");
+  for (const std::string section : {"5.2", "5.3", "5.4"})
+    EXPECT_EQ(text("thesis-" + section, "global-optimization", "result"), "best-q-mean");
+  EXPECT_EQ(text("thesis-5.5", "global-optimization", "result"), "last");
+  EXPECT_EQ(text("thesis-5.5", "getme", "simultaneous.tolerance"), "1e-04");
   EXPECT_EQ(text("thesis-5.3", "getme", "simultaneous.sigma_hexahedron_max"), "0.6");
   EXPECT_EQ(text("thesis-5.4", "getme-qgamma", "qgamma.penalty_success"), "-0.01");
   EXPECT_EQ(text("thesis-5.5", "getme-adaptive", "min.relaxation"), "0.5, 0.25, 0.1, 0.01, 0");
@@ -222,6 +228,57 @@ TEST(InvalidNodeReset, EndsWhenThePreviousMeshWasInvalidToo) {
 }
 
 /// Small meshes are smoothed in their own order, large ones in another.
+/// Layers that become thinner upwards: smoothing by shape lowers the mean quality of such grids.
+VolumeMesh graded_box() {
+  auto mesh = test::box_mesh(6, 6, 6, test::BoxCells::hexahedra);
+  for (auto& p : mesh.coordinates()) p.z() = 6.0 - 6.0 * std::pow(1.0 - p.z() / 6.0, 3.0);
+  return mesh;
+}
+
+TEST(Loop, TheSequentialMethodStopsWhenTheMeanQualityHasFallen) {
+  auto initial = test::box_mesh(5, 5, 5, test::BoxCells::tetrahedra);
+  test::distort(initial, 0.2, 4);
+  const auto q_means = [&](double max_mean_loss) {
+    auto method = make_method<3>("getme-sequential");
+    for (const auto& [name, value] : std::map<std::string, std::string>{
+             {"rho", "1"}, {"cycle", "10"}, {"patience", "1000"}, {"max_cycles", "200"}})
+      method.set(name, value);
+    method.set("max_mean_loss", std::to_string(max_mean_loss));
+    auto mesh = initial;
+    std::vector<double> seen;
+    smooth(mesh, method, [&](const IterationRecord& record, const VolumeMesh&) {
+      seen.push_back(record.quality.q_mean);
+    });
+    return seen;
+  };
+  const std::vector<double> free = q_means(1.0);
+  const double largest_loss = 1.0 - *std::min_element(free.begin(), free.end()) / free.front();
+  ASSERT_GT(largest_loss, 1e-3) << "the mean quality has to fall for this test";
+  const double loss = 0.5 * largest_loss;
+  const auto first_below = std::find_if(free.begin(), free.end(), [&](double q_mean) {
+    return q_mean < (1.0 - loss) * free.front();
+  });
+  EXPECT_EQ(q_means(loss), std::vector<double>(free.begin(), first_below + 1));
+}
+
+TEST(Loop, GlobalOptimizationCanEndWithTheMeshOfTheBestMeanQuality) {
+  for (const auto& [result, best] : {std::pair{"last", false}, std::pair{"best-q-mean", true}}) {
+    auto method = make_method<3>("global-optimization");
+    method.set("result", result);
+    auto mesh = graded_box();
+    std::vector<double> seen;
+    const auto outcome =
+        smooth(mesh, method, [&](const IterationRecord& record, const VolumeMesh&) {
+          seen.push_back(record.quality.q_mean);
+        });
+    const auto highest = std::max_element(seen.begin(), seen.end());
+    ASSERT_LT(highest + 1, seen.end()) << "the best mesh must not be the last one for this test";
+    EXPECT_EQ(mesh_quality(mesh).q_mean, best ? *highest : seen.back());
+    EXPECT_EQ(outcome.result_record,
+              best ? static_cast<std::size_t>(highest - seen.begin()) : seen.size() - 1);
+  }
+}
+
 TEST(Loop, AnObserverThatThrowsLeavesAMeshItHasSeen) {
   for (const std::uint32_t n : {10u, 150u}) {
     PlanarMesh mesh = test::grid_mesh(n, test::GridCells::quadrilaterals);
