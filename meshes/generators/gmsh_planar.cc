@@ -12,6 +12,7 @@
 #include "meshes/io/gmsh_session.h"
 #include "smoothing/mesh/input_error.h"
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/surface/nearest_point.h"
 
 namespace smoothfem {
 
@@ -24,10 +25,8 @@ double distance(const Polygons& polygons, const Point<2>& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& polygon : polygons)
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Point<2> side = polygon[(k + 1) % polygon.size()] - polygon[k];
-      const Point<2> from = p - polygon[k];
-      const double along = std::clamp(from.dot(side) / side.squaredNorm(), 0.0, 1.0);
-      least = std::min(least, (from - along * side).norm());
+      const auto& next = polygon[(k + 1) % polygon.size()];
+      least = std::min(least, (p - nearest_on_segment<2>(p, polygon[k], next)).norm());
     }
   return least;
 }

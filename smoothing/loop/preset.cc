@@ -132,14 +132,14 @@ Preset mixed() {
 
 Preset adaptive() {
   Preset preset{"thesis-5.5",
-                "GETMe adaptive; GETMe with the parameters of Section 5.4",
+                "GETMe adaptive; GETMe of Section 5.4 with the stopping rule of Chapter 6",
                 "Section 5.5.1",
                 {}};
   // What comes later counts: smart Laplace, the optimization and, as the parameters "of Section 5.4
   // and Chapter 6" and the printed 12 iterations say, GETMe stop earlier than in Section 5.4.
   add_mixed(preset.settings);
   add_adaptive(preset.settings);
-  add(preset.settings, 3, "simultaneous", {{"tolerance", "1e-4"}});
+  add(preset.settings, 3, "simultaneous", {{"tolerance", "1e-4"}, {"patience", "0"}});
   add(preset.settings, 3, "global-optimization", {{"result", "last"}});
   return preset;
 }

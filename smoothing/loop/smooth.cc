@@ -127,6 +127,7 @@ class SmoothingRun {
       : users_mesh_(mesh), state_{mesh, {}}, observer_(observer) {
     require_constraints_kept(method);
     reorder(method);
+    if (!reordering_) state_.mesh.topology().node_cells(0);  // of the mesh, and so no method's time
     const bool uses_quality =
         any_stage(method, [](const auto& rule) { return rule.quality_use != QualityUse::none; });
     if (uses_quality) clock_.start();

@@ -57,16 +57,16 @@ SMOOTHFEM_INLINE void store_lanes(Lanes lanes, double* numbers) {
       double __attribute__((vector_size(sizeof(Lanes)), aligned(sizeof(double)), may_alias));
   *reinterpret_cast<Unaligned*>(numbers) = lanes;
 }
-/// As many numbers of half the length.
-using HalfLanes = float __attribute__((vector_size(n_lanes * sizeof(float))));
-SMOOTHFEM_INLINE HalfLanes load_lanes(const float* numbers) {
+/// As many numbers of single precision.
+using FloatLanes = float __attribute__((vector_size(n_lanes * sizeof(float))));
+SMOOTHFEM_INLINE FloatLanes load_lanes(const float* numbers) {
   using Unaligned =
-      float __attribute__((vector_size(sizeof(HalfLanes)), aligned(sizeof(float)), may_alias));
+      float __attribute__((vector_size(sizeof(FloatLanes)), aligned(sizeof(float)), may_alias));
   return *reinterpret_cast<const Unaligned*>(numbers);
 }
-SMOOTHFEM_INLINE void store_lanes(HalfLanes lanes, float* numbers) {
+SMOOTHFEM_INLINE void store_lanes(FloatLanes lanes, float* numbers) {
   using Unaligned =
-      float __attribute__((vector_size(sizeof(HalfLanes)), aligned(sizeof(float)), may_alias));
+      float __attribute__((vector_size(sizeof(FloatLanes)), aligned(sizeof(float)), may_alias));
   *reinterpret_cast<Unaligned*>(numbers) = lanes;
 }
 

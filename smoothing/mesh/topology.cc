@@ -66,7 +66,7 @@ Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells
                    std::optional<std::vector<bool>> fixed, MeshLabels labels)
     : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
   check_cells(n_nodes);
-  // Not kept: whoever only reads a mesh and writes it needs it no more.
+  // Not kept: large meshes are smoothed in another order, others need it no more.
   const auto node_cells = rows_by_entry(cells_, n_nodes);
   build_boundary(node_cells);
   if (fixed && fixed->size() != n_nodes)
@@ -182,6 +182,10 @@ void Topology::build_blocks() {
       }
     blocks_.push_back(block);
   }
+}
+
+const CompressedRows<NodeIndex>& Topology::neighbours() const {
+  return node_neighbours_.get([this] { return nodes_by_node(*this, cells_by_node()); });
 }
 
 std::vector<CellIndex> Topology::cells_around(std::span<const NodeIndex> nodes) const {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +11,7 @@
 
 #include "smoothing/mesh/compressed_rows.h"
 #include "smoothing/mesh/element_type.h"
+#include "smoothing/mesh/table_on_demand.h"
 
 namespace smoothfem {
 
@@ -37,36 +36,6 @@ struct MeshLabels {
 struct CellBlock {
   CellIndex first, last;            ///< cells first .. last - 1
   NodeIndex first_node, last_node;  ///< all their nodes are in first_node .. last_node - 1
-};
-
-class Topology;
-
-/// For each node the nodes joined to it by an edge, ascending. node_cells: the cells of each node.
-CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
-                                        const CompressedRows<CellIndex>& node_cells);
-
-/// A table that is made when it is needed first: large meshes that need none save the memory.
-class TableOnDemand {
- public:
-  /// make() returns the table. May be called by several threads at a time.
-  template <class Make>
-  const CompressedRows<std::uint32_t>& get(const Make& make) {
-    if (!is_known_) look_up(make);
-    return rows_;
-  }
-
- private:
-  template <class Make>
-  void look_up(const Make& make) {
-    const std::lock_guard lock(lock_);
-    if (is_known_) return;
-    rows_ = make();
-    is_known_ = true;
-  }
-
-  CompressedRows<std::uint32_t> rows_;
-  std::atomic<bool> is_known_ = false;
-  std::mutex lock_;
 };
 
 /// The connectivity of a planar or a volume mesh: which nodes make which cell, and everything that
@@ -125,9 +94,7 @@ class Topology {
   const CompressedRows<CellIndex>& cells_by_node() const {
     return node_cells_.get([this] { return rows_by_entry(cells_, n_nodes()); });
   }
-  const CompressedRows<NodeIndex>& neighbours() const {
-    return node_neighbours_.get([this] { return nodes_by_node(*this, cells_by_node()); });
-  }
+  const CompressedRows<NodeIndex>& neighbours() const;
   void build_boundary(const CompressedRows<CellIndex>& node_cells);
   void build_fixed(const std::vector<bool>& fixed);
   void build_blocks();
@@ -144,5 +111,9 @@ class Topology {
   std::vector<std::uint8_t> cell_has_free_node_;
   std::vector<CellBlock> blocks_;
 };
+
+/// For each node the nodes joined to it by an edge, ascending. node_cells: the cells of each node.
+CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
+                                        const CompressedRows<CellIndex>& node_cells);
 
 }  // namespace smoothfem

@@ -100,7 +100,7 @@ std::size_t BlockConjugateGradients<dim>::bytes_of_multiplication() const {
   const auto& columns = matrix_->columns();
   return columns.n_entries() *
              (dim * dim * sizeof(typename BlockMatrix<dim>::Number) + sizeof(std::uint32_t)) +
-         columns.size() * (2 * sizeof(Point<dim>) + sizeof(std::size_t));
+         columns.size() * (2 * sizeof(Point<dim>) + sizeof(RowOffset));
 }
 
 template <int dim>

@@ -45,7 +45,9 @@ BlockMatrix<dim>::BlockMatrix(CompressedRows<std::uint32_t> columns)
 
 template <int dim>
 void BlockMatrix<dim>::start_diagonal() {
-  std::fill(diagonal_.begin(), diagonal_.end(), Block::Zero());
+  for_row_ranges(diagonal_.size(), [&](std::size_t first, std::size_t last) {
+    std::fill(diagonal_.begin() + first, diagonal_.begin() + last, Block::Zero());
+  });
 }
 
 template <int dim>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <span>
 #include <type_traits>
 #include <vector>
 

@@ -26,7 +26,8 @@ StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movemen
     Point<spacedim> move = movement(i);
     const Point<spacedim> old = mesh.coordinates()[i];
     mesh.coordinates()[i] = allowed_place<dim, spacedim>(mesh, i, old + move);
-    if (!keeps_facet_bound(mesh, {&i, 1})) mesh.coordinates()[i] = old;
+    if (mesh.coordinates()[i] != old && !keeps_facet_bound(mesh, {&i, 1}))
+      mesh.coordinates()[i] = old;
     if (mesh.constraints()) move = mesh.coordinates()[i] - old;
     longest = std::max(longest, move.squaredNorm());
   }

@@ -113,8 +113,9 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
          1e9},
         {"max_cycles", "stop after this many cycles at the latest", &max_cycles_, 1.0, 1e9},
         {"max_mean_loss",
-         "stop when q_mean has fallen by more than this share of its value at the stage's start "
-         "(Section 5.2)",
+         "stop when q_mean, looked at once a cycle, has fallen by more than this share of its "
+         "value "
+         "at the stage's start (Section 5.2)",
          &max_mean_loss_, 0.0, 1.0}};
     all.insert(all.end(), own.begin(), own.end());
     for (auto& parameter : assess_.parameters()) all.push_back(std::move(parameter));

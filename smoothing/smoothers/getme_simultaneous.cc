@@ -135,7 +135,7 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     report.quality = pass_over_all(state);
     if (report.quality->n_invalid > 0 || has_facet_bound(state.mesh)) {
       const auto nodes = reset_nodes_of_invalid_cells(state.mesh, previous_, state.cell_quality);
-      report.quality = pass_around(state, nodes);
+      if (!nodes.empty()) report.quality = pass_around(state, nodes);
       report.n_reset = nodes.size();
     }
     return report;

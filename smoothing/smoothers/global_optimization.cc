@@ -47,8 +47,7 @@ class GlobalOptimization final : public Smoother<dim> {
          1e9},
         {"result",
          "the mesh to end with: the last one, whose objective is the lowest, or that of the "
-         "highest "
-         "q_mean on the way (Section 5.2)",
+         "highest q_mean on the way (Section 5.2)",
          Choice{&result_, {"last", "best-q-mean"}}}};
   }
 

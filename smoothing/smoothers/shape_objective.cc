@@ -1,7 +1,10 @@
 #include "smoothing/smoothers/shape_objective.h"
 
+#include <limits>
+
 #include "smoothing/mesh/cell_blocks.h"
 #include "smoothing/mesh/parallel_rows.h"
+#include "smoothing/smoothers/added_block.h"
 #include "smoothing/smoothers/volume_cell_derivatives.h"
 
 namespace smoothfem {
@@ -24,89 +27,8 @@ SMOOTHFEM_INLINE Point<3> lane_of(Vector3<double> v, std::size_t) {
   return point_of(v);
 }
 
-/// A block of one cell, ready to be added: n_lanes entries at a time, and the last one of an odd
-/// number.
-template <int dim, class Number>
-struct AddedBlock {
-  using NumberLanes = decltype(load_lanes(static_cast<const Number*>(nullptr)));
-  NumberLanes first{}, second{};
-  Number last{};
-
-  SMOOTHFEM_INLINE void add_to(Number* sum) const {
-    store_lanes(load_lanes(sum) + first, sum);
-    if constexpr (dim == 3) {
-      store_lanes(load_lanes(sum + n_lanes) + second, sum + n_lanes);
-      sum[2 * n_lanes] += last;
-    }
-  }
-  SMOOTHFEM_INLINE AddedBlock transpose() const {
-    if constexpr (dim == 2)
-      return {__builtin_shufflevector(first, first, 0, 2, 1, 3)};
-    else
-      return {__builtin_shufflevector(first, second, 0, 3, 6, 1),
-              __builtin_shufflevector(first, second, 4, 7, 2, 5), last};
-  }
-};
-
-/// The blocks of some cells (of one, if Real is a number), one after the other.
-template <class Number, int dim>
-SMOOTHFEM_INLINE auto added_blocks(const Block<dim, Lanes>& block) {
-  using Added = AddedBlock<dim, Number>;
-  const auto entries = [&](std::size_t k) SMOOTHFEM_INLINE_LAMBDA {
-    return __builtin_convertvector(block.entries[k], typename Added::NumberLanes);
-  };
-  std::array<Added, n_lanes> result;
-  const auto first = transposed(entries(0), entries(1), entries(2), entries(3));
-  for (std::size_t l = 0; l < n_lanes; ++l) result[l].first = first[l];
-  if constexpr (dim == 3) {
-    const auto second = transposed(entries(4), entries(5), entries(6), entries(7));
-    for (std::size_t l = 0; l < n_lanes; ++l) {
-      result[l].second = second[l];
-      result[l].last = static_cast<Number>(block.entries[8][l]);
-    }
-  }
-  return result;
-}
-template <class Number, int dim>
-SMOOTHFEM_INLINE auto added_blocks(const Block<dim, double>& block) {
-  using Added = AddedBlock<dim, Number>;
-  const auto entries = [&](std::size_t k) SMOOTHFEM_INLINE_LAMBDA {
-    return __builtin_convertvector(load_lanes(block.entries.data() + k),
-                                   typename Added::NumberLanes);
-  };
-  Added result{entries(0)};
-  if constexpr (dim == 3) {
-    result.second = entries(n_lanes);
-    result.last = static_cast<Number>(block.entries[2 * n_lanes]);
-  }
-  return std::array{result};
-}
-
-SMOOTHFEM_INLINE void set_lane(Lanes& lanes, std::size_t l, double value) {
-  lanes[l] = value;
-}
-SMOOTHFEM_INLINE void set_lane(double& number, std::size_t, double value) {
-  number = value;
-}
-
-/// a b c' for lower triangular a and c.
-template <int dim, class Real>
-SMOOTHFEM_INLINE Block<dim, Real> scaled(const Block<dim, Real>& a, const Block<dim, Real>& b,
-                                         const Block<dim, Real>& c) {
-  Block<dim, Real> left, result;
-  for (std::size_t j = 0; j < dim; ++j)
-    for (std::size_t i = 0; i < dim; ++i)
-      for (std::size_t k = 0; k <= i; ++k)
-        left.entries[dim * j + i] += a.entries[dim * k + i] * b.entries[dim * j + k];
-  for (std::size_t j = 0; j < dim; ++j)
-    for (std::size_t i = 0; i < dim; ++i)
-      for (std::size_t k = 0; k <= j; ++k)
-        result.entries[dim * j + i] += left.entries[dim * k + i] * c.entries[dim * k + j];
-  return result;
-}
-
-/// Adds the gradients of cells and the diagonal blocks of their Hessians where they belong. Both
-/// this and OtherBlockSums take cells in their order, so that sums have one order.
+/// Adds the gradients of cells and the diagonal blocks of their Hessians where they belong. The
+/// order of the cells, and so of these sums, is always the same.
 template <int dim>
 struct DiagonalSums {
   static constexpr HessianBlocks blocks = HessianBlocks::diagonal;
@@ -133,7 +55,7 @@ struct DiagonalSums {
   }
 };
 
-/// Adds the other blocks, scaled.
+/// Adds the other blocks, scaled, likewise.
 template <int dim>
 struct OtherBlockSums {
   static constexpr HessianBlocks blocks = HessianBlocks::all;
@@ -303,12 +225,12 @@ void ShapeObjective<dim>::derivatives(const std::vector<Point<dim>>& coordinates
                                       BlockMatrix<dim>& hessian) const {
   std::fill(gradient.begin(), gradient.end(), Point<dim>::Zero());
   hessian.start_diagonal();
-  for_each_block([&](std::size_t b) {
+  for_disjoint_blocks([&](std::size_t b) {
     add_derivatives(coordinates, topology_->blocks()[b], model,
                     DiagonalSums<dim>{*topology_, unknown_, gradient, hessian});
   });
   hessian.factor_diagonal();
-  for_each_block([&](std::size_t b) {
+  for_disjoint_blocks([&](std::size_t b) {
     add_derivatives(coordinates, topology_->blocks()[b], model,
                     OtherBlockSums<dim>{*topology_, unknown_, places_[b].data(), hessian});
   });

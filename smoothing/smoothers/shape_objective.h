@@ -1,10 +1,11 @@
 #pragma once
 
-#include <limits>
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/mesh/parallel.h"
 #include "smoothing/smoothers/block_matrix.h"
 #include "smoothing/smoothers/cell_derivatives.h"
 #include "smoothing/smoothers/disjoint_groups.h"
@@ -39,7 +40,7 @@ class ShapeObjective {
  private:
   /// Calls work(b) for all blocks of cells, those that share no nodes by several threads.
   template <class Work>
-  void for_each_block(const Work& work) const {
+  void for_disjoint_blocks(const Work& work) const {
     for (const auto& group : groups_)
       parallel_for(group.size(), [&](std::size_t i) { work(group[i]); });
   }

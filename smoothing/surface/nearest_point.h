@@ -7,8 +7,10 @@
 namespace smoothfem {
 
 /// The nearest point to p of the segment from a to b.
-inline Point<3> nearest_on_segment(const Point<3>& p, const Point<3>& a, const Point<3>& b) {
-  const Point<3> along = b - a;
+template <int spacedim>
+Point<spacedim> nearest_on_segment(const Point<spacedim>& p, const Point<spacedim>& a,
+                                   const Point<spacedim>& b) {
+  const Point<spacedim> along = b - a;
   const double square = along.squaredNorm();
   if (!(square > 0.0)) return a;
   return a + std::clamp((p - a).dot(along) / square, 0.0, 1.0) * along;

@@ -39,18 +39,17 @@ std::vector<Piece> segments_of(const SurfaceFeatures& features, const std::vecto
 
 /// Smallest radius to begin a search with, relative to the surface: above rounding.
 constexpr double least_radius = 1e-10;
+constexpr std::size_t facet_grain = 256;  ///< facets that one thread looks at at a time
 
-/// Whether is_bad(point) is true of the middle of a facet or of one of its sides.
-template <class IsBad>
-bool any_middle(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& x,
-                const IsBad& is_bad) {
+/// The middles of a facet and of its sides.
+std::vector<Point<3>> middles(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& x) {
   const std::size_t n = nodes.size();
-  Point<3> middle = Point<3>::Zero();
+  std::vector<Point<3>> points(1, Point<3>::Zero());
   for (std::size_t k = 0; k < n; ++k) {
-    middle += x[nodes[k]] / static_cast<double>(n);
-    if (is_bad(Point<3>(0.5 * (x[nodes[k]] + x[nodes[k + 1 < n ? k + 1 : 0]])))) return true;
+    points.front() += x[nodes[k]] / static_cast<double>(n);
+    points.emplace_back(0.5 * (x[nodes[k]] + x[nodes[k + 1 < n ? k + 1 : 0]]));
   }
-  return is_bad(middle);
+  return points;
 }
 
 }  // namespace
@@ -60,7 +59,8 @@ NodeConstraints::NodeConstraints(const SurfaceFacets& facets,
                                  const FeatureParameters& parameters, double facet_bound)
     : features_(find_features(facets, coordinates, parameters)),
       facets_(facets.nodes),
-      node_facets_(rows_by_entry(facets.nodes, coordinates.size())),
+      node_facets_(facet_bound < unbounded ? rows_by_entry(facets.nodes, coordinates.size())
+                                           : CompressedRows<std::uint32_t>()),
       facet_bound_(facet_bound),
       triangles_(
           std::make_unique<PieceIndex>(triangles_of(facets, coordinates, features_.facet_patches))),
@@ -89,18 +89,21 @@ double NodeConstraints::distance(const Point<3>& point, double radius) const {
 }
 
 double NodeConstraints::facet_distance(const std::vector<Point<3>>& coordinates) const {
-  double largest = 0.0;
-  for (std::size_t f = 0; f < facets_.size(); ++f)
-    any_middle(facets_[f], coordinates, [&](const Point<3>& point) {
-      largest = std::max(largest, distance(point));
-      return false;
-    });
-  return largest;
+  const double radius =
+      facet_bound_ < unbounded ? facet_bound_ : least_radius * triangles_->extent();
+  std::vector<double> of_facet(facets_.size(), 0.0);
+  parallel_for_ranges(facets_.size(), facet_grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f)
+      for (const Point<3>& point : middles(facets_[f], coordinates))
+        of_facet[f] = std::max(of_facet[f], distance(point, radius));
+  });
+  return of_facet.empty() ? 0.0 : *std::max_element(of_facet.begin(), of_facet.end());
 }
 
 bool NodeConstraints::is_out_of_bound(std::uint32_t facet,
                                       const std::vector<Point<3>>& coordinates) const {
-  return any_middle(facets_[facet], coordinates, [&](const Point<3>& point) {
+  const auto points = middles(facets_[facet], coordinates);
+  return std::any_of(points.begin(), points.end(), [&](const Point<3>& point) {
     return !(distance(point, facet_bound_) <= facet_bound_);
   });
 }
@@ -108,9 +111,8 @@ bool NodeConstraints::is_out_of_bound(std::uint32_t facet,
 std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
     const std::vector<Point<3>>& coordinates) const {
   if (facet_bound_ == unbounded) return {};
-  constexpr std::size_t grain = 256;
   std::vector<std::uint8_t> is_out(facets_.size());
-  parallel_for_ranges(facets_.size(), grain, [&](std::size_t first, std::size_t last) {
+  parallel_for_ranges(facets_.size(), facet_grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f)
       is_out[f] = is_out_of_bound(static_cast<std::uint32_t>(f), coordinates);
   });

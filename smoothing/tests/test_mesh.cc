@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "smoothing/mesh/parallel_rows.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {
@@ -23,6 +24,32 @@ Topology small_topology() {
 template <class T>
 std::vector<T> as_vector(std::span<const T> values) {
   return {values.begin(), values.end()};
+}
+
+TEST(CompressedRows, AreMadeInManyBatches) {
+  constexpr std::size_t n = 600000;
+  // Short rows first: what is set aside for the others is not enough.
+  const auto length = [](std::size_t i) { return i < n / 2 ? i % 2 : 3 + i % 3; };
+  const auto rows = make_rows<std::uint32_t>(n, [&](std::size_t i, auto& row) {
+    for (std::size_t k = 0; k < length(i); ++k) row.push_back(static_cast<std::uint32_t>(i + k));
+  });
+  ASSERT_EQ(rows.size(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_EQ(rows[i].size(), length(i)) << i;
+    for (std::size_t k = 0; k < length(i); ++k) ASSERT_EQ(rows[i][k], i + k);
+  }
+  EXPECT_EQ(make_rows<int>(0, [](std::size_t, auto&) {}).size(), 0u);
+}
+
+TEST(CompressedRows, RefuseMoreEntriesThanCanBeCounted) {
+  constexpr RowOffset half = 1u << 31;
+  EXPECT_EQ(row_offsets({0, 2, 0, 3}), (std::vector<RowOffset>{0, 2, 2, 5}));
+  EXPECT_NO_THROW(row_offsets({0, half, half - 1}));
+  EXPECT_THROW(row_offsets({0, half, half}), InputError);
+}
+
+TEST(CompressedRows, KnowTheRowsOfEachEntry) {
+  EXPECT_EQ(rows_by_entry(rows_of({{0, 2}, {2, 1}, {2}}), 4), rows_of({{0}, {1}, {0, 1, 2}, {}}));
 }
 
 TEST(Topology, Adjacency) {

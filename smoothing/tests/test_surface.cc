@@ -112,7 +112,7 @@ TEST(NearestPoint, OfATriangleInEveryRegion) {
 }
 
 TEST(NearestPoint, OfDegenerateTrianglesAndSegments) {
-  EXPECT_EQ(nearest_on_segment({3, 1, 0}, {1, 1, 1}, {1, 1, 1}), Point<3>(1, 1, 1));
+  EXPECT_EQ(nearest_on_segment<3>({3, 1, 0}, {1, 1, 1}, {1, 1, 1}), Point<3>(1, 1, 1));
   EXPECT_EQ(nearest_on_triangle({1, 5, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}), Point<3>(1, 0, 0));
 }
 
@@ -232,6 +232,23 @@ TEST(SurfaceQuality, TurnsInvalidWhereACellTurnsOver) {
       allowed_place(mesh, i, Point<3>(mesh.coordinates()[i] + Point<3>(0.6, 0.0, 0.0)));
   EXPECT_GT(mesh_quality(mesh).n_invalid, 0u);
   EXPECT_THROW(require_valid(mesh), InputError);
+}
+
+TEST(SurfaceQuality, OfAWarpedCellIsInvalidAtEachCornerThatTurnsOver) {
+  const Vector3<double> up{0.0, 0.0, 1.0};
+  const auto quality = [&](double z) {
+    // A square whose last node comes in over the diagonal of the others, at height z.
+    const std::array<Vector3<double>, 4> corners{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.6, 0.3, z}}};
+    return mean_ratio(up, std::span<const Vector3<double>, 4>(corners));
+  };
+  EXPECT_EQ(quality(0.0), 0.0) << "as of the planar cell";
+  EXPECT_EQ(quality(0.5), 0.0) << "though its mean normal points up";
+  // By hand: triangles at the corners have the areas |e1 x e2| and squared sides |e1|^2 + |e2|^2.
+  const std::array<Vector3<double>, 4> warped{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}};
+  const double at_first = 2.0 * std::sqrt(2.0) / 3.0, at_second = 1.0;
+  const double at_third = 2.0 * std::sqrt(2.0) / 3.0, at_last = 2.0 * std::sqrt(3.0) / 4.0;
+  EXPECT_NEAR(mean_ratio(up, std::span<const Vector3<double>, 4>(warped)),
+              (at_first + at_second + at_third + at_last) / 4.0, 1e-15);
 }
 
 TEST(SurfaceQuality, OfAFlatCellIsThatOfThePlanarOne) {

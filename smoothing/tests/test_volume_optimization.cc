@@ -127,6 +127,28 @@ TEST(VolumeShapeObjective, ConvexModelHasTheGradientAndNoNegativeCurvature) {
     }
 }
 
+TEST(VolumeCellDerivatives, OfTheConvexModelArePositiveSemidefinite) {
+  for (const BoxCells kind : all_kinds) {
+    const auto mesh = distorted_box(3, kind, 0.9, 3);
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+      with_corners<3>(mesh.topology().cell_nodes(c), mesh.coordinates(), [&](auto x) {
+        constexpr std::size_t n = decltype(x)::extent;
+        std::array<Vector3<double>, n> nodes;
+        std::copy(x.begin(), x.end(), nodes.begin());
+        const CellDerivatives<3, double, n> cell(std::span<const Vector3<double>, n>(nodes),
+                                                 HessianModel::convex);
+        Eigen::MatrixXd hessian(3 * n, 3 * n);  // its lower half
+        for (std::size_t p = 0; p < n; ++p)
+          for (std::size_t q = p; q < n; ++q)
+            hessian.block<3, 3>(3 * q, 3 * p) =
+                Eigen::Map<const Eigen::Matrix3d>(cell.hessian[node_pair(n, p, q)].entries.data())
+                    .transpose();
+        const Eigen::VectorXd eigenvalues = hessian.selfadjointView<Eigen::Lower>().eigenvalues();
+        EXPECT_GT(eigenvalues.minCoeff(), -1e-12 * eigenvalues.maxCoeff()) << c;
+      });
+  }
+}
+
 TEST(VolumeConjugateGradients, SolveLikeADenseFactorization) {
   for (const BoxCells kind : all_kinds) {
     const auto mesh = distorted_box(3, kind, 0.2, 9);

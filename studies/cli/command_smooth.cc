@@ -142,6 +142,10 @@ void make_valid(const Arguments& arguments, const Method<dim, spacedim>& method,
     throw InputError(arguments.in +
                      ": surface meshes cannot be untangled; smooth it without --untangle");
   } else {
+    if (mesh.constraints())
+      throw InputError(
+          "--untangle moves nodes off a boundary on which they slide; untangle " + arguments.in +
+          " with a fixed boundary first, then smooth the result with --boundary slide");
     const UntangleResult result = untangle(mesh);
     if (!result.valid) refuse(arguments.in, mesh.topology().labels().cell_ids, result);
     if (!arguments.quiet && result.n_invalid_before > 0)
@@ -157,9 +161,9 @@ struct Outcome {
 
 /// The method and its tables are gone afterwards: writing needs memory, too.
 template <int dim, int spacedim>
-Outcome smooth_by_method(const Arguments& arguments, Mesh<dim, spacedim>& mesh,
-                         const std::vector<std::size_t>& cell_lines, Recorder& recorder) {
-  auto method = configured_method<dim, spacedim>(arguments);
+Outcome smooth_by_method(Method<dim, spacedim> method, const Arguments& arguments,
+                         Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines,
+                         Recorder& recorder) {
   make_valid(arguments, method, mesh, cell_lines);
   Observer<dim, spacedim> observer;  // none where nobody looks: it costs a look at all cells
   if (recorder.looks())
@@ -170,12 +174,14 @@ Outcome smooth_by_method(const Arguments& arguments, Mesh<dim, spacedim>& mesh,
 template <int dim, int spacedim>
 void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
                  const std::vector<std::size_t>& cell_lines) {
+  auto method = configured_method<dim, spacedim>(arguments);
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
   const MeshQuality before = mesh_quality(mesh);
   Recorder recorder(arguments);
-  const Outcome outcome = smooth_by_method(arguments, mesh, cell_lines, recorder);
+  const Outcome outcome =
+      smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Whoever reads the result knows nothing of a boundary to slide on: its nodes are fixed there.

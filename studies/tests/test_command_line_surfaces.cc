@@ -110,16 +110,23 @@ TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
     p = {radius * std::sin(angle), radius * std::cos(angle), p.z()};
   }
   write_mesh(file("in.vtu"), bent);
-  const auto distance = [&](const std::string& share) {
+  const auto distance_and_bound = [&](const std::string& share) {
     const Outcome outcome = smoothfem({"smooth", "in.vtu", "-m", "getme", "-o", "out.vtu",
                                        "--boundary", "slide", "--slide-distance", share});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto place = outcome.out.find("within ");
-    return place == std::string::npos ? -1.0 : std::stod(outcome.out.substr(place + 7));
+    const auto number_after = [&](const std::string& words) {
+      const auto place = outcome.out.find(words);
+      return place == std::string::npos ? -1.0
+                                        : std::stod(outcome.out.substr(place + words.size()));
+    };
+    return std::pair(number_after("within "), number_after("at most "));
   };
-  const double shortest_edge = 0.5;
-  EXPECT_GT(distance("inf"), 0.02 * shortest_edge);
-  EXPECT_LT(distance("0.005"), 0.02 * shortest_edge);
+  const auto [free, infinite] = distance_and_bound("inf");
+  const auto [bounded, bound] = distance_and_bound("0.005");
+  EXPECT_TRUE(std::isinf(infinite));
+  EXPECT_GT(free, bound) << "what the bound keeps from happening";
+  EXPECT_GT(bounded, 0.0);
+  EXPECT_LE(bounded, bound);
   const auto refusal = [&](const std::vector<std::string>& options) {
     std::vector<std::string> line{"smooth", "in.vtu", "-m", "getme", "-o", "x.vtu"};
     line.insert(line.end(), options.begin(), options.end());
@@ -127,6 +134,7 @@ TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
     EXPECT_EQ(outcome.exit_code, 2);
     return outcome.err;
   };
+  EXPECT_THAT(refusal({"--boundary", "slide", "--untangle"}), HasSubstr("fixed boundary first"));
   EXPECT_THAT(refusal({"--slide-distance", "0.1"}), HasSubstr("is for '--boundary slide'"));
   EXPECT_THAT(refusal({"--boundary", "slide", "--slide-distance", "0"}),
               HasSubstr("mean edge length above 0"));

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+
+#include "smoothing/mesh/compressed_rows.h"
+
+namespace smoothfem {
+
+/// A table that is made when it is needed first: large meshes that need none save the memory.
+class TableOnDemand {
+ public:
+  /// make() returns the table. May be called by several threads at a time.
+  template <class Make>
+  const CompressedRows<std::uint32_t>& get(const Make& make) {
+    if (!is_known_) look_up(make);
+    return rows_;
+  }
+
+ private:
+  template <class Make>
+  void look_up(const Make& make) {
+    const std::lock_guard lock(lock_);
+    if (is_known_) return;
+    rows_ = make();
+    is_known_ = true;
+  }
+
+  CompressedRows<std::uint32_t> rows_;
+  std::atomic<bool> is_known_ = false;
+  std::mutex lock_;
+};
+
+}  // namespace smoothfem
