@@ -73,7 +73,7 @@ struct ByMeanRatio {
 struct ByMeanRatioAndWarpage {
   static constexpr std::string_view stage_name = "qgamma";
   static constexpr ResultMesh result = ResultMesh::best_score;
-  static constexpr int cycle = 1, patience = 100;
+  static constexpr int cycle = 1, patience = 10;
   double gamma = 0.25;
 
   Parameters parameters() {
