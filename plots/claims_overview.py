@@ -24,8 +24,9 @@ def overview(reference):
     for folder, (title, found) in outcomes.items():
         if not found:
             continue
-        counts = ", ".join(f"{sum(o.verdict == verdict for o in found)} {words}" for verdict, words in
-                           ((HOLDS, "hold"), (FAILS, "do not hold"), (UNKNOWN, "cannot be checked")))
+        counts = ", ".join(counted(sum(o.verdict == verdict for o in found), *words) for verdict, words in
+                           ((HOLDS, ("holds", "hold")), (FAILS, ("does not hold", "do not hold")),
+                            (UNKNOWN, ("cannot be checked", "cannot be checked"))))
         table = f"reference/{folder.name}/tables/claims.md"
         lines += [f"### {title}", "", f"Of {len(found)} claims {counts}; the numbers are in [{table}]({table}).", "",
                   "| | Section | Claim | |", "|:--|:--|:--|:--|"]
@@ -35,6 +36,11 @@ def overview(reference):
                          + f" | {bold_unless_it_holds(outcome.verdict)} |")
         lines += known_reasons(found) + [""]
     return "\n".join(lines)
+
+
+def counted(number, of_one, of_many):
+    """A number and what is said of so many."""
+    return f"{number} {of_one if number == 1 else of_many}"
 
 
 def outcomes_of(folder):
