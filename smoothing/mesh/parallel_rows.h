@@ -25,7 +25,6 @@ CompressedRows<T> make_rows(std::size_t n_rows, const MakeRow& make_row) {
     parallel_for((end - begin + grain - 1) / grain, [&](std::size_t p) {
       const std::size_t first = begin + p * grain;
       std::vector<T> row;
-      parts[p].clear();
       for (std::size_t i = first; i < std::min(end, first + grain); ++i) {
         row.clear();
         make_row(i, row);

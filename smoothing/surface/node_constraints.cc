@@ -44,7 +44,9 @@ constexpr std::size_t facet_grain = 256;  ///< facets that one thread looks at a
 /// The middles of a facet and of its sides.
 std::vector<Point<3>> middles(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& x) {
   const std::size_t n = nodes.size();
-  std::vector<Point<3>> points(1, Point<3>::Zero());
+  std::vector<Point<3>> points;
+  points.reserve(n + 1);
+  points.emplace_back(Point<3>::Zero());
   for (std::size_t k = 0; k < n; ++k) {
     points.front() += x[nodes[k]] / static_cast<double>(n);
     points.emplace_back(0.5 * (x[nodes[k]] + x[nodes[k + 1 < n ? k + 1 : 0]]));
@@ -122,16 +124,28 @@ std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
   return found;
 }
 
-std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
-    const std::vector<Point<3>>& coordinates, std::span<const NodeIndex> around) const {
+std::vector<std::uint32_t> NodeConstraints::facets_of(std::span<const NodeIndex> around) const {
   if (facet_bound_ == unbounded) return {};
   std::vector<std::uint32_t> facets;
   for (const NodeIndex node : around)
     facets.insert(facets.end(), node_facets_[node].begin(), node_facets_[node].end());
   std::sort(facets.begin(), facets.end());
   facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  return facets;
+}
+
+std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
+    const std::vector<Point<3>>& coordinates, std::span<const NodeIndex> around) const {
+  auto facets = facets_of(around);
   std::erase_if(facets, [&](std::uint32_t f) { return !is_out_of_bound(f, coordinates); });
   return facets;
+}
+
+bool NodeConstraints::keeps_bound(const std::vector<Point<3>>& coordinates,
+                                  std::span<const NodeIndex> around) const {
+  const auto facets = facets_of(around);
+  return std::none_of(facets.begin(), facets.end(),
+                      [&](std::uint32_t f) { return is_out_of_bound(f, coordinates); });
 }
 
 SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point<3>> coordinates,

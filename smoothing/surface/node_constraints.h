@@ -44,6 +44,9 @@ class NodeConstraints {
   std::vector<std::uint32_t> facets_out_of_bound(const std::vector<Point<3>>& coordinates) const;
   std::vector<std::uint32_t> facets_out_of_bound(const std::vector<Point<3>>& coordinates,
                                                  std::span<const NodeIndex> around) const;
+  /// True if no facet around these nodes is; ends at the first one that is.
+  bool keeps_bound(const std::vector<Point<3>>& coordinates,
+                   std::span<const NodeIndex> around) const;
   std::span<const NodeIndex> facet_nodes(std::uint32_t facet) const { return facets_[facet]; }
 
   const std::vector<NodeCarrier>& carriers() const { return features_.carriers; }
@@ -56,6 +59,8 @@ class NodeConstraints {
  private:
   /// radius: where the search begins.
   double distance(const Point<3>& point, double radius) const;
+  /// Around these nodes, ascending; none where there is no bound.
+  std::vector<std::uint32_t> facets_of(std::span<const NodeIndex> around) const;
   bool is_out_of_bound(std::uint32_t facet, const std::vector<Point<3>>& coordinates) const;
 
   SurfaceFeatures features_;
@@ -89,8 +94,7 @@ bool has_facet_bound(const Mesh<dim, spacedim>& mesh) {
 template <int dim, int spacedim>
 bool keeps_facet_bound(const Mesh<dim, spacedim>& mesh, std::span<const NodeIndex> around) {
   if constexpr (spacedim == 3)
-    return !has_facet_bound(mesh) ||
-           mesh.constraints()->facets_out_of_bound(mesh.coordinates(), around).empty();
+    return !mesh.constraints() || mesh.constraints()->keeps_bound(mesh.coordinates(), around);
   return true;
 }
 
