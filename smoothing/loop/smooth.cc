@@ -142,6 +142,7 @@ class SmoothingRun {
       clock_.stop();
     }
     observe("initial", 0, 0);
+    if (!observer_) std::vector<Point<spacedim>>().swap(users_mesh_.coordinates());
   }
 
   StageResult run_stage(Smoother<dim, spacedim>& smoother) {
@@ -176,8 +177,9 @@ class SmoothingRun {
     return result;
   }
 
-  SmoothingResult finish(std::vector<StageResult> stages) {
-    users_mesh_.coordinates() = users_mesh().coordinates();
+  /// Gives the caller's mesh the present places.
+  void give_back() { users_mesh_.coordinates() = users_mesh().coordinates(); }
+  SmoothingResult result(std::vector<StageResult> stages) const {
     return {std::move(stages), clock_.seconds(), quality_, result_record_};
   }
 
@@ -208,6 +210,7 @@ class SmoothingRun {
   /// The present mesh in the caller's order.
   const Mesh<dim, spacedim>& users_mesh() {
     if (!reordering_) return state_.mesh;
+    users_mesh_.coordinates().resize(state_.mesh.n_nodes());
     reordering_->restore(state_.mesh.coordinates(), users_mesh_.coordinates());
     return users_mesh_;
   }
@@ -273,7 +276,7 @@ class SmoothingRun {
     ++n_records_;
   }
 
-  Mesh<dim, spacedim>& users_mesh_;
+  Mesh<dim, spacedim>& users_mesh_;  ///< without places while nobody looks: large meshes need them
   SmoothingState<dim, spacedim> state_;
   const Observer<dim, spacedim>& observer_;
   std::optional<Reordering<spacedim>> reordering_;
@@ -298,8 +301,14 @@ SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer) {
   SmoothingRun<dim, spacedim> run(mesh, method, observer);
   std::vector<StageResult> stages;
-  for (auto& stage : method.stages) stages.push_back(run.run_stage(*stage));
-  return run.finish(std::move(stages));
+  try {
+    for (auto& stage : method.stages) stages.push_back(run.run_stage(*stage));
+  } catch (...) {
+    run.give_back();
+    throw;
+  }
+  run.give_back();
+  return run.result(std::move(stages));
 }
 
 template SmoothingResult smooth(Mesh<2>&, Method<2>&, const Observer<2>&);

@@ -81,7 +81,7 @@ struct AdaptiveArrays {
   std::vector<std::uint8_t> marked;  ///< free nodes of transformed elements
   std::vector<std::uint8_t> level;   ///< position in the relaxation values of each node
   std::vector<CellIndex> active_cells;
-  std::vector<Point<dim>> previous, targets;
+  std::vector<Point<dim>> previous;
 };
 
 /// What both stages of GETMe adaptive do (thesis, Section 4.5, Fig. 4.4): nodes move to the
@@ -121,12 +121,10 @@ class AdaptiveStage : public Smoother<dim> {
     arrays_->weights.compute(arrays_->active_cells, state.cell_quality);
     add_active(state, threshold);
     arrays_->previous = state.mesh.coordinates();
-    arrays_->targets = arrays_->previous;
     arrays_->sums.for_each_node([&](NodeIndex i, const double* sums) {
       arrays_->level[i] = 0;
-      if (!arrays_->marked[i] || !(sums[dim] > 0.0)) return;
-      arrays_->targets[i] = mean_place<dim>(sums);
-      place(state.mesh, i);
+      if (!(sums[dim] > 0.0)) arrays_->marked[i] = 0;  // nothing says where to
+      if (arrays_->marked[i]) place(state.mesh, i);
     });
     StepReport report;
     report.n_reset = relax_until_valid(state);
@@ -163,18 +161,21 @@ class AdaptiveStage : public Smoother<dim> {
   void add_active(const SmoothingState<dim>& state, double threshold) {
     const auto& blocks = state.mesh.topology().blocks();
     const Pass<dim> pass{state.mesh, element_, {arrays_->weights.weights().data(), threshold}};
-    parallel_for(blocks.size(), [&](std::size_t b) {
+    arrays_->sums.compute([&](std::size_t b, double* sums) {
       const auto first = std::lower_bound(arrays_->active_cells.begin(),
                                           arrays_->active_cells.end(), blocks[b].first);
       const auto last = std::lower_bound(first, arrays_->active_cells.end(), blocks[b].last);
-      add_some(pass, {first, last}, arrays_->marked, arrays_->sums.start_block(b));
+      add_some(pass, {first, last}, arrays_->marked, sums);
     });
   }
 
+  /// Moves a marked node as far as its level says.
   void place(Mesh<dim>& mesh, NodeIndex i) const {
     const double share = relaxation_[arrays_->level[i]];
-    mesh.coordinates()[i] = (1.0 - share) * arrays_->previous[i] + share * arrays_->targets[i];
-    if (share == 0.0) mesh.coordinates()[i] = arrays_->previous[i];
+    const Point<dim>& previous = arrays_->previous[i];
+    mesh.coordinates()[i] = previous;
+    if (share == 0.0) return;
+    mesh.coordinates()[i] = (1.0 - share) * previous + share * mean_place<dim>(arrays_->sums[i]);
   }
 
   void evaluate_cells(SmoothingState<dim>& state, std::span<const CellIndex> cells) {

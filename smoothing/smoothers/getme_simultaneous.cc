@@ -145,9 +145,9 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
   MeshQuality pass_over_all(SmoothingState<dim, spacedim>& state) {
     const Topology& topology = state.mesh.topology();
     const Pass<dim, spacedim> pass{state.mesh, element_, {eta_}};
-    parallel_for(topology.blocks().size(), [&](std::size_t b) {
+    sums_.compute([&](std::size_t b, double* sums) {
       const CellBlock& block = topology.blocks()[b];
-      add_block(pass, block, state.cell_quality.data(), sums_.start_block(b));
+      add_block(pass, block, state.cell_quality.data(), sums);
       parts_[b] = PartialQuality(topology, state.cell_quality, block);
     });
     return mesh_quality(parts_, topology.n_cells());
@@ -171,13 +171,17 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
 
     const Pass<dim, spacedim> pass{state.mesh, element_, {eta_}};
     const auto& blocks = topology.blocks();
-    parallel_for(blocks.size(), [&](std::size_t b) {
+    std::vector<std::size_t> marked_blocks;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto first = marked_cells_.begin() + blocks[b].first;
+      const auto last = marked_cells_.begin() + blocks[b].last;
+      if (std::find(first, last, 1) != last) marked_blocks.push_back(b);
+    }
+    sums_.compute_some(changed_sums, marked_blocks, [&](std::size_t b, double* sums) {
       std::vector<CellIndex> cells;
       for (CellIndex c = blocks[b].first; c < blocks[b].last; ++c)
         if (marked_cells_[c]) cells.push_back(c);
-      if (cells.empty()) return;
-      for (const NodeIndex i : changed_sums) sums_.clear(b, i);
-      add_some(pass, cells, marked_nodes_, sums_.of_block(b));
+      add_some(pass, cells, marked_nodes_, sums);
       parts_[b] = PartialQuality(topology, state.cell_quality, blocks[b]);
     });
     return mesh_quality(parts_, topology.n_cells());

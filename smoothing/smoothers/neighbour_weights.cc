@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "smoothing/mesh/input_error.h"
 #include "smoothing/mesh/parallel.h"
 #include "smoothing/mesh/parallel_rows.h"
 
@@ -11,15 +10,53 @@ namespace smoothfem {
 
 namespace {
 
-constexpr std::uint32_t count_bits = 4, largest_count = (1u << count_bits) - 1;
+/// Rows of cells with small numbers, in few bytes: the cells that share several nodes with a cell
+/// are close to it and to each other in an order of cells that is good for anything. Each is
+/// written as a number made of its difference to the one before (to `cell` for the first) and the
+/// surplus, by digits of seven bits, low ones first, the eighth bit of all but the last set.
+class SharedCellCode {
+ public:
+  static constexpr std::uint64_t largest_surplus = 4;
+
+  explicit SharedCellCode(CellIndex cell) : before_(cell) {}
+
+  /// Surplus: 1 to largest_surplus.
+  void append(CellIndex other, std::uint64_t surplus, std::vector<std::uint8_t>& row) {
+    const std::uint64_t down = other < before_;
+    const std::uint64_t difference = down ? before_ - other : other - before_;
+    before_ = other;
+    std::uint64_t number = (difference << 1 | down) * largest_surplus + (surplus - 1);
+    for (; number >= more; number /= more) row.push_back(static_cast<std::uint8_t>(number | more));
+    row.push_back(static_cast<std::uint8_t>(number));
+  }
+
+  /// Calls use(other, surplus) for all that were appended to a row.
+  template <class Use>
+  void read(std::span<const std::uint8_t> row, const Use& use) {
+    for (auto digit = row.begin(); digit != row.end(); ++digit) {
+      std::uint64_t number = *digit % more;
+      for (unsigned shift = 7; *digit >= more; shift += 7)
+        number |= static_cast<std::uint64_t>(*++digit % more) << shift;
+      const std::uint64_t move = number / largest_surplus;
+      const auto difference = static_cast<CellIndex>(move >> 1);
+      before_ = move & 1 ? before_ - difference : before_ + difference;
+      use(before_, number % largest_surplus + 1);
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t more = 128;  ///< the bit that says that another digit follows
+
+  CellIndex before_;
+};
 
 /// Finds the cells that share several nodes with a cell. Counts them, which is faster than
 /// sorting: the numbers of the cells around a cell lie close together in meshes that are
 /// large enough for it to matter.
 class SharedCells {
  public:
-  /// Appends them to an empty row, coded as NeighbourWeights has them, ascending.
-  void find(const Topology& topology, CellIndex cell, std::vector<std::uint32_t>& row) {
+  /// Appends them to an empty row, ascending.
+  void find(const Topology& topology, CellIndex cell, std::vector<std::uint8_t>& row) {
     CellIndex first = cell, last = cell;
     for (const NodeIndex node : topology.cell_nodes(cell)) {
       const auto cells = topology.node_cells(node);
@@ -32,10 +69,11 @@ class SharedCells {
       for (const CellIndex other : topology.node_cells(node))
         if (++counts_[other - first] == 2) shared_.push_back(other);
     std::sort(shared_.begin(), shared_.end());
+    SharedCellCode code(cell);
     for (const CellIndex other : shared_)
-      for (std::uint32_t surplus = counts_[other - first] - 1; other != cell && surplus > 0;) {
-        const std::uint32_t part = std::min(surplus, largest_count);
-        row.push_back(other << count_bits | part);
+      for (std::uint64_t surplus = counts_[other - first] - 1; other != cell && surplus > 0;) {
+        const auto part = std::min(surplus, SharedCellCode::largest_surplus);
+        code.append(other, part, row);
         surplus -= part;
       }
     for (const NodeIndex node : topology.cell_nodes(cell))
@@ -51,12 +89,9 @@ class SharedCells {
 
 void NeighbourWeights::prepare(std::shared_ptr<const Topology> topology) {
   if (topology == topology_) return;
-  if (topology->n_cells() >> (32 - count_bits) != 0)
-    throw InputError("GETMe adaptive takes at most " +
-                     std::to_string(std::size_t{1} << (32 - count_bits)) + " cells");
   topology_ = std::move(topology);
-  counted_too_often_ = make_rows<std::uint32_t>(
-      topology_->n_cells(), [&](std::size_t cell, std::vector<std::uint32_t>& row) {
+  counted_too_often_ = make_rows<std::uint8_t>(
+      topology_->n_cells(), [&](std::size_t cell, std::vector<std::uint8_t>& row) {
         thread_local SharedCells shared;
         shared.find(*topology_, static_cast<CellIndex>(cell), row);
       });
@@ -90,11 +125,10 @@ double NeighbourWeights::weight(CellIndex cell, const std::vector<double>& cell_
   }
   sum -= static_cast<double>(nodes.size()) * cell_quality[cell];
   count -= nodes.size();
-  for (const std::uint32_t entry : counted_too_often_[cell]) {
-    const std::uint32_t surplus = entry & largest_count;
-    sum -= surplus * cell_quality[entry >> count_bits];
+  SharedCellCode(cell).read(counted_too_often_[cell], [&](CellIndex other, std::uint64_t surplus) {
+    sum -= static_cast<double>(surplus) * cell_quality[other];
     count -= surplus;
-  }
+  });
   if (count == 0) return 1.0;
   return std::sqrt(std::max(sum, 0.0) / (static_cast<double>(count) * cell_quality[cell]));
 }

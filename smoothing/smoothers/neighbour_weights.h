@@ -29,9 +29,9 @@ class NeighbourWeights {
   double weight(CellIndex cell, const std::vector<double>& cell_quality) const;
 
   std::shared_ptr<const Topology> topology_;
-  /// For each cell, the others that share several nodes with it, as 16 cell + (k - 1), the latter
-  /// below 16: polygons that share more are there several times.
-  CompressedRows<std::uint32_t> counted_too_often_;
+  /// For each cell, the others that share k > 1 nodes with it, and k - 1, in two bytes or so each:
+  /// plain numbers would take half the memory of a run.
+  CompressedRows<std::uint8_t> counted_too_often_;
   std::vector<double> node_sums_;  ///< of the qualities of each node's cells
   std::vector<double> weights_;
 };
