@@ -78,10 +78,12 @@ template <int dim>
 struct AdaptiveArrays {
   NeighbourWeights weights;
   NodeSums sums;
-  std::vector<std::uint8_t> marked;  ///< free nodes of transformed elements
-  std::vector<std::uint8_t> level;   ///< position in the relaxation values of each node
-  std::vector<CellIndex> active_cells;
-  std::vector<Point<dim>> previous;
+  std::vector<NodeIndex> moving;        ///< free nodes of transformed elements, ascending
+  std::vector<std::uint8_t> marked;     ///< those of them that know where to move
+  std::vector<std::uint8_t> active;     ///< cells around them
+  std::vector<std::uint8_t> level;      ///< position in the relaxation values of each node
+  std::vector<CellIndex> active_cells;  ///< the same, ascending
+  std::vector<Point<dim>> previous;     ///< of moving nodes
 };
 
 /// What both stages of GETMe adaptive do (thesis, Section 4.5, Fig. 4.4): nodes move to the
@@ -107,8 +109,11 @@ class AdaptiveStage : public Smoother<dim> {
     element_.prepare();
     arrays_->sums.prepare(topology);
     arrays_->weights.prepare(state.mesh.shared_topology());
+    arrays_->moving.clear();
     arrays_->marked.assign(topology.n_nodes(), 0);
+    arrays_->active.assign(topology.n_cells(), 0);
     arrays_->level.assign(topology.n_nodes(), 0);
+    arrays_->previous.resize(topology.n_nodes());
   }
 
  protected:
@@ -120,53 +125,59 @@ class AdaptiveStage : public Smoother<dim> {
     find_active(state, threshold);
     arrays_->weights.compute(arrays_->active_cells, state.cell_quality);
     add_active(state, threshold);
-    arrays_->previous = state.mesh.coordinates();
-    arrays_->sums.for_each_node([&](NodeIndex i, const double* sums) {
-      arrays_->level[i] = 0;
-      if (!(sums[dim] > 0.0)) arrays_->marked[i] = 0;  // nothing says where to
-      if (arrays_->marked[i]) place(state.mesh, i);
+    constexpr std::size_t grain = 4096;
+    parallel_for_ranges(arrays_->moving.size(), grain, [&](std::size_t first, std::size_t last) {
+      for (const NodeIndex i : std::span(arrays_->moving).subspan(first, last - first)) {
+        arrays_->previous[i] = state.mesh.coordinates()[i];
+        arrays_->level[i] = 0;
+        if (!(arrays_->sums[i][dim] > 0.0)) arrays_->marked[i] = 0;  // nothing says where to
+        if (arrays_->marked[i]) place(state.mesh, i);
+      }
     });
     StepReport report;
     report.n_reset = relax_until_valid(state);
     report.quality = mesh_quality(state.mesh.topology(), state.cell_quality);
+    if (threshold < 1.0) report.moved = &arrays_->moving;
     return report;
   }
 
   ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
 
  private:
-  /// Marks the free nodes of transformed elements; active are all cells around them.
+  /// Finds the free nodes of transformed elements and the cells around them.
   void find_active(const SmoothingState<dim>& state, double threshold) {
     const Topology& topology = state.mesh.topology();
+    for (const NodeIndex i : arrays_->moving) arrays_->marked[i] = 0;
+    for (const CellIndex c : arrays_->active_cells) arrays_->active[c] = 0;
     if (threshold >= 1.0) {
-      for (NodeIndex i = 0; i < topology.n_nodes(); ++i) arrays_->marked[i] = !topology.is_fixed(i);
+      arrays_->moving = topology.free_nodes();
+      for (const NodeIndex i : arrays_->moving) arrays_->marked[i] = 1;
       arrays_->active_cells.resize(topology.n_cells());
       std::iota(arrays_->active_cells.begin(), arrays_->active_cells.end(), CellIndex{0});
       return;
     }
-    arrays_->active_cells.clear();
-    std::fill(arrays_->marked.begin(), arrays_->marked.end(), 0);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
       if (state.cell_quality[c] <= threshold)
         for (const NodeIndex i : topology.cell_nodes(c))
           if (!topology.is_fixed(i)) arrays_->marked[i] = 1;
-    for (CellIndex c = 0; c < topology.n_cells(); ++c) {
-      const auto nodes = topology.cell_nodes(c);
-      if (std::any_of(nodes.begin(), nodes.end(),
-                      [&](NodeIndex i) { return arrays_->marked[i] != 0; }))
-        arrays_->active_cells.push_back(c);
-    }
+    list_marked(arrays_->marked, arrays_->moving);
+    for (const NodeIndex i : arrays_->moving)
+      for (const CellIndex c : topology.node_cells(i)) arrays_->active[c] = 1;
+    list_marked(arrays_->active, arrays_->active_cells);
+  }
+  static void list_marked(const std::vector<std::uint8_t>& marks,
+                          std::vector<std::uint32_t>& marked) {
+    marked.clear();
+    for (std::uint32_t i = 0; i < marks.size(); ++i)
+      if (marks[i]) marked.push_back(i);
   }
 
   void add_active(const SmoothingState<dim>& state, double threshold) {
-    const auto& blocks = state.mesh.topology().blocks();
     const Pass<dim> pass{state.mesh, element_, {arrays_->weights.weights().data(), threshold}};
-    arrays_->sums.compute([&](std::size_t b, double* sums) {
-      const auto first = std::lower_bound(arrays_->active_cells.begin(),
-                                          arrays_->active_cells.end(), blocks[b].first);
-      const auto last = std::lower_bound(first, arrays_->active_cells.end(), blocks[b].last);
-      add_some(pass, {first, last}, arrays_->marked, sums);
-    });
+    arrays_->sums.compute_some(arrays_->moving, arrays_->active_cells,
+                               [&](std::size_t, std::span<const CellIndex> cells, double* sums) {
+                                 add_some(pass, cells, arrays_->marked, sums);
+                               });
   }
 
   /// Moves a marked node as far as its level says.

@@ -166,24 +166,20 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
         for (const NodeIndex j : topology.cell_nodes(c))
           if (!std::exchange(marked_nodes_[j], 1)) changed_sums.push_back(j);
     if (4 * changed_sums.size() > topology.n_nodes()) return pass_over_all(state);
+    std::sort(changed_sums.begin(), changed_sums.end());
     for (const NodeIndex i : changed_sums)
       for (const CellIndex c : topology.node_cells(i)) marked_cells_[c] = 1;
+    std::vector<CellIndex> cells;
+    for (CellIndex c = 0; c < topology.n_cells(); ++c)
+      if (marked_cells_[c]) cells.push_back(c);
 
     const Pass<dim, spacedim> pass{state.mesh, element_, {eta_}};
-    const auto& blocks = topology.blocks();
-    std::vector<std::size_t> marked_blocks;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const auto first = marked_cells_.begin() + blocks[b].first;
-      const auto last = marked_cells_.begin() + blocks[b].last;
-      if (std::find(first, last, 1) != last) marked_blocks.push_back(b);
-    }
-    sums_.compute_some(changed_sums, marked_blocks, [&](std::size_t b, double* sums) {
-      std::vector<CellIndex> cells;
-      for (CellIndex c = blocks[b].first; c < blocks[b].last; ++c)
-        if (marked_cells_[c]) cells.push_back(c);
-      add_some(pass, cells, marked_nodes_, sums);
-      parts_[b] = PartialQuality(topology, state.cell_quality, blocks[b]);
-    });
+    sums_.compute_some(changed_sums, cells,
+                       [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
+                         add_some(pass, cells_of_block, marked_nodes_, sums);
+                         parts_[b] =
+                             PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
+                       });
     return mesh_quality(parts_, topology.n_cells());
   }
 

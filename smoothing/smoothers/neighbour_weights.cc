@@ -101,9 +101,15 @@ void NeighbourWeights::prepare(std::shared_ptr<const Topology> topology) {
 
 void NeighbourWeights::compute(std::span<const CellIndex> cells,
                                const std::vector<double>& cell_quality) {
+  const bool all = cells.size() == topology_->n_cells();
+  is_needed_.assign(topology_->n_nodes(), all);
+  if (!all)
+    for (const CellIndex c : cells)
+      for (const NodeIndex node : topology_->cell_nodes(c)) is_needed_[node] = 1;
   constexpr std::size_t grain = 4096;
   parallel_for_ranges(topology_->n_nodes(), grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
+      if (!is_needed_[i]) continue;
       double sum = 0.0;
       for (const CellIndex c : topology_->node_cells(static_cast<NodeIndex>(i)))
         sum += cell_quality[c];

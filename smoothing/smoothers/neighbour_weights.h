@@ -32,7 +32,8 @@ class NeighbourWeights {
   /// For each cell, the others that share k > 1 nodes with it, and k - 1, in two bytes or so each:
   /// plain numbers would take half the memory of a run.
   CompressedRows<std::uint8_t> counted_too_often_;
-  std::vector<double> node_sums_;  ///< of the qualities of each node's cells
+  std::vector<std::uint8_t> is_needed_;  ///< nodes of the cells whose weights are computed
+  std::vector<double> node_sums_;        ///< of the qualities of each node's cells
   std::vector<double> weights_;
 };
 
