@@ -300,5 +300,17 @@ TEST(Loop, AnObserverThatThrowsLeavesAMeshItHasSeen) {
   }
 }
 
+TEST(Loop, AStageThatRefusesToBeginLeavesTheMeshThatItWasGiven) {
+  for (const std::uint32_t n : {10u, 150u}) {
+    PlanarMesh mesh = test::grid_mesh(n, test::GridCells::quadrilaterals);
+    test::distort(mesh, 0.3, 1);
+    const auto given = mesh.coordinates();
+    auto method = make_method<2>("getme-adaptive");
+    method.set("mean.relaxation", "1, 0.5");
+    EXPECT_THROW(smooth(mesh, method), InputError);
+    EXPECT_EQ(mesh.coordinates(), given) << n;
+  }
+}
+
 }  // namespace
 }  // namespace smoothfem
