@@ -38,8 +38,11 @@ Point<dim> point_in_unit_ball(SplitMix64& random) {
   }
 }
 
-/// Of one turn; a thread's start costs more than moving a few nodes.
-constexpr std::size_t nodes_a_thread = 64;
+/// Of one turn; a thread's start costs more than moving a few nodes, of which those of volume
+/// meshes take longer by far.
+constexpr std::size_t nodes_a_thread(int dim) {
+  return dim == 2 ? 64 : 4;
+}
 
 /// In a ball larger than the node's cells few places are valid; some nodes have hardly any.
 constexpr int tries_per_candidate = 20;
@@ -64,7 +67,7 @@ class Distortion {
     mesh_.coordinates() = original_;
     for (int sweep = 0; sweep < parameters_.n_sweeps; ++sweep)
       for (std::size_t turn = 0; turn < turns_.size(); ++turn)
-        parallel_for_ranges(turns_[turn].size(), nodes_a_thread,
+        parallel_for_ranges(turns_[turn].size(), nodes_a_thread(dim),
                             [&](std::size_t first, std::size_t last) {
                               for (const NodeIndex node : turns_[turn].subspan(first, last - first))
                                 mesh_.coordinates()[node] = worst_place(node, sweep, radius);
