@@ -110,6 +110,7 @@ class AdaptiveStage : public Smoother<dim> {
     arrays_->sums.prepare(topology);
     arrays_->weights.prepare(state.mesh.shared_topology());
     arrays_->moving.clear();
+    arrays_->active_cells.clear();
     arrays_->marked.assign(topology.n_nodes(), 0);
     arrays_->active.assign(topology.n_cells(), 0);
     arrays_->level.assign(topology.n_nodes(), 0);
