@@ -1,5 +1,6 @@
 #include "studies/framework/run_study.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <optional>
 
@@ -142,15 +143,27 @@ class StudyRun {
     for (const auto& prepared : data_.meshes) {
       auto& of_mesh = data_.trajectories.emplace_back();
       for (const auto& method : study_.methods) {
-        progress_.update(done++, prepared.description.name + ", " + method.title);
-        of_mesh.push_back(trajectory_of(prepared, method));
+        const std::string what = prepared.description.name + ", " + method.title;
+        of_mesh.push_back(trajectory_of(prepared, method, [&](const IterationRecord& record) {
+          stop_if_interrupted();
+          progress_.update(done, what + ": " + iteration_text(record));
+        }));
+        ++done;
         stop_if_interrupted();
       }
     }
     progress_.end();
   }
 
-  Trajectory trajectory_of(const PreparedMesh<dim, spacedim>& prepared, const StudyMethod& method) {
+  /// "simultaneous 120, q_mean 0.7312"
+  static std::string iteration_text(const IterationRecord& record) {
+    char q_mean[16];
+    std::snprintf(q_mean, sizeof(q_mean), "%.4f", record.quality.q_mean);
+    return record.stage + " " + std::to_string(record.iteration) + ", q_mean " + q_mean;
+  }
+
+  Trajectory trajectory_of(const PreparedMesh<dim, spacedim>& prepared, const StudyMethod& method,
+                           const WatchIteration& watch) {
     const std::string name = Checkpoint::name(prepared.description.name, method.name);
     if (auto known = data_.checkpoint.load_trajectory(name)) return *std::move(known);
     set_n_threads(method.threads > 0 ? method.threads
@@ -160,7 +173,8 @@ class StudyRun {
         [&](std::size_t record, const std::vector<Point<spacedim>>& coordinates) {
           stop_if_interrupted();
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
-        });
+        },
+        watch);
     data_.checkpoint.save(name, trajectory);
     return trajectory;
   }

@@ -53,7 +53,8 @@ template MeshWarpage warpage_of(const Mesh<2, 3>&);
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
                              const Study& study,
-                             const std::type_identity_t<KeepSnapshot<spacedim>>& keep) {
+                             const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
+                             const WatchIteration& watch) {
   Trajectory trajectory;
   std::vector<std::vector<double>> times;
   std::vector<double> totals;
@@ -61,6 +62,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   const bool keeps_all = !study.degrees.empty() || study.write_series;
   std::vector<Point<spacedim>> last;
   const auto record_all = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
+    watch(record);
     trajectory.records.push_back(record);
     times.push_back({record.smoothing_seconds});
     if (study.record_warpage) trajectory.warpage_of_records.push_back(warpage_of(now));
@@ -97,6 +99,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
     Mesh<dim, spacedim> again = mesh;
     auto made = method.make<dim, spacedim>();
     totals.push_back(smooth(again, made, [&](const IterationRecord& record, const auto&) {
+                       watch(record);
                        times[record.record].push_back(record.smoothing_seconds);
                      }).smoothing_seconds);
   }
@@ -107,10 +110,10 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
 }
 
 template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&,
-                                      const KeepSnapshot<2>&);
+                                      const KeepSnapshot<2>&, const WatchIteration&);
 template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&,
-                                      const KeepSnapshot<3>&);
+                                      const KeepSnapshot<3>&, const WatchIteration&);
 template Trajectory record_trajectory(const Mesh<2, 3>&, const StudyMethod&, const Study&,
-                                      const KeepSnapshot<3>&);
+                                      const KeepSnapshot<3>&, const WatchIteration&);
 
 }  // namespace smoothfem

@@ -437,5 +437,32 @@ TEST_F(CommandLine, AnInterruptedStudyLeavesTheRowsItHas) {
   EXPECT_FALSE(fs::exists(file("out") / "summary.csv"));
 }
 
+TEST_F(CommandLine, AStudyIsInterruptedBetweenTwoIterationsToo) {
+  write_mesh(file("grid.vtu"), shaken_grid(30, 0.2));
+  file_with("endless.prm",
+            "set meshes = m\nset methods = laplace\nset degrees =\nset timing runs = 1\n"
+            "subsection mesh m\n set file = grid.vtu\nend\n"
+            "subsection method laplace\n set tolerance = 0\n"
+            " set max_iterations = 1000000000\nend\n");
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::execl(SMOOTHFEM_PROGRAM, "smoothfem", "study", file("endless.prm").c_str(), "--out",
+            file("out").c_str(), "--quiet", nullptr);
+    ::_exit(127);
+  }
+  int status = 0;
+  for (int tenth = 0; tenth < 600 && !fs::exists(file("out") / "provenance.json"); ++tenth) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ASSERT_EQ(::waitpid(child, &status, WNOHANG), 0) << "the study ended too early";
+  }
+  ::kill(child, SIGINT);
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(nlohmann::json::parse(content_of(file("out") / "provenance.json")).at("status"),
+            "interrupted");
+}
+
 }  // namespace
 }  // namespace smoothfem
