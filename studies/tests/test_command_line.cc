@@ -402,66 +402,63 @@ TEST_F(CommandLine, QuietStudiesPrintNothing) {
   EXPECT_EQ(json.at("machine").at("finite_element_threads"), 1);
 }
 
-TEST_F(CommandLine, AnInterruptedStudyLeavesTheRowsItHas) {
+/// A study that is interrupted, as by Ctrl-C, while it runs.
+class InterruptedStudy : public CommandLine {
+ protected:
+  /// Starts the study of this file with the results in `out`, interrupts it when has_come() and
+  /// expects that it ends as interrupted ones do.
+  void interrupt_when(const std::string& study, const std::vector<const char*>& options,
+                      const std::function<bool()>& has_come) {
+    const std::string path = file(study), out = file("out");
+    std::vector<const char*> words{"smoothfem", "study",     path.c_str(),
+                                   "--out",     out.c_str(), "--quiet"};
+    words.insert(words.end(), options.begin(), options.end());
+    words.push_back(nullptr);
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      ::execv(SMOOTHFEM_PROGRAM, const_cast<char* const*>(words.data()));
+      ::_exit(127);
+    }
+    int status = 0;
+    for (int tenth = 0; tenth < 1200 && !has_come(); ++tenth) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      ASSERT_EQ(::waitpid(child, &status, WNOHANG), 0) << "the study ended too early";
+    }
+    ::kill(child, SIGINT);
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_EQ(nlohmann::json::parse(content_of(file("out") / "provenance.json")).at("status"),
+              "interrupted");
+  }
+};
+
+TEST_F(InterruptedStudy, LeavesTheRowsItHas) {
   // GETMe's hundreds of iterations take far longer on one thread than the first rows.
   write_mesh(file("fine.vtu"), shaken_grid(70, 0.2));
   file_with("long.prm",
             "set meshes = m\nset methods = laplace, getme\nset degrees = 2\n"
             "set timing runs = 1\nsubsection mesh m\n set file = fine.vtu\nend\n");
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    ::execl(SMOOTHFEM_PROGRAM, "smoothfem", "study", file("long.prm").c_str(), "--out",
-            file("out").c_str(), "--quiet", "--threads", "1", nullptr);
-    ::_exit(127);
-  }
   const fs::path rows = file("out") / "iterations.csv";
-  int status = 0;
-  const auto has_rows = [&] {
+  interrupt_when("long.prm", {"--threads", "1"}, [&] {
     const std::string text = content_of(rows);
     return std::count(text.begin(), text.end(), '\n') > 1;
-  };
-  for (int tenth = 0; tenth < 1200 && !has_rows(); ++tenth) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ASSERT_EQ(::waitpid(child, &status, WNOHANG), 0) << "the study ended too early";
-  }
-  ::kill(child, SIGINT);
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
+  });
   const CsvTable table(content_of(rows));  // checks that every line is whole
   EXPECT_GE(table.rows.size(), 1u);
   for (const auto& row : table.rows) EXPECT_EQ(row.at("status"), "ok");
-  EXPECT_EQ(nlohmann::json::parse(content_of(file("out") / "provenance.json")).at("status"),
-            "interrupted");
   EXPECT_FALSE(fs::exists(file("out") / "summary.csv"));
 }
 
-TEST_F(CommandLine, AStudyIsInterruptedBetweenTwoIterationsToo) {
+TEST_F(InterruptedStudy, EndsBetweenTwoIterationsToo) {
   write_mesh(file("grid.vtu"), shaken_grid(30, 0.2));
   file_with("endless.prm",
             "set meshes = m\nset methods = laplace\nset degrees =\nset timing runs = 1\n"
             "subsection mesh m\n set file = grid.vtu\nend\n"
             "subsection method laplace\n set tolerance = 0\n"
             " set max_iterations = 1000000000\nend\n");
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    ::execl(SMOOTHFEM_PROGRAM, "smoothfem", "study", file("endless.prm").c_str(), "--out",
-            file("out").c_str(), "--quiet", nullptr);
-    ::_exit(127);
-  }
-  int status = 0;
-  for (int tenth = 0; tenth < 600 && !fs::exists(file("out") / "provenance.json"); ++tenth) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ASSERT_EQ(::waitpid(child, &status, WNOHANG), 0) << "the study ended too early";
-  }
-  ::kill(child, SIGINT);
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_EQ(nlohmann::json::parse(content_of(file("out") / "provenance.json")).at("status"),
-            "interrupted");
+  interrupt_when("endless.prm", {}, [&] { return fs::exists(file("out") / "provenance.json"); });
 }
 
 }  // namespace
