@@ -171,7 +171,6 @@ class StudyRun {
     const Trajectory trajectory = record_trajectory(
         prepared.mesh, method, study_,
         [&](std::size_t record, const std::vector<Point<spacedim>>& coordinates) {
-          stop_if_interrupted();
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
         },
         watch);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -441,10 +442,11 @@ TEST_F(InterruptedStudy, LeavesTheRowsItHas) {
             "set meshes = m\nset methods = laplace, getme\nset degrees = 2\n"
             "set timing runs = 1\nsubsection mesh m\n set file = fine.vtu\nend\n");
   const fs::path rows = file("out") / "iterations.csv";
-  interrupt_when("long.prm", {"--threads", "1"}, [&] {
+  const auto has_rows = [&] {
     const std::string text = content_of(rows);
     return std::count(text.begin(), text.end(), '\n') > 1;
-  });
+  };
+  ASSERT_NO_FATAL_FAILURE(interrupt_when("long.prm", {"--threads", "1"}, has_rows));
   const CsvTable table(content_of(rows));  // checks that every line is whole
   EXPECT_GE(table.rows.size(), 1u);
   for (const auto& row : table.rows) EXPECT_EQ(row.at("status"), "ok");
