@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 
@@ -17,7 +17,7 @@ SMOOTHFEM_INLINE double sum_of(Lanes a) {
 // One pass over the memory for what one iteration does with its vectors.
 
 /// x += alpha p, r -= alpha q; returns r . r.
-SMOOTHFEM_VECTOR_CLONES double update_solution(std::size_t n, double alpha, const double* p,
+double update_solution(std::size_t n, double alpha, const double* p,
                                                const double* q, double* x, double* r) {
   Lanes square{};
   std::size_t i = 0;
@@ -37,7 +37,7 @@ SMOOTHFEM_VECTOR_CLONES double update_solution(std::size_t n, double alpha, cons
 }
 
 /// p = z + beta p.
-SMOOTHFEM_VECTOR_CLONES void update_direction(std::size_t n, double beta, const double* z,
+void update_direction(std::size_t n, double beta, const double* z,
                                               double* p) {
   for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
 }

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 
@@ -69,7 +69,6 @@ double SlicedMatrix::multiply(Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   return multiply_rows(x.data(), y.data());
 }
 
-SMOOTHFEM_VECTOR_CLONES
 double SlicedMatrix::multiply_rows(const double* x, double* y) const {
   Lanes product{};
   std::size_t n_left = static_cast<std::size_t>(n_rows_);  // the last slice may repeat its last row

@@ -11,8 +11,8 @@
 #include <map>
 
 #include "meshes/bench/volume_meshes.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/mesh/parallel.h"
 #include "smoothing/mesh/reordering.h"
 #include "smoothing/tests/volume_meshes.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "meshes/distortion/counter_random.h"
-#include "smoothing/mesh/input_error.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/input_error.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"

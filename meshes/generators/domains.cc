@@ -19,7 +19,7 @@
 #include "meshes/generators/stem.h"
 #include "meshes/generators/subdivided_cube.h"
 #include "meshes/generators/vessel.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

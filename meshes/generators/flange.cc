@@ -11,7 +11,7 @@
 #include "meshes/generators/gmsh_volume.h"
 #include "meshes/generators/quad_split.h"
 #include "meshes/generators/sweep.h"
-#include "smoothing/untangling/untangle.h"
+#include "smoothing/optimization/untangle.h"
 
 namespace smoothfem {
 

@@ -10,7 +10,7 @@
 #include "meshes/generators/gmsh_planar.h"
 #include "meshes/generators/quadrilateral_region.h"
 #include "meshes/generators/triangulation_edits.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

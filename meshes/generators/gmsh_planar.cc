@@ -10,7 +10,7 @@
 #include "meshes/generators/gmsh_nodes.h"
 #include "meshes/generators/grid_region.h"
 #include "meshes/io/gmsh_session.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/surface/nearest_point.h"
 

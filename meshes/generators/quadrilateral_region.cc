@@ -8,7 +8,7 @@
 #include "meshes/generators/edge_length_search.h"
 #include "meshes/generators/quad_split.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/untangling/untangle.h"
+#include "smoothing/optimization/untangle.h"
 
 namespace smoothfem {
 

@@ -10,7 +10,7 @@
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/number_text.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

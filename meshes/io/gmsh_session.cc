@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "smoothing/mesh/input_error.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/input_error.h"
+#include "smoothing/base/parallel.h"
 
 namespace smoothfem {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

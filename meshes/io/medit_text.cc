@@ -11,7 +11,7 @@
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/number_text.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {

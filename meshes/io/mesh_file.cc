@@ -10,7 +10,7 @@
 #include "meshes/io/msh_file.h"
 #include "meshes/io/polygonal_text.h"
 #include "meshes/io/vtk_files.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -4,7 +4,7 @@
 #include <unordered_set>
 
 #include "meshes/io/msh_file.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -14,7 +14,7 @@
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/msh_file.h"
 #include "meshes/io/number_text.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "meshes/io/vtk_files.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

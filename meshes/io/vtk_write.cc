@@ -27,7 +27,7 @@
 #include "meshes/io/node_order.h"
 #include "meshes/io/vtk_files.h"
 #include "meshes/io/vtk_messages.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "meshes/io/atomic_file.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "meshes/io/mesh_file.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {

@@ -4,7 +4,7 @@
 
 #include "meshes/distortion/counter_random.h"
 #include "meshes/tests/mesh_tests.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {

@@ -1,7 +1,7 @@
 #include "meshes/io/gmsh_session.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {

@@ -5,9 +5,9 @@
 #include "smoothing/bench/strong_distortion.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/reordering.h"
-#include "smoothing/smoothers/block_conjugate_gradients.h"
-#include "smoothing/smoothers/shape_objective.h"
-#include "smoothing/smoothers/vertex_descent.h"
+#include "smoothing/optimization/block_conjugate_gradients.h"
+#include "smoothing/optimization/shape_objective.h"
+#include "smoothing/optimization/vertex_descent.h"
 
 namespace smoothfem {
 namespace {

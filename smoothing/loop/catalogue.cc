@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <type_traits>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/simd/lanes.h"
 #include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

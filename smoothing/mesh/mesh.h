@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "smoothing/mesh/topology.h"
 
 namespace smoothfem {

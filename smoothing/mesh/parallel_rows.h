@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/compressed_rows.h"
-#include "smoothing/mesh/parallel.h"
 
 namespace smoothfem {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 
 namespace smoothfem {
 

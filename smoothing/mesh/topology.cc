@@ -6,8 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "smoothing/mesh/input_error.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/input_error.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/parallel_rows.h"
 #include "smoothing/mesh/volume_elements.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/volume_elements.h"
 #include "smoothing/quality/warpage.h"
 

@@ -1,6 +1,6 @@
 #include "smoothing/quality/mean_ratio.h"
 
-#include "smoothing/mesh/cell_blocks.h"
+#include "smoothing/simd/cell_blocks.h"
 
 namespace smoothfem {
 

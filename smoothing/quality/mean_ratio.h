@@ -5,10 +5,10 @@
 #include <span>
 
 #include "smoothing/mesh/cell_edges.h"
-#include "smoothing/mesh/inverse_root.h"
-#include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/mesh.h"
 #include "smoothing/mesh/unit_normal.h"
+#include "smoothing/simd/inverse_root.h"
+#include "smoothing/simd/lanes.h"
 #include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {

@@ -4,10 +4,10 @@
 #include <limits>
 #include <sstream>
 
-#include "smoothing/mesh/cell_blocks.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/cell_size.h"
-#include "smoothing/mesh/parallel.h"
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/simd/cell_blocks.h"
 
 namespace smoothfem {
 
@@ -27,12 +27,9 @@ SMOOTHFEM_INLINE void compute_block(const Mesh<dim, spacedim>& mesh, const CellB
       [&](CellIndex c, auto corners)
           SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = mean_ratio(upper_side(mesh, c), corners); });
 }
-// Templates cannot be compiled for several kinds of registers; these can.
-SMOOTHFEM_VECTOR_CLONES
 void compute_cells(const PlanarMesh& mesh, const CellBlock& block, double* cell_quality) {
   compute_block(mesh, block, cell_quality);
 }
-SMOOTHFEM_VECTOR_CLONES
 void compute_cells(const VolumeMesh& mesh, const CellBlock& block, double* cell_quality) {
   compute_block(mesh, block, cell_quality);
 }

@@ -4,9 +4,9 @@
 #include <array>
 #include <span>
 
-#include "smoothing/mesh/lanes.h"
 #include "smoothing/mesh/mesh.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

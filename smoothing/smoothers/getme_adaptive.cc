@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <numeric>
 
+#include "smoothing/getme/element_pass.h"
+#include "smoothing/getme/neighbour_weights.h"
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/smoothers/element_pass.h"
-#include "smoothing/smoothers/local_quality.h"
-#include "smoothing/smoothers/neighbour_weights.h"
+#include "smoothing/quality/local_quality.h"
 
 namespace smoothfem {
 namespace {
@@ -25,12 +25,10 @@ struct ThresholdWeighting {
 template <int dim>
 using Pass = ElementPass<dim, ThresholdWeighting>;
 
-SMOOTHFEM_VECTOR_CLONES
 void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
   add_to_marked(pass, cells, marked, sums);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
   add_to_marked(pass, cells, marked, sums);
@@ -48,12 +46,10 @@ SMOOTHFEM_INLINE void write_mean_ratios(const Mesh<dim>& mesh, std::span<const C
         return true;
       });
 }
-SMOOTHFEM_VECTOR_CLONES
 void evaluate(const PlanarMesh& mesh, std::span<const CellIndex> cells,
               std::vector<double>& quality) {
   write_mean_ratios<2>(mesh, cells, quality);
 }
-SMOOTHFEM_VECTOR_CLONES
 void evaluate(const VolumeMesh& mesh, std::span<const CellIndex> cells,
               std::vector<double>& quality) {
   write_mean_ratios<3>(mesh, cells, quality);

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "smoothing/getme/element_regularization.h"
+#include "smoothing/getme/min_tree.h"
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/loop/min_tree.h"
+#include "smoothing/quality/local_quality.h"
 #include "smoothing/quality/warpage.h"
-#include "smoothing/smoothers/element_regularization.h"
-#include "smoothing/smoothers/local_quality.h"
 
 namespace smoothfem {
 namespace {
@@ -41,12 +41,10 @@ SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim, spacedim>& mesh,
         return q > 0.0;
       });
 }
-SMOOTHFEM_VECTOR_CLONES
 bool evaluate(const PlanarMesh& mesh, std::span<const CellIndex> cells,
               std::vector<double>& quality) {
   return mean_ratios_if_valid(mesh, cells, quality);
 }
-SMOOTHFEM_VECTOR_CLONES
 bool evaluate(const VolumeMesh& mesh, std::span<const CellIndex> cells,
               std::vector<double>& quality) {
   return mean_ratios_if_valid(mesh, cells, quality);

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <utility>
 
+#include "smoothing/getme/element_pass.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
-#include "smoothing/smoothers/element_pass.h"
-#include "smoothing/smoothers/quality_gain_stopping.h"
+#include "smoothing/loop/quality_gain_stopping.h"
 
 namespace smoothfem {
 namespace {
@@ -43,24 +43,19 @@ struct QualityWeighting {
 template <int dim, int spacedim = dim>
 using Pass = ElementPass<dim, QualityWeighting, spacedim>;
 
-// Templates cannot be compiled for several kinds of registers; these can.
-SMOOTHFEM_VECTOR_CLONES
 void add_block(const Pass<2>& pass, const CellBlock& block, double* quality, double* sums) {
   add_whole_block(pass, block, quality, sums);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_block(const Pass<3>& pass, const CellBlock& block, double* quality, double* sums) {
   add_whole_block(pass, block, quality, sums);
 }
 void add_block(const Pass<2, 3>& pass, const CellBlock& block, double* quality, double* sums) {
   add_whole_block(pass, block, quality, sums);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
   add_to_marked(pass, cells, marked, sums);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
               const std::vector<std::uint8_t>& marked, double* sums) {
   add_to_marked(pass, cells, marked, sums);

@@ -2,10 +2,10 @@
 #include <optional>
 
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/smoothers/block_conjugate_gradients.h"
-#include "smoothing/smoothers/feasible_movement.h"
-#include "smoothing/smoothers/shape_objective.h"
-#include "smoothing/smoothers/vertex_descent.h"
+#include "smoothing/optimization/block_conjugate_gradients.h"
+#include "smoothing/optimization/feasible_movement.h"
+#include "smoothing/optimization/shape_objective.h"
+#include "smoothing/optimization/vertex_descent.h"
 
 namespace smoothfem {
 namespace {

@@ -1,5 +1,5 @@
+#include "smoothing/laplacian/gauss_seidel_sweep.h"
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/smoothers/gauss_seidel_sweep.h"
 
 namespace smoothfem {
 namespace {

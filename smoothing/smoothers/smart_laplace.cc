@@ -1,8 +1,8 @@
+#include "smoothing/base/parallel.h"
+#include "smoothing/laplacian/gauss_seidel_sweep.h"
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/mesh/parallel.h"
-#include "smoothing/smoothers/gauss_seidel_sweep.h"
-#include "smoothing/smoothers/local_quality.h"
-#include "smoothing/smoothers/quality_gain_stopping.h"
+#include "smoothing/loop/quality_gain_stopping.h"
+#include "smoothing/quality/local_quality.h"
 
 namespace smoothfem {
 namespace {
@@ -57,13 +57,10 @@ SMOOTHFEM_INLINE void find_places(const SmoothingState<dim, spacedim>& state, st
     places[i] = raises_quality(state, node, place) ? place : state.mesh.coordinates()[node];
   }
 }
-// Templates cannot be compiled for several kinds of registers; these can.
-SMOOTHFEM_VECTOR_CLONES
 void find(const SmoothingState<2>& state, std::size_t first, std::size_t last,
           std::vector<Point<2>>& places) {
   find_places(state, first, last, places);
 }
-SMOOTHFEM_VECTOR_CLONES
 void find(const SmoothingState<3>& state, std::size_t first, std::size_t last,
           std::vector<Point<3>>& places) {
   find_places(state, first, last, places);

@@ -1,6 +1,6 @@
+#include "smoothing/laplacian/gauss_seidel_sweep.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/mesh/cell_size.h"
-#include "smoothing/smoothers/gauss_seidel_sweep.h"
 
 namespace smoothfem {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/surface/piece_index.h"
 
 namespace smoothfem {

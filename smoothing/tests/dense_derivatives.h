@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "smoothing/loop/smooth.h"
-#include "smoothing/smoothers/shape_objective.h"
+#include "smoothing/optimization/shape_objective.h"
 
 namespace smoothfem::test {
 

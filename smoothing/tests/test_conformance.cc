@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/mesh/parallel.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "smoothing/loop/smooth.h"
-#include "smoothing/smoothers/block_conjugate_gradients.h"
-#include "smoothing/smoothers/feasible_movement.h"
-#include "smoothing/smoothers/shape_objective.h"
+#include "smoothing/optimization/block_conjugate_gradients.h"
+#include "smoothing/optimization/feasible_movement.h"
+#include "smoothing/optimization/shape_objective.h"
 #include "smoothing/tests/dense_derivatives.h"
 #include "smoothing/tests/planar_meshes.h"
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
+#include "smoothing/getme/min_tree.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
-#include "smoothing/loop/min_tree.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/quality/mesh_quality.h"

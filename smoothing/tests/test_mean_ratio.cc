@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <limits>
 
-#include "smoothing/mesh/cell_blocks.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/simd/cell_blocks.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <set>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "smoothing/polygons/isosceles_transformation.h"
 #include "smoothing/tests/polygon_tests.h"
 

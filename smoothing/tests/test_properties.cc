@@ -10,12 +10,12 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/optimization/untangle.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
-#include "smoothing/untangling/untangle.h"
 
 namespace smoothfem {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <set>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/cell_size.h"
-#include "smoothing/mesh/parallel.h"
 #include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"

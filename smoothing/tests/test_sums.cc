@@ -5,8 +5,8 @@
 #include <numeric>
 #include <set>
 
-#include "smoothing/loop/node_sums.h"
-#include "smoothing/smoothers/neighbour_weights.h"
+#include "smoothing/getme/neighbour_weights.h"
+#include "smoothing/getme/node_sums.h"
 #include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {

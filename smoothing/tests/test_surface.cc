@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
-#include "smoothing/mesh/parallel.h"
 #include "smoothing/surface/nearest_point.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/planar_meshes.h"

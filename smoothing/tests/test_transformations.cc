@@ -3,8 +3,8 @@
 #include <complex>
 #include <numeric>
 
+#include "smoothing/getme/element_regularization.h"
 #include "smoothing/quality/mean_ratio.h"
-#include "smoothing/smoothers/element_regularization.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/mesh/parallel.h"
-#include "smoothing/smoothers/shape_objective.h"
+#include "smoothing/optimization/shape_objective.h"
+#include "smoothing/optimization/untangle.h"
 #include "smoothing/tests/volume_meshes.h"
-#include "smoothing/untangling/untangle.h"
 
 namespace smoothfem {
 namespace {

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
+#include "smoothing/getme/element_regularization.h"
 #include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
-#include "smoothing/smoothers/element_regularization.h"
 #include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {

@@ -3,12 +3,12 @@
 #include <Eigen/Dense>
 
 #include "smoothing/loop/smooth.h"
-#include "smoothing/mesh/cell_blocks.h"
-#include "smoothing/smoothers/block_conjugate_gradients.h"
-#include "smoothing/smoothers/feasible_movement.h"
-#include "smoothing/smoothers/node_terms.h"
-#include "smoothing/smoothers/vertex_descent.h"
-#include "smoothing/smoothers/volume_cell_derivatives.h"
+#include "smoothing/optimization/block_conjugate_gradients.h"
+#include "smoothing/optimization/feasible_movement.h"
+#include "smoothing/optimization/node_terms.h"
+#include "smoothing/optimization/vertex_descent.h"
+#include "smoothing/optimization/volume_cell_derivatives.h"
+#include "smoothing/simd/cell_blocks.h"
 #include "smoothing/tests/dense_derivatives.h"
 #include "smoothing/tests/volume_meshes.h"
 

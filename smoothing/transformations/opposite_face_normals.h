@@ -3,8 +3,8 @@
 #include <cassert>
 #include <span>
 
-#include "smoothing/mesh/inverse_root.h"
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/inverse_root.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

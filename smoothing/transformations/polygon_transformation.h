@@ -5,7 +5,7 @@
 #include <numbers>
 #include <span>
 
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

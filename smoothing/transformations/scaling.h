@@ -3,8 +3,8 @@
 #include <span>
 
 #include "smoothing/mesh/cell_edges.h"
-#include "smoothing/mesh/inverse_root.h"
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/inverse_root.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

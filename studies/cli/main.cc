@@ -2,7 +2,7 @@
 #include <exception>
 
 #include "smoothfem_versions.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/peak_memory.h"
 

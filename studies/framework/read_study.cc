@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "meshes/generators/domains.h"
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "studies/framework/study.h"
 #include "studies/framework/study_file.h"
 #include "studies/framework/study_keys.h"

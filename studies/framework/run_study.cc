@@ -6,7 +6,7 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "studies/framework/progress.h"
 #include "studies/framework/provenance.h"
 #include "studies/framework/results_folder.h"

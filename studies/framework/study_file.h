@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "smoothing/mesh/input_error.h"
+#include "smoothing/base/input_error.h"
 #include "studies/framework/study.h"
 
 /// What reading a study file takes, whatever the kind of study.

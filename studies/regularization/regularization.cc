@@ -6,8 +6,8 @@
 #include <mutex>
 
 #include "meshes/distortion/counter_random.h"
-#include "smoothing/mesh/parallel.h"
-#include "smoothing/smoothers/element_regularization.h"
+#include "smoothing/base/parallel.h"
+#include "smoothing/getme/element_regularization.h"
 
 namespace smoothfem {
 
@@ -87,24 +87,19 @@ SMOOTHFEM_INLINE void count_lanes(const ElementRegularization<3>& transformation
   }
 }
 
-// Templates cannot be compiled for several kinds of registers; these can.
 using Counts = std::array<int, n_lanes>;
-SMOOTHFEM_VECTOR_CLONES
 void count(const ElementRegularization<3>& transformation, const ElementLanes<4>& elements,
            double regular, int max, Counts& counts) {
   count_lanes<4>(transformation, elements, regular, max, counts);
 }
-SMOOTHFEM_VECTOR_CLONES
 void count(const ElementRegularization<3>& transformation, const ElementLanes<5>& elements,
            double regular, int max, Counts& counts) {
   count_lanes<5>(transformation, elements, regular, max, counts);
 }
-SMOOTHFEM_VECTOR_CLONES
 void count(const ElementRegularization<3>& transformation, const ElementLanes<6>& elements,
            double regular, int max, Counts& counts) {
   count_lanes<6>(transformation, elements, regular, max, counts);
 }
-SMOOTHFEM_VECTOR_CLONES
 void count(const ElementRegularization<3>& transformation, const ElementLanes<8>& elements,
            double regular, int max, Counts& counts) {
   count_lanes<8>(transformation, elements, regular, max, counts);

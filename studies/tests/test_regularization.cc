@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "meshes/distortion/counter_random.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/transformations/dual_element.h"
 #include "studies/regularization/regularization_study.h"

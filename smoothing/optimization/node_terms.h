@@ -1,6 +1,6 @@
 #pragma once
 
-#include "smoothing/smoothers/cell_derivatives.h"
+#include "smoothing/optimization/cell_derivatives.h"
 
 namespace smoothfem {
 

@@ -1,11 +1,11 @@
-#include "smoothing/smoothers/shape_objective.h"
+#include "smoothing/optimization/shape_objective.h"
 
 #include <limits>
 
-#include "smoothing/mesh/cell_blocks.h"
 #include "smoothing/mesh/parallel_rows.h"
-#include "smoothing/smoothers/added_block.h"
-#include "smoothing/smoothers/volume_cell_derivatives.h"
+#include "smoothing/optimization/added_block.h"
+#include "smoothing/optimization/volume_cell_derivatives.h"
+#include "smoothing/simd/cell_blocks.h"
 
 namespace smoothfem {
 
@@ -125,31 +125,24 @@ SMOOTHFEM_INLINE void add_block_derivatives(const std::vector<Point<dim>>& x,
           });
 }
 
-// Templates cannot be compiled for several kinds of registers; these can.
-SMOOTHFEM_VECTOR_CLONES
 double value_of(const Topology& topology, const std::vector<Point<2>>& x, const CellBlock& block) {
   return sum_of_block<2>(topology, x, block);
 }
-SMOOTHFEM_VECTOR_CLONES
 double value_of(const Topology& topology, const std::vector<Point<3>>& x, const CellBlock& block) {
   return sum_of_block<3>(topology, x, block);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_derivatives(const std::vector<Point<2>>& x, const CellBlock& block, HessianModel model,
                      const DiagonalSums<2>& sums) {
   add_block_derivatives<2>(x, block, model, sums);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, HessianModel model,
                      const DiagonalSums<3>& sums) {
   add_block_derivatives<3>(x, block, model, sums);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_derivatives(const std::vector<Point<2>>& x, const CellBlock& block, HessianModel model,
                      const OtherBlockSums<2>& sums) {
   add_block_derivatives<2>(x, block, model, sums);
 }
-SMOOTHFEM_VECTOR_CLONES
 void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, HessianModel model,
                      const OtherBlockSums<3>& sums) {
   add_block_derivatives<3>(x, block, model, sums);

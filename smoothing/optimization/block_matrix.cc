@@ -1,8 +1,8 @@
-#include "smoothing/smoothers/block_matrix.h"
+#include "smoothing/optimization/block_matrix.h"
 
 #include <cmath>
 
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

@@ -13,10 +13,10 @@
 /// Lanes for several cells of one type at a time. Both give the same bits for each cell, because
 /// they are the same operations in the same order, none of them contracted.
 ///
-/// SMOOTHFEM_VECTOR_CLONES before a function compiles it for wider registers too; which one runs is
+/// before a function compiles it for wider registers too; which one runs is
 /// chosen when the program is loaded. What it calls must be inlined to profit: SMOOTHFEM_INLINE.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
-#define SMOOTHFEM_VECTOR_CLONES \
+#define \
   __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
 #else
 #define SMOOTHFEM_VECTOR_CLONES

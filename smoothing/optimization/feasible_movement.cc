@@ -1,10 +1,10 @@
-#include "smoothing/smoothers/feasible_movement.h"
+#include "smoothing/optimization/feasible_movement.h"
 
 #include <limits>
 
-#include "smoothing/mesh/cell_blocks.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/volume_elements.h"
+#include "smoothing/simd/cell_blocks.h"
 
 namespace smoothfem {
 
@@ -118,14 +118,11 @@ SMOOTHFEM_INLINE double limit_block(const Topology& topology, const std::vector<
           });
   return smallest;
 }
-// Templates cannot be compiled for several kinds of registers; these can.
-SMOOTHFEM_VECTOR_CLONES
 double cell_limits(const Topology& topology, const std::vector<Point<2>>& from,
                    const std::vector<Point<2>>& to, double share, const CellBlock& block,
                    std::vector<double>& limits) {
   return limit_block<2>(topology, from, to, share, block, limits);
 }
-SMOOTHFEM_VECTOR_CLONES
 double cell_limits(const Topology& topology, const std::vector<Point<3>>& from,
                    const std::vector<Point<3>>& to, double share, const CellBlock& block,
                    std::vector<double>& limits) {

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/mesh.h"
-#include "smoothing/mesh/parallel.h"
-#include "smoothing/smoothers/block_matrix.h"
-#include "smoothing/smoothers/cell_derivatives.h"
-#include "smoothing/smoothers/disjoint_groups.h"
+#include "smoothing/optimization/block_matrix.h"
+#include "smoothing/optimization/cell_derivatives.h"
+#include "smoothing/optimization/disjoint_groups.h"
 
 namespace smoothfem {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "smoothing/mesh/mesh.h"
-#include "smoothing/smoothers/disjoint_groups.h"
+#include "smoothing/optimization/disjoint_groups.h"
 
 namespace smoothfem {
 

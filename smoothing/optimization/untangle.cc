@@ -1,10 +1,10 @@
-#include "smoothing/untangling/untangle.h"
+#include "smoothing/optimization/untangle.h"
 
 #include <chrono>
 #include <cmath>
 
+#include "smoothing/optimization/vertex_descent.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/smoothers/vertex_descent.h"
 
 namespace smoothfem {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "smoothing/loop/node_sums.h"
-#include "smoothing/mesh/cell_blocks.h"
-#include "smoothing/smoothers/element_regularization.h"
+#include "smoothing/getme/element_regularization.h"
+#include "smoothing/getme/node_sums.h"
+#include "smoothing/simd/cell_blocks.h"
 
 namespace smoothfem {
 

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "smoothing/mesh/cell_blocks.h"
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/simd/cell_blocks.h"
 
 namespace smoothfem {
 

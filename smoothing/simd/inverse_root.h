@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "smoothing/mesh/lanes.h"
-#include "smoothing/smoothers/cell_derivatives.h"
+#include "smoothing/optimization/cell_derivatives.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "smoothing/mesh/lanes.h"
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 

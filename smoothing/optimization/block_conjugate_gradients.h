@@ -1,6 +1,6 @@
 #pragma once
 
-#include "smoothing/smoothers/block_matrix.h"
+#include "smoothing/optimization/block_matrix.h"
 
 namespace smoothfem {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "smoothing/quality/inverse_mean_ratio.h"
+#include "smoothing/optimization/inverse_mean_ratio.h"
 
 namespace smoothfem {
 

@@ -1,8 +1,8 @@
-#include "smoothing/smoothers/block_conjugate_gradients.h"
+#include "smoothing/optimization/block_conjugate_gradients.h"
 
 #include <cmath>
 
-#include "smoothing/mesh/lanes.h"
+#include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
 
@@ -43,14 +43,11 @@ SMOOTHFEM_INLINE double multiply_range(const CompressedRows<std::uint32_t>& colu
   }
   return product;
 }
-// Templates cannot be compiled for several kinds of registers; these can.
-SMOOTHFEM_VECTOR_CLONES
 double multiply_rows(const CompressedRows<std::uint32_t>& columns, const double* blocks,
                      const BlockVector<2>& x, BlockVector<2>& y, std::size_t first,
                      std::size_t last) {
   return multiply_range<2>(columns, blocks, x, y, first, last);
 }
-SMOOTHFEM_VECTOR_CLONES
 double multiply_rows(const CompressedRows<std::uint32_t>& columns, const float* blocks,
                      const BlockVector<3>& x, BlockVector<3>& y, std::size_t first,
                      std::size_t last) {

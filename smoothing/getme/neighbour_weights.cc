@@ -1,9 +1,9 @@
-#include "smoothing/smoothers/neighbour_weights.h"
+#include "smoothing/getme/neighbour_weights.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "smoothing/mesh/parallel.h"
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/parallel_rows.h"
 
 namespace smoothfem {

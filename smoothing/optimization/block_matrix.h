@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/mesh/compressed_rows.h"
 #include "smoothing/mesh/mesh.h"
-#include "smoothing/mesh/parallel.h"
 
 namespace smoothfem {
 

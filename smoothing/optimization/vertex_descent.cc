@@ -1,10 +1,10 @@
-#include "smoothing/smoothers/vertex_descent.h"
+#include "smoothing/optimization/vertex_descent.h"
 
 #include <Eigen/Dense>
 
-#include "smoothing/mesh/cell_blocks.h"
-#include "smoothing/mesh/parallel.h"
-#include "smoothing/smoothers/node_terms.h"
+#include "smoothing/base/parallel.h"
+#include "smoothing/optimization/node_terms.h"
+#include "smoothing/simd/cell_blocks.h"
 
 namespace smoothfem {
 
@@ -196,12 +196,9 @@ SMOOTHFEM_INLINE void descend_node(const Topology& topology, NodeIndex node, dou
   }
 }
 
-// Templates cannot be compiled for several kinds of registers; these can.
-SMOOTHFEM_VECTOR_CLONES
 void descend(const Topology& topology, NodeIndex node, double softness, std::vector<Point<2>>& x) {
   descend_node<2>(topology, node, softness, x);
 }
-SMOOTHFEM_VECTOR_CLONES
 void descend(const Topology& topology, NodeIndex node, double softness, std::vector<Point<3>>& x) {
   descend_node<3>(topology, node, softness, x);
 }
