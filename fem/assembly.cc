@@ -36,11 +36,10 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
 }
 
 // One function an element: templates are not compiled for wider registers.
-#define SMOOTHFEM_COMPUTE(dim, n_dofs, n_vertices)                                      \
-  void compute(const ReferenceElement& element,                 \
-                                       const CellBatch<dim, n_dofs, n_vertices>& batch, \
-                                       CellIntegrals<n_dofs, Lanes>& integrals) {       \
-    integrals.compute<dim, n_vertices>(element, batch.vertices, batch.load);            \
+#define SMOOTHFEM_COMPUTE(dim, n_dofs, n_vertices)                                               \
+  void compute(const ReferenceElement& element, const CellBatch<dim, n_dofs, n_vertices>& batch, \
+               CellIntegrals<n_dofs, Lanes>& integrals) {                                        \
+    integrals.compute<dim, n_vertices>(element, batch.vertices, batch.load);                     \
   }
 SMOOTHFEM_COMPUTE(2, 3, 3)
 SMOOTHFEM_COMPUTE(2, 6, 3)

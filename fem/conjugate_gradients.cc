@@ -17,8 +17,8 @@ SMOOTHFEM_INLINE double sum_of(Lanes a) {
 // One pass over the memory for what one iteration does with its vectors.
 
 /// x += alpha p, r -= alpha q; returns r . r.
-double update_solution(std::size_t n, double alpha, const double* p,
-                                               const double* q, double* x, double* r) {
+double update_solution(std::size_t n, double alpha, const double* p, const double* q, double* x,
+                       double* r) {
   Lanes square{};
   std::size_t i = 0;
   for (; i + n_lanes <= n; i += n_lanes) {
@@ -37,8 +37,7 @@ double update_solution(std::size_t n, double alpha, const double* p,
 }
 
 /// p = z + beta p.
-void update_direction(std::size_t n, double beta, const double* z,
-                                              double* p) {
+void update_direction(std::size_t n, double beta, const double* z, double* p) {
   for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
 }
 

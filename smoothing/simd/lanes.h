@@ -12,15 +12,6 @@
 /// Geometry formulas are written once, as templates over the number type Real: double for one cell,
 /// Lanes for several cells of one type at a time. Both give the same bits for each cell, because
 /// they are the same operations in the same order, none of them contracted.
-///
-/// before a function compiles it for wider registers too; which one runs is
-/// chosen when the program is loaded. What it calls must be inlined to profit: SMOOTHFEM_INLINE.
-#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
-#define \
-  __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
-#else
-#define SMOOTHFEM_VECTOR_CLONES
-#endif
 #define SMOOTHFEM_INLINE_LAMBDA __attribute__((always_inline))
 #define SMOOTHFEM_INLINE SMOOTHFEM_INLINE_LAMBDA inline
 
