@@ -15,13 +15,13 @@ struct Jacobian {
   std::array<Vector<dim, Real>, dim> dual;
   Real determinant;
 
-  SMOOTHFEM_INLINE explicit Jacobian(const std::array<Vector<2, Real>, 2>& columns) {
+  explicit Jacobian(const std::array<Vector<2, Real>, 2>& columns) {
     determinant = cross(columns[0], columns[1]);
     const Real inverse = 1.0 / determinant;
     dual[0] = {inverse * columns[1].y, -inverse * columns[1].x};
     dual[1] = {-inverse * columns[0].y, inverse * columns[0].x};
   }
-  SMOOTHFEM_INLINE explicit Jacobian(const std::array<Vector<3, Real>, 3>& columns) {
+  explicit Jacobian(const std::array<Vector<3, Real>, 3>& columns) {
     const auto normal = cross(columns[1], columns[2]);
     determinant = dot(columns[0], normal);
     const Real inverse = 1.0 / determinant;
@@ -30,7 +30,7 @@ struct Jacobian {
     dual[2] = inverse * cross(columns[0], columns[1]);
   }
 
-  SMOOTHFEM_INLINE Vector<dim, Real> gradient(const double* reference) const {
+  Vector<dim, Real> gradient(const double* reference) const {
     auto sum = reference[0] * dual[0];
     for (int d = 1; d < dim; ++d) sum = sum + reference[d] * dual[d];
     return sum;
@@ -47,9 +47,8 @@ struct MappedPoint {
 
 /// vertices: of the cell in the element's order. q: number of the point in the table.
 template <int dim, class Real, std::size_t n_vertices>
-SMOOTHFEM_INLINE MappedPoint<dim, Real> map_point(
-    const QuadratureTable& table, std::size_t q,
-    const std::array<Vector<dim, Real>, n_vertices>& vertices) {
+inline MappedPoint<dim, Real> map_point(const QuadratureTable& table, std::size_t q,
+                                        const std::array<Vector<dim, Real>, n_vertices>& vertices) {
   Vector<dim, Real> place{};
   std::array<Vector<dim, Real>, dim> columns{};
   for (std::size_t v = 0; v < n_vertices; ++v) {
@@ -71,9 +70,9 @@ struct CellIntegrals {
   Real smallest_determinant;  ///< of the mapping, at the points where it was taken
 
   template <int dim, std::size_t n_vertices>
-  SMOOTHFEM_INLINE void compute(const ReferenceElement& element,
-                                const std::array<Vector<dim, Real>, n_vertices>& vertices,
-                                const std::array<Real, n_dofs>& f) {
+  void compute(const ReferenceElement& element,
+               const std::array<Vector<dim, Real>, n_vertices>& vertices,
+               const std::array<Real, n_dofs>& f) {
     if constexpr (n_vertices == dim + 1)
       compute_affine<dim>(element, vertices, f);
     else
@@ -83,9 +82,9 @@ struct CellIntegrals {
  private:
   /// Simplices: one mapping for the whole cell.
   template <int dim>
-  SMOOTHFEM_INLINE void compute_affine(const ReferenceElement& element,
-                                       const std::array<Vector<dim, Real>, dim + 1>& vertices,
-                                       const std::array<Real, n_dofs>& f) {
+  void compute_affine(const ReferenceElement& element,
+                      const std::array<Vector<dim, Real>, dim + 1>& vertices,
+                      const std::array<Real, n_dofs>& f) {
     std::array<Vector<dim, Real>, dim> columns;
     for (int d = 0; d < dim; ++d) columns[d] = vertices[d + 1] - vertices[0];
     const Jacobian<dim, Real> jacobian(columns);
@@ -111,9 +110,9 @@ struct CellIntegrals {
 
   /// Other cells: by quadrature.
   template <int dim, std::size_t n_vertices>
-  SMOOTHFEM_INLINE void compute_by_quadrature(
-      const ReferenceElement& element, const std::array<Vector<dim, Real>, n_vertices>& vertices,
-      const std::array<Real, n_dofs>& f) {
+  void compute_by_quadrature(const ReferenceElement& element,
+                             const std::array<Vector<dim, Real>, n_vertices>& vertices,
+                             const std::array<Real, n_dofs>& f) {
     const QuadratureTable& table = element.matrices;
     stiffness.fill(Real{});
     load.fill(Real{});
@@ -150,8 +149,8 @@ struct CellBatch {
   std::array<Lanes, n_dofs> load;  ///< f at the dofs
 
   /// x: local nodes' coordinates. nodal_load: f at all local dofs.
-  SMOOTHFEM_INLINE CellBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
-                             const Eigen::VectorXd& nodal_load, std::size_t first)
+  CellBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
+            const Eigen::VectorXd& nodal_load, std::size_t first)
       : size(std::min(n_lanes, group.n_cells() - first)) {
     std::array<const NodeIndex*, n_lanes> rows;
     for (std::size_t l = 0; l < n_lanes; ++l) {

@@ -10,7 +10,7 @@ namespace smoothfem {
 
 namespace {
 
-SMOOTHFEM_INLINE double sum_of(Lanes a) {
+inline double sum_of(Lanes a) {
   return (a[0] + a[1]) + (a[2] + a[3]);
 }
 

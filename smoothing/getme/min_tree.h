@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
@@ -57,7 +58,7 @@ class MinTree {
   }
 
  private:
-  static constexpr std::size_t width = 8;  ///< that play for a place in the next round
+  static constexpr std::size_t width = 8;  ///< that compete in one round
 
   bool before(std::uint32_t a, std::uint32_t b) const {
     return keys_[a] < keys_[b] || (keys_[a] == keys_[b] && a < b);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/loop/catalogue.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ const auto& factory_of(const StageFactories& factories) {
 template <int dim, int spacedim>
 bool keeps_constraints(const Method<dim, spacedim>& method) {
   return std::all_of(method.stages.begin(), method.stages.end(),
-                     [](const auto& stage) { return stage->rule().keeps_constraints; });
+                     [](const auto& stage) { return stage->traits().keeps_constraints; });
 }
 
 template <int dim, int spacedim>

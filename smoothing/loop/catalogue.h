@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <functional>
@@ -47,7 +48,7 @@ struct RegisteredMethod {
 /// All registered methods, sorted by name.
 std::vector<MethodInfo> method_catalogue();
 
-/// True if every stage keeps nodes where the constraints of a mesh have them (SmoothingRule).
+/// True if every stage keeps nodes where the constraints of a mesh have them (SmootherTraits).
 template <int dim, int spacedim>
 bool keeps_constraints(const Method<dim, spacedim>& method);
 
@@ -87,7 +88,7 @@ StageFactories single_stage() {
 }
 
 /// The same for a class template over the dimensions of cells and of space, which puts nodes where
-/// allowed_place (smoothing/surface/node_constraints.h) has them.
+/// allowed_position (smoothing/mesh/node_constraints.h) has them.
 template <template <int, int> class SmootherType>
 StageFactories single_stage_also_on_surfaces() {
   return {make_single_stage<SmootherType<2, 2>, 2>, make_single_stage<SmootherType<3, 3>, 3>,

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/loop/invalid_node_reset.h"
 
+#include "smoothing/mesh/node_constraints.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
@@ -21,7 +22,7 @@ std::vector<std::uint32_t> facets_out_of_bound(const Mesh<dim, spacedim>& mesh,
 /// Moves back the nodes of these cells and facets that are not back yet.
 template <int dim, int spacedim>
 std::vector<NodeIndex> put_back(Mesh<dim, spacedim>& mesh,
-                                const std::vector<Point<spacedim>>& previous,
+                                std::type_identity_t<std::span<const Point<spacedim>>> previous,
                                 const std::vector<CellIndex>& cells,
                                 const std::vector<std::uint32_t>& facets) {
   std::vector<NodeIndex> moved;
@@ -40,9 +41,9 @@ std::vector<NodeIndex> put_back(Mesh<dim, spacedim>& mesh,
 }  // namespace
 
 template <int dim, int spacedim>
-std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim, spacedim>& mesh,
-                                                    const std::vector<Point<spacedim>>& previous,
-                                                    std::vector<double>& cell_quality) {
+std::vector<NodeIndex> reset_nodes_of_invalid_cells(
+    Mesh<dim, spacedim>& mesh, std::type_identity_t<std::span<const Point<spacedim>>> previous,
+    std::vector<double>& cell_quality) {
   std::vector<CellIndex> invalid = invalid_cells(cell_quality);
   std::vector<std::uint32_t> facets = facets_out_of_bound(mesh);
   std::vector<NodeIndex> all_moved;
@@ -59,12 +60,11 @@ std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim, spacedim>& mesh,
   }
 }
 
-template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2>&, const std::vector<Point<2>>&,
+template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2>&, std::span<const Point<2>>,
                                                              std::vector<double>&);
-template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<3>&, const std::vector<Point<3>>&,
+template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<3>&, std::span<const Point<3>>,
                                                              std::vector<double>&);
-template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2, 3>&,
-                                                             const std::vector<Point<3>>&,
+template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2, 3>&, std::span<const Point<3>>,
                                                              std::vector<double>&);
 
 }  // namespace smoothfem

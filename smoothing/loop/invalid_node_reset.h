@@ -1,5 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "smoothing/mesh/mesh.h"
@@ -11,8 +14,8 @@ namespace smoothfem {
 /// IterativeInvalidElementResetting). cell_quality: of mesh, kept up to date. Ends with a valid
 /// mesh that keeps the bound if `previous` is one. Returns the nodes that were put back.
 template <int dim, int spacedim>
-std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<dim, spacedim>& mesh,
-                                                    const std::vector<Point<spacedim>>& previous,
-                                                    std::vector<double>& cell_quality);
+std::vector<NodeIndex> reset_nodes_of_invalid_cells(
+    Mesh<dim, spacedim>& mesh, std::type_identity_t<std::span<const Point<spacedim>>> previous,
+    std::vector<double>& cell_quality);
 
 }  // namespace smoothfem

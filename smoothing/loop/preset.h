@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -21,7 +22,10 @@ struct Preset {
   std::vector<Setting> settings;
 };
 
-/// The parameter sets of the thesis' Chapters 5 and 6.
+/// The presets that come with the program, the files studies/presets/NAME.json of its data folder,
+/// sorted by name. A file has `description`, `source`, and objects `planar` and `volume` with, for
+/// each stage, parameters and their values; `extends` names a preset whose settings come first, and
+/// `why` is for readers. Throws InputError for a file that has something else.
 const std::vector<Preset>& presets();
 
 /// Throws InputError listing the names there are.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <functional>
@@ -47,9 +48,9 @@ struct SmoothingResult {
 /// stopping, timing (thesis, Chapter 4), and an order of large meshes that suits the memory: the
 /// caller and the observer see their own. Deterministic: the same bits for every number of threads.
 /// Throws InputError if the method needs a valid mesh and `mesh` is not, and if it cannot keep the
-/// nodes of a mesh with constraints where they belong; `mesh` is then as far as it came. Planar,
-/// volume and surface meshes; nodes of the last stay on their initial surface (thesis,
-/// Section 5.1.2).
+/// nodes of a mesh with constraints where they belong; whatever is thrown, `mesh` is then as far as
+/// it came. Planar, volume and surface meshes; nodes of the last stay on their initial surface
+/// (thesis, Section 5.1.2).
 template <int dim, int spacedim>
 SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer = {});

@@ -1,11 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
-#include "smoothing/loop/parameter.h"
+#include "smoothing/loop/stopping.h"
 #include "smoothing/mesh/mesh.h"
 #include "smoothing/quality/mesh_quality.h"
 
@@ -22,11 +24,6 @@ struct SmoothingState {
   MeshQuality initial_quality = {};
 };
 
-/// How many times its patience a stage that raises q*_min goes on for while q*_min is still below
-/// that of the mesh the method began with: an earlier stage may have lowered it, and the result
-/// should not be worse than the start.
-constexpr int patience_below_start = 10;
-
 /// Who evaluates the quality of the cells, and so whether its cost is part of the method's time.
 enum class QualityUse {
   none,  ///< the method knows no mean ratio, and nobody puts invalid cells back
@@ -42,31 +39,15 @@ enum class ResultMesh {
   best_score  ///< as the steps report it
 };
 
-/// When to stop.
-enum class StoppingCriterion {
-  q_mean_gain,  ///< q_mean rose by no more than `tolerance` in an iteration
-  /// q_mean changed by no more than `tolerance`, or `patience` iterations in a row without a new
-  /// highest q_min or q_mean
-  q_mean_change,
-  max_displacement,  ///< no node moved `tolerance` times the initial mean edge length
-  /// `patience` iterations in a row without a new best mesh (ResultMesh); patience_below_start
-  /// times as many while the best q*_min is below that at the method's start; or the step says so
-  result_stall,
-  converged,  ///< the step says so
-};
-
-struct SmoothingRule {
-  QualityUse quality_use;
+/// What a smoother is.
+struct SmootherTraits {
+  QualityUse quality_use = QualityUse::loop;
+  ResultMesh result = ResultMesh::best_q_mean;
   bool needs_valid_mesh = true;
-  ResultMesh result;
-  StoppingCriterion criterion;
-  double tolerance = 0.0;
-  int patience = 0;
-  int max_iterations = 10000;  ///< against methods that would never stop
   /// The step visits nodes one after the other, so that its result depends on their order: the mesh
   /// keeps the order it has.
   bool needs_node_order = false;
-  /// The step puts nodes only where allowed_place (smoothing/surface/node_constraints.h) has them,
+  /// The step puts nodes only where allowed_position (smoothing/mesh/node_constraints.h) has them,
   /// and, unless the quality is evaluated by the loop, where keeps_facet_bound holds; other methods
   /// do not take meshes with constraints.
   bool keeps_constraints = false;
@@ -76,16 +57,16 @@ struct SmoothingRule {
 struct StepReport {
   std::size_t n_counted = 1;      ///< iterations in the method's own count (100 for a cycle of 100)
   double max_displacement = 0.0;  ///< longest movement of a node; needed by that criterion only
-  bool converged = false;         ///< see StoppingCriterion
+  bool converged = false;         ///< see StoppingRule::Criterion
   std::size_t n_reset = 0;        ///< nodes (or elements) put back because a cell became invalid
   /// From steps that keep the quality up to date themselves: the quality of the mesh, or just its
   /// q*_min where the rest would take a look at every cell.
   std::optional<MeshQuality> quality = {};
   std::optional<double> q_star_min = {};
   double score = 0.0;  ///< of the mesh, for ResultMesh::best_score
-  /// The nodes that the step has moved, where these are few; otherwise null. Valid until the next
-  /// step.
-  const std::vector<NodeIndex>* moved = nullptr;
+  /// The nodes that the step has moved, where these are few; otherwise nothing. Valid until the
+  /// next step.
+  std::optional<std::span<const NodeIndex>> moved = {};
 };
 
 /// One way to move the free nodes of a mesh. A new method is one file with a class template over
@@ -98,8 +79,9 @@ class Smoother {
 
   /// Name of the stage in results, and the prefix of its parameters in methods of several stages.
   virtual std::string_view name() const = 0;
-  virtual Parameters parameters() = 0;
-  virtual SmoothingRule rule() const = 0;
+  virtual Parameters parameters() { return {}; }
+  virtual SmootherTraits traits() const { return {}; }
+  virtual StoppingRule stopping() const { return QualityGainStopping().rule(); }
 
   /// Called once before the first step; what depends on the topology alone belongs here.
   virtual void initialize(const SmoothingState<dim, spacedim>& /*state*/) {}

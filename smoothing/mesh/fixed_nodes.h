@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/mesh/node_constraints.h"
 
 namespace smoothfem {
 
@@ -37,7 +38,8 @@ Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, std::vector<bool>
       if (mesh.constraints()->is_corner(i)) fixed[i] = true;
   auto topology = std::make_shared<const Topology>(dim, old.n_nodes(), old.cells(),
                                                    std::move(fixed), old.labels());
-  return {std::move(topology), std::move(mesh.coordinates()), mesh.shared_constraints()};
+  auto constraints = mesh.shared_constraints();
+  return {std::move(topology), std::move(mesh).take_coordinates(), std::move(constraints)};
 }
 
 }  // namespace smoothfem

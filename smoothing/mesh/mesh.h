@@ -1,20 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <cassert>
 #include <memory>
+#include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "smoothing/base/input_error.h"
+#include "smoothing/mesh/point.h"
 #include "smoothing/mesh/topology.h"
 
 namespace smoothfem {
 
-template <int spacedim>
-using Point = Eigen::Matrix<double, spacedim, 1>;
-
-class NodeConstraints;  // smoothing/surface/node_constraints.h
+class NodeConstraints;  // smoothing/mesh/node_constraints.h
 
 /// Throws InputError that names the first node with a coordinate that is no finite number.
 template <class PointType>
@@ -26,9 +27,10 @@ void require_finite(const std::vector<PointType>& coordinates) {
 }
 
 /// A mesh of dim-dimensional cells in spacedim-dimensional space: a topology that never changes,
-/// shared by all copies, and coordinates that do. A value: copies are independent. Its nodes may
-/// belong to a surface in space that they must not leave, the same for all copies; those of surface
-/// meshes always do.
+/// shared by all copies, and coordinates that do, one point per node as long as the mesh lives. A
+/// value: copies are independent, and one that was moved from is good for assignment only. Its
+/// nodes may belong to a surface in space that they must not leave, the same for all copies; those
+/// of surface meshes always do.
 template <int dim, int spacedim = dim>
 class Mesh {
  public:
@@ -52,20 +54,48 @@ class Mesh {
     require_finite(coordinates_);
   }
 
+  /// A mesh of points that are known to be finite, or have been taken from another mesh: nothing is
+  /// looked at.
+  static Mesh of_known_points(std::shared_ptr<const Topology> topology,
+                              std::vector<PointType> coordinates) noexcept {
+    return Mesh(std::move(topology), std::move(coordinates), nullptr, KnownPoints{});
+  }
+
   const Topology& topology() const { return *topology_; }
   const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
 
-  std::size_t n_nodes() const { return coordinates_.size(); }
+  std::size_t n_nodes() const { return topology_->n_nodes(); }
   std::size_t n_cells() const { return topology_->n_cells(); }
 
-  const std::vector<PointType>& coordinates() const { return coordinates_; }
-  std::vector<PointType>& coordinates() { return coordinates_; }
+  std::span<const PointType> coordinates() const { return coordinates_; }
+  std::span<PointType> coordinates() { return coordinates_; }
+  /// Copies n_nodes() points into the mesh.
+  void set_coordinates(std::span<const PointType> points) {
+    assert(points.size() == n_nodes());
+    std::copy(points.begin(), points.end(), coordinates_.begin());
+  }
+  /// Exchanges the coordinates with n_nodes() points.
+  void swap_coordinates(std::vector<PointType>& points) {
+    assert(points.size() == n_nodes());
+    coordinates_.swap(points);
+  }
+  /// The coordinates of a mesh that is not needed any more: std::move(mesh).take_coordinates().
+  std::vector<PointType> take_coordinates() && { return std::move(coordinates_); }
 
   /// Null if nodes may go anywhere.
   const NodeConstraints* constraints() const { return constraints_.get(); }
   const std::shared_ptr<const NodeConstraints>& shared_constraints() const { return constraints_; }
 
  private:
+  struct KnownPoints {};
+  Mesh(std::shared_ptr<const Topology> topology, std::vector<PointType> coordinates,
+       std::shared_ptr<const NodeConstraints> constraints, KnownPoints) noexcept
+      : topology_(std::move(topology)),
+        coordinates_(std::move(coordinates)),
+        constraints_(std::move(constraints)) {
+    assert(coordinates_.size() == topology_->n_nodes());
+  }
+
   std::shared_ptr<const Topology> topology_;
   std::vector<PointType> coordinates_;
   std::shared_ptr<const NodeConstraints> constraints_;

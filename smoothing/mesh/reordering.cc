@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/mesh/reordering.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "smoothing/base/parallel.h"
 
@@ -84,21 +86,46 @@ std::vector<CellIndex> cells_by_first_node(const Topology& topology,
 }  // namespace
 
 template <int dim>
-Reordering<dim>::Reordering(const Topology& topology)
-    : node_order_(reverse_cuthill_mckee(topology)),
-      topology_(topology.reordered(node_order_, cells_by_first_node(topology, node_order_))) {}
+Reordering<dim>::Reordering(std::shared_ptr<const Topology> topology)
+    : old_topology_(std::move(topology)),
+      node_order_(reverse_cuthill_mckee(*old_topology_)),
+      topology_(old_topology_->reordered(node_order_,
+                                         cells_by_first_node(*old_topology_, node_order_))) {}
 
 template <int dim>
-Mesh<dim> Reordering<dim>::apply(const Mesh<dim>& mesh) const {
-  std::vector<Point<dim>> coordinates(mesh.n_nodes());
-  for (std::size_t i = 0; i < coordinates.size(); ++i)
-    coordinates[i] = mesh.coordinates()[node_order_[i]];
-  return {topology_, std::move(coordinates)};
+Mesh<dim> Reordering<dim>::apply(Mesh<dim> mesh) const {
+  const auto old = std::move(mesh).take_coordinates();
+  std::vector<Point<dim>> coordinates(old.size());
+  for (std::size_t i = 0; i < old.size(); ++i) coordinates[i] = old[node_order_[i]];
+  return Mesh<dim>::of_known_points(topology_, std::move(coordinates));
 }
 
 template <int dim>
-void Reordering<dim>::restore(const std::vector<Point<dim>>& reordered,
-                              std::vector<Point<dim>>& result) const {
+Mesh<dim> Reordering<dim>::undo(Mesh<dim> reordered) && noexcept {
+  auto x = std::move(reordered).take_coordinates();
+  // Along the cycles of the permutation; what has been visited is marked in the order itself.
+  constexpr NodeIndex visited = std::numeric_limits<NodeIndex>::max();
+  for (NodeIndex start = 0; start < x.size(); ++start) {
+    Point<dim> carried = x[start];
+    for (NodeIndex i = start; node_order_[i] != visited;) {
+      const NodeIndex to = std::exchange(node_order_[i], visited);
+      std::swap(carried, x[to]);
+      i = to;
+    }
+  }
+  return Mesh<dim>::of_known_points(old_topology_, std::move(x));
+}
+
+template <int dim>
+Mesh<dim> Reordering<dim>::restored(const Mesh<dim>& reordered) const {
+  std::vector<Point<dim>> coordinates(reordered.n_nodes());
+  restore(reordered.coordinates(), coordinates);
+  return Mesh<dim>::of_known_points(old_topology_, std::move(coordinates));
+}
+
+template <int dim>
+void Reordering<dim>::restore(std::span<const Point<dim>> reordered,
+                              std::span<Point<dim>> result) const {
   for (std::size_t i = 0; i < reordered.size(); ++i) result[node_order_[i]] = reordered[i];
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <memory>
@@ -14,14 +15,20 @@ namespace smoothfem {
 template <int dim>
 class Reordering {
  public:
-  explicit Reordering(const Topology& topology);
+  explicit Reordering(std::shared_ptr<const Topology> topology);
 
-  /// A mesh of the topology given, in the new order.
-  Mesh<dim> apply(const Mesh<dim>& mesh) const;
-  /// Sets the coordinates of a mesh in the old order to those of one in the new order.
-  void restore(const std::vector<Point<dim>>& reordered, std::vector<Point<dim>>& result) const;
+  /// A mesh of the topology given, in the new order. Takes no memory besides.
+  Mesh<dim> apply(Mesh<dim> mesh) const;
+  /// The mesh in the old order again; takes none either, and fails never.
+  Mesh<dim> undo(Mesh<dim> reordered) && noexcept;
+
+  /// A mesh in the old order with the coordinates of one in the new order.
+  Mesh<dim> restored(const Mesh<dim>& reordered) const;
+  /// The same for coordinates of all nodes.
+  void restore(std::span<const Point<dim>> reordered, std::span<Point<dim>> result) const;
 
  private:
+  std::shared_ptr<const Topology> old_topology_;
   std::vector<NodeIndex> node_order_;  ///< old index of each node in the new order
   std::shared_ptr<const Topology> topology_;
 };

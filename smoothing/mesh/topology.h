@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,12 @@
 
 #include "smoothing/mesh/compressed_rows.h"
 #include "smoothing/mesh/element_type.h"
+#include "smoothing/mesh/point.h"
 #include "smoothing/mesh/table_on_demand.h"
 
 namespace smoothfem {
 
-using NodeIndex = std::uint32_t;
-using CellIndex = std::uint32_t;
-
-/// What a file says about nodes and cells besides their places; carried from input to output
+/// What a file says about nodes and cells besides coordinates; carried from input to output
 /// unchanged.
 struct MeshLabels {
   std::vector<int> cell_tags;        ///< physical tag of each cell; empty if the file has none

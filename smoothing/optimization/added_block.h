@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -11,18 +12,18 @@ namespace smoothfem {
 /// number.
 template <int dim, class Number>
 struct AddedBlock {
-  using NumberLanes = decltype(load_lanes(static_cast<const Number*>(nullptr)));
+  using NumberLanes = typename ArrayLanes<Number>::Values;
   NumberLanes first{}, second{};
   Number last{};
 
-  SMOOTHFEM_INLINE void add_to(Number* sum) const {
+  void add_to(Number* sum) const {
     store_lanes(load_lanes(sum) + first, sum);
     if constexpr (dim == 3) {
       store_lanes(load_lanes(sum + n_lanes) + second, sum + n_lanes);
       sum[2 * n_lanes] += last;
     }
   }
-  SMOOTHFEM_INLINE AddedBlock transpose() const {
+  AddedBlock transpose() const {
     if constexpr (dim == 2)
       return {__builtin_shufflevector(first, first, 0, 2, 1, 3)};
     else
@@ -33,9 +34,9 @@ struct AddedBlock {
 
 /// The blocks of n_lanes cells, or of one, by cell.
 template <class Number, int dim>
-SMOOTHFEM_INLINE auto added_blocks(const Block<dim, Lanes>& block) {
+inline auto added_blocks(const Block<dim, Lanes>& block) {
   using Added = AddedBlock<dim, Number>;
-  const auto entries = [&](std::size_t k) SMOOTHFEM_INLINE_LAMBDA {
+  const auto entries = [&](std::size_t k) {
     return __builtin_convertvector(block.entries[k], typename Added::NumberLanes);
   };
   std::array<Added, n_lanes> result;
@@ -51,9 +52,9 @@ SMOOTHFEM_INLINE auto added_blocks(const Block<dim, Lanes>& block) {
   return result;
 }
 template <class Number, int dim>
-SMOOTHFEM_INLINE auto added_blocks(const Block<dim, double>& block) {
+inline auto added_blocks(const Block<dim, double>& block) {
   using Added = AddedBlock<dim, Number>;
-  const auto entries = [&](std::size_t k) SMOOTHFEM_INLINE_LAMBDA {
+  const auto entries = [&](std::size_t k) {
     return __builtin_convertvector(load_lanes(block.entries.data() + k),
                                    typename Added::NumberLanes);
   };
@@ -65,17 +66,10 @@ SMOOTHFEM_INLINE auto added_blocks(const Block<dim, double>& block) {
   return std::array{result};
 }
 
-SMOOTHFEM_INLINE void set_lane(Lanes& lanes, std::size_t l, double value) {
-  lanes[l] = value;
-}
-SMOOTHFEM_INLINE void set_lane(double& number, std::size_t, double value) {
-  number = value;
-}
-
 /// a b c' for lower triangular a and c.
 template <int dim, class Real>
-SMOOTHFEM_INLINE Block<dim, Real> scaled(const Block<dim, Real>& a, const Block<dim, Real>& b,
-                                         const Block<dim, Real>& c) {
+inline Block<dim, Real> scaled(const Block<dim, Real>& a, const Block<dim, Real>& b,
+                               const Block<dim, Real>& c) {
   Block<dim, Real> left, result;
   for (std::size_t j = 0; j < dim; ++j)
     for (std::size_t i = 0; i < dim; ++i)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimization/block_conjugate_gradients.h"
 
 #include <cmath>
@@ -10,26 +11,26 @@ namespace {
 
 /// Adds a block times an entry to `sum`: in the plane its two halves are to be added up in the end,
 /// in space its last number means nothing.
-SMOOTHFEM_INLINE void add_product(const double* block, const Point<2>& x, Lanes& sum) {
+inline void add_product(const double* block, const Point<2>& x, Lanes& sum) {
   sum += load_lanes(block) * Lanes{x[0], x[0], x[1], x[1]};
 }
-SMOOTHFEM_INLINE void add_product(const float* block, const Point<3>& x, Lanes& sum) {
+inline void add_product(const float* block, const Point<3>& x, Lanes& sum) {
   sum += __builtin_convertvector(load_lanes(block), Lanes) * x[0];
   sum += __builtin_convertvector(load_lanes(block + 3), Lanes) * x[1];
   sum += __builtin_convertvector(load_lanes(block + 6), Lanes) * x[2];
 }
-SMOOTHFEM_INLINE Point<2> total(Lanes sum, const double*) {
+inline Point<2> total(Lanes sum, const double*) {
   return {sum[0] + sum[2], sum[1] + sum[3]};
 }
-SMOOTHFEM_INLINE Point<3> total(Lanes sum, const float*) {
+inline Point<3> total(Lanes sum, const float*) {
   return {sum[0], sum[1], sum[2]};
 }
 
 /// Rows first .. last-1 of y = A x; returns their part of x' y.
 template <int dim, class Number>
-SMOOTHFEM_INLINE double multiply_range(const CompressedRows<std::uint32_t>& columns,
-                                       const Number* blocks, const BlockVector<dim>& x,
-                                       BlockVector<dim>& y, std::size_t first, std::size_t last) {
+inline double multiply_range(const CompressedRows<std::uint32_t>& columns, const Number* blocks,
+                             const BlockVector<dim>& x, BlockVector<dim>& y, std::size_t first,
+                             std::size_t last) {
   const Number* block = blocks + dim * dim * columns.offset(first);
   double product = 0.0;
   for (std::size_t row = first; row < last; ++row) {
@@ -43,17 +44,6 @@ SMOOTHFEM_INLINE double multiply_range(const CompressedRows<std::uint32_t>& colu
   }
   return product;
 }
-double multiply_rows(const CompressedRows<std::uint32_t>& columns, const double* blocks,
-                     const BlockVector<2>& x, BlockVector<2>& y, std::size_t first,
-                     std::size_t last) {
-  return multiply_range<2>(columns, blocks, x, y, first, last);
-}
-double multiply_rows(const CompressedRows<std::uint32_t>& columns, const float* blocks,
-                     const BlockVector<3>& x, BlockVector<3>& y, std::size_t first,
-                     std::size_t last) {
-  return multiply_range<3>(columns, blocks, x, y, first, last);
-}
-
 }  // namespace
 
 template <int dim>
@@ -88,16 +78,8 @@ template <int dim>
 double BlockConjugateGradients<dim>::multiply_scaled(const BlockVector<dim>& x,
                                                      BlockVector<dim>& y) const {
   return sum_over_ranges(x.size(), [&](std::size_t first, std::size_t last) {
-    return multiply_rows(matrix_->columns(), matrix_->scaled_block(0), x, y, first, last);
+    return multiply_range<dim>(matrix_->columns(), matrix_->scaled_block(0), x, y, first, last);
   });
-}
-
-template <int dim>
-std::size_t BlockConjugateGradients<dim>::bytes_of_multiplication() const {
-  const auto& columns = matrix_->columns();
-  return columns.n_entries() *
-             (dim * dim * sizeof(typename BlockMatrix<dim>::Number) + sizeof(std::uint32_t)) +
-         columns.size() * (2 * sizeof(Point<dim>) + sizeof(RowOffset));
 }
 
 template <int dim>

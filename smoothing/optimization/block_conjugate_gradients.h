@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include "smoothing/optimization/block_matrix.h"
@@ -5,7 +6,7 @@
 namespace smoothfem {
 
 /// Conjugate gradients for A x = b, preconditioned by the inverses of A's diagonal blocks L L',
-/// which must be positive definite. A itself need not be: that is found out.
+/// which must be positive definite. A itself need not be: that is detected.
 template <int dim>
 class BlockConjugateGradients {
  public:
@@ -29,12 +30,10 @@ class BlockConjugateGradients {
   Result solve(const BlockVector<dim>& right, double relative_tolerance, int max_iterations,
                BlockVector<dim>& result);
 
-  /// y = A x with the scaled matrix; returns x' y. For measuring.
-  double multiply_scaled(const BlockVector<dim>& x, BlockVector<dim>& y) const;
-  /// What that reads and writes at least.
-  std::size_t bytes_of_multiplication() const;
-
  private:
+  /// y = A x with the scaled matrix; returns x' y.
+  double multiply_scaled(const BlockVector<dim>& x, BlockVector<dim>& y) const;
+
   const BlockMatrix<dim>* matrix_ = nullptr;
   BlockVector<dim> residual_, direction_, product_;
 };

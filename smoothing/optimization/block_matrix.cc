@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimization/block_matrix.h"
 
 #include <cmath>
@@ -40,29 +41,32 @@ Eigen::Matrix<double, dim, dim> inverse_cholesky_factor(Eigen::Matrix<double, di
 template <int dim>
 BlockMatrix<dim>::BlockMatrix(CompressedRows<std::uint32_t> columns)
     : columns_(std::move(columns)),
-      diagonal_(n_rows() + 1, Block::Zero()),
+      inverse_factors_(n_rows() + 1, Block::Zero()),
       scaled_(dim * dim * columns_.n_entries() + n_lanes) {}  // read n_lanes numbers at a time
 
 template <int dim>
-void BlockMatrix<dim>::start_diagonal() {
-  for_row_ranges(diagonal_.size(), [&](std::size_t first, std::size_t last) {
-    std::fill(diagonal_.begin() + first, diagonal_.begin() + last, Block::Zero());
+std::vector<typename BlockMatrix<dim>::Block> BlockMatrix<dim>::start_diagonal() {
+  auto diagonal = std::move(inverse_factors_);
+  for_row_ranges(diagonal.size(), [&](std::size_t first, std::size_t last) {
+    std::fill(diagonal.begin() + first, diagonal.begin() + last, Block::Zero());
   });
+  return diagonal;
 }
 
 template <int dim>
-void BlockMatrix<dim>::factor_diagonal() {
+void BlockMatrix<dim>::factor_diagonal(std::vector<Block> diagonal) {
   for_row_ranges(n_rows(), [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
       std::fill(scaled_block(columns_.offset(row)), scaled_block(columns_.offset(row + 1)),
                 Number{0});
-      const Block factor = inverse_cholesky_factor<dim>(diagonal_[row]);
-      const Block scaled = factor * diagonal_[row] * factor.transpose();
+      const Block factor = inverse_cholesky_factor<dim>(diagonal[row]);
+      const Block scaled = factor * diagonal[row] * factor.transpose();
       const auto number = static_cast<std::uint32_t>(row);
       std::copy(scaled.data(), scaled.data() + dim * dim, scaled_block(position(number, number)));
-      diagonal_[row] = factor;
+      diagonal[row] = factor;
     }
   });
+  inverse_factors_ = std::move(diagonal);
 }
 
 template class BlockMatrix<2>;

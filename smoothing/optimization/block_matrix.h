@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
@@ -69,15 +70,15 @@ class BlockMatrix {
   BlockVector<dim> make_vector() const { return BlockVector<dim>(n_rows(), Point<dim>::Zero()); }
   const CompressedRows<std::uint32_t>& columns() const { return columns_; }
 
-  /// The first step: diagonal blocks of zeros, to be added to by diagonal_block.
-  void start_diagonal();
-  Block& diagonal_block(std::size_t row) { return diagonal_[row]; }
+  /// The first step: diagonal blocks of zeros, one per row, to be added to. The factors of the
+  /// matrix are gone from here on; the blocks have their memory.
+  std::vector<Block> start_diagonal();
 
-  /// The second step: the diagonal blocks, which have to be positive semidefinite, give the
-  /// factors; the other blocks are zero.
-  void factor_diagonal();
+  /// The second step: these blocks, which have to be positive semidefinite, give the factors; the
+  /// other blocks are zero.
+  void factor_diagonal(std::vector<Block> diagonal);
   /// L^-1 of a row; zero for row number n_rows().
-  const Block& inverse_factor(std::size_t row) const { return diagonal_[row]; }
+  const Block& inverse_factor(std::size_t row) const { return inverse_factors_[row]; }
 
   /// Where the block of a row and a column of the pattern is: its number in columns().entries().
   std::uint32_t position(std::uint32_t row, std::uint32_t column) const {
@@ -94,7 +95,7 @@ class BlockMatrix {
 
  private:
   CompressedRows<std::uint32_t> columns_;
-  std::vector<Block> diagonal_;  ///< of each row: the diagonal block, later its L^-1
+  std::vector<Block> inverse_factors_;  ///< L^-1 of each row
   std::vector<Number> scaled_;
 };
 

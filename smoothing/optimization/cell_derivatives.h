@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -14,19 +15,19 @@ struct Block {
   std::array<Real, static_cast<std::size_t>(dim* dim)> entries{};
 
   /// Adds u v'.
-  SMOOTHFEM_INLINE void add_product(Vector2<Real> u, Vector2<Real> v) {
+  void add_product(Vector2<Real> u, Vector2<Real> v) {
     entries[0] += u.x * v.x;
     entries[1] += u.y * v.x;
     entries[2] += u.x * v.y;
     entries[3] += u.y * v.y;
   }
-  SMOOTHFEM_INLINE void add_product(Vector3<Real> u, Vector3<Real> v) {
+  void add_product(Vector3<Real> u, Vector3<Real> v) {
     const std::array a{u.x, u.y, u.z}, b{v.x, v.y, v.z};
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t i = 0; i < 3; ++i) entries[3 * j + i] += a[i] * b[j];
   }
   /// Adds a multiple of the unit matrix.
-  SMOOTHFEM_INLINE void add_unit(Real scale) {
+  void add_unit(Real scale) {
     for (std::size_t i = 0; i < dim; ++i) entries[(dim + 1) * i] += scale;
   }
 };
@@ -74,18 +75,18 @@ class CellDerivatives<2, Real, extent> {
   CellArray<Block<2, Real>, n_node_pairs(extent)> hessian;
 
   /// x: the n corners of a valid cell.
-  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector2<Real>, extent> x, HessianModel model,
-                                   HessianBlocks blocks = HessianBlocks::all)
+  CellDerivatives(std::span<const Vector2<Real>, extent> x, HessianModel model,
+                  HessianBlocks blocks = HessianBlocks::all)
       : gradient(x.size()), hessian(n_node_pairs(x.size())), n_(x.size()), blocks_(blocks) {
     const CornerWeights weights = corner_weights(n_);
     const std::size_t n_corners = n_ == 3 ? 1 : n_;  // a triangle's corners are all alike
-    const double share = 1.0 / static_cast<double>(n_corners);
-    const double concave_share = model == HessianModel::exact ? 1.0 : 0.0;
+    const double weight = 1.0 / static_cast<double>(n_corners);
+    const double concave_part = model == HessianModel::exact ? 1.0 : 0.0;
     Real mean{};
     for (std::size_t k = 0; k < n_corners; ++k) mean += value_of(map_of(x, weights, k));
-    mean = share * mean;
+    mean = weight * mean;
     for (std::size_t k = 0; k < n_corners; ++k)
-      add_corner(map_of(x, weights, k), weights, k, 2.0 * share * mean, concave_share);
+      add_corner(map_of(x, weights, k), weights, k, 2.0 * weight * mean, concave_part);
     // 2 m Hess(m) stands there now; h adds 2 grad(m) grad(m)', h Hess(log h) subtracts it.
     const Real factor = (model == HessianModel::exact ? 0.5 : -0.5) / (mean * mean);
     for (std::size_t p = 0; p < n_; ++p)
@@ -94,38 +95,38 @@ class CellDerivatives<2, Real, extent> {
   }
 
  private:
-  SMOOTHFEM_INLINE std::size_t next(std::size_t k) const { return k + 1 == n_ ? 0 : k + 1; }
-  SMOOTHFEM_INLINE std::size_t previous(std::size_t k) const { return k == 0 ? n_ - 1 : k - 1; }
+  std::size_t next(std::size_t k) const { return k + 1 == n_ ? 0 : k + 1; }
+  std::size_t previous(std::size_t k) const { return k == 0 ? n_ - 1 : k - 1; }
 
-  static SMOOTHFEM_INLINE Real value_of(const CornerMap<Real>& map) {
+  static inline Real value_of(const CornerMap<Real>& map) {
     return (squared_length(map.a) + squared_length(map.b)) / map.determinant();
   }
-  SMOOTHFEM_INLINE CornerMap<Real> map_of(std::span<const Vector2<Real>, extent> x,
-                                          const CornerWeights& weights, std::size_t k) const {
+  CornerMap<Real> map_of(std::span<const Vector2<Real>, extent> x, const CornerWeights& weights,
+                         std::size_t k) const {
     return corner_map(weights, x[k], x[next(k)], x[previous(k)]);
   }
 
-  SMOOTHFEM_INLINE void add_corner(const CornerMap<Real>& map, const CornerWeights& weights,
-                                   std::size_t k, Real scale, double concave_share) {
+  void add_corner(const CornerMap<Real>& map, const CornerWeights& weights, std::size_t k,
+                  Real scale, double concave_part) {
     const InverseMeanRatio<Real> f(map);
-    const std::array places{k, next(k), previous(k)};
+    const std::array nodes{k, next(k), previous(k)};
     const Real aa = scale * f.aa, ab = scale * f.ab, bb = scale * f.bb;
     const Real gradient_a = scale * f.gradient_a, gradient_b = scale * f.gradient_b;
-    const Real aa_one = concave_share * scale * f.aa_one, bb_one = scale * f.bb_one;
-    // A node's place moves a by its weight and b by the conjugate: rows of the chain rule.
+    const Real aa_one = concave_part * scale * f.aa_one, bb_one = scale * f.bb_one;
+    // A node's position moves a by its weight and b by the conjugate: rows of the chain rule.
     std::array<Vector2<Real>, 3> u, v, hu, hv;
     for (std::size_t i = 0; i < 3; ++i) {
       u[i] = conjugate_product(weights.weights[i], map.a);
       v[i] = complex_product(weights.weights[i], map.b);
       hu[i] = aa * u[i] + ab * v[i];
       hv[i] = ab * u[i] + bb * v[i];
-      gradient[places[i]] = gradient[places[i]] + gradient_a * u[i] + gradient_b * v[i];
+      gradient[nodes[i]] = gradient[nodes[i]] + gradient_a * u[i] + gradient_b * v[i];
     }
     const Real even = aa_one + bb_one, odd = aa_one - bb_one;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
-        if (places[i] > places[j] || (i != j && blocks_ == HessianBlocks::diagonal)) continue;
-        auto& block = hessian[node_pair(n_, places[i], places[j])];
+        if (nodes[i] > nodes[j] || (i != j && blocks_ == HessianBlocks::diagonal)) continue;
+        auto& block = hessian[node_pair(n_, nodes[i], nodes[j])];
         block.add_product(u[i], hu[j]);
         block.add_product(v[i], hv[j]);
         const Real real = even * weights.products[i][j].x;

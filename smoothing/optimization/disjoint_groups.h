@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,7 @@ namespace smoothfem {
 
 /// Parts of a mesh, in groups of parts that several threads may take at a time: no part of a group
 /// writes to where another one of it reads or writes. Depends on the mesh alone, so that what the
-/// parts add to a place comes in one order for every number of threads.
+/// parts add to a node comes in one order for every number of threads.
 using DisjointGroups = std::vector<std::vector<std::size_t>>;
 
 /// The indices first .. last-1.

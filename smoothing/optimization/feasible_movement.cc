@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimization/feasible_movement.h"
 
 #include <limits>
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/mesh/volume_elements.h"
-#include "smoothing/simd/cell_blocks.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -18,7 +19,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// between t and 1: no more than the polynomial itself. The first one ends at the root if that is
 /// quadratic, the others converge to it quadratically from below.
 template <int n_steps, class Real>
-SMOOTHFEM_INLINE Real smallest_root(Real constant, Real linear, Real quadratic, Real cubic) {
+inline Real smallest_root(Real constant, Real linear, Real quadratic, Real cubic) {
   const Real infinite = Real{} + unlimited;
   Real t{};
   for (int step = 0; step < n_steps; ++step) {
@@ -39,47 +40,48 @@ SMOOTHFEM_INLINE Real smallest_root(Real constant, Real linear, Real quadratic, 
   return t;
 }
 
-/// The smallest t > 0 where a corner's determinant is down to 1 - share of that at 0; more than 1
-/// if there is none up to 1. Edges from the corner, and what is added to them at t = 1.
+/// The smallest t > 0 where a corner's determinant is down to 1 - fraction of that at 0; more than
+/// 1 if there is none up to 1. Edges from the corner, and what is added to them at t = 1.
 template <class Real>
-SMOOTHFEM_INLINE Real corner_limit(const std::array<Vector2<Real>, 2>& edges,
-                                   const std::array<Vector2<Real>, 2>& changes, double share) {
+inline Real corner_limit(const std::array<Vector2<Real>, 2>& edges,
+                         const std::array<Vector2<Real>, 2>& changes, double fraction) {
   const auto [a, b] = edges;
   const auto [da, db] = changes;
-  return smallest_root<1>(share * cross(a, b), cross(da, b) + cross(a, db), cross(da, db), Real{});
+  return smallest_root<1>(fraction * cross(a, b), cross(da, b) + cross(a, db), cross(da, db),
+                          Real{});
 }
 template <class Real>
-SMOOTHFEM_INLINE Real corner_limit(const std::array<Vector3<Real>, 3>& edges,
-                                   const std::array<Vector3<Real>, 3>& changes, double share) {
+inline Real corner_limit(const std::array<Vector3<Real>, 3>& edges,
+                         const std::array<Vector3<Real>, 3>& changes, double fraction) {
   const auto [a, b, c] = edges;
   const auto [da, db, dc] = changes;
   const auto bc = cross(b, c), dbc = cross(db, c) + cross(b, dc), dbdc = cross(db, dc);
-  return smallest_root<4>(share * dot(a, bc), dot(da, bc) + dot(a, dbc),
+  return smallest_root<4>(fraction * dot(a, bc), dot(da, bc) + dot(a, dbc),
                           dot(da, dbc) + dot(a, dbdc), dot(da, dbdc));
 }
 
 template <class Real>
-SMOOTHFEM_INLINE Real smaller(Real a, Real b) {
+inline Real smaller(Real a, Real b) {
   return b < a ? b : a;
 }
 
 /// The smallest limit of a cell's corners; x, y: its nodes at the start and at the end.
 template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE Real cell_limit(std::span<const Vector2<Real>, extent> x,
-                                 std::span<const Vector2<Real>, extent> y, double share) {
+inline Real cell_limit(std::span<const Vector2<Real>, extent> x,
+                       std::span<const Vector2<Real>, extent> y, double fraction) {
   const std::size_t n = x.size(), n_corners = n == 3 ? 1 : n;
   Real smallest = Real{} + unlimited;
   for (std::size_t k = 0; k < n_corners; ++k) {
     const std::size_t after = k + 1 == n ? 0 : k + 1, before = k == 0 ? n - 1 : k - 1;
     const std::array edges{x[after] - x[k], x[before] - x[k]};
     const std::array changes{(y[after] - y[k]) - edges[0], (y[before] - y[k]) - edges[1]};
-    smallest = smaller(smallest, corner_limit(edges, changes, share));
+    smallest = smaller(smallest, corner_limit(edges, changes, fraction));
   }
   return smallest;
 }
 template <class Real, std::size_t n>
-SMOOTHFEM_INLINE Real cell_limit(std::span<const Vector3<Real>, n> x,
-                                 std::span<const Vector3<Real>, n> y, double share) {
+inline Real cell_limit(std::span<const Vector3<Real>, n> x, std::span<const Vector3<Real>, n> y,
+                       double fraction) {
   Real smallest = Real{} + unlimited;
   for (const LocalSimplex& corner : VolumeElement<n>::corners) {
     std::array<Vector3<Real>, 3> edges, changes;
@@ -87,58 +89,50 @@ SMOOTHFEM_INLINE Real cell_limit(std::span<const Vector3<Real>, n> x,
       edges[i] = x[corner[i + 1]] - x[corner[0]];
       changes[i] = (y[corner[i + 1]] - y[corner[0]]) - edges[i];
     }
-    smallest = smaller(smallest, corner_limit(edges, changes, share));
+    smallest = smaller(smallest, corner_limit(edges, changes, fraction));
   }
   return smallest;
 }
 
 template <int dim>
-SMOOTHFEM_INLINE double limit_block(const Topology& topology, const std::vector<Point<dim>>& from,
-                                    const std::vector<Point<dim>>& to, double share,
-                                    const CellBlock& block, std::vector<double>& limits) {
+double limit_block(const Topology& topology, std::span<const Point<dim>> from,
+                   std::span<const Point<dim>> to, double fraction, const CellBlock& block,
+                   std::vector<double>& limits) {
   double smallest = 1.0;
-  const auto lower = [&](CellIndex c, double limit) SMOOTHFEM_INLINE_LAMBDA {
+  const auto lower = [&](CellIndex c, double limit) {
     limits[c] = std::min(limit, 1.0);
     smallest = std::min(smallest, limit);
   };
-  for_each_block<dim>(
-      topology, from, block.first, block.last,
-      [&]<std::size_t n>(CellIndex c, const std::array<Vector<dim, Lanes>, n>& x)
-          SMOOTHFEM_INLINE_LAMBDA {
-            using Nodes = std::span<const Vector<dim, Lanes>, n>;
-            const auto y = gather_block<n, dim>(to.data(), topology.cell_nodes(c).data());
-            const Lanes limit = cell_limit(Nodes(x), Nodes(y), share);
-            for (std::size_t l = 0; l < n_lanes; ++l) lower(c + l, limit[l]);
-          },
-      [&]<std::size_t n>(CellIndex c, std::span<const Vector<dim, double>, n> x)
-          SMOOTHFEM_INLINE_LAMBDA {
-            with_corners<dim>(topology.cell_nodes(c), to, [&](auto y) SMOOTHFEM_INLINE_LAMBDA {
-              if constexpr (decltype(y)::extent == n) lower(c, cell_limit(x, y, share));
-            });
+  for_each_batch<dim>(
+      topology, block.first, block.last,
+      [&]<std::size_t n>(const CellBatch<n>& batch) {
+        using Nodes = std::span<const Vector<dim, Lanes>, n>;
+        const auto x = batch.template corners<dim>(from.data());
+        const auto y = batch.template corners<dim>(to.data());
+        const Lanes limit = cell_limit(Nodes(x), Nodes(y), fraction);
+        batch.for_each_lane([&](std::size_t l) { lower(batch.cells[l], limit[l]); });
+      },
+      [&](CellIndex c) {
+        if constexpr (dim == 2) {
+          const auto nodes = topology.cell_nodes(c);
+          with_polygon(nodes, from.data(), [&](auto x) {
+            with_polygon(nodes, to.data(), [&](auto y) { lower(c, cell_limit(x, y, fraction)); });
           });
+        }
+      });
   return smallest;
-}
-double cell_limits(const Topology& topology, const std::vector<Point<2>>& from,
-                   const std::vector<Point<2>>& to, double share, const CellBlock& block,
-                   std::vector<double>& limits) {
-  return limit_block<2>(topology, from, to, share, block, limits);
-}
-double cell_limits(const Topology& topology, const std::vector<Point<3>>& from,
-                   const std::vector<Point<3>>& to, double share, const CellBlock& block,
-                   std::vector<double>& limits) {
-  return limit_block<3>(topology, from, to, share, block, limits);
 }
 
 }  // namespace
 
 template <int dim>
-double feasible_fractions(const Topology& topology, const std::vector<Point<dim>>& from,
-                          const std::vector<Point<dim>>& to, double share,
+double feasible_fractions(const Topology& topology, std::span<const Point<dim>> from,
+                          std::span<const Point<dim>> to, double fraction,
                           std::vector<double>& limits) {
   constexpr std::size_t grain = 16384;
   std::vector<double> of_cells(topology.n_cells()), parts(topology.blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {
-    parts[b] = cell_limits(topology, from, to, share, topology.blocks()[b], of_cells);
+    parts[b] = limit_block<dim>(topology, from, to, fraction, topology.blocks()[b], of_cells);
   });
   limits.assign(topology.n_nodes(), 1.0);
   const double smallest = *std::min_element(parts.begin(), parts.end());
@@ -151,9 +145,9 @@ double feasible_fractions(const Topology& topology, const std::vector<Point<dim>
   return smallest;
 }
 
-template double feasible_fractions(const Topology&, const std::vector<Point<2>>&,
-                                   const std::vector<Point<2>>&, double, std::vector<double>&);
-template double feasible_fractions(const Topology&, const std::vector<Point<3>>&,
-                                   const std::vector<Point<3>>&, double, std::vector<double>&);
+template double feasible_fractions<2>(const Topology&, std::span<const Point<2>>,
+                                      std::span<const Point<2>>, double, std::vector<double>&);
+template double feasible_fractions<3>(const Topology&, std::span<const Point<3>>,
+                                      std::span<const Point<3>>, double, std::vector<double>&);
 
 }  // namespace smoothfem

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ struct CornerMap {
   Vector2<Real> a, b;
 
   /// Of S = D W^-1; same sign as that of det D.
-  SMOOTHFEM_INLINE Real determinant() const { return squared_length(a) - squared_length(b); }
+  Real determinant() const { return squared_length(a) - squared_length(b); }
 };
 
 /// How a corner's map depends on its nodes (corner, next, previous): a = sum_k weights[k] x_k and b
@@ -26,17 +27,17 @@ struct CornerWeights {
 
 /// a times b, and conj(a) times b, as complex numbers.
 template <class A, class B>
-SMOOTHFEM_INLINE Vector2<B> complex_product(Vector2<A> a, Vector2<B> b) {
+inline Vector2<B> complex_product(Vector2<A> a, Vector2<B> b) {
   return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
 }
 template <class A, class B>
-SMOOTHFEM_INLINE Vector2<B> conjugate_product(Vector2<A> a, Vector2<B> b) {
+inline Vector2<B> conjugate_product(Vector2<A> a, Vector2<B> b) {
   return {a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x};
 }
 
 /// For a corner of a polygon with n >= 3 nodes: S = D W^-1 with D = (next - corner, previous -
 /// corner) and W of the regular n-gon.
-SMOOTHFEM_INLINE CornerWeights corner_weights(std::size_t n) {
+inline CornerWeights corner_weights(std::size_t n) {
   const RegularAngle angle = regular_interior_angle(n);
   const double slope = angle.cosine / angle.sine, scale = 1.0 / angle.sine;
   CornerWeights corner;
@@ -48,8 +49,8 @@ SMOOTHFEM_INLINE CornerWeights corner_weights(std::size_t n) {
 }
 
 template <class Real>
-SMOOTHFEM_INLINE CornerMap<Real> corner_map(const CornerWeights& corner, Vector2<Real> here,
-                                            Vector2<Real> next, Vector2<Real> previous) {
+inline CornerMap<Real> corner_map(const CornerWeights& corner, Vector2<Real> here,
+                                  Vector2<Real> next, Vector2<Real> previous) {
   const auto& w = corner.weights;
   return {
       complex_product(w[0], here) + complex_product(w[1], next) + complex_product(w[2], previous),
@@ -67,7 +68,7 @@ struct InverseMeanRatio {
   Real gradient_a, gradient_b;
   Real aa_one, aa, ab, bb_one, bb;
 
-  SMOOTHFEM_INLINE explicit InverseMeanRatio(const CornerMap<Real>& map) {
+  explicit InverseMeanRatio(const CornerMap<Real>& map) {
     const Real big = squared_length(map.a), small = squared_length(map.b);
     const Real inverse = 1.0 / (big - small), sum = big + small;
     const Real four = 4.0 * inverse * inverse;
@@ -85,7 +86,7 @@ struct InverseMeanRatio {
 /// Mean inverse mean ratio of a planar cell's corners; infinite if a corner's determinant is not
 /// positive.
 template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE Real mean_inverse_mean_ratio(std::span<const Vector2<Real>, extent> x) {
+inline Real mean_inverse_mean_ratio(std::span<const Vector2<Real>, extent> x) {
   const std::size_t n = x.size(), n_corners = n == 3 ? 1 : n;
   const RegularAngle regular = regular_interior_angle(n);
   const Real infinite = Real{} + std::numeric_limits<double>::infinity();
@@ -105,12 +106,12 @@ SMOOTHFEM_INLINE Real mean_inverse_mean_ratio(std::span<const Vector2<Real>, ext
 /// The same of a volume cell: |S|^2 / (3 det(S)^(2/3)), S = D W^-1, of the corners that the mean
 /// ratio counts.
 template <class Real, std::size_t n>
-SMOOTHFEM_INLINE Real mean_inverse_mean_ratio(std::span<const Vector3<Real>, n> x) {
+inline Real mean_inverse_mean_ratio(std::span<const Vector3<Real>, n> x) {
   constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
   const Real infinite = Real{} + std::numeric_limits<double>::infinity();
   const CellEdges<Real, n> edges(x);
   Real sum{};
-  unrolled<n_corners>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+  unrolled<n_corners>([&](auto k) {
     const CornerShape<Real> shape = corner_shape<k>(edges);
     const Real root = inverse_root<3>(shape.determinant);
     sum += shape.determinant > 0.0 ? shape.squared_norm * (root * root) : infinite;
@@ -145,7 +146,7 @@ struct CornerGradients {
 };
 
 template <std::size_t k, class Real, std::size_t n>
-SMOOTHFEM_INLINE CornerGradients<Real> corner_gradients(std::span<const Vector3<Real>, n> x) {
+inline CornerGradients<Real> corner_gradients(std::span<const Vector3<Real>, n> x) {
   constexpr LocalSimplex corner = VolumeElement<n>::corners[k];
   constexpr auto& gram = corner_gram<n>;
   const std::array edges{x[corner[1]] - x[corner[0]], x[corner[2]] - x[corner[0]],

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include "smoothing/optimization/cell_derivatives.h"
@@ -13,7 +14,7 @@ struct CornerFrame {
   double regular_determinant;
 
   /// Half the gradient of |S|^2 with respect to the end of edge i.
-  SMOOTHFEM_INLINE Vector<dim, Real> half_gradient(std::size_t i) const {
+  Vector<dim, Real> half_gradient(std::size_t i) const {
     auto sum = inverse_gram[i][0] * edges[0];
     for (std::size_t j = 1; j < dim; ++j) sum = sum + inverse_gram[i][j] * edges[j];
     return sum;
@@ -24,8 +25,7 @@ struct CornerFrame {
 /// `slot` in the corner (0: itself, then its neighbours), -1 if it is none of them. Planar cells
 /// have it as their first node.
 template <std::size_t slot, class Real, std::size_t extent, class Visit>
-SMOOTHFEM_INLINE void for_each_corner(std::span<const Vector2<Real>, extent> x,
-                                      const Visit& visit) {
+inline void for_each_corner(std::span<const Vector2<Real>, extent> x, const Visit& visit) {
   static_assert(slot == 0);
   const std::size_t n = x.size(), n_corners = n == 3 ? 1 : n;
   const RegularAngle angle = regular_interior_angle(n);
@@ -42,9 +42,9 @@ SMOOTHFEM_INLINE void for_each_corner(std::span<const Vector2<Real>, extent> x,
   }
 }
 template <std::size_t slot, class Real, std::size_t n, class Visit>
-SMOOTHFEM_INLINE void for_each_corner(std::span<const Vector3<Real>, n> x, const Visit& visit) {
+inline void for_each_corner(std::span<const Vector3<Real>, n> x, const Visit& visit) {
   using Element = VolumeElement<n>;
-  unrolled<Element::corners.size()>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+  unrolled<Element::corners.size()>([&](auto k) {
     constexpr LocalSimplex corner = Element::corners[k];
     int position = -1;
     for (int j = 0; j < 4; ++j)
@@ -58,29 +58,29 @@ SMOOTHFEM_INLINE void for_each_corner(std::span<const Vector3<Real>, n> x, const
 }
 
 template <class Real>
-SMOOTHFEM_INLINE Real frame_determinant(const std::array<Vector2<Real>, 2>& e) {
+inline Real frame_determinant(const std::array<Vector2<Real>, 2>& e) {
   return cross(e[0], e[1]);
 }
 template <class Real>
-SMOOTHFEM_INLINE Real frame_determinant(const std::array<Vector3<Real>, 3>& e) {
+inline Real frame_determinant(const std::array<Vector3<Real>, 3>& e) {
   return dot(e[0], cross(e[1], e[2]));
 }
 /// Gradient of the determinant with respect to the end of edge i.
 template <class Real>
-SMOOTHFEM_INLINE Vector2<Real> cofactor(const std::array<Vector2<Real>, 2>& e, std::size_t i) {
+inline Vector2<Real> cofactor(const std::array<Vector2<Real>, 2>& e, std::size_t i) {
   return i == 0 ? Vector2<Real>{e[1].y, -e[1].x} : Vector2<Real>{-e[0].y, e[0].x};
 }
 template <class Real>
-SMOOTHFEM_INLINE Vector3<Real> cofactor(const std::array<Vector3<Real>, 3>& e, std::size_t i) {
+inline Vector3<Real> cofactor(const std::array<Vector3<Real>, 3>& e, std::size_t i) {
   return cross(e[(i + 1) % 3], e[(i + 2) % 3]);
 }
 
-/// h = m^2 of a cell as a function of the place of one of its nodes, m the mean over the corners of
-/// |S|^2 / (dim r^(2/dim)), where r is det(S) if `softness` is zero (h is infinite for an invalid
-/// cell), otherwise (det(S) + sqrt(det(S)^2 + 4 softness^2)) / 2, positive for inverted corners too
-/// (Escobar et al., Comput. Methods Appl. Mech. Engrg. 192 (2003)). With softness zero h is convex
-/// in the place of one node, since determinants are linear in it, and the Hessian is exact;
-/// otherwise it is raised to be positive semidefinite.
+/// h = m^2 of a cell as a function of the position of one of its nodes, m the mean over the corners
+/// of |S|^2 / (dim r^(2/dim)), where r is det(S) if `softness` is zero (h is infinite for an
+/// invalid cell), otherwise (det(S) + sqrt(det(S)^2 + 4 softness^2)) / 2, positive for inverted
+/// corners too (Escobar et al., Comput. Methods Appl. Mech. Engrg. 192 (2003)). With softness zero
+/// h is convex in the position of one node, since determinants are linear in it, and the Hessian is
+/// exact; otherwise it is raised to be positive semidefinite.
 template <int dim, class Real>
 struct NodeTerms {
   Real value{};
@@ -90,7 +90,7 @@ struct NodeTerms {
 
 /// r^(-2/dim).
 template <int dim, class Real>
-SMOOTHFEM_INLINE Real shape_power(Real r) {
+inline Real shape_power(Real r) {
   if constexpr (dim == 2) {
     return 1.0 / r;
   } else {
@@ -101,59 +101,58 @@ SMOOTHFEM_INLINE Real shape_power(Real r) {
 
 template <std::size_t slot, bool with_derivatives, template <class> class V, class Real,
           std::size_t extent>
-SMOOTHFEM_INLINE auto node_terms(std::span<const V<Real>, extent> x, double softness) {
+inline auto node_terms(std::span<const V<Real>, extent> x, double softness) {
   constexpr int dim = sizeof(V<Real>) / sizeof(Real);
   constexpr double p = 2.0 / dim;
   const Real infinite = Real{} + std::numeric_limits<double>::infinity();
   NodeTerms<dim, Real> terms;
   double n_corners = 0.0;
-  for_each_corner<slot>(
-      x, [&](const CornerFrame<dim, Real>& corner, int position) SMOOTHFEM_INLINE_LAMBDA {
-        const auto& e = corner.edges;
-        std::array<Vector<dim, Real>, dim> u;  // gradient of |S|^2 / 2 by the edges
-        Real squared_norm{};
-        for (std::size_t i = 0; i < dim; ++i) {
-          u[i] = corner.half_gradient(i);
-          squared_norm += dot(e[i], u[i]);
-        }
-        const double scale = 1.0 / corner.regular_determinant;
-        const Real determinant = scale * frame_determinant(e);
-        const Real spread =
-            softness > 0.0 ? square_root(determinant * determinant + (4.0 * softness * softness))
-                           : determinant;
-        const Real falling = (2.0 * softness * softness) / (spread - determinant);
-        const Real r = determinant > 0.0 ? 0.5 * (determinant + spread) : falling;
-        const Real power = shape_power<dim>(softness > 0.0 || determinant > 0.0 ? r : Real{} + 1.0);
-        const Real share = (1.0 / dim) * power;
-        terms.value += softness > 0.0 || determinant > 0.0 ? share * squared_norm : infinite;
-        n_corners += 1.0;
-        if (!with_derivatives || position < 0) return;
+  for_each_corner<slot>(x, [&](const CornerFrame<dim, Real>& corner, int position) {
+    const auto& e = corner.edges;
+    std::array<Vector<dim, Real>, dim> u;  // gradient of |S|^2 / 2 by the edges
+    Real squared_norm{};
+    for (std::size_t i = 0; i < dim; ++i) {
+      u[i] = corner.half_gradient(i);
+      squared_norm += dot(e[i], u[i]);
+    }
+    const double scale = 1.0 / corner.regular_determinant;
+    const Real determinant = scale * frame_determinant(e);
+    const Real regularized_root =
+        softness > 0.0 ? square_root(determinant * determinant + (4.0 * softness * softness))
+                       : determinant;
+    const Real stable_branch = (2.0 * softness * softness) / (regularized_root - determinant);
+    const Real r = determinant > 0.0 ? 0.5 * (determinant + regularized_root) : stable_branch;
+    const Real power = shape_power<dim>(softness > 0.0 || determinant > 0.0 ? r : Real{} + 1.0);
+    const Real factor = (1.0 / dim) * power;
+    terms.value += softness > 0.0 || determinant > 0.0 ? factor * squared_norm : infinite;
+    n_corners += 1.0;
+    if (!with_derivatives || position < 0) return;
 
-        Vector<dim, Real> half_gradient{}, of_determinant{};
-        double gram = 0.0;
-        for (std::size_t i = 0; i < dim; ++i) {
-          if (position == 0) {
-            half_gradient = half_gradient - u[i];
-            of_determinant = of_determinant - cofactor(e, i);
-            for (std::size_t j = 0; j < dim; ++j) gram += corner.inverse_gram[i][j];
-          } else if (position == static_cast<int>(i) + 1) {
-            half_gradient = u[i];
-            of_determinant = cofactor(e, i);
-            gram = corner.inverse_gram[i][i];
-          }
-        }
-        const Real inverse = scale / spread;
-        const auto log_slope = inverse * of_determinant;
-        const Real bend = p * p + p * determinant / spread;
-        const Real least = Real{} + 2.0 * p * p;
-        const Real value = share * squared_norm;
-        const auto slope = (2.0 * share) * half_gradient;
-        terms.gradient = terms.gradient + slope - (p * value) * log_slope;
-        terms.hessian.add_unit((2.0 * gram) * share);
-        terms.hessian.add_product((-p) * slope, log_slope);
-        terms.hessian.add_product(
-            log_slope, (-p) * slope + ((bend > least ? bend : least) * value) * log_slope);
-      });
+    Vector<dim, Real> half_gradient{}, of_determinant{};
+    double gram = 0.0;
+    for (std::size_t i = 0; i < dim; ++i) {
+      if (position == 0) {
+        half_gradient = half_gradient - u[i];
+        of_determinant = of_determinant - cofactor(e, i);
+        for (std::size_t j = 0; j < dim; ++j) gram += corner.inverse_gram[i][j];
+      } else if (position == static_cast<int>(i) + 1) {
+        half_gradient = u[i];
+        of_determinant = cofactor(e, i);
+        gram = corner.inverse_gram[i][i];
+      }
+    }
+    const Real inverse = scale / regularized_root;
+    const auto log_slope = inverse * of_determinant;
+    const Real curvature = p * p + p * determinant / regularized_root;
+    const Real least = Real{} + 2.0 * p * p;
+    const Real value = factor * squared_norm;
+    const auto slope = (2.0 * factor) * half_gradient;
+    terms.gradient = terms.gradient + slope - (p * value) * log_slope;
+    terms.hessian.add_unit((2.0 * gram) * factor);
+    terms.hessian.add_product((-p) * slope, log_slope);
+    terms.hessian.add_product(
+        log_slope, (-p) * slope + ((curvature > least ? curvature : least) * value) * log_slope);
+  });
   const double mean = 1.0 / n_corners;
   const Real m = mean * terms.value;
   if constexpr (with_derivatives) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimization/shape_objective.h"
 
 #include <limits>
@@ -5,7 +6,7 @@
 #include "smoothing/mesh/parallel_rows.h"
 #include "smoothing/optimization/added_block.h"
 #include "smoothing/optimization/volume_cell_derivatives.h"
-#include "smoothing/simd/cell_blocks.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -14,17 +15,21 @@ namespace {
 /// Where the block of a pair with a fixed node goes.
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
-SMOOTHFEM_INLINE Point<2> lane_of(Vector2<Lanes> v, std::size_t l) {
-  return {v.x[l], v.y[l]};
+/// Cells as the sums below take them: several of a fixed type, or one polygon.
+template <std::size_t n>
+const NodeIndex* nodes_of(const CellBatch<n>& batch, std::size_t l) {
+  return batch.nodes[l];
 }
-SMOOTHFEM_INLINE Point<3> lane_of(Vector3<Lanes> v, std::size_t l) {
-  return {v.x[l], v.y[l], v.z[l]};
-}
-SMOOTHFEM_INLINE Point<2> lane_of(Vector2<double> v, std::size_t) {
-  return point_of(v);
-}
-SMOOTHFEM_INLINE Point<3> lane_of(Vector3<double> v, std::size_t) {
-  return point_of(v);
+struct SinglePolygon {
+  std::span<const NodeIndex> nodes;
+
+  template <class Visit>
+  void for_each_lane(const Visit& visit) const {
+    visit(std::size_t{0});
+  }
+};
+const NodeIndex* nodes_of(const SinglePolygon& polygon, std::size_t) {
+  return polygon.nodes.data();
 }
 
 /// Adds the gradients of cells and the diagonal blocks of their Hessians where they belong. The
@@ -32,25 +37,21 @@ SMOOTHFEM_INLINE Point<3> lane_of(Vector3<double> v, std::size_t) {
 template <int dim>
 struct DiagonalSums {
   static constexpr HessianBlocks blocks = HessianBlocks::diagonal;
-  const Topology& topology;
   const std::vector<std::uint32_t>& unknown;
   BlockVector<dim>& gradient;
-  BlockMatrix<dim>& hessian;
+  std::vector<typename BlockMatrix<dim>::Block>& diagonal;
 
-  /// first: the first of as many cells as Real has lanes.
-  template <class Real, std::size_t extent>
-  SMOOTHFEM_INLINE void add(CellIndex first, const CellDerivatives<dim, Real, extent>& cell) {
-    constexpr std::size_t lanes = sizeof(Real) / sizeof(double);
+  template <class Cells, class Real, std::size_t extent>
+  void add(const Cells& cells, const CellDerivatives<dim, Real, extent>& cell) {
     const std::size_t n = cell.gradient.size();
-    const NodeIndex* const nodes = topology.cell_nodes(first).data();
     for (std::size_t p = 0; p < n; ++p) {
       const auto blocks_of_cells = added_blocks<double>(cell.hessian[node_pair(n, p, p)]);
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const std::uint32_t row = unknown[nodes[l * n + p]];
-        if (row >= gradient.size()) continue;
-        gradient[row] += lane_of(cell.gradient[p], l);
-        blocks_of_cells[l].add_to(hessian.diagonal_block(row).data());
-      }
+      cells.for_each_lane([&](std::size_t l) {
+        const std::uint32_t row = unknown[nodes_of(cells, l)[p]];
+        if (row >= gradient.size()) return;
+        gradient[row] += lane(cell.gradient[p], l);
+        blocks_of_cells[l].add_to(diagonal[row].data());
+      });
     }
   }
 };
@@ -59,93 +60,76 @@ struct DiagonalSums {
 template <int dim>
 struct OtherBlockSums {
   static constexpr HessianBlocks blocks = HessianBlocks::all;
-  const Topology& topology;
   const std::vector<std::uint32_t>& unknown;
-  const std::array<std::uint32_t, 2>* places;  ///< of the next cell's pairs
+  const std::array<std::uint32_t, 2>* places;  ///< in the matrix, of the next cell's pairs
   BlockMatrix<dim>& hessian;
 
-  template <class Real, std::size_t extent>
-  SMOOTHFEM_INLINE void add(CellIndex first, const CellDerivatives<dim, Real, extent>& cell) {
-    constexpr std::size_t lanes = sizeof(Real) / sizeof(double);
+  template <class Cells, class Real, std::size_t extent>
+  void add(const Cells& cells, const CellDerivatives<dim, Real, extent>& cell) {
     const std::size_t n = cell.gradient.size(), n_pairs = n_node_pairs(n) - n;
-    const NodeIndex* const nodes = topology.cell_nodes(first).data();
     CellArray<Block<dim, Real>, extent> factors(n);
     for (std::size_t p = 0; p < n; ++p)
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const double* const factor = hessian.inverse_factor(unknown[nodes[l * n + p]]).data();
+      cells.for_each_lane([&](std::size_t l) {
+        const double* const factor = hessian.inverse_factor(unknown[nodes_of(cells, l)[p]]).data();
         for (std::size_t i = 0; i < dim * dim; ++i) set_lane(factors[p].entries[i], l, factor[i]);
-      }
+      });
     const auto* pair = places;
     for (std::size_t p = 0; p < n; ++p)
       for (std::size_t q = p + 1; q < n; ++q, ++pair) {
         const auto blocks_of_cells = added_blocks<typename BlockMatrix<dim>::Number>(
             scaled<dim>(factors[p], cell.hessian[node_pair(n, p, q)], factors[q]));
-        for (std::size_t l = 0; l < lanes; ++l) {
+        cells.for_each_lane([&](std::size_t l) {
           const auto [right, left] = pair[l * n_pairs];
-          if (right == nowhere) continue;
+          if (right == nowhere) return;
           blocks_of_cells[l].add_to(hessian.scaled_block(right));
           blocks_of_cells[l].transpose().add_to(hessian.scaled_block(left));
-        }
+        });
       }
-    places += lanes * n_pairs;
+    cells.for_each_lane([&](std::size_t) { places += n_pairs; });
   }
 };
 
 template <int dim>
-SMOOTHFEM_INLINE double sum_of_block(const Topology& topology, const std::vector<Point<dim>>& x,
-                                     const CellBlock& block) {
+double sum_of_block(const Topology& topology, const Point<dim>* x, const CellBlock& block) {
   Lanes sums{};
-  for_each_block<dim>(
-      topology, x, block.first, block.last,
-      [&]<std::size_t n>(CellIndex,
-                         const std::array<Vector<dim, Lanes>, n>& corners) SMOOTHFEM_INLINE_LAMBDA {
+  for_each_batch<dim>(
+      topology, block.first, block.last,
+      [&]<std::size_t n>(const CellBatch<n>& batch) {
+        const auto corners = batch.template corners<dim>(x);
         const Lanes mean = mean_inverse_mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners));
-        sums += mean * mean;
+        if (batch.count == n_lanes)
+          sums += mean * mean;
+        else
+          sums[0] += mean[0] * mean[0];
       },
-      [&](CellIndex, auto corners) SMOOTHFEM_INLINE_LAMBDA {
-        const double mean = mean_inverse_mean_ratio(corners);
-        sums[0] += mean * mean;
+      [&](CellIndex c) {
+        if constexpr (dim == 2)
+          with_polygon(topology.cell_nodes(c), x, [&](auto corners) {
+            const double mean = mean_inverse_mean_ratio(corners);
+            sums[0] += mean * mean;
+          });
       });
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 template <int dim, class Sums>
-SMOOTHFEM_INLINE void add_block_derivatives(const std::vector<Point<dim>>& x,
-                                            const CellBlock& block, HessianModel model, Sums sums) {
-  for_each_block<dim>(
-      sums.topology, x, block.first, block.last,
-      [&]<std::size_t n>(CellIndex c, const std::array<Vector<dim, Lanes>, n>& corners)
-          SMOOTHFEM_INLINE_LAMBDA {
-            const std::span<const Vector<dim, Lanes>, n> nodes(corners);
-            sums.add(c, CellDerivatives<dim, Lanes, n>(nodes, model, Sums::blocks));
-          },
-      [&]<std::size_t n>(CellIndex c, std::span<const Vector<dim, double>, n> nodes)
-          SMOOTHFEM_INLINE_LAMBDA {
-            sums.add(c, CellDerivatives<dim, double, n>(nodes, model, Sums::blocks));
+void add_block_derivatives(const Topology& topology, const Point<dim>* x, const CellBlock& block,
+                           HessianModel model, Sums sums) {
+  for_each_batch<dim>(
+      topology, block.first, block.last,
+      [&]<std::size_t n>(const CellBatch<n>& batch) {
+        const auto corners = batch.template corners<dim>(x);
+        const std::span<const Vector<dim, Lanes>, n> nodes(corners);
+        sums.add(batch, CellDerivatives<dim, Lanes, n>(nodes, model, Sums::blocks));
+      },
+      [&](CellIndex c) {
+        if constexpr (dim == 2)
+          with_polygon(topology.cell_nodes(c), x, [&](std::span<const Vector2<double>> nodes) {
+            using Derivatives = CellDerivatives<2, double, std::dynamic_extent>;
+            sums.add(SinglePolygon{topology.cell_nodes(c)},
+                     Derivatives(nodes, model, Sums::blocks));
           });
-}
-
-double value_of(const Topology& topology, const std::vector<Point<2>>& x, const CellBlock& block) {
-  return sum_of_block<2>(topology, x, block);
-}
-double value_of(const Topology& topology, const std::vector<Point<3>>& x, const CellBlock& block) {
-  return sum_of_block<3>(topology, x, block);
-}
-void add_derivatives(const std::vector<Point<2>>& x, const CellBlock& block, HessianModel model,
-                     const DiagonalSums<2>& sums) {
-  add_block_derivatives<2>(x, block, model, sums);
-}
-void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, HessianModel model,
-                     const DiagonalSums<3>& sums) {
-  add_block_derivatives<3>(x, block, model, sums);
-}
-void add_derivatives(const std::vector<Point<2>>& x, const CellBlock& block, HessianModel model,
-                     const OtherBlockSums<2>& sums) {
-  add_block_derivatives<2>(x, block, model, sums);
-}
-void add_derivatives(const std::vector<Point<3>>& x, const CellBlock& block, HessianModel model,
-                     const OtherBlockSums<3>& sums) {
-  add_block_derivatives<3>(x, block, model, sums);
+      });
 }
 
 /// For each unknown those it shares a cell with.
@@ -202,10 +186,10 @@ BlockMatrix<dim> ShapeObjective<dim>::make_hessian() {
 }
 
 template <int dim>
-double ShapeObjective<dim>::value(const std::vector<Point<dim>>& coordinates) const {
+double ShapeObjective<dim>::value(std::span<const Point<dim>> coordinates) const {
   std::vector<double> parts(topology_->blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {
-    parts[b] = value_of(*topology_, coordinates, topology_->blocks()[b]);
+    parts[b] = sum_of_block<dim>(*topology_, coordinates.data(), topology_->blocks()[b]);
   });
   double sum = 0.0;
   for (const double part : parts) sum += part;
@@ -213,19 +197,18 @@ double ShapeObjective<dim>::value(const std::vector<Point<dim>>& coordinates) co
 }
 
 template <int dim>
-void ShapeObjective<dim>::derivatives(const std::vector<Point<dim>>& coordinates,
-                                      HessianModel model, BlockVector<dim>& gradient,
-                                      BlockMatrix<dim>& hessian) const {
+void ShapeObjective<dim>::derivatives(std::span<const Point<dim>> coordinates, HessianModel model,
+                                      BlockVector<dim>& gradient, BlockMatrix<dim>& hessian) const {
   std::fill(gradient.begin(), gradient.end(), Point<dim>::Zero());
-  hessian.start_diagonal();
+  auto diagonal = hessian.start_diagonal();
   for_disjoint_blocks([&](std::size_t b) {
-    add_derivatives(coordinates, topology_->blocks()[b], model,
-                    DiagonalSums<dim>{*topology_, unknown_, gradient, hessian});
+    add_block_derivatives<dim>(*topology_, coordinates.data(), topology_->blocks()[b], model,
+                               DiagonalSums<dim>{unknown_, gradient, diagonal});
   });
-  hessian.factor_diagonal();
+  hessian.factor_diagonal(std::move(diagonal));
   for_disjoint_blocks([&](std::size_t b) {
-    add_derivatives(coordinates, topology_->blocks()[b], model,
-                    OtherBlockSums<dim>{*topology_, unknown_, places_[b].data(), hessian});
+    add_block_derivatives<dim>(*topology_, coordinates.data(), topology_->blocks()[b], model,
+                               OtherBlockSums<dim>{unknown_, places_[b].data(), hessian});
   });
 }
 

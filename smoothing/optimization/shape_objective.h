@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -21,20 +22,20 @@ namespace smoothfem {
 template <int dim>
 class ShapeObjective {
  public:
-  /// Unknowns are the places of the free nodes, in the order of topology.free_nodes().
+  /// Unknowns are the coordinates of the free nodes, in the order of topology.free_nodes().
   explicit ShapeObjective(std::shared_ptr<const Topology> topology);
 
   std::size_t n_unknown_nodes() const { return topology_->free_nodes().size(); }
 
   /// coordinates: of all nodes. Infinity if a cell is invalid.
-  double value(const std::vector<Point<dim>>& coordinates) const;
+  double value(std::span<const Point<dim>> coordinates) const;
 
   /// A matrix with the Hessian's pattern, to be filled by derivatives() of this objective only.
   BlockMatrix<dim> make_hessian();
 
   /// Gradient and Hessian (or the model of it) at coordinates where value is finite. Goes over the
   /// cells twice: other blocks are scaled by what the diagonal ones add up to.
-  void derivatives(const std::vector<Point<dim>>& coordinates, HessianModel model,
+  void derivatives(std::span<const Point<dim>> coordinates, HessianModel model,
                    BlockVector<dim>& gradient, BlockMatrix<dim>& hessian) const;
 
  private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimization/untangle.h"
 
 #include <chrono>
@@ -41,15 +42,15 @@ class Untangling {
   /// Returns the invalid cells of the best mesh found.
   std::vector<CellIndex> run(std::vector<CellIndex> invalid) {
     auto best = invalid;
-    auto best_places = mesh_.coordinates();
+    std::vector<Point<dim>> best_positions(mesh_.coordinates().begin(), mesh_.coordinates().end());
     for (int round = 0; round < parameters_.max_rounds && !invalid.empty(); ++round) {
       invalid = run_round(round, invalid);
       if (invalid.size() < best.size()) {
         best = invalid;
-        best_places = mesh_.coordinates();
+        std::copy(mesh_.coordinates().begin(), mesh_.coordinates().end(), best_positions.begin());
       }
     }
-    mesh_.coordinates() = std::move(best_places);
+    mesh_.swap_coordinates(best_positions);
     return best;
   }
   const Mesh<dim>& mesh() const { return mesh_; }
@@ -91,12 +92,12 @@ UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters) {
   result.invalid_cells = invalid_cells(cell_mean_ratios(mesh));
   result.n_invalid_before = result.invalid_cells.size();
   for (const CellIndex c : result.invalid_cells)
-    if (!mesh.topology().has_free_node(c)) result.unmendable_cells.push_back(c);
-  if (!result.invalid_cells.empty() && result.unmendable_cells.empty()) {
+    if (!mesh.topology().has_free_node(c)) result.fully_fixed_cells.push_back(c);
+  if (!result.invalid_cells.empty() && result.fully_fixed_cells.empty()) {
     Untangling<dim> untangling(mesh, parameters);
     result.invalid_cells = untangling.run(std::move(result.invalid_cells));
     result.n_sweeps = untangling.n_sweeps();
-    if (result.invalid_cells.empty()) mesh.coordinates() = untangling.mesh().coordinates();
+    if (result.invalid_cells.empty()) mesh.set_coordinates(untangling.mesh().coordinates());
   }
   result.n_invalid_after = result.invalid_cells.size();
   result.valid = result.invalid_cells.empty();

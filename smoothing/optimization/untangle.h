@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@ namespace smoothfem {
 
 struct UntangleParameters {
   /// Rounds of sweeps, each on a larger neighbourhood of the invalid cells and with a slower
-  /// descent of the softness; most meshes need one, what five do not mend more do not either.
+  /// descent of the softness; most meshes need one, what five do not cure more do not either.
   int max_rounds = 5;
   /// Sweeps of the first round; each round has twice as many as the one before.
   int sweeps = 25;
@@ -26,8 +27,9 @@ struct UntangleResult {
   std::size_t n_invalid_after = 0;   ///< cells, in the best mesh that was found
   /// Invalid cells of that mesh, ascending: empty if it is valid.
   std::vector<CellIndex> invalid_cells;
-  /// Invalid cells without a free node: nothing can mend them. If there are any nothing is tried.
-  std::vector<CellIndex> unmendable_cells;
+  /// Invalid cells without a free node: nothing can make them valid. If there are any nothing is
+  /// tried.
+  std::vector<CellIndex> fully_fixed_cells;
   int n_sweeps = 0;
   double seconds = 0.0;
 };

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimization/vertex_descent.h"
 
 #include <Eigen/Dense>
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/optimization/node_terms.h"
-#include "smoothing/simd/cell_blocks.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -43,20 +44,19 @@ inline constexpr auto turned_orders = [] {
   return orders;
 }();
 
-SMOOTHFEM_INLINE std::size_t position_of(NodeIndex node, std::span<const NodeIndex> nodes) {
+inline std::size_t position_of(NodeIndex node, std::span<const NodeIndex> nodes) {
   return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
 }
 
-/// Calls visit(nodes, slot, lanes) for the cells of a node, several of one kind at a time: places
-/// of their nodes with the node itself at `slot` (a std::integral_constant), and how many of the
+/// Calls visit(nodes, slot, lanes) for the cells of a node, several of one kind at a time: the
+/// corners with the node itself at `slot` (a std::integral_constant), and how many of the
 /// lanes count.
 template <int dim, class Visit>
-SMOOTHFEM_INLINE void for_each_cell_of_node(const Topology& topology,
-                                            const std::vector<Point<dim>>& x, NodeIndex node,
-                                            const Point<dim>& place, const Visit& visit) {
+inline void for_each_cell_of_node(const Topology& topology, std::span<const Point<dim>> x,
+                                  NodeIndex node, const Point<dim>& position, const Visit& visit) {
   const auto cells = topology.node_cells(node);
-  const auto place_of = [&](NodeIndex i) SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& {
-    return i == node ? place : x[i];
+  const auto coordinates_of = [&](NodeIndex i) -> const Point<dim>& {
+    return i == node ? position : x[i];
   };
   const auto is_top = [&](std::span<const NodeIndex> nodes) {
     return dim == 3 && nodes.size() == 5 && nodes[4] == node;
@@ -70,14 +70,14 @@ SMOOTHFEM_INLINE void for_each_cell_of_node(const Topology& topology,
       if (others.size() != nodes.size() || is_top(others) != top) break;
       ++count;
     }
-    with_cell_size<dim>(nodes.size(), [&](auto size) SMOOTHFEM_INLINE_LAMBDA {
+    with_cell_size<dim>(nodes.size(), [&](auto size) {
       constexpr std::size_t n = decltype(size)::value;
       if constexpr (n == 0) {
         count = 1;
         std::vector<Vector<dim, double>> corners;
         const std::size_t at = position_of(node, nodes);
         for (std::size_t k = 0; k < nodes.size(); ++k)
-          corners.push_back(vector_of(place_of(nodes[(at + k) % nodes.size()])));
+          corners.push_back(vector_of(coordinates_of(nodes[(at + k) % nodes.size()])));
         visit(std::span<const Vector<dim, double>>(corners),
               std::integral_constant<std::size_t, 0>{}, count);
       } else {
@@ -89,7 +89,8 @@ SMOOTHFEM_INLINE void for_each_cell_of_node(const Topology& topology,
           for (std::size_t k = 0; k < n; ++k) turned_nodes[l][k] = row[order[k]];
           rows[l] = turned_nodes[l].data();
         }
-        const auto corners = gather_cells<n, dim>(place_of, rows);
+        const CellBatch<n> batch{first, count, {}, rows};
+        const auto corners = batch.template corners_at<dim>(coordinates_of);
         const std::span<const Vector<dim, Lanes>, n> span(corners);
         if constexpr (dim == 3 && n == 5) {
           if (top) {
@@ -104,23 +105,6 @@ SMOOTHFEM_INLINE void for_each_cell_of_node(const Topology& topology,
   }
 }
 
-SMOOTHFEM_INLINE double sum_of_first(double value, std::size_t) {
-  return value;
-}
-SMOOTHFEM_INLINE double sum_of_first(Lanes value, std::size_t count) {
-  double sum = 0.0;
-  for (std::size_t l = 0; l < count; ++l) sum += value[l];
-  return sum;
-}
-template <class Real>
-SMOOTHFEM_INLINE Point<2> sum_of_first(Vector2<Real> v, std::size_t count) {
-  return {sum_of_first(v.x, count), sum_of_first(v.y, count)};
-}
-template <class Real>
-SMOOTHFEM_INLINE Point<3> sum_of_first(Vector3<Real> v, std::size_t count) {
-  return {sum_of_first(v.x, count), sum_of_first(v.y, count), sum_of_first(v.z, count)};
-}
-
 template <int dim>
 struct LocalObjective {
   double value = 0.0;
@@ -128,79 +112,69 @@ struct LocalObjective {
   Eigen::Matrix<double, dim, dim> hessian = Eigen::Matrix<double, dim, dim>::Zero();
 };
 
-/// Of the cells of a node, with that at `place`.
+/// Of the cells of a node, with that at `position`.
 template <bool with_derivatives, int dim>
-SMOOTHFEM_INLINE LocalObjective<dim> local_objective(const Topology& topology,
-                                                     const std::vector<Point<dim>>& x,
-                                                     NodeIndex node, const Point<dim>& place,
-                                                     double softness) {
+inline LocalObjective<dim> local_objective(const Topology& topology, std::span<const Point<dim>> x,
+                                           NodeIndex node, const Point<dim>& position,
+                                           double softness) {
   LocalObjective<dim> sum;
-  for_each_cell_of_node<dim>(topology, x, node, place,
-                             [&](auto nodes, auto slot, std::size_t count) SMOOTHFEM_INLINE_LAMBDA {
-                               const auto terms =
-                                   node_terms<slot, with_derivatives>(nodes, softness);
-                               sum.value += sum_of_first(terms.value, count);
-                               if constexpr (with_derivatives) {
-                                 sum.gradient += sum_of_first(terms.gradient, count);
-                                 for (int i = 0; i < dim * dim; ++i)
-                                   sum.hessian.data()[i] += sum_of_first(
-                                       terms.hessian.entries[static_cast<std::size_t>(i)], count);
-                               }
-                             });
+  for_each_cell_of_node<dim>(
+      topology, x, node, position, [&](auto nodes, auto slot, std::size_t count) {
+        const auto terms = node_terms<slot, with_derivatives>(nodes, softness);
+        sum.value += sum_of_lanes(terms.value, count);
+        if constexpr (with_derivatives) {
+          sum.gradient += sum_of_lanes(terms.gradient, count);
+          for (int i = 0; i < dim * dim; ++i)
+            sum.hessian.data()[i] +=
+                sum_of_lanes(terms.hessian.entries[static_cast<std::size_t>(i)], count);
+        }
+      });
   return sum;
 }
 
 /// Mean |det(S)| of the corners of a node's cells; where they are all flat, a little of what it
 /// would be in regular corners with their |S|^2.
 template <int dim>
-SMOOTHFEM_INLINE double mean_size(const Topology& topology, const std::vector<Point<dim>>& x,
-                                  NodeIndex node) {
-  constexpr double least_share = 1e-3;
+inline double mean_size(const Topology& topology, std::span<const Point<dim>> x, NodeIndex node) {
+  constexpr double least_fraction = 1e-3;
   double size = 0.0, squared_length = 0.0, n = 0.0;
   for_each_cell_of_node<dim>(
-      topology, x, node, x[node],
-      [&](auto nodes, auto slot, std::size_t count) SMOOTHFEM_INLINE_LAMBDA {
-        for_each_corner<slot>(nodes, [&](const auto& corner, int) SMOOTHFEM_INLINE_LAMBDA {
+      topology, x, node, x[node], [&](auto nodes, auto slot, std::size_t count) {
+        for_each_corner<slot>(nodes, [&](const auto& corner, int) {
           const auto determinant =
               (1.0 / corner.regular_determinant) * frame_determinant(corner.edges);
-          size += sum_of_first(determinant > 0.0 ? determinant : -determinant, count);
+          size += sum_of_lanes(determinant > 0.0 ? determinant : -determinant, count);
           for (std::size_t i = 0; i < dim; ++i)
-            squared_length += sum_of_first(dot(corner.edges[i], corner.half_gradient(i)), count);
+            squared_length += sum_of_lanes(dot(corner.edges[i], corner.half_gradient(i)), count);
           n += static_cast<double>(count);
         });
       });
   const double length = std::sqrt(squared_length / (dim * n));
-  return std::max(size / n, least_share * (dim == 2 ? length * length : length * length * length));
+  return std::max(size / n,
+                  least_fraction * (dim == 2 ? length * length : length * length * length));
 }
 
 /// One Newton step of one node, halved until the objective of its cells falls enough.
 template <int dim>
-SMOOTHFEM_INLINE void descend_node(const Topology& topology, NodeIndex node, double softness,
-                                   std::vector<Point<dim>>& x) {
+[[gnu::flatten]] void descend_node(const Topology& topology, NodeIndex node, double softness,
+                         std::span<Point<dim>> x) {
   constexpr double sufficient = 1e-4;
   constexpr int max_halvings = 30;
-  if (softness > 0.0) softness *= mean_size(topology, x, node);
+  if (softness > 0.0) softness *= mean_size<dim>(topology, x, node);
   const Point<dim> start = x[node];
-  const auto here = local_objective<true>(topology, x, node, start, softness);
+  const auto here = local_objective<true, dim>(topology, x, node, start, softness);
   const Point<dim> step = -here.hessian.ldlt().solve(here.gradient);
   const double slope = step.dot(here.gradient);
   if (!(slope < 0.0) || !step.allFinite()) return;
   double alpha = 1.0;
   for (int k = 0; k < max_halvings; ++k, alpha *= 0.5) {
-    const Point<dim> place = start + alpha * step;
-    const double value = local_objective<false>(topology, x, node, place, softness).value;
+    const Point<dim> trial = start + alpha * step;
+    const double value = local_objective<false, dim>(topology, x, node, trial, softness).value;
     if (value <= here.value + sufficient * alpha * slope) {
-      x[node] = place;
+      x[node] = trial;
       return;
     }
   }
-}
-
-void descend(const Topology& topology, NodeIndex node, double softness, std::vector<Point<2>>& x) {
-  descend_node<2>(topology, node, softness, x);
-}
-void descend(const Topology& topology, NodeIndex node, double softness, std::vector<Point<3>>& x) {
-  descend_node<3>(topology, node, softness, x);
 }
 
 }  // namespace
@@ -229,14 +203,14 @@ VertexDescent<dim>::VertexDescent(const Topology& topology) : topology_(topology
 }
 
 template <int dim>
-void VertexDescent<dim>::sweep(std::vector<Point<dim>>& x, double softness,
+void VertexDescent<dim>::sweep(std::span<Point<dim>> x, double softness,
                                const std::uint8_t* active) const {
   const auto& nodes = topology_.free_nodes();
   for (const auto& group : groups_)
     parallel_for(group.size(), [&](std::size_t p) {
       const IndexRange part = parts_[group[p]];
       for (std::size_t i = part.first; i < part.last; ++i)
-        if (!active || active[nodes[i]]) descend(topology_, nodes[i], softness, x);
+        if (!active || active[nodes[i]]) descend_node<dim>(topology_, nodes[i], softness, x);
     });
 }
 

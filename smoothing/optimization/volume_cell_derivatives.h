@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include "smoothing/optimization/cell_derivatives.h"
@@ -21,13 +22,12 @@ class CellDerivatives<3, Real, n> {
   std::array<Block<3, Real>, n_node_pairs(n)> hessian{};
 
   /// x: the nodes of a valid cell.
-  SMOOTHFEM_INLINE CellDerivatives(std::span<const Vector3<Real>, n> x, HessianModel model,
-                                   HessianBlocks blocks = HessianBlocks::all) {
+  CellDerivatives(std::span<const Vector3<Real>, n> x, HessianModel model,
+                  HessianBlocks blocks = HessianBlocks::all) {
     constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
     const Real mean = mean_inverse_mean_ratio(x);
     const Real scale = (2.0 / static_cast<double>(n_corners)) * mean;
-    unrolled<n_corners>([&](auto k)
-                            SMOOTHFEM_INLINE_LAMBDA { add_corner<k>(x, scale, model, blocks); });
+    unrolled<n_corners>([&](auto k) { add_corner<k>(x, scale, model, blocks); });
     // 2 m Hess(m) stands there now; grad(h) = 2 m grad(m), and h adds 2 grad(m) grad(m)'.
     const Real factor = (model == HessianModel::exact ? 0.5 : -5.0 / 36.0) / (mean * mean);
     for (std::size_t p = 0; p < n; ++p)
@@ -38,8 +38,8 @@ class CellDerivatives<3, Real, n> {
  private:
   /// Adds `scale` times the derivatives of the inverse mean ratio of corner k.
   template <std::size_t k>
-  SMOOTHFEM_INLINE void add_corner(std::span<const Vector3<Real>, n> x, Real scale,
-                                   HessianModel model, HessianBlocks blocks) {
+  void add_corner(std::span<const Vector3<Real>, n> x, Real scale, HessianModel model,
+                  HessianBlocks blocks) {
     const CornerGradients<Real> corner = corner_gradients<k>(x);
     const auto& u = corner.of_half_squared_norm;
     const auto& c = corner.of_log_determinant;
@@ -68,7 +68,7 @@ class CellDerivatives<3, Real, n> {
   }
 
   /// Adds the matrix of the map v -> w x v.
-  static SMOOTHFEM_INLINE void add_cross_product(Vector3<Real> w, Block<3, Real>& block) {
+  static inline void add_cross_product(Vector3<Real> w, Block<3, Real>& block) {
     auto& m = block.entries;
     m[1] += w.z;
     m[2] -= w.y;

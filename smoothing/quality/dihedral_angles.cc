@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/quality/dihedral_angles.h"
 
 #include <Eigen/Geometry>
@@ -80,7 +81,7 @@ const std::vector<EdgeFaces>& edge_faces(std::size_t n_nodes) {
 }
 
 /// Twice the area vector, outwards.
-Point<3> area_vector(const std::vector<Point<3>>& x, std::span<const NodeIndex> nodes,
+Point<3> area_vector(std::span<const Point<3>> x, std::span<const NodeIndex> nodes,
                      const LocalFace& face) {
   const auto p = [&](std::size_t k) -> const Point<3>& { return x[nodes[face.nodes[k]]]; };
   if (face.size == 3) return (p(1) - p(0)).cross(p(2) - p(0));

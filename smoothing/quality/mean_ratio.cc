@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/quality/mean_ratio.h"
 
-#include "smoothing/simd/cell_blocks.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -9,10 +10,8 @@ namespace {
 template <int dim, int spacedim>
 double mean_ratio_of(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
   double q;
-  with_corners<dim>(mesh.topology().cell_nodes(cell), mesh.coordinates(),
-                    [&](auto corners) SMOOTHFEM_INLINE_LAMBDA {
-                      q = mean_ratio(upper_side(mesh, cell), corners);
-                    });
+  with_corners<dim>(mesh.topology().cell_nodes(cell), mesh.coordinates().data(),
+                    [&](auto corners) { q = mean_ratio(upper_side(mesh, cell), corners); });
   return q;
 }
 

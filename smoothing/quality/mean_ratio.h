@@ -1,15 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cmath>
 #include <numbers>
 #include <span>
 
-#include "smoothing/mesh/cell_edges.h"
-#include "smoothing/mesh/mesh.h"
-#include "smoothing/mesh/unit_normal.h"
+#include "smoothing/geometry/cell_edges.h"
+#include "smoothing/geometry/unit_normal.h"
+#include "smoothing/mesh/node_constraints.h"
 #include "smoothing/simd/inverse_root.h"
-#include "smoothing/simd/lanes.h"
-#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 
@@ -21,7 +20,7 @@ struct RegularAngle {
 };
 
 /// n >= 3. Exact for n = 4, where the interior angle is right.
-SMOOTHFEM_INLINE RegularAngle regular_interior_angle(std::size_t n) {
+inline RegularAngle regular_interior_angle(std::size_t n) {
   if (n == 4) return {1.0, 0.0};
   if (n == 3) return {0.5 * std::numbers::sqrt3, 0.5};
   const double angle = std::numbers::pi * (static_cast<double>(n) - 2.0) / static_cast<double>(n);
@@ -33,8 +32,7 @@ SMOOTHFEM_INLINE RegularAngle regular_interior_angle(std::size_t n) {
 /// [-1, 1]; positive exactly where det(D) is. Not a number for two edges of length zero.
 /// determinant: det(D), the edges' signed area.
 template <class Edge, class Real>
-SMOOTHFEM_INLINE Real corner_mean_ratio(Edge next, Edge previous, Real determinant,
-                                        RegularAngle regular) {
+inline Real corner_mean_ratio(Edge next, Edge previous, Real determinant, RegularAngle regular) {
   return 2.0 * regular.sine * determinant /
          (squared_length(next) + squared_length(previous) -
           2.0 * regular.cosine * dot(next, previous));
@@ -43,8 +41,8 @@ SMOOTHFEM_INLINE Real corner_mean_ratio(Edge next, Edge previous, Real determina
 /// Mean of the corner mean ratios of a polygon, 0 if one of them is not positive. determinant(next,
 /// previous): the signed area of two edges.
 template <class Corner, std::size_t extent, class Determinant>
-SMOOTHFEM_INLINE auto polygon_mean_ratio(std::span<const Corner, extent> corners,
-                                         const Determinant& determinant) {
+inline auto polygon_mean_ratio(std::span<const Corner, extent> corners,
+                               const Determinant& determinant) {
   using Real = decltype(corners[0].x + 0.0);
   const std::size_t n = corners.size();
   const RegularAngle regular = regular_interior_angle(n);
@@ -70,16 +68,16 @@ SMOOTHFEM_INLINE auto polygon_mean_ratio(std::span<const Corner, extent> corners
 /// 1], 1 exactly for regular polygons, invariant under similarity. 0 for an invalid cell: one where
 /// a corner has det(D) <= 0 (or is not a number). Cells with three or more corners.
 template <class Real, std::size_t extent>
-SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector2<Real>, extent> corners) {
-  return polygon_mean_ratio(corners, [](Vector2<Real> next, Vector2<Real> previous)
-                                         SMOOTHFEM_INLINE_LAMBDA { return cross(next, previous); });
+inline Real mean_ratio(std::span<const Vector2<Real>, extent> corners) {
+  return polygon_mean_ratio(
+      corners, [](Vector2<Real> next, Vector2<Real> previous) { return cross(next, previous); });
 }
 
 /// The side of the surface that a cell of a surface mesh shows: the normal of its initial cell.
 /// Planar and volume cells are oriented by space itself.
 struct OrientedBySpace {};
 template <int dim, int spacedim>
-SMOOTHFEM_INLINE auto upper_side(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
+inline auto upper_side(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
   if constexpr (dim == spacedim)
     return OrientedBySpace{};
   else
@@ -108,7 +106,7 @@ struct CornerShape {
 
 /// The shape of corner k of the volume cell with these edges.
 template <std::size_t k, class Real, std::size_t n>
-SMOOTHFEM_INLINE CornerShape<Real> corner_shape(const CellEdges<Real, n>& edges) {
+inline CornerShape<Real> corner_shape(const CellEdges<Real, n>& edges) {
   using Element = VolumeElement<n>;
   constexpr LocalSimplex corner = Element::corners[k];
   constexpr DirectedEdge a = edge_between<n>(corner[0], corner[1]),
@@ -141,10 +139,10 @@ SMOOTHFEM_INLINE CornerShape<Real> corner_shape(const CellEdges<Real, n>& edges)
 /// base. In (0, 1], 1 exactly (to rounding) for regular cells, invariant under similarity. 0 for an
 /// invalid cell: one where a corner has det(D) <= 0 (or is not a number). n = 4, 5, 6 or 8 nodes.
 template <class Real, std::size_t n>
-SMOOTHFEM_INLINE Real mean_ratio(const CellEdges<Real, n>& edges) {
+inline Real mean_ratio(const CellEdges<Real, n>& edges) {
   constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
   Real sum{}, all_positive = Real{} + 1.0;
-  unrolled<n_corners>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+  unrolled<n_corners>([&](auto k) {
     const CornerShape<Real> shape = corner_shape<k>(edges);
     all_positive = shape.determinant > 0.0 ? all_positive : Real{};
     sum += shape.determinant * inverse_root<3>(shape.determinant) / shape.squared_norm;
@@ -152,13 +150,13 @@ SMOOTHFEM_INLINE Real mean_ratio(const CellEdges<Real, n>& edges) {
   return all_positive > 0.0 ? sum * (3.0 / static_cast<double>(n_corners)) : Real{};
 }
 template <class Real, std::size_t n>
-SMOOTHFEM_INLINE Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {
+inline Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {
   return mean_ratio(CellEdges<Real, n>(nodes));
 }
 
 /// That of a planar or volume cell, for lines that serve every kind of mesh.
 template <class Corners>
-SMOOTHFEM_INLINE auto mean_ratio(OrientedBySpace, Corners corners) {
+inline auto mean_ratio(OrientedBySpace, Corners corners) {
   return mean_ratio(corners);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/quality/mesh_quality.h"
 
 #include <algorithm>
@@ -5,9 +6,9 @@
 #include <sstream>
 
 #include "smoothing/base/parallel.h"
-#include "smoothing/mesh/cell_size.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mean_ratio.h"
-#include "smoothing/simd/cell_blocks.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -16,25 +17,19 @@ namespace {
 constexpr double none = std::numeric_limits<double>::infinity();
 
 template <int dim, int spacedim>
-SMOOTHFEM_INLINE void compute_block(const Mesh<dim, spacedim>& mesh, const CellBlock& block,
-                                    double* cell_quality) {
-  for_each_block<dim>(
-      mesh.topology(), mesh.coordinates(), block.first, block.last,
-      [&]<std::size_t n>(CellIndex c,
-                         const std::array<Vector<dim, Lanes>, n>& corners) SMOOTHFEM_INLINE_LAMBDA {
-        store_lanes(mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners)), cell_quality + c);
+void compute_cells(const Mesh<dim, spacedim>& mesh, const CellBlock& block, double* cell_quality) {
+  const Point<spacedim>* const x = mesh.coordinates().data();
+  for_each_batch<dim, spacedim>(
+      mesh.topology(), block.first, block.last,
+      [&]<std::size_t n>(const CellBatch<n>& batch) {
+        const auto corners = batch.template corners<dim>(x);
+        batch.store(mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners)), cell_quality);
       },
-      [&](CellIndex c, auto corners)
-          SMOOTHFEM_INLINE_LAMBDA { cell_quality[c] = mean_ratio(upper_side(mesh, c), corners); });
-}
-void compute_cells(const PlanarMesh& mesh, const CellBlock& block, double* cell_quality) {
-  compute_block(mesh, block, cell_quality);
-}
-void compute_cells(const VolumeMesh& mesh, const CellBlock& block, double* cell_quality) {
-  compute_block(mesh, block, cell_quality);
-}
-void compute_cells(const SurfaceMesh& mesh, const CellBlock& block, double* cell_quality) {
-  compute_block(mesh, block, cell_quality);
+      [&](CellIndex c) {
+        with_corners<dim>(mesh.topology().cell_nodes(c), x, [&](auto corners) {
+          cell_quality[c] = mean_ratio(upper_side(mesh, c), corners);
+        });
+      });
 }
 
 }  // namespace
@@ -126,40 +121,40 @@ template <>
 struct Words<2> {
   static constexpr const char* inverted = "clockwise";
   static constexpr const char* all = "all cells run clockwise";
-  static constexpr const char* mend = "list the nodes of every cell counterclockwise";
-  static constexpr const char* mend_some = "reverse the clockwise cells' nodes";
+  static constexpr const char* fix = "list the nodes of every cell counterclockwise";
+  static constexpr const char* fix_some = "reverse the clockwise cells' nodes";
   static constexpr const char* invalid = "not convex or degenerate";
 };
 template <>
 struct Words<3> {
   static constexpr const char* inverted = "inverted";
   static constexpr const char* all = "all cells are inverted";
-  static constexpr const char* mend = "mirror the node order of every cell";
-  static constexpr const char* mend_some = "mirror the inverted cells' node order";
+  static constexpr const char* fix = "mirror the node order of every cell";
+  static constexpr const char* fix_some = "mirror the inverted cells' node order";
   static constexpr const char* invalid = "tangled or degenerate";
 };
 template <>
 struct Words<2, 3> {
   static constexpr const char* inverted = "turned over";
   static constexpr const char* all = "all cells are turned over";
-  static constexpr const char* mend = "list the nodes of every cell the other way round";
-  static constexpr const char* mend_some = "reverse the nodes of the cells turned over";
+  static constexpr const char* fix = "list the nodes of every cell the other way round";
+  static constexpr const char* fix_some = "reverse the nodes of the cells turned over";
   static constexpr const char* invalid = Words<2>::invalid;
 };
 
 /// A whole mesh seen from behind is one mistake, not n_cells of them.
 template <class W>
 std::string advice(std::size_t n_inverted, std::size_t n_cells) {
-  if (n_inverted == n_cells) return std::string(W::all) + "; " + W::mend;
+  if (n_inverted == n_cells) return std::string(W::all) + "; " + W::fix;
   if (n_inverted > 0)
-    return std::string(W::mend_some) + ", or untangle the mesh first if they are inverted";
+    return std::string(W::fix_some) + ", or untangle the mesh first if they are inverted";
   return "untangle the mesh first";
 }
 
 template <int dim>
-void print_place(std::ostream& out, const Point<dim>& place) {
+void print_point(std::ostream& out, const Point<dim>& point) {
   for (int d = 0; d < dim; ++d)
-    out << (d == 0 ? '(' : ' ') << place[d] << (d + 1 < dim ? "," : ")");
+    out << (d == 0 ? '(' : ' ') << point[d] << (d + 1 < dim ? "," : ")");
 }
 
 }  // namespace
@@ -189,7 +184,7 @@ void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path,
   for (std::size_t i = 0; i < std::min(n_named, invalid.size()); ++i) {
     const CellIndex c = invalid[i];
     message << (i > 0 ? ", " : "") << "cell " << (ids.empty() ? c : ids[c]) << " at ";
-    print_place<spacedim>(message, mesh.coordinates()[topology.cell_nodes(c)[0]]);
+    print_point<spacedim>(message, mesh.coordinates()[topology.cell_nodes(c)[0]]);
     message << " is " << (signed_cell_size(mesh, c) < 0.0 ? W::inverted : W::invalid);
   }
   if (invalid.size() > n_named) message << ", ...";

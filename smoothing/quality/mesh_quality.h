@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ template <int dim, int spacedim>
 MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
                                      std::vector<double>& cell_quality);
 
-/// cell_quality: one number a cell of the topology. Where no cell has a free node, q_star_min =
+/// cell_quality: one number per cell of the topology. Where no cell has a free node, q_star_min =
 /// q_min.
 MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& cell_quality);
 template <int dim, int spacedim>
@@ -53,9 +54,9 @@ std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
                                            std::size_t n_bins);
 
 /// Throws InputError if the mesh has invalid cells; the sentence counts them and names the first
-/// ones with their place, and says when all cells are turned inside out (clockwise in the plane).
-/// cell_lines, if not empty: the line of each cell in the file at `path`. Cells go by the file's
-/// numbers where the mesh has them.
+/// ones with their coordinates, and says when all cells are turned inside out (clockwise in the
+/// plane). cell_lines, if not empty: the line of each cell in the file at `path`. Cells go by the
+/// file's numbers where the mesh has them.
 template <int dim, int spacedim>
 void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path = {},
                    std::span<const std::size_t> cell_lines = {});

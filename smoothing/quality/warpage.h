@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
@@ -6,13 +7,13 @@
 
 #include "smoothing/mesh/mesh.h"
 #include "smoothing/mesh/volume_elements.h"
-#include "smoothing/simd/lanes.h"
+#include "smoothing/simd/vectors.h"
 
 namespace smoothfem {
 
 /// Cosine of the angle between two vectors, in [-1, 1]; 0 if one of them has length zero.
 template <class Real>
-SMOOTHFEM_INLINE Real cosine_between(Vector3<Real> a, Vector3<Real> b) {
+inline Real cosine_between(Vector3<Real> a, Vector3<Real> b) {
   const Real one = Real{} + 1.0, lengths = length(a) * length(b);
   const Real cosine = lengths > 0.0 ? dot(a, b) / lengths : Real{};
   return cosine > 1.0 ? one : cosine < -1.0 ? -one : cosine;
@@ -24,7 +25,7 @@ SMOOTHFEM_INLINE Real cosine_between(Vector3<Real> a, Vector3<Real> b) {
 /// convex faces, 1 from a right angle between opposite normals on; 1 also where a normal has length
 /// zero. Does not depend on the first node nor, but for rounding, on the direction.
 template <class Real>
-SMOOTHFEM_INLINE Real face_warpage(std::span<const Vector3<Real>, 4> p) {
+inline Real face_warpage(std::span<const Vector3<Real>, 4> p) {
   std::array<Vector3<Real>, 4> normals;
   for (std::size_t k = 0; k < 4; ++k)
     normals[k] = cross(p[k] - p[(k + 3) % 4], p[(k + 1) % 4] - p[k]);
@@ -37,7 +38,7 @@ SMOOTHFEM_INLINE Real face_warpage(std::span<const Vector3<Real>, 4> p) {
 /// Warpage of a volume cell with n = 4, 5, 6 or 8 nodes: the largest of its quadrilateral faces, 0
 /// for a tetrahedron.
 template <class Real, std::size_t n>
-SMOOTHFEM_INLINE Real element_warpage(std::span<const Vector3<Real>, n> nodes) {
+inline Real element_warpage(std::span<const Vector3<Real>, n> nodes) {
   Real largest{};
   for (const LocalFace& face : VolumeElement<n>::faces) {
     if (face.size != 4) continue;

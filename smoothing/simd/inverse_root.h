@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <bit>
@@ -15,7 +16,7 @@ namespace smoothfem {
 /// -p gives a start with four percent of error, which each of the two steps takes to its fourth
 /// power: with e = 1 - x y^p, x^(-1/p) = y (1 - e)^(-1/p), the series of which ends here after e^3.
 template <int p, class Real>
-SMOOTHFEM_INLINE Real inverse_root(Real x) {
+inline Real inverse_root(Real x) {
   static_assert(p >= 2 && p <= 4);
   // The upper 52 of the 63 bits behind the sign, as a number: they are made the mantissa of 2^52.
   constexpr double two_52 = 0x1p52;
@@ -36,7 +37,7 @@ SMOOTHFEM_INLINE Real inverse_root(Real x) {
     y = reinterpret_cast<Real>(reinterpret_cast<LaneBits>(start) << 12);
   }
   constexpr double c1 = 1.0 / p, c2 = c1 * (c1 + 1.0) / 2.0, c3 = c2 * (c1 + 2.0) / 3.0;
-  unrolled<2>([&](auto) SMOOTHFEM_INLINE_LAMBDA {
+  unrolled<2>([&](auto) {
     const Real square = y * y;
     const Real power = p == 2 ? square : p == 3 ? square * y : square * square;
     const Real e = 1.0 - x * power;

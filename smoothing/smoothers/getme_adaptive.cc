@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cstdint>
 #include <numeric>
 
+#include "smoothing/base/parallel.h"
 #include "smoothing/getme/element_pass.h"
 #include "smoothing/getme/neighbour_weights.h"
 #include "smoothing/loop/catalogue.h"
@@ -10,70 +11,25 @@
 namespace smoothfem {
 namespace {
 
-/// Elements of at most this quality are transformed, and count by their neighbours' quality.
-struct ThresholdWeighting {
-  const double* weights;
-  double threshold;
-
-  SMOOTHFEM_INLINE double weight(CellIndex cell, double) const { return weights[cell]; }
-  SMOOTHFEM_INLINE Lanes weight(const std::array<CellIndex, n_lanes>& cells, Lanes) const {
-    return Lanes{weights[cells[0]], weights[cells[1]], weights[cells[2]], weights[cells[3]]};
-  }
-  SMOOTHFEM_INLINE bool transforms(double quality) const { return quality <= threshold; }
-  SMOOTHFEM_INLINE LaneMask transforms(Lanes quality) const { return quality <= threshold; }
-};
 template <int dim>
-using Pass = ElementPass<dim, ThresholdWeighting>;
-
-void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
-              const std::vector<std::uint8_t>& marked, double* sums) {
-  add_to_marked(pass, cells, marked, sums);
-}
-void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
-              const std::vector<std::uint8_t>& marked, double* sums) {
-  add_to_marked(pass, cells, marked, sums);
-}
-
-template <int dim>
-SMOOTHFEM_INLINE void write_mean_ratios(const Mesh<dim>& mesh, std::span<const CellIndex> cells,
-                                        std::vector<double>& quality) {
-  for_each_mean_ratio(
-      mesh, cells,
-      [&](NodeIndex i)
-          SMOOTHFEM_INLINE_LAMBDA -> const Point<dim>& { return mesh.coordinates()[i]; },
-      [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {
-        quality[cells[position]] = q;
-        return true;
-      });
-}
-void evaluate(const PlanarMesh& mesh, std::span<const CellIndex> cells,
-              std::vector<double>& quality) {
-  write_mean_ratios<2>(mesh, cells, quality);
-}
-void evaluate(const VolumeMesh& mesh, std::span<const CellIndex> cells,
-              std::vector<double>& quality) {
-  write_mean_ratios<3>(mesh, cells, quality);
+ElementParameters<dim> default_parameters() {
+  if constexpr (dim == 2)
+    return {.lambda = 7.0 / 20.0, .theta_degrees = 15.0, .rho = 1.0};
+  else
+    return {.tetrahedron = {1.5, 1.5},
+            .pyramid = {1.5, 1.5},
+            .prism = {1.5, 1.5},
+            .hexahedron = {1.5, 1.5},
+            .rho = 1.0};
 }
 
-ElementRegularization<2> default_element(std::integral_constant<int, 2>) {
-  ElementRegularization<2> element;
-  element.lambda = 7.0 / 20.0;
-  element.theta_degrees = 15.0;
-  element.rho = 1.0;
-  return element;
-}
-ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
-  ElementRegularization<3> element;
-  element.tetrahedron = element.pyramid = element.prism = element.hexahedron = {1.5, 1.5};
-  element.rho = 1.0;
-  return element;
-}
+constexpr std::size_t grain = 4096;  ///< nodes or cells that one thread takes at a time
 
 /// Tables and arrays of a run; the stages, which follow each other, use the same ones.
 template <int dim>
 struct AdaptiveArrays {
   NeighbourWeights weights;
-  NodeSums sums;
+  ElementPass<dim> pass;
   std::vector<NodeIndex> moving;        ///< free nodes of transformed elements, ascending
   std::vector<std::uint8_t> marked;     ///< those of them that know where to move
   std::vector<std::uint8_t> active;     ///< cells around them
@@ -83,17 +39,17 @@ struct AdaptiveArrays {
 };
 
 /// What both stages of GETMe adaptive do (thesis, Section 4.5, Fig. 4.4): nodes move to the
-/// weighted means of their places in the transformed elements of low quality and the untransformed
-/// other ones; where that makes elements invalid, their nodes move less, by a table of relaxation
-/// values that ends with zero.
+/// weighted means of their positions in the transformed elements of low quality and the
+/// untransformed other ones; where that makes elements invalid, their nodes move less, by a table
+/// of relaxation values that ends with zero.
 template <int dim>
 class AdaptiveStage : public Smoother<dim> {
  public:
   Parameters parameters() override {
     Parameters all = element_.parameters();
     all.push_back({"relaxation",
-                   "shares of its movement that a node tries in turn while elements around it are "
-                   "invalid; ends with 0 (Eq. 4.4)",
+                   "fractions of its movement that a node tries in turn while elements around it "
+                   "are invalid; ends with 0 (Eq. 4.4)",
                    &relaxation_, 0.0, 1.0});
     return all;
   }
@@ -102,8 +58,7 @@ class AdaptiveStage : public Smoother<dim> {
     if (relaxation_.back() != 0.0)
       throw InputError("method getme-adaptive: the parameter relaxation has to end with 0");
     const Topology& topology = state.mesh.topology();
-    element_.prepare();
-    arrays_->sums.prepare(topology);
+    arrays_->pass.prepare(topology, element_);
     arrays_->weights.prepare(state.mesh.shared_topology());
     arrays_->moving.clear();
     arrays_->active_cells.clear();
@@ -119,26 +74,28 @@ class AdaptiveStage : public Smoother<dim> {
 
   /// One iteration that transforms the elements of at most this quality.
   StepReport smooth_below(SmoothingState<dim>& state, double threshold) {
+    auto& weights = arrays_->weights;
+    const auto& moving = arrays_->moving;
     find_active(state, threshold);
-    arrays_->weights.compute(arrays_->active_cells, state.cell_quality);
-    add_active(state, threshold);
-    constexpr std::size_t grain = 4096;
-    parallel_for_ranges(arrays_->moving.size(), grain, [&](std::size_t first, std::size_t last) {
+    weights.compute(arrays_->active_cells, state.cell_quality);
+    arrays_->pass.transform_some(state, moving, arrays_->active_cells, weights.weights(),
+                                 threshold);
+    parallel_for_ranges(moving.size(), grain, [&](std::size_t first, std::size_t last) {
       for (const NodeIndex i : std::span(arrays_->moving).subspan(first, last - first)) {
         arrays_->previous[i] = state.mesh.coordinates()[i];
         arrays_->level[i] = 0;
-        if (!(arrays_->sums[i][dim] > 0.0)) arrays_->marked[i] = 0;  // nothing says where to
-        if (arrays_->marked[i]) place(state.mesh, i);
+        if (!arrays_->pass.has_mean(i)) arrays_->marked[i] = 0;  // nothing says where to
+        if (arrays_->marked[i]) set_position(state.mesh, i);
       }
     });
     StepReport report;
     report.n_reset = relax_until_valid(state);
     report.quality = mesh_quality(state.mesh.topology(), state.cell_quality);
-    if (threshold < 1.0) report.moved = &arrays_->moving;
+    if (threshold < 1.0) report.moved = moving;
     return report;
   }
 
-  ElementRegularization<dim> element_ = default_element(std::integral_constant<int, dim>{});
+  ElementParameters<dim> element_ = default_parameters<dim>();
 
  private:
   /// Finds the free nodes of transformed elements and the cells around them.
@@ -169,27 +126,22 @@ class AdaptiveStage : public Smoother<dim> {
       if (marks[i]) marked.push_back(i);
   }
 
-  void add_active(const SmoothingState<dim>& state, double threshold) {
-    const Pass<dim> pass{state.mesh, element_, {arrays_->weights.weights().data(), threshold}};
-    arrays_->sums.compute_some(arrays_->moving, arrays_->active_cells,
-                               [&](std::size_t, std::span<const CellIndex> cells, double* sums) {
-                                 add_some(pass, cells, arrays_->marked, sums);
-                               });
-  }
-
   /// Moves a marked node as far as its level says.
-  void place(Mesh<dim>& mesh, NodeIndex i) const {
-    const double share = relaxation_[arrays_->level[i]];
+  void set_position(Mesh<dim>& mesh, NodeIndex i) const {
+    const double fraction = relaxation_[arrays_->level[i]];
     const Point<dim>& previous = arrays_->previous[i];
     mesh.coordinates()[i] = previous;
-    if (share == 0.0) return;
-    mesh.coordinates()[i] = (1.0 - share) * previous + share * mean_place<dim>(arrays_->sums[i]);
+    if (fraction == 0.0) return;
+    mesh.coordinates()[i] = (1.0 - fraction) * previous + fraction * arrays_->pass.mean(i);
   }
 
-  void evaluate_cells(SmoothingState<dim>& state, std::span<const CellIndex> cells) {
-    constexpr std::size_t grain = 4096;
+  void evaluate(SmoothingState<dim>& state, std::span<const CellIndex> cells) {
     parallel_for_ranges(cells.size(), grain, [&](std::size_t first, std::size_t last) {
-      evaluate(state.mesh, cells.subspan(first, last - first), state.cell_quality);
+      const auto part = cells.subspan(first, last - first);
+      for_each_mean_ratio(state.mesh, part, [&](std::size_t position, double q) {
+        state.cell_quality[part[position]] = q;
+        return true;
+      });
     });
   }
 
@@ -201,7 +153,7 @@ class AdaptiveStage : public Smoother<dim> {
     std::span<const CellIndex> cells = arrays_->active_cells;
     std::vector<CellIndex> around;
     while (true) {
-      evaluate_cells(state, cells);
+      evaluate(state, cells);
       std::vector<NodeIndex> shortened;
       for (const CellIndex c : cells)
         if (!(state.cell_quality[c] > 0.0))
@@ -213,7 +165,7 @@ class AdaptiveStage : public Smoother<dim> {
       shortened.erase(std::unique(shortened.begin(), shortened.end()), shortened.end());
       for (const NodeIndex i : shortened) {
         ++arrays_->level[i];
-        place(state.mesh, i);
+        set_position(state.mesh, i);
         if (relaxation_[arrays_->level[i]] == 0.0) ++n_reset;
       }
       around = topology.cells_around(shortened);
@@ -241,10 +193,11 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
                    &max_iterations_, 1.0, 1e9});
     return all;
   }
-  SmoothingRule rule() const override {
-    return {.quality_use = QualityUse::smoother,
-            .result = ResultMesh::best_q_mean,
-            .criterion = StoppingCriterion::q_mean_gain,
+  SmootherTraits traits() const override {
+    return {.quality_use = QualityUse::smoother, .result = ResultMesh::best_q_mean};
+  }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::q_mean_gain,
             .tolerance = tolerance_,
             .max_iterations = max_iterations_};
   }
@@ -255,7 +208,7 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
   int max_iterations_ = 1000;
 };
 
-/// Second stage: cycles that transform a share of the elements, those of the lowest quality when
+/// Second stage: cycles that transform a fraction of the elements, those of the lowest quality when
 /// the cycle begins. A cycle ends after `patience` iterations in a row that did not raise q*_min
 /// (Section 5.1.3; in Fig. 4.4 they need not follow each other), the stage after a cycle that did
 /// not.
@@ -268,23 +221,30 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
 
   Parameters parameters() override {
     Parameters all = AdaptiveStage<dim>::parameters();
-    all.push_back({"share",
-                   "share of the elements whose quality sets the threshold at the beginning of a "
-                   "cycle; the thesis does not print it, 0.001 to 0.01 is good",
-                   &share_, 0.0, 1.0});
+    all.push_back({"fraction",
+                   "fraction of the elements whose quality sets the threshold at the beginning of "
+                   "a cycle; the thesis does not print it, 0.001 to 0.01 is good",
+                   &fraction_, 0.0, 1.0});
     all.push_back(
         {"patience",
          "iterations in a row without a higher q*_min that end a cycle; the thesis has 5, 10 "
          "gains as much q*_min as the sequential method",
          &patience_, 1.0, 1e9});
+    all.push_back({"patience_below_start",
+                   "go on for this many times `patience` while the best q*_min is below that of "
+                   "the mesh the method began with; not in the thesis, whose rule is 1",
+                   &patience_below_start_, 1.0, 1e6});
     all.push_back({"max_iterations", "stop after this many iterations at the latest",
                    &max_iterations_, 1.0, 1e9});
     return all;
   }
-  SmoothingRule rule() const override {
-    return {.quality_use = QualityUse::smoother,
-            .result = ResultMesh::best_q_star_min,
-            .criterion = StoppingCriterion::converged,
+  SmootherTraits traits() const override {
+    return {.quality_use = QualityUse::smoother, .result = ResultMesh::best_q_star_min};
+  }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::step_says_so,
+            .patience = patience_,
+            .patience_below_start = patience_below_start_,
             .max_iterations = max_iterations_};
   }
 
@@ -299,8 +259,7 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
     const bool gain = report.quality->q_star_min > best_;
     best_ = std::max(best_, report.quality->q_star_min);
     n_without_gain_ = gain ? 0 : n_without_gain_ + 1;
-    const bool below_start = best_ < state.initial_quality.q_star_min;
-    if (n_without_gain_ >= (below_start ? patience_below_start : 1) * patience_) {
+    if (n_without_gain_ >= stopping().patience_at(best_, state.initial_quality.q_star_min)) {
       report.converged = !(best_ > best_at_start_);
       start_cycle(state);
     }
@@ -310,8 +269,9 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
  private:
   void start_cycle(const SmoothingState<dim>& state) {
     std::vector<double> sorted = state.cell_quality;
-    const auto position = std::min(
-        static_cast<std::size_t>(share_ * static_cast<double>(sorted.size())), sorted.size() - 1);
+    const auto position =
+        std::min(static_cast<std::size_t>(fraction_ * static_cast<double>(sorted.size())),
+                 sorted.size() - 1);
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(position),
                      sorted.end());
     threshold_ = sorted[position];
@@ -319,8 +279,9 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
     best_at_start_ = best_;
   }
 
-  double share_ = 0.005;
+  double fraction_ = 0.005;
   int patience_ = 10;
+  int patience_below_start_ = 10;
   int max_iterations_ = 10000;
   double threshold_ = 1.0;
   double best_ = 0.0, best_at_start_ = 0.0;

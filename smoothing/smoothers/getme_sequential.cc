@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
-#include "smoothing/getme/element_regularization.h"
 #include "smoothing/getme/min_tree.h"
+#include "smoothing/getme/regularize.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/quality/local_quality.h"
 #include "smoothing/quality/warpage.h"
@@ -10,48 +12,16 @@
 namespace smoothfem {
 namespace {
 
-ElementRegularization<2> default_element(std::integral_constant<int, 2>) {
-  ElementRegularization<2> element;
-  element.lambda = 9.0 / 20.0;
-  element.theta_degrees = 25.0;
-  element.rho = 0.01;
-  return element;
-}
-/// Tetrahedra and hexahedra as in Section 6.3, pyramids and prisms as in Section 5.4.
-ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
-  ElementRegularization<3> element;
-  element.tetrahedron = element.hexahedron = {17.0, 17.0};
-  element.pyramid = {1.82, 1.82};
-  element.prism = {0.85, 0.85};
-  element.rho = 0.01;
-  return element;
-}
-
-/// Qualities of some cells; false as soon as one is invalid.
-template <int dim, int spacedim>
-SMOOTHFEM_INLINE bool mean_ratios_if_valid(const Mesh<dim, spacedim>& mesh,
-                                           std::span<const CellIndex> cells,
-                                           std::vector<double>& quality) {
-  return for_each_mean_ratio(
-      mesh, cells,
-      [&](NodeIndex i)
-          SMOOTHFEM_INLINE_LAMBDA -> const Point<spacedim>& { return mesh.coordinates()[i]; },
-      [&](std::size_t position, double q) SMOOTHFEM_INLINE_LAMBDA {
-        quality[position] = q;
-        return q > 0.0;
-      });
-}
-bool evaluate(const PlanarMesh& mesh, std::span<const CellIndex> cells,
-              std::vector<double>& quality) {
-  return mean_ratios_if_valid(mesh, cells, quality);
-}
-bool evaluate(const VolumeMesh& mesh, std::span<const CellIndex> cells,
-              std::vector<double>& quality) {
-  return mean_ratios_if_valid(mesh, cells, quality);
-}
-bool evaluate(const SurfaceMesh& mesh, std::span<const CellIndex> cells,
-              std::vector<double>& quality) {
-  return mean_ratios_if_valid(mesh, cells, quality);
+template <int dim>
+ElementParameters<dim> default_parameters() {
+  if constexpr (dim == 2)
+    return {.lambda = 9.0 / 20.0, .theta_degrees = 25.0, .rho = 0.01};
+  else  // tetrahedra and hexahedra as in Section 6.3, pyramids and prisms as in Section 5.4
+    return {.tetrahedron = {17.0, 17.0},
+            .pyramid = {1.82, 1.82},
+            .prism = {0.85, 0.85},
+            .hexahedron = {17.0, 17.0},
+            .rho = 0.01};
 }
 
 /// By which quality the next element is chosen: its mean ratio.
@@ -82,7 +52,7 @@ struct ByMeanRatioAndWarpage {
   }
   double operator()(const VolumeMesh& mesh, CellIndex cell, double mean_ratio) const {
     double warpage = 0.0;
-    with_corners<3>(mesh.topology().cell_nodes(cell), mesh.coordinates(),
+    with_corners<3>(mesh.topology().cell_nodes(cell), mesh.coordinates().data(),
                     [&](auto corners) { warpage = element_warpage(corners); });
     return std::min(mean_ratio, gamma * (1.0 - 0.5 * warpage));
   }
@@ -109,29 +79,35 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
          1.0, 1e9},
         {"patience", "stop after this many looks without a higher lowest quality", &patience_, 1.0,
          1e9},
+        {"patience_below_start",
+         "go on for this many times `patience` while the best q*_min is below that of the mesh the "
+         "method began with; not in the thesis, whose rule is 1",
+         &patience_below_start_, 1.0, 1e6},
         {"max_cycles", "stop after this many cycles at the latest", &max_cycles_, 1.0, 1e9},
         {"max_mean_loss",
-         "stop when q_mean, looked at once a cycle, has fallen by more than this share of its "
-         "value "
-         "at the stage's start (Section 5.2)",
+         "stop when q_mean, looked at once per cycle, has fallen by more than this fraction of its "
+         "value at the stage's start (Section 5.2)",
          &max_mean_loss_, 0.0, 1.0}};
     all.insert(all.end(), own.begin(), own.end());
     for (auto& parameter : assess_.parameters()) all.push_back(std::move(parameter));
     return all;
   }
 
-  SmoothingRule rule() const override {
+  SmootherTraits traits() const override {
     return {.quality_use = QualityUse::smoother,
             .result = Assessment::result,
-            .criterion = StoppingCriterion::result_stall,
-            .patience = patience_,
-            .max_iterations = max_cycles_,
             .keeps_constraints = true};
+  }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::result_stall,
+            .patience = patience_,
+            .patience_below_start = patience_below_start_,
+            .max_iterations = max_cycles_};
   }
 
   /// Only elements that can be changed take part.
   void initialize(const SmoothingState<dim, spacedim>& state) override {
-    element_.prepare();
+    regularization_.emplace(element_);
     const auto& topology = state.mesh.topology();
     std::vector<double> keys(topology.n_cells(), MinTree::never);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
@@ -170,7 +146,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     report.score = lowest_quality();
     if (Assessment::result == ResultMesh::best_q_star_min && !by_quality_.empty())
       report.q_star_min = report.score;
-    report.moved = &moved_in_cycle_;
+    report.moved = moved_in_cycle_;
     report.converged = quality_gain_ < -max_mean_loss_ * initial_quality_sum_;
     return report;
   }
@@ -196,21 +172,21 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     return worst;
   }
 
-  /// Sets the free nodes of a cell to their transformed places; remembers the old ones.
-  void transform(SmoothingState<dim, spacedim>& state, CellIndex cell) {
+  /// Sets the free nodes of a cell to their transformed positions; remembers the old ones.
+  [[gnu::flatten]] void transform(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     auto& mesh = state.mesh;
     const auto& topology = mesh.topology();
     const auto nodes = topology.cell_nodes(cell);
     moved_.clear();
     touched_.clear();
     ++n_transformations_;
-    with_corners<dim>(nodes, mesh.coordinates(), [&](auto corners) {
-      with_room_for_result(corners, [&](auto result) {
-        regularize(element_, upper_side(mesh, cell), corners, result);
+    with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
+      with_result(corners, [&](auto result) {
+        regularize(*regularization_, upper_side(mesh, cell), corners, result);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (topology.is_fixed(nodes[k])) continue;
           moved_.emplace_back(nodes[k], point_of(corners[k]));
-          mesh.coordinates()[nodes[k]] = allowed_place(mesh, nodes[k], point_of(result[k]));
+          mesh.coordinates()[nodes[k]] = allowed_position(mesh, nodes[k], point_of(result[k]));
           for (const CellIndex c : topology.node_cells(nodes[k])) {
             if (touched_in_[c] == n_transformations_) continue;
             touched_in_[c] = n_transformations_;
@@ -225,7 +201,11 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   /// is invalid, or if a facet there is beyond its bound.
   bool accept_or_undo(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     new_quality_.resize(touched_.size());
-    if (!evaluate(state.mesh, touched_, new_quality_) ||
+    const auto set_if_valid = [&](std::size_t position, double q) {
+      new_quality_[position] = q;
+      return q > 0.0;
+    };
+    if (!for_each_mean_ratio(state.mesh, touched_, set_if_valid) ||
         !keeps_facet_bound(state.mesh, state.mesh.topology().cell_nodes(cell))) {
       for (const auto& [node, position] : moved_) state.mesh.coordinates()[node] = position;
       return false;
@@ -246,14 +226,15 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     last_picked_ = cell;
   }
 
-  ElementRegularization<dim, spacedim> element_ =
-      default_element(std::integral_constant<int, dim>{});
+  ElementParameters<dim> element_ = default_parameters<dim>();
+  std::optional<ElementRegularization<dim, spacedim>> regularization_;
   Assessment assess_;
   double penalty_invalid_ = 1e-4;
   double penalty_repeated_ = 1e-5;
   double penalty_success_ = -1e-3;
   int cycle_ = Assessment::cycle;
   int patience_ = Assessment::patience;
+  int patience_below_start_ = 10;
   int max_cycles_ = 100000;
   double max_mean_loss_ = 1.0;
 

@@ -1,89 +1,27 @@
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/base/parallel.h"
 #include "smoothing/getme/element_pass.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
-#include "smoothing/loop/quality_gain_stopping.h"
+#include "smoothing/mesh/node_constraints.h"
 
 namespace smoothfem {
 namespace {
 
-/// (1 - q)^eta. The exponents of the thesis by square roots, which have the same bits on every
-/// machine; others as the mathematical library has them.
-SMOOTHFEM_INLINE double quality_weight(double quality, double eta) {
-  const double base = std::max(1.0 - quality, 0.0);
-  if (eta == 0.0) return 1.0;
-  if (eta == 0.5) return std::sqrt(base);
-  if (eta == 0.25) return std::sqrt(std::sqrt(base));
-  if (eta == 1.0) return base;
-  return std::pow(base, eta);
-}
-SMOOTHFEM_INLINE Lanes quality_weight(Lanes quality, double eta) {
-  if (eta == 0.0) return Lanes{} + 1.0;
-  Lanes weight;
-  for (std::size_t l = 0; l < n_lanes; ++l) weight[l] = quality_weight(quality[l], eta);
-  return weight;
+template <int dim>
+ElementParameters<dim> default_parameters() {
+  if constexpr (dim == 2)
+    return {.lambda = 7.0 / 20.0, .theta_degrees = 15.0, .rho = 1.0};
+  else  // tetrahedra and hexahedra as in Section 6.3; pyramids and prisms, which do not settle for
+        // large sigma, as in Section 5.4
+    return {.tetrahedron = {0.7, 50.7},
+            .pyramid = {1.86, 1.86},
+            .prism = {1.59, 1.59},
+            .hexahedron = {0.7, 50.7},
+            .rho = 1.0};
 }
 
-/// Weights of Eq. 4.2; every element is transformed.
-struct QualityWeighting {
-  double eta;
-
-  template <class Cells, class Real>
-  SMOOTHFEM_INLINE Real weight(const Cells&, Real quality) const {
-    return quality_weight(quality, eta);
-  }
-  template <class Real>
-  SMOOTHFEM_INLINE AllTransformed transforms(Real) const {
-    return {};
-  }
-};
-template <int dim, int spacedim = dim>
-using Pass = ElementPass<dim, QualityWeighting, spacedim>;
-
-void add_block(const Pass<2>& pass, const CellBlock& block, double* quality, double* sums) {
-  add_whole_block(pass, block, quality, sums);
-}
-void add_block(const Pass<3>& pass, const CellBlock& block, double* quality, double* sums) {
-  add_whole_block(pass, block, quality, sums);
-}
-void add_block(const Pass<2, 3>& pass, const CellBlock& block, double* quality, double* sums) {
-  add_whole_block(pass, block, quality, sums);
-}
-void add_some(const Pass<2>& pass, std::span<const CellIndex> cells,
-              const std::vector<std::uint8_t>& marked, double* sums) {
-  add_to_marked(pass, cells, marked, sums);
-}
-void add_some(const Pass<3>& pass, std::span<const CellIndex> cells,
-              const std::vector<std::uint8_t>& marked, double* sums) {
-  add_to_marked(pass, cells, marked, sums);
-}
-void add_some(const Pass<2, 3>& pass, std::span<const CellIndex> cells,
-              const std::vector<std::uint8_t>& marked, double* sums) {
-  add_to_marked(pass, cells, marked, sums);
-}
-
-ElementRegularization<2> default_element(std::integral_constant<int, 2>) {
-  ElementRegularization<2> element;
-  element.lambda = 7.0 / 20.0;
-  element.theta_degrees = 15.0;
-  element.rho = 1.0;
-  return element;
-}
-/// Tetrahedra and hexahedra as in Section 6.3, pyramids and prisms, which do not settle for large
-/// sigma, as in Section 5.4.
-ElementRegularization<3> default_element(std::integral_constant<int, 3>) {
-  ElementRegularization<3> element;
-  element.tetrahedron = element.hexahedron = {0.7, 50.7};
-  element.pyramid = {1.86, 1.86};
-  element.prism = {1.59, 1.59};
-  element.rho = 1.0;
-  return element;
-}
-
-/// Transforms every element; each free node moves to the weighted mean of its places in its
+/// Transforms every element; each free node moves to the weighted mean of its positions in its
 /// transformed elements (thesis, Section 4.2, Eq. 4.2 and Fig. 4.2). One pass over the elements
 /// gives their quality and the sums for the next iteration, so that each is fetched and looked at
 /// once: the pass after an iteration's movements starts the next one.
@@ -99,95 +37,50 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     for (auto& parameter : stopping_.parameters()) all.push_back(std::move(parameter));
     return all;
   }
-
-  SmoothingRule rule() const override {
-    SmoothingRule rule = stopping_.rule();
-    rule.quality_use = QualityUse::smoother;
-    rule.keeps_constraints = true;
-    return rule;
+  SmootherTraits traits() const override {
+    return {.quality_use = QualityUse::smoother, .keeps_constraints = true};
   }
+  StoppingRule stopping() const override { return stopping_.rule(); }
 
   void initialize(const SmoothingState<dim, spacedim>& state) override {
-    element_.prepare();
-    sums_.prepare(state.mesh.topology());
-    parts_.resize(state.mesh.topology().blocks().size());
-    ready_ = false;
+    pass_.prepare(state.mesh.topology(), element_);
+    previous_.resize(state.mesh.n_nodes());
+    is_transformed_ = false;
   }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
-    const Topology& topology = state.mesh.topology();
-    if (!ready_) pass_over_all(state);
-    ready_ = true;
-    // Where all weights are zero the node's elements are regular already: it stays.
-    previous_.resize(topology.n_nodes());
-    sums_.for_each_node([&](NodeIndex i, const double* sums) {
-      const bool moves = !topology.is_fixed(i) && sums[spacedim] > 0.0;
-      previous_[i] = moves ? allowed_place(state.mesh, i, mean_place<spacedim>(sums))
-                           : state.mesh.coordinates()[i];
-    });
-    previous_.swap(state.mesh.coordinates());
-    StepReport report;
-    report.quality = pass_over_all(state);
+    if (!is_transformed_) pass_.transform_all(state, eta_);
+    is_transformed_ = true;
+    move_nodes(state.mesh);
+    StepReport report{.quality = pass_.transform_all(state, eta_)};
     if (report.quality->n_invalid > 0 || has_facet_bound(state.mesh)) {
       const auto nodes = reset_nodes_of_invalid_cells(state.mesh, previous_, state.cell_quality);
-      if (!nodes.empty()) report.quality = pass_around(state, nodes);
+      if (!nodes.empty()) report.quality = pass_.transform_around(state, nodes, eta_);
       report.n_reset = nodes.size();
     }
     return report;
   }
 
  private:
-  MeshQuality pass_over_all(SmoothingState<dim, spacedim>& state) {
-    const Topology& topology = state.mesh.topology();
-    const Pass<dim, spacedim> pass{state.mesh, element_, {eta_}};
-    sums_.compute([&](std::size_t b, double* sums) {
-      const CellBlock& block = topology.blocks()[b];
-      add_block(pass, block, state.cell_quality.data(), sums);
-      parts_[b] = PartialQuality(topology, state.cell_quality, block);
+  /// p_i = sum of w_j p'_ij over the elements j around node i, divided by the sum of w_j (Eq. 4.2).
+  /// Where all weights are zero the elements are regular already: the node stays.
+  void move_nodes(Mesh<dim, spacedim>& mesh) {
+    constexpr std::size_t grain = 512;
+    parallel_for_ranges(mesh.n_nodes(), grain, [&](std::size_t first, std::size_t last) {
+      for (auto i = static_cast<NodeIndex>(first); i < last; ++i) {
+        const bool moves = !mesh.topology().is_fixed(i) && pass_.has_mean(i);
+        previous_[i] = moves ? allowed_position(mesh, i, pass_.mean(i)) : mesh.coordinates()[i];
+      }
     });
-    return mesh_quality(parts_, topology.n_cells());
+    mesh.swap_coordinates(previous_);
   }
 
-  /// Makes the sums those of the present mesh again after some nodes were put back: the sums of the
-  /// nodes of their cells, from all cells around those. Same bits as a pass over all cells.
-  MeshQuality pass_around(SmoothingState<dim, spacedim>& state,
-                          const std::vector<NodeIndex>& nodes) {
-    const Topology& topology = state.mesh.topology();
-    marked_nodes_.assign(topology.n_nodes(), 0);
-    marked_cells_.assign(topology.n_cells(), 0);
-    std::vector<NodeIndex> changed_sums;
-    for (const NodeIndex i : nodes)
-      for (const CellIndex c : topology.node_cells(i))
-        for (const NodeIndex j : topology.cell_nodes(c))
-          if (!std::exchange(marked_nodes_[j], 1)) changed_sums.push_back(j);
-    if (4 * changed_sums.size() > topology.n_nodes()) return pass_over_all(state);
-    std::sort(changed_sums.begin(), changed_sums.end());
-    for (const NodeIndex i : changed_sums)
-      for (const CellIndex c : topology.node_cells(i)) marked_cells_[c] = 1;
-    std::vector<CellIndex> cells;
-    for (CellIndex c = 0; c < topology.n_cells(); ++c)
-      if (marked_cells_[c]) cells.push_back(c);
-
-    const Pass<dim, spacedim> pass{state.mesh, element_, {eta_}};
-    sums_.compute_some(changed_sums, cells,
-                       [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
-                         add_some(pass, cells_of_block, marked_nodes_, sums);
-                         parts_[b] =
-                             PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
-                       });
-    return mesh_quality(parts_, topology.n_cells());
-  }
-
-  ElementRegularization<dim, spacedim> element_ =
-      default_element(std::integral_constant<int, dim>{});
+  ElementParameters<dim> element_ = default_parameters<dim>();
   double eta_ = 0.0;
   QualityGainStopping stopping_;
-  NodeSums sums_;
-  std::vector<PartialQuality> parts_;  ///< of each block of cells
+  ElementPass<dim, spacedim> pass_;
   std::vector<Point<spacedim>> previous_;
-  std::vector<std::uint8_t> marked_nodes_;  ///< whose sums have to be added again
-  std::vector<std::uint8_t> marked_cells_;  ///< that add to them
-  bool ready_ = false;                      ///< sums_ are those of the present mesh
+  bool is_transformed_ = false;  ///< the sums of pass_ are those of the present mesh
 };
 
 const RegisteredMethod registered({.name = "getme-simultaneous",

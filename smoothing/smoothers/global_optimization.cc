@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <optional>
 
@@ -27,16 +28,16 @@ class GlobalOptimization final : public Smoother<dim> {
     return {
         {"tolerance",
          "stop when a Newton step's model promises to lower the objective by no more than this "
-         "share",
+         "fraction",
          &tolerance_, 0.0, 1.0},
         {"newton_below",
-         "take the exact Hessian once a step lowers the objective by less than this share",
+         "take the exact Hessian once a step lowers the objective by less than this fraction",
          &newton_below_, 0.0, 1.0},
-        {"forcing", "the linear solve leaves at most this share of the gradient", &forcing_, 1e-12,
-         0.999},
-        {"determinant_share",
-         "a step may take at most this share of the determinant of an element's corner",
-         &determinant_share_, 1e-3, 0.999},
+        {"forcing", "the linear solve leaves at most this fraction of the gradient", &forcing_,
+         1e-12, 0.999},
+        {"determinant_fraction",
+         "a step may take at most this fraction of the determinant of an element's corner",
+         &determinant_fraction_, 1e-3, 0.999},
         {"max_cg_iterations", "at most this many CG iterations a Newton step", &max_cg_iterations_,
          1.0, 1e9},
         {"start_sweeps",
@@ -51,19 +52,20 @@ class GlobalOptimization final : public Smoother<dim> {
          Choice{&result_, {"last", "best-q-mean"}}}};
   }
 
-  SmoothingRule rule() const override {
+  SmootherTraits traits() const override {
     const bool best = result_ != 0;  // the method itself looks at no mean ratio
     return {.quality_use = best ? QualityUse::loop : QualityUse::none,
-            .result = best ? ResultMesh::best_q_mean : ResultMesh::last,
-            .criterion = StoppingCriterion::converged,
-            .max_iterations = max_iterations_};
+            .result = best ? ResultMesh::best_q_mean : ResultMesh::last};
+  }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = max_iterations_};
   }
 
   void initialize(const SmoothingState<dim>& state) override {
     objective_.emplace(state.mesh.shared_topology());
     hessian_ = objective_->make_hessian();
     gradient_ = right_ = step_ = hessian_.make_vector();
-    trial_ = state.mesh.coordinates();
+    trial_.assign(state.mesh.coordinates().begin(), state.mesh.coordinates().end());
     start_ = start_sweeps_ > 0;
     value_ = objective_->value(trial_);
     model_ = HessianModel::convex;
@@ -91,7 +93,7 @@ class GlobalOptimization final : public Smoother<dim> {
     start_ = false;
     const VertexDescent<dim> descent(mesh.topology());
     for (int i = 0; i < start_sweeps_; ++i) descent.sweep(mesh.coordinates());
-    trial_ = mesh.coordinates();
+    trial_.assign(mesh.coordinates().begin(), mesh.coordinates().end());
     value_ = objective_->value(trial_);
   }
 
@@ -134,8 +136,8 @@ class GlobalOptimization final : public Smoother<dim> {
     const auto& free_nodes = mesh.topology().free_nodes();
     for (int round = 0; round < max_rounds; ++round) {
       set_trial(mesh, 1.0);
-      if (feasible_fractions(mesh.topology(), mesh.coordinates(), trial_, determinant_share_,
-                             limits_) == 1.0)
+      if (feasible_fractions<dim>(mesh.topology(), mesh.coordinates(), trial_,
+                                  determinant_fraction_, limits_) == 1.0)
         break;
       for (std::size_t i = 0; i < free_nodes.size(); ++i) step_[i] *= limits_[free_nodes[i]];
     }
@@ -151,7 +153,7 @@ class GlobalOptimization final : public Smoother<dim> {
       set_trial(mesh, alpha);
       const double value = objective_->value(trial_);
       if (value <= value_ + sufficient * alpha * slope) {
-        mesh.coordinates().swap(trial_);
+        mesh.swap_coordinates(trial_);
         value_ = value;
         return true;
       }
@@ -162,7 +164,7 @@ class GlobalOptimization final : public Smoother<dim> {
   double tolerance_ = 1e-8;
   double newton_below_ = 1e-3;
   double forcing_ = 0.3;
-  double determinant_share_ = 0.9;
+  double determinant_fraction_ = 0.9;
   int max_cg_iterations_ = 1000;
   int start_sweeps_ = 0;
   int max_iterations_ = 1000;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/laplacian/gauss_seidel_sweep.h"
 #include "smoothing/loop/catalogue.h"
 
@@ -10,7 +11,8 @@ class Laplace final : public Smoother<dim, spacedim> {
  public:
   std::string_view name() const override { return "laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
-  SmoothingRule rule() const override { return stopping_.rule(); }
+  SmootherTraits traits() const override { return uncontrolled_sweeps; }
+  StoppingRule stopping() const override { return stopping_.rule(); }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
     return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<spacedim> {

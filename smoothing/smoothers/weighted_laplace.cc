@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/laplacian/gauss_seidel_sweep.h"
 #include "smoothing/loop/catalogue.h"
-#include "smoothing/mesh/cell_size.h"
 
 namespace smoothfem {
 namespace {
@@ -12,11 +13,12 @@ class WeightedLaplace final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "weighted-laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
-  SmoothingRule rule() const override { return stopping_.rule(); }
+  SmootherTraits traits() const override { return uncontrolled_sweeps; }
+  StoppingRule stopping() const override { return stopping_.rule(); }
 
   StepReport step(SmoothingState<dim>& state) override {
     const auto& topology = state.mesh.topology();
-    const auto& x = state.mesh.coordinates();
+    const auto x = state.mesh.coordinates();
     return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<dim> {
       Point<dim> movement = Point<dim>::Zero();
       double total_size = 0.0;

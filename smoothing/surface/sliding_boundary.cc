@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/surface/sliding_boundary.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ std::vector<int> boundary_tags(const Topology& topology) {
 }
 
 /// Over the sides of all facets: each is one of two.
-double mean_edge_length(const CompressedRows<NodeIndex>& facets, const std::vector<Point<3>>& x) {
+double mean_edge_length(const CompressedRows<NodeIndex>& facets, std::span<const Point<3>> x) {
   double sum = 0.0;
   for (std::size_t f = 0; f < facets.size(); ++f)
     for (std::size_t k = 0, n = facets[f].size(); k < n; ++k)
@@ -45,17 +46,18 @@ VolumeMesh with_sliding_boundary(const VolumeMesh& mesh, const FeatureParameters
                                  double slide_distance) {
   if (!(slide_distance > 0.0))
     throw InputError("the slide distance is " + std::to_string(slide_distance) +
-                     "; give a share of the boundary's mean edge length above 0");
+                     "; give a fraction of the boundary's mean edge length above 0");
   const Topology& topology = mesh.topology();
   const SurfaceFacets boundary{topology.boundary_facets(), boundary_tags(topology), {}};
-  auto constraints = std::make_shared<const NodeConstraints>(
+  auto constraints = std::make_shared<const SurfaceConstraints>(
       boundary, mesh.coordinates(), parameters,
       slide_distance * mean_edge_length(boundary.nodes, mesh.coordinates()));
   std::vector<bool> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     fixed[i] = topology.is_fixed(i) && !topology.on_boundary()[i];
   return with_fixed_nodes(
-      VolumeMesh(mesh.shared_topology(), mesh.coordinates(), std::move(constraints)),
+      VolumeMesh(mesh.shared_topology(), {mesh.coordinates().begin(), mesh.coordinates().end()},
+                 std::move(constraints)),
       std::move(fixed));
 }
 

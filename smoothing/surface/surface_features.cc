@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/surface/surface_features.h"
 
 #include <Eigen/Geometry>
@@ -6,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 #include <tuple>
+
+#include "smoothing/geometry/cell_size.h"
 
 namespace smoothfem {
 
@@ -69,7 +72,7 @@ class Groups {
 
 class FeatureSearch {
  public:
-  FeatureSearch(const SurfaceFacets& facets, const std::vector<Point<3>>& coordinates,
+  FeatureSearch(const SurfaceFacets& facets, std::span<const Point<3>> coordinates,
                 double angle_degrees)
       : facets_(facets),
         x_(coordinates),
@@ -80,7 +83,7 @@ class FeatureSearch {
 
   SurfaceFeatures find() {
     find_edges_and_patches();
-    find_lines_and_carriers();
+    find_lines_and_classify_nodes();
     return std::move(result_);
   }
 
@@ -115,17 +118,17 @@ class FeatureSearch {
   }
 
   /// Nodes of a single smooth part, of two edges that go on nearly straight, and the rest.
-  void find_lines_and_carriers() {
+  void find_lines_and_classify_nodes() {
     const auto& edges = result_.feature_edges;
-    auto& carriers = result_.carriers;
-    carriers.resize(x_.size());
+    auto& nodes = result_.classifications;
+    nodes.resize(x_.size());
     for (std::uint32_t f = 0; f < facets_.nodes.size(); ++f)
       for (const NodeIndex i : facets_.nodes[f]) {
         const std::uint32_t patch = result_.facet_patches[f];
-        if (carriers[i].kind == NodeCarrier::none)
-          carriers[i] = {NodeCarrier::patch, patch};
-        else if (carriers[i].part != patch)
-          carriers[i].kind = NodeCarrier::corner;  // unless it turns out to be on a line
+        if (nodes[i].kind == GeometricClassification::none)
+          nodes[i] = {GeometricClassification::patch, patch};
+        else if (nodes[i].part != patch)
+          nodes[i].kind = GeometricClassification::corner;  // unless it turns out to be on a line
       }
     std::vector<std::vector<std::uint32_t>> edges_at(x_.size());
     for (std::uint32_t e = 0; e < edges.size(); ++e)
@@ -133,13 +136,15 @@ class FeatureSearch {
     Groups lines(edges.size());
     for (NodeIndex i = 0; i < x_.size(); ++i) {
       if (edges_at[i].empty()) continue;
-      carriers[i].kind = goes_on(i, edges_at[i]) ? NodeCarrier::line : NodeCarrier::corner;
-      if (carriers[i].kind == NodeCarrier::line) lines.join(edges_at[i][0], edges_at[i][1]);
+      nodes[i].kind =
+          goes_on(i, edges_at[i]) ? GeometricClassification::line : GeometricClassification::corner;
+      if (nodes[i].kind == GeometricClassification::line)
+        lines.join(edges_at[i][0], edges_at[i][1]);
     }
     result_.edge_lines = lines.numbers();
     for (NodeIndex i = 0; i < x_.size(); ++i)
-      if (carriers[i].kind == NodeCarrier::line)
-        carriers[i].part = result_.edge_lines[edges_at[i][0]];
+      if (nodes[i].kind == GeometricClassification::line)
+        nodes[i].part = result_.edge_lines[edges_at[i][0]];
   }
 
   bool goes_on(NodeIndex node, const std::vector<std::uint32_t>& edges) const {
@@ -152,7 +157,7 @@ class FeatureSearch {
   }
 
   const SurfaceFacets& facets_;
-  const std::vector<Point<3>>& x_;
+  std::span<const Point<3>> x_;
   double cosine_;
   std::vector<Point<3>> normals_;
   std::vector<Edge> marked_;
@@ -161,15 +166,7 @@ class FeatureSearch {
 
 }  // namespace
 
-Point<3> area_vector(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& coordinates) {
-  Point<3> sum = Point<3>::Zero();
-  for (std::size_t k = 2; k < nodes.size(); ++k)
-    sum += (coordinates[nodes[k - 1]] - coordinates[nodes[0]])
-               .cross(coordinates[nodes[k]] - coordinates[nodes[0]]);
-  return sum;
-}
-
-SurfaceFeatures find_features(const SurfaceFacets& facets, const std::vector<Point<3>>& coordinates,
+SurfaceFeatures find_features(const SurfaceFacets& facets, std::span<const Point<3>> coordinates,
                               const FeatureParameters& parameters) {
   if (!(parameters.angle_degrees > 0.0 && parameters.angle_degrees <= 180.0))
     throw InputError("the feature angle is " + std::to_string(parameters.angle_degrees) +

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "smoothing/mesh/mesh.h"
+#include "smoothing/mesh/node_constraints.h"
 
 namespace smoothfem {
 
@@ -22,30 +23,19 @@ struct FeatureParameters {
   double angle_degrees = 40.0;
 };
 
-/// What a node of a surface may slide on: the smooth part of the surface, or the feature line, of
-/// this number.
-struct NodeCarrier {
-  enum Kind : std::uint8_t { none, patch, line, corner };
-  Kind kind = none;  ///< none: not a node of the surface; corner: it stays
-  std::uint32_t part = 0;
-};
-
 /// A surface taken apart at its features: edges between facets that meet at an angle, have
 /// different tags, are marked, or where other than two facets meet (the surface's boundary).
 /// Corners are nodes where other than two feature edges meet or where two make an angle.
 struct SurfaceFeatures {
-  std::vector<NodeCarrier> carriers;                    ///< of each node
-  std::vector<std::uint32_t> facet_patches;             ///< the smooth part of each facet
-  std::vector<std::array<NodeIndex, 2>> feature_edges;  ///< the lower node first, ascending
-  std::vector<std::uint32_t> edge_lines;                ///< the line of each feature edge
+  std::vector<GeometricClassification> classifications;  ///< of each node
+  std::vector<std::uint32_t> facet_patches;              ///< the smooth part of each facet
+  std::vector<std::array<NodeIndex, 2>> feature_edges;   ///< the lower node first, ascending
+  std::vector<std::uint32_t> edge_lines;                 ///< the line of each feature edge
 };
-
-/// Area vector of a facet: along its mean normal, twice as long as its area.
-Point<3> area_vector(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& coordinates);
 
 /// Throws InputError for an angle out of range, and for two facets that run along their common edge
 /// in the same direction. All sides of a facet without area are features.
-SurfaceFeatures find_features(const SurfaceFacets& facets, const std::vector<Point<3>>& coordinates,
+SurfaceFeatures find_features(const SurfaceFacets& facets, std::span<const Point<3>> coordinates,
                               const FeatureParameters& parameters);
 
 }  // namespace smoothfem

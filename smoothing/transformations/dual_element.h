@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -20,11 +21,11 @@ class DualElement {
  public:
   /// nodes, result: n = 4, 5, 6 or 8 points each, not overlapping. sigma > 0, one a lane.
   template <class Real, std::size_t n>
-  static SMOOTHFEM_INLINE void apply(Real sigma, std::span<const Vector3<Real>, n> nodes,
-                                     std::span<Vector3<Real>, n> result) {
+  static inline void apply(Real sigma, std::span<const Vector3<Real>, n> nodes,
+                           std::span<Vector3<Real>, n> result) {
     using Element = VolumeElement<n>;
     std::array<Vector3<Real>, Element::faces.size()> dual;
-    unrolled<Element::faces.size()>([&](auto f) SMOOTHFEM_INLINE_LAMBDA {
+    unrolled<Element::faces.size()>([&](auto f) {
       constexpr LocalFace face = Element::faces[f];
       auto sum = nodes[face.nodes[0]] + nodes[face.nodes[1]] + nodes[face.nodes[2]];
       if (face.size == 4) sum = sum + nodes[face.nodes[3]];
@@ -32,7 +33,7 @@ class DualElement {
     });
     const Real tau = base_position<n>(sigma);
     std::array<Vector3<Real>, 4> normals;  // of the first half of a hexahedron's dual faces
-    unrolled<n>([&](auto k) SMOOTHFEM_INLINE_LAMBDA {
+    unrolled<n>([&](auto k) {
       constexpr LocalFace face = Element::dual_faces[k];
       const auto &a = dual[face.nodes[0]], &b = dual[face.nodes[1]], &c = dual[face.nodes[2]];
       if constexpr (face.size == 4) {  // the base of the dual pyramid
@@ -57,7 +58,7 @@ class DualElement {
   /// Where base points of triangles lie on the line from the first node of the dual face to the
   /// middle of the other two (Eq. 3.8); chosen so that regular elements stay regular.
   template <std::size_t n, class Real>
-  static SMOOTHFEM_INLINE Real base_position(Real sigma) {
+  static inline Real base_position(Real sigma) {
     if constexpr (n == 5) return 0.5 + sigma;
     if constexpr (n == 6) {
       const double factor = std::numbers::sqrt2 / std::sqrt(std::sqrt(39.0));

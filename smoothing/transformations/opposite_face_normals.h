@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cassert>
 #include <span>
 
 #include "smoothing/simd/inverse_root.h"
-#include "smoothing/simd/lanes.h"
+#include "smoothing/simd/vectors.h"
 
 namespace smoothfem {
 
@@ -17,8 +18,8 @@ class OppositeFaceNormals {
   /// nodes, result: 4 points each, not overlapping. sigma >= 0, one a lane. A face without area
   /// moves nothing.
   template <class Real>
-  static SMOOTHFEM_INLINE void apply(Real sigma, std::span<const Vector3<Real>, 4> nodes,
-                                     std::span<Vector3<Real>, 4> result) {
+  static inline void apply(Real sigma, std::span<const Vector3<Real>, 4> nodes,
+                           std::span<Vector3<Real>, 4> result) {
     const auto &p1 = nodes[0], &p2 = nodes[1], &p3 = nodes[2], &p4 = nodes[3];
     // With the edges as the cell's table has them, which compilers then compute once.
     result[0] = p1 + scaled(sigma, cross(p4 - p2, p3 - p2));
@@ -29,7 +30,7 @@ class OppositeFaceNormals {
 
   /// sigma n / sqrt(|n|).
   template <class Real>
-  static SMOOTHFEM_INLINE Vector3<Real> scaled(Real sigma, Vector3<Real> normal) {
+  static inline Vector3<Real> scaled(Real sigma, Vector3<Real> normal) {
     const Real square = squared_length(normal);
     const Real root = square_root(square_root(square));
     return (square > 0.0 ? sigma / root : Real{}) * normal;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cassert>
@@ -5,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include "smoothing/simd/lanes.h"
+#include "smoothing/simd/vectors.h"
 
 namespace smoothfem {
 
@@ -30,8 +31,8 @@ class PolygonTransformation {
   /// of both half steps together: `diagonal` for the node, w (1 - conj w) for the one before it and
   /// the conjugate of that for the one after it (Eq. 2.29 with its conjugates).
   template <class Real, std::size_t extent>
-  SMOOTHFEM_INLINE void apply(std::span<const Vector2<Real>, extent> polygon,
-                              std::span<Vector2<Real>, extent> result) const {
+  void apply(std::span<const Vector2<Real>, extent> polygon,
+             std::span<Vector2<Real>, extent> result) const {
     const std::size_t n = polygon.size();
     for (std::size_t k = 0; k < n; ++k) {
       const auto& before = polygon[k == 0 ? n - 1 : k - 1];

@@ -69,9 +69,8 @@ struct Tally {
 
 /// Transformations until each of n_lanes elements is regular; max + 1 where it is not by then.
 template <std::size_t n>
-SMOOTHFEM_INLINE void count_lanes(const ElementRegularization<3>& transformation,
-                                  ElementLanes<n> elements, double regular, int max,
-                                  std::array<int, n_lanes>& counts) {
+inline void count_lanes(const ElementRegularization<3>& transformation, ElementLanes<n> elements,
+                        double regular, int max, std::array<int, n_lanes>& counts) {
   counts.fill(max + 1);
   std::size_t n_left = n_lanes;
   for (int count = 0; count <= max && n_left > 0; ++count) {

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
 #include <span>
 
 #include "smoothing/mesh/volume_elements.h"
-#include "smoothing/simd/lanes.h"
+#include "smoothing/simd/vectors.h"
 
 namespace smoothfem {
 
@@ -32,8 +33,8 @@ struct CellEdges {
   std::array<Vector3<Real>, n_edges> vectors;
   std::array<Real, n_edges> squared_lengths;
 
-  SMOOTHFEM_INLINE explicit CellEdges(std::span<const Vector3<Real>, n> nodes) {
-    unrolled<n_edges>([&](auto e) SMOOTHFEM_INLINE_LAMBDA {
+  explicit CellEdges(std::span<const Vector3<Real>, n> nodes) {
+    unrolled<n_edges>([&](auto e) {
       constexpr LocalEdge edge = VolumeElement<n>::edges[e];
       vectors[e] = nodes[edge[1]] - nodes[edge[0]];
       squared_lengths[e] = squared_length(vectors[e]);

@@ -1,22 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "smoothing/mesh/node_constraints.h"
 #include "smoothing/mesh/volume_elements.h"
-#include "smoothing/simd/lanes.h"
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/simd/vectors.h"
 
 namespace smoothfem {
 
 /// Area of a planar cell; negative if its nodes run clockwise.
 inline double signed_cell_size(const PlanarMesh& mesh, CellIndex cell) {
   const auto nodes = mesh.topology().cell_nodes(cell);
-  const auto& x = mesh.coordinates();
+  const auto x = mesh.coordinates();
   double twice_area = 0.0;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     twice_area += cross(x[nodes[k]], x[nodes[k + 1 < nodes.size() ? k + 1 : 0]]);
   return 0.5 * twice_area;
+}
+
+/// Area vector of a polygon in space: along its mean normal, twice as long as its area.
+inline Point<3> area_vector(std::span<const NodeIndex> nodes,
+                            std::span<const Point<3>> coordinates) {
+  Point<3> sum = Point<3>::Zero();
+  for (std::size_t k = 2; k < nodes.size(); ++k)
+    sum += (coordinates[nodes[k - 1]] - coordinates[nodes[0]])
+               .cross(coordinates[nodes[k]] - coordinates[nodes[0]]);
+  return sum;
 }
 
 /// Area of the cell of a surface mesh, projected along its mean normal; negative if it is turned
@@ -31,7 +42,7 @@ inline double signed_cell_size(const SurfaceMesh& mesh, CellIndex cell) {
 /// of its two divisions into triangles); negative for cells turned inside out.
 inline double signed_cell_size(const VolumeMesh& mesh, CellIndex cell) {
   const auto nodes = mesh.topology().cell_nodes(cell);
-  const auto& x = mesh.coordinates();
+  const auto x = mesh.coordinates();
   const Point<3>& origin = x[nodes[0]];
   double six_volumes = 0.0;
   for (const LocalFace& face : volume_element(nodes.size()).faces) {

@@ -1,16 +1,18 @@
-#include "smoothing/surface/node_constraints.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/surface/surface_constraints.h"
 
 #include <algorithm>
 #include <optional>
 
 #include "smoothing/base/parallel.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/surface/piece_index.h"
 
 namespace smoothfem {
 
 namespace {
 
-std::vector<Piece> triangles_of(const SurfaceFacets& facets, const std::vector<Point<3>>& x,
+std::vector<Piece> triangles_of(const SurfaceFacets& facets, std::span<const Point<3>> x,
                                 const std::vector<std::uint32_t>& patches) {
   std::vector<Piece> triangles;
   for (std::uint32_t f = 0; f < facets.nodes.size(); ++f) {
@@ -28,7 +30,7 @@ std::vector<Piece> triangles_of(const SurfaceFacets& facets, const std::vector<P
   return triangles;
 }
 
-std::vector<Piece> segments_of(const SurfaceFeatures& features, const std::vector<Point<3>>& x) {
+std::vector<Piece> segments_of(const SurfaceFeatures& features, std::span<const Point<3>> x) {
   std::vector<Piece> segments;
   for (std::size_t e = 0; e < features.feature_edges.size(); ++e) {
     const auto [a, b] = features.feature_edges[e];
@@ -42,7 +44,7 @@ constexpr double least_radius = 1e-10;
 constexpr std::size_t facet_grain = 256;  ///< facets that one thread looks at at a time
 
 /// The middles of a facet and of its sides.
-std::vector<Point<3>> middles(std::span<const NodeIndex> nodes, const std::vector<Point<3>>& x) {
+std::vector<Point<3>> middles(std::span<const NodeIndex> nodes, std::span<const Point<3>> x) {
   const std::size_t n = nodes.size();
   std::vector<Point<3>> points;
   points.reserve(n + 1);
@@ -56,9 +58,9 @@ std::vector<Point<3>> middles(std::span<const NodeIndex> nodes, const std::vecto
 
 }  // namespace
 
-NodeConstraints::NodeConstraints(const SurfaceFacets& facets,
-                                 const std::vector<Point<3>>& coordinates,
-                                 const FeatureParameters& parameters, double facet_bound)
+SurfaceConstraints::SurfaceConstraints(const SurfaceFacets& facets,
+                                       std::span<const Point<3>> coordinates,
+                                       const FeatureParameters& parameters, double facet_bound)
     : features_(find_features(facets, coordinates, parameters)),
       facets_(facets.nodes),
       node_facets_(facet_bound < unbounded ? rows_by_entry(facets.nodes, coordinates.size())
@@ -70,27 +72,28 @@ NodeConstraints::NodeConstraints(const SurfaceFacets& facets,
   for (std::size_t f = 0; f < facets.nodes.size(); ++f)
     facet_normals_.push_back(area_vector(facets.nodes[f], coordinates).normalized());
 }
-NodeConstraints::~NodeConstraints() = default;
+SurfaceConstraints::~SurfaceConstraints() = default;
 
-Point<3> NodeConstraints::project(NodeIndex node, const Point<3>& from,
-                                  const Point<3>& wanted) const {
-  const NodeCarrier carrier = features_.carriers[node];
-  if (carrier.kind == NodeCarrier::none || wanted == from) return wanted;
-  if (carrier.kind == NodeCarrier::corner) return from;
-  const PieceIndex& index = carrier.kind == NodeCarrier::patch ? *triangles_ : *segments_;
+Point<3> SurfaceConstraints::project(NodeIndex node, const Point<3>& from,
+                                     const Point<3>& wanted) const {
+  const GeometricClassification node_class = features_.classifications[node];
+  if (node_class.kind == GeometricClassification::none || wanted == from) return wanted;
+  if (node_class.kind == GeometricClassification::corner) return from;
+  const PieceIndex& index =
+      node_class.kind == GeometricClassification::patch ? *triangles_ : *segments_;
   const double radius = (wanted - from).norm() + least_radius * triangles_->extent();
-  return index.nearest(wanted, carrier.part, radius);
+  return index.nearest(wanted, node_class.part, radius);
 }
 
-double NodeConstraints::distance(const Point<3>& point) const {
+double SurfaceConstraints::distance(const Point<3>& point) const {
   return distance(point, least_radius * triangles_->extent());
 }
 
-double NodeConstraints::distance(const Point<3>& point, double radius) const {
+double SurfaceConstraints::distance(const Point<3>& point, double radius) const {
   return (triangles_->nearest(point, std::nullopt, radius) - point).norm();
 }
 
-double NodeConstraints::facet_distance(const std::vector<Point<3>>& coordinates) const {
+double SurfaceConstraints::facet_distance(std::span<const Point<3>> coordinates) const {
   const double radius =
       facet_bound_ < unbounded ? facet_bound_ : least_radius * triangles_->extent();
   std::vector<double> of_facet(facets_.size(), 0.0);
@@ -102,16 +105,16 @@ double NodeConstraints::facet_distance(const std::vector<Point<3>>& coordinates)
   return of_facet.empty() ? 0.0 : *std::max_element(of_facet.begin(), of_facet.end());
 }
 
-bool NodeConstraints::is_out_of_bound(std::uint32_t facet,
-                                      const std::vector<Point<3>>& coordinates) const {
+bool SurfaceConstraints::is_out_of_bound(std::uint32_t facet,
+                                         std::span<const Point<3>> coordinates) const {
   const auto points = middles(facets_[facet], coordinates);
   return std::any_of(points.begin(), points.end(), [&](const Point<3>& point) {
     return !(distance(point, facet_bound_) <= facet_bound_);
   });
 }
 
-std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
-    const std::vector<Point<3>>& coordinates) const {
+std::vector<std::uint32_t> SurfaceConstraints::facets_out_of_bound(
+    std::span<const Point<3>> coordinates) const {
   if (facet_bound_ == unbounded) return {};
   std::vector<std::uint8_t> is_out(facets_.size());
   parallel_for_ranges(facets_.size(), facet_grain, [&](std::size_t first, std::size_t last) {
@@ -124,7 +127,7 @@ std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
   return found;
 }
 
-std::vector<std::uint32_t> NodeConstraints::facets_of(std::span<const NodeIndex> around) const {
+std::vector<std::uint32_t> SurfaceConstraints::facets_of(std::span<const NodeIndex> around) const {
   if (facet_bound_ == unbounded) return {};
   std::vector<std::uint32_t> facets;
   for (const NodeIndex node : around)
@@ -134,15 +137,15 @@ std::vector<std::uint32_t> NodeConstraints::facets_of(std::span<const NodeIndex>
   return facets;
 }
 
-std::vector<std::uint32_t> NodeConstraints::facets_out_of_bound(
-    const std::vector<Point<3>>& coordinates, std::span<const NodeIndex> around) const {
+std::vector<std::uint32_t> SurfaceConstraints::facets_out_of_bound(
+    std::span<const Point<3>> coordinates, std::span<const NodeIndex> around) const {
   auto facets = facets_of(around);
   std::erase_if(facets, [&](std::uint32_t f) { return !is_out_of_bound(f, coordinates); });
   return facets;
 }
 
-bool NodeConstraints::keeps_bound(const std::vector<Point<3>>& coordinates,
-                                  std::span<const NodeIndex> around) const {
+bool SurfaceConstraints::keeps_bound(std::span<const Point<3>> coordinates,
+                                     std::span<const NodeIndex> around) const {
   const auto facets = facets_of(around);
   return std::none_of(facets.begin(), facets.end(),
                       [&](std::uint32_t f) { return is_out_of_bound(f, coordinates); });
@@ -157,7 +160,7 @@ SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point
   SurfaceFacets facets{Topology(dim, n_nodes, cells).cells(), labels.cell_tags, {}};
   for (std::size_t f = 0; f < labels.facets.size(); ++f)
     facets.marked_edges.push_back({labels.facets[f][0], labels.facets[f][1]});
-  auto constraints = std::make_shared<const NodeConstraints>(facets, coordinates, parameters);
+  auto constraints = std::make_shared<const SurfaceConstraints>(facets, coordinates, parameters);
   std::vector<bool> stays = fixed ? std::move(*fixed) : std::vector<bool>(n_nodes, false);
   for (NodeIndex i = 0; i < n_nodes; ++i)
     if (constraints->is_corner(i)) stays[i] = true;
@@ -171,8 +174,8 @@ SurfaceMesh with_features(const SurfaceMesh& mesh, const FeatureParameters& para
   std::vector<bool> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     fixed[i] = topology.is_fixed(i) && !mesh.constraints()->is_corner(i);
-  return make_surface_mesh(topology.cells(), mesh.coordinates(), topology.labels(),
-                           std::move(fixed), parameters);
+  return make_surface_mesh(topology.cells(), {mesh.coordinates().begin(), mesh.coordinates().end()},
+                           topology.labels(), std::move(fixed), parameters);
 }
 
 }  // namespace smoothfem

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "smoothing/loop/parameter.h"
+
+namespace smoothfem {
+
+/// What the element step of GETMe (transform, keep centroid and size, relax) has for parameters.
+/// Cells of surface meshes take those of the plane.
+template <int dim>
+struct ElementParameters;
+
+template <>
+struct ElementParameters<2> {
+  double lambda;         ///< subdivision ratio, in (0, 1)
+  double theta_degrees;  ///< base angle, in (0, 90)
+  double rho;            ///< relaxation, in (0, 1]
+
+  Parameters parameters() {
+    constexpr double above_zero = 1e-9;
+    return {{"lambda", "subdivision ratio of the polygon sides, in (0, 1) (Section 2.3)", &lambda,
+             above_zero, 1.0 - above_zero},
+            {"theta", "base angle of the similar triangles in degrees, in (0, 90) (Section 2.3)",
+             &theta_degrees, above_zero, 90.0 - above_zero},
+            {"rho", "relaxation, in (0, 1]; 1 takes the transformed element as it is (Eq. 3.12)",
+             &rho, above_zero, 1.0}};
+  }
+};
+
+/// The scaling factor sigma of the normals, from `low` for regular elements to `high` for those of
+/// quality zero (thesis, Section 4.2).
+struct SigmaRange {
+  double low, high;
+};
+
+template <>
+struct ElementParameters<3> {
+  enum TetrahedronTransformation { opposite_face_normals, dual_element };
+  enum Scaling { mean_edge_length, mean_volume };
+
+  SigmaRange tetrahedron, pyramid, prism, hexahedron;
+  double rho;  ///< relaxation, in (0, 1]
+  int tetrahedron_transformation = opposite_face_normals;
+  int scaling = mean_edge_length;
+
+  const SigmaRange& sigma(std::size_t n_nodes) const {
+    return n_nodes == 4 ? tetrahedron : n_nodes == 5 ? pyramid : n_nodes == 6 ? prism : hexahedron;
+  }
+
+  Parameters parameters() {
+    Parameters all;
+    const auto add_sigma = [&all](const std::string& type, SigmaRange& sigma) {
+      constexpr double largest = 1e4;
+      all.push_back({"sigma_" + type + "_min",
+                     "scaling factor of the normals for a " + type + " of quality 1 (Section 4.2)",
+                     &sigma.low, 0.0, largest});
+      all.push_back({"sigma_" + type + "_max", "the same for quality 0, linear between them",
+                     &sigma.high, 0.0, largest});
+    };
+    add_sigma("tetrahedron", tetrahedron);
+    add_sigma("pyramid", pyramid);
+    add_sigma("prism", prism);
+    add_sigma("hexahedron", hexahedron);
+    all.push_back({"rho",
+                   "relaxation, in (0, 1]; 1 takes the transformed element as it is (Eq. "
+                   "3.12)",
+                   &rho, 1e-9, 1.0});
+    all.push_back({"tetrahedron_transformation",
+                   "how tetrahedra are transformed (Sections 3.2, 3.3)",
+                   Choice{&tetrahedron_transformation, {"opposite-face-normals", "dual-element"}}});
+    all.push_back({"scaling", "what an element keeps (Section 3.3)",
+                   Choice{&scaling, {"mean-edge-length", "mean-volume"}}});
+    return all;
+  }
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/getme/element_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "smoothing/getme/node_sums.h"
+#include "smoothing/getme/regularize.h"
+#include "smoothing/simd/cells.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// (1 - q)^eta. The exponents of the thesis by square roots, which have the same bits on every
+/// machine; others as the mathematical library has them.
+double quality_weight(double quality, double eta) {
+  const double base = std::max(1.0 - quality, 0.0);
+  if (eta == 0.0) return 1.0;
+  if (eta == 0.5) return std::sqrt(base);
+  if (eta == 0.25) return std::sqrt(std::sqrt(base));
+  if (eta == 1.0) return base;
+  return std::pow(base, eta);
+}
+Lanes quality_weight(Lanes quality, double eta) {
+  if (eta == 0.0) return Lanes{} + 1.0;
+  Lanes weight;
+  for (std::size_t l = 0; l < n_lanes; ++l) weight[l] = quality_weight(quality[l], eta);
+  return weight;
+}
+
+/// Weights of Eq. 4.2; every element is transformed.
+struct QualityWeighting {
+  double eta;
+
+  template <class Cells, class Real>
+  Real weight(const Cells&, Real quality) const {
+    return quality_weight(quality, eta);
+  }
+  template <class Real, class Vector>
+  Vector chosen(Real, Vector transformed, Vector) const {
+    return transformed;
+  }
+};
+
+/// Elements of at most this quality are transformed; weights by element.
+struct ThresholdWeighting {
+  const double* weights;
+  double threshold;
+
+  double weight(CellIndex cell, double) const { return weights[cell]; }
+  Lanes weight(const std::array<CellIndex, n_lanes>& cells, Lanes) const {
+    return Lanes{weights[cells[0]], weights[cells[1]], weights[cells[2]], weights[cells[3]]};
+  }
+  template <class Real>
+  Vector2<Real> chosen(Real quality, Vector2<Real> transformed, Vector2<Real> original) const {
+    const auto transforms = quality <= threshold;
+    return {transforms ? transformed.x : original.x, transforms ? transformed.y : original.y};
+  }
+  template <class Real>
+  Vector3<Real> chosen(Real quality, Vector3<Real> transformed, Vector3<Real> original) const {
+    const auto transforms = quality <= threshold;
+    return {transforms ? transformed.x : original.x, transforms ? transformed.y : original.y,
+            transforms ? transformed.z : original.z};
+  }
+};
+
+/// w p' and w, as NodeSums adds them, of n_lanes elements.
+std::array<Lanes, n_lanes> weighted(Vector2<Lanes> position, Lanes weight) {
+  return transposed(weight * position.x, weight * position.y, weight, Lanes{});
+}
+std::array<Lanes, n_lanes> weighted(Vector3<Lanes> position, Lanes weight) {
+  return transposed(weight * position.x, weight * position.y, weight * position.z, weight);
+}
+/// Of one.
+Lanes weighted(Vector2<double> position, double weight) {
+  return Lanes{weight * position.x, weight * position.y, weight, 0.0};
+}
+Lanes weighted(Vector3<double> position, double weight) {
+  return Lanes{weight * position.x, weight * position.y, weight * position.z, weight};
+}
+
+template <int dim, int spacedim, class Weighting>
+struct Pass {
+  const Mesh<dim, spacedim>& mesh;
+  const ElementRegularization<dim, spacedim>& element;
+  Weighting weighting;
+
+  /// sums[i] += w_j p'_i for the elements of a batch and their nodes where wanted(i). Returns their
+  /// quality. The nodes of one kind of all elements, one element after the other, then the next
+  /// ones: that is the order of the sums.
+  template <std::size_t n, class Wanted>
+  Lanes add(const CellBatch<n>& batch, const Wanted& wanted, double* sums) const {
+    const auto corners = batch.template corners<dim>(mesh.coordinates().data());
+    std::array<Vector<dim, Lanes>, n> transformed;
+    const Lanes quality = element.regularize(std::span<const Vector<dim, Lanes>, n>(corners),
+                                             std::span<Vector<dim, Lanes>, n>(transformed));
+    const Lanes weight = weighting.weight(batch.cells, quality);
+    unrolled<n>([&](auto k) {
+      const auto terms = weighted(weighting.chosen(quality, transformed[k], corners[k]), weight);
+      batch.for_each_lane([&](std::size_t l) {
+        if (wanted(batch.nodes[l][k])) NodeSums::add(sums, batch.nodes[l][k], terms[l]);
+      });
+    });
+    return quality;
+  }
+
+  /// The same for one polygon or cell of a surface.
+  template <class Wanted>
+  double add_cell(CellIndex cell, const Wanted& wanted, double* sums) const {
+    const auto nodes = mesh.topology().cell_nodes(cell);
+    double quality = 0.0;
+    with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
+      with_result(corners, [&](auto transformed) {
+        quality = regularize(element, upper_side(mesh, cell), corners, transformed);
+        const double weight = weighting.weight(cell, quality);
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          if (wanted(nodes[k]))
+            NodeSums::add(sums, nodes[k],
+                          weighted(weighting.chosen(quality, transformed[k], corners[k]), weight));
+      });
+    });
+    return quality;
+  }
+};
+
+/// All cells of a block in their order; writes their quality.
+template <int dim, int spacedim, class Weighting>
+void add_block(const Pass<dim, spacedim, Weighting>& pass, const CellBlock& block,
+               double* cell_quality, double* sums) {
+  const auto every_node = [](NodeIndex) { return true; };
+  for_each_batch<dim, spacedim>(
+      pass.mesh.topology(), block.first, block.last,
+      [&](const auto& batch) { batch.store(pass.add(batch, every_node, sums), cell_quality); },
+      [&](CellIndex c) { cell_quality[c] = pass.add_cell(c, every_node, sums); });
+}
+
+/// Some cells, ascending, to the sums of marked nodes only. Their qualities are known.
+template <int dim, int spacedim, class Weighting>
+void add_to_marked(const Pass<dim, spacedim, Weighting>& pass, std::span<const CellIndex> cells,
+                   const std::vector<std::uint8_t>& marked, double* sums) {
+  const auto wanted = [&](NodeIndex i) { return marked[i] != 0; };
+  for_each_batch<dim, spacedim>(
+      pass.mesh.topology(), cells,
+      [&](const auto& batch) {
+        pass.add(batch, wanted, sums);
+        return true;
+      },
+      [&](std::size_t position) {
+        pass.add_cell(cells[position], wanted, sums);
+        return true;
+      });
+}
+
+}  // namespace
+
+template <int dim, int spacedim>
+struct ElementPass<dim, spacedim>::Tables {
+  std::optional<ElementRegularization<dim, spacedim>> element;
+  NodeSums sums;
+  std::vector<PartialQuality> qualities;   ///< of each block of cells
+  std::vector<std::uint8_t> marked_nodes;  ///< whose sums have to be added again
+  std::vector<std::uint8_t> marked_cells;  ///< that add to them
+};
+
+template <int dim, int spacedim>
+ElementPass<dim, spacedim>::ElementPass() : tables_(std::make_unique<Tables>()) {}
+template <int dim, int spacedim>
+ElementPass<dim, spacedim>::~ElementPass() = default;
+
+template <int dim, int spacedim>
+void ElementPass<dim, spacedim>::prepare(const Topology& topology,
+                                         const ElementParameters<dim>& parameters) {
+  tables_->element.emplace(parameters);
+  tables_->sums.prepare(topology);
+  tables_->qualities.resize(topology.blocks().size());
+  sums_ = tables_->sums[0];
+}
+
+template <int dim, int spacedim>
+MeshQuality ElementPass<dim, spacedim>::transform_all(SmoothingState<dim, spacedim>& state,
+                                                      double eta) {
+  const Topology& topology = state.mesh.topology();
+  const Pass<dim, spacedim, QualityWeighting> pass{state.mesh, *tables_->element, {eta}};
+  tables_->sums.compute([&](std::size_t b, double* sums) {
+    add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
+    tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
+  });
+  return mesh_quality(tables_->qualities, topology.n_cells());
+}
+
+template <int dim, int spacedim>
+MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spacedim>& state,
+                                                         std::span<const NodeIndex> nodes,
+                                                         double eta) {
+  const Topology& topology = state.mesh.topology();
+  auto& marked_nodes = tables_->marked_nodes;
+  auto& marked_cells = tables_->marked_cells;
+  marked_nodes.assign(topology.n_nodes(), 0);
+  marked_cells.assign(topology.n_cells(), 0);
+  std::vector<NodeIndex> changed_sums;
+  for (const NodeIndex i : nodes)
+    for (const CellIndex c : topology.node_cells(i))
+      for (const NodeIndex j : topology.cell_nodes(c))
+        if (!std::exchange(marked_nodes[j], 1)) changed_sums.push_back(j);
+  if (4 * changed_sums.size() > topology.n_nodes()) return transform_all(state, eta);
+  std::sort(changed_sums.begin(), changed_sums.end());
+  for (const NodeIndex i : changed_sums)
+    for (const CellIndex c : topology.node_cells(i)) marked_cells[c] = 1;
+  std::vector<CellIndex> cells;
+  for (CellIndex c = 0; c < topology.n_cells(); ++c)
+    if (marked_cells[c]) cells.push_back(c);
+
+  const Pass<dim, spacedim, QualityWeighting> pass{state.mesh, *tables_->element, {eta}};
+  tables_->sums.compute_some(
+      changed_sums, cells,
+      [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
+        add_to_marked(pass, cells_of_block, marked_nodes, sums);
+        tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
+      });
+  return mesh_quality(tables_->qualities, topology.n_cells());
+}
+
+template <int dim, int spacedim>
+void ElementPass<dim, spacedim>::transform_some(const SmoothingState<dim, spacedim>& state,
+                                                std::span<const NodeIndex> nodes,
+                                                std::span<const CellIndex> cells,
+                                                std::span<const double> weights, double threshold) {
+  const Pass<dim, spacedim, ThresholdWeighting> pass{
+      state.mesh, *tables_->element, {weights.data(), threshold}};
+  auto& marked_nodes = tables_->marked_nodes;
+  marked_nodes.assign(state.mesh.n_nodes(), 0);
+  for (const NodeIndex i : nodes) marked_nodes[i] = 1;
+  tables_->sums.compute_some(nodes, cells,
+                             [&](std::size_t, std::span<const CellIndex> some, double* sums) {
+                               add_to_marked(pass, some, marked_nodes, sums);
+                             });
+}
+
+template class ElementPass<2>;
+template class ElementPass<3>;
+template class ElementPass<2, 3>;
+
+}  // namespace smoothfem

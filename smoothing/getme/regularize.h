@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <numbers>
+
+#include "smoothing/getme/element_parameters.h"
+#include "smoothing/quality/mean_ratio.h"
+#include "smoothing/transformations/dual_element.h"
+#include "smoothing/transformations/opposite_face_normals.h"
+#include "smoothing/transformations/polygon_transformation.h"
+#include "smoothing/transformations/scaling.h"
+
+namespace smoothfem {
+
+/// The element step of GETMe: transform, keep centroid and size, relax.
+template <int dim, int spacedim = dim>
+class ElementRegularization;
+
+template <>
+class ElementRegularization<2> {
+ public:
+  explicit ElementRegularization(const ElementParameters<2>& parameters)
+      : transformation_(parameters.lambda, parameters.theta_degrees * std::numbers::pi / 180.0),
+        rho_(parameters.rho) {}
+
+  /// Returns the mean ratio of the polygon, which planar transformations do not depend on.
+  template <class Real, std::size_t extent>
+  inline Real regularize(std::span<const Vector2<Real>, extent> polygon,
+                         std::span<Vector2<Real>, extent> result) const {
+    transformation_.apply(polygon, result);
+    keep_mean_edge_length(polygon, result);
+    if (rho_ != 1.0) relax(polygon, result, rho_);
+    return mean_ratio(polygon);
+  }
+
+ protected:
+  PolygonTransformation transformation_;
+  double rho_;
+};
+
+/// Polygons of a surface in space: the planar step in the plane across each one's mean normal.
+template <>
+class ElementRegularization<2, 3> : public ElementRegularization<2> {
+ public:
+  using ElementRegularization<2>::ElementRegularization;
+
+  /// upper: see mean_ratio, which is returned.
+  template <std::size_t extent>
+  double regularize(Vector3<double> upper, std::span<const Vector3<double>, extent> polygon,
+                    std::span<Vector3<double>, extent> result) const {
+    transformation_.apply(unit_normal(polygon), polygon, result);
+    keep_mean_edge_length(polygon, result);
+    if (rho_ != 1.0) relax(polygon, result, rho_);
+    return mean_ratio(upper, polygon);
+  }
+};
+
+template <>
+class ElementRegularization<3> {
+ public:
+  explicit ElementRegularization(const ElementParameters<3>& parameters)
+      : parameters_(parameters) {}
+
+  /// Returns the mean ratio of the cell, which the normals' factor depends on.
+  template <class Real, std::size_t n>
+  inline Real regularize(std::span<const Vector3<Real>, n> nodes,
+                         std::span<Vector3<Real>, n> result) const {
+    using Parameters = ElementParameters<3>;
+    const CellEdges<Real, n> edges(nodes);
+    const Real quality = mean_ratio(edges);
+    const SigmaRange& range = parameters_.sigma(n);
+    const Real sigma = range.low + (range.high - range.low) * (1.0 - quality);
+    if constexpr (n == 4) {
+      if (parameters_.tetrahedron_transformation == Parameters::opposite_face_normals)
+        OppositeFaceNormals::apply(sigma, nodes, result);
+      else
+        DualElement::apply(sigma, nodes, result);
+    } else {
+      DualElement::apply(sigma, nodes, result);
+    }
+    if (parameters_.scaling == Parameters::mean_edge_length)
+      keep_mean_edge_length(nodes, edges, result);
+    else
+      keep_mean_volume(nodes, result);
+    if (parameters_.rho != 1.0) relax(nodes, result, parameters_.rho);
+    return quality;
+  }
+
+ private:
+  ElementParameters<3> parameters_;
+};
+
+/// One line for cells of every kind of mesh.
+template <int dim, int spacedim, class Upper, class Corners, class Result>
+inline double regularize(const ElementRegularization<dim, spacedim>& element, Upper upper,
+                         Corners corners, Result result) {
+  if constexpr (dim == spacedim)
+    return element.regularize(corners, result);
+  else
+    return element.regularize(upper, corners, result);
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "smoothing/mesh/node_constraints.h"
+#include "smoothing/surface/surface_features.h"
+
+namespace smoothfem {
+
+class PieceIndex;  // smoothing/surface/piece_index.h
+
+/// Keeps nodes where they belong on a surface: those of its smooth parts on them, those of a
+/// feature line on it, corners where they are (thesis, Section 5.1.2). The surface is the initial
+/// mesh of it, a facet of more than three nodes seen as triangles around the mean of its nodes; a
+/// node's own smooth part or line counts only, so that it cannot change over to another sheet of
+/// the surface. Facets between moved nodes cut across what is curved; they may be bounded, too.
+class SurfaceConstraints final : public NodeConstraints {
+ public:
+  /// facets: a surface of nodes with these coordinates, its initial mesh. facet_bound: how far
+  /// facets may come off it, above 0. Throws InputError as find_features does.
+  SurfaceConstraints(const SurfaceFacets& facets, std::span<const Point<3>> coordinates,
+                     const FeatureParameters& parameters = {}, double facet_bound = unbounded);
+  ~SurfaceConstraints() override;
+
+  Point<3> project(NodeIndex node, const Point<3>& from, const Point<3>& wanted) const override;
+
+  /// Distance of a point from the initial surface.
+  double distance(const Point<3>& point) const;
+
+  double facet_bound() const override { return facet_bound_; }
+  double facet_distance(std::span<const Point<3>> coordinates) const override;
+  std::vector<std::uint32_t> facets_out_of_bound(
+      std::span<const Point<3>> coordinates) const override;
+  std::vector<std::uint32_t> facets_out_of_bound(std::span<const Point<3>> coordinates,
+                                                 std::span<const NodeIndex> around) const override;
+  bool keeps_bound(std::span<const Point<3>> coordinates,
+                   std::span<const NodeIndex> around) const override;
+  std::span<const NodeIndex> facet_nodes(std::uint32_t facet) const override {
+    return facets_[facet];
+  }
+
+  std::span<const GeometricClassification> classifications() const override {
+    return features_.classifications;
+  }
+  std::span<const Point<3>> facet_normals() const override { return facet_normals_; }
+
+ private:
+  /// radius: where the search begins.
+  double distance(const Point<3>& point, double radius) const;
+  /// Around these nodes, ascending; none where there is no bound.
+  std::vector<std::uint32_t> facets_of(std::span<const NodeIndex> around) const;
+  bool is_out_of_bound(std::uint32_t facet, std::span<const Point<3>> coordinates) const;
+
+  SurfaceFeatures features_;
+  CompressedRows<NodeIndex> facets_;
+  CompressedRows<std::uint32_t> node_facets_;
+  double facet_bound_;
+  std::vector<Point<3>> facet_normals_;
+  std::unique_ptr<const PieceIndex> triangles_, segments_;
+};
+
+/// A mesh of the surface that these cells are, which its nodes never leave: its features follow
+/// from the parameters, tags of the cells and labelled edges. Corners are fixed, and the nodes that
+/// `fixed` names (one flag a node). Throws InputError as Topology and NodeConstraints do.
+SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point<3>> coordinates,
+                              MeshLabels labels = {}, std::optional<std::vector<bool>> fixed = {},
+                              const FeatureParameters& parameters = {});
+
+/// The same mesh, its present nodes taken for the initial ones, with other features.
+SurfaceMesh with_features(const SurfaceMesh& mesh, const FeatureParameters& parameters);
+
+}  // namespace smoothfem
