@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/generators/domains.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 #include "meshes/generators/stem.h"
 #include "meshes/generators/subdivided_cube.h"
 #include "meshes/generators/vessel.h"
-#include "smoothing/base/input_error.h"
+#include "smoothing/base/find_named.h"
 
 namespace smoothfem {
 
@@ -68,7 +69,7 @@ const std::string& Domain::elements_named(const std::string& wanted) const {
   const auto found = std::find(elements.begin(), elements.end(), wanted);
   if (found == elements.end())
     throw InputError("the domain '" + name + "' has no mesh of '" + wanted + "'; " +
-                     choose_one_of(elements));
+                     choose_one_of(elements, wanted));
   return *found;
 }
 
@@ -176,12 +177,7 @@ const std::vector<Domain>& domains() {
 }
 
 const Domain& find_domain(const std::string& name) {
-  std::vector<std::string> known;
-  for (const auto& domain : domains()) {
-    if (domain.name == name) return domain;
-    known.push_back(domain.name);
-  }
-  throw InputError("there is no domain '" + name + "'; use one of " + joined(known));
+  return find_named("domain", name, domains(), [](const Domain& domain) { return domain.name; });
 }
 
 }  // namespace smoothfem

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/generators/gear.h"
 
 #include <numbers>
@@ -196,7 +197,7 @@ TEST(Domains, AreFoundByName) {
       find_domain("gear").generate({.elements = "quadrilaterals", .edge_scale = 3.0});
   EXPECT_EQ(std::get<PlanarMesh>(mesh).topology().boundary_facets().size(), 326u);
   EXPECT_THAT(input_error_of([] { find_domain("bolt"); }),
-              HasSubstr("there is no domain 'bolt'; use one of gear"));
+              HasSubstr("there is no domain 'bolt'; choose one of gear"));
   EXPECT_THAT(input_error_of([] { find_domain("gear").generate({.elements = "hexahedra"}); }),
               HasSubstr("choose one of triangles, quadrilaterals"));
 }
