@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Times of finite element records on good meshes of the size of the thesis' Section 6.3, on as
 /// many processes as mpirun starts, and of the parts they are made of. Products with the matrix are
 /// set in relation to the bandwidth of the memory in the same run, records to the way of deal.II's
@@ -15,7 +16,7 @@
 #include "fem/conjugate_gradients.h"
 #include "fem/poisson_solver.h"
 #include "fem/trilinos_matrix.h"
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 
 namespace smoothfem::bench {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/bench/volume_meshes.h"
 
 #include <gmsh.h>
@@ -5,10 +6,10 @@
 #include <iostream>
 
 #include "meshes/distortion/distort.h"
-#include "meshes/generators/domains.h"
-#include "meshes/generators/sweep.h"
-#include "meshes/io/gmsh_session.h"
+#include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/tools/gmsh_session.h"
+#include "meshes/tools/sweep.h"
 #include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem::bench {

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmsh.h>
 
 #include <algorithm>
 #include <numeric>
 #include <string>
 
-#include "meshes/io/gmsh_session.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/msh_file.h"
+#include "meshes/tools/gmsh_session.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmsh.h>
 
 #include <algorithm>
@@ -9,11 +10,11 @@
 #include <unordered_map>
 
 #include "meshes/io/atomic_file.h"
-#include "meshes/io/gmsh_session.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/msh_file.h"
 #include "meshes/io/number_text.h"
+#include "meshes/tools/gmsh_session.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {

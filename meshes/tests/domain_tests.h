@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Geometry>
@@ -5,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/quality/mesh_quality.h"
 

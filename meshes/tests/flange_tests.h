@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "meshes/generators/flange.h"
+#include "meshes/domains/flange.h"
 #include "meshes/tests/domain_tests.h"
 #include "smoothing/mesh/volume_elements.h"
 

@@ -1,8 +1,8 @@
-#include "meshes/generators/flange.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/domains/flange.h"
 
-#include "meshes/generators/domains.h"
-#include "meshes/generators/sweep.h"
 #include "meshes/tests/flange_tests.h"
+#include "meshes/tools/sweep.h"
 
 namespace smoothfem {
 namespace {

@@ -1,10 +1,11 @@
-#include "meshes/generators/hexahedron_templates.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/tools/hexahedron_templates.h"
 
 #include <map>
 #include <set>
 
-#include "meshes/generators/mesh_cells.h"
 #include "meshes/tests/domain_tests.h"
+#include "meshes/tools/mesh_cells.h"
 
 namespace smoothfem {
 namespace {

@@ -1,6 +1,7 @@
-#include "meshes/io/gmsh_session.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
+#include "meshes/tools/gmsh_session.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 

@@ -1,7 +1,6 @@
-#include "meshes/generators/nonuniform_grid.h"
-
-#include "meshes/generators/tensor_grid.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/tests/domain_tests.h"
+#include "meshes/tools/tensor_grid.h"
 
 namespace smoothfem {
 namespace {

@@ -1,9 +1,8 @@
-#include "meshes/generators/random_planar.h"
-
-#include "meshes/generators/grid_region.h"
-#include "meshes/generators/quad_split.h"
-#include "meshes/generators/quadrilateral_region.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/tests/domain_tests.h"
+#include "meshes/tools/grid_region.h"
+#include "meshes/tools/quad_split.h"
+#include "meshes/tools/quadrilateral_region.h"
 
 namespace smoothfem {
 namespace {

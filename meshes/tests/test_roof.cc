@@ -1,5 +1,4 @@
-#include "meshes/generators/roof.h"
-
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/distortion/distort.h"
 #include "meshes/tests/domain_tests.h"
 #include "smoothing/loop/preset.h"
@@ -9,6 +8,10 @@
 namespace smoothfem {
 namespace {
 
+SurfaceMesh roof(double edge_scale = 1.0) {
+  return std::get<SurfaceMesh>(find_domain("roof").generate({.edge_scale = edge_scale}));
+}
+
 std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, NodeCarrier::Kind kind) {
   std::vector<NodeIndex> nodes;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
@@ -17,7 +20,7 @@ std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, NodeCarrier::Kind 
 }
 
 TEST(Roof, HasTheCountsAndTheQualityOfTheThesis) {
-  const SurfaceMesh mesh = generate_roof();
+  const SurfaceMesh mesh = roof();
   EXPECT_EQ(mesh.n_nodes(), 23101u);
   EXPECT_EQ(mesh.n_cells(), 22676u);
   const MeshQuality quality = mesh_quality(mesh);
@@ -33,7 +36,7 @@ TEST(Roof, HasTheCountsAndTheQualityOfTheThesis) {
 TEST(Roof, HasNoFeaturesButAnchorsCablesAndRings) {
   for (const double scale : {1.0, 2.0, 3.0}) {
     SCOPED_TRACE(scale);
-    const SurfaceMesh mesh = generate_roof(scale);
+    const SurfaceMesh mesh = roof(scale);
     EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::corner).size(), 6u);
     std::set<std::uint32_t> lines;
     for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::line)) {
@@ -45,7 +48,7 @@ TEST(Roof, HasNoFeaturesButAnchorsCablesAndRings) {
 }
 
 TEST(Roof, IsHighestAtItsRingsAndLowestAtItsAnchors) {
-  const SurfaceMesh mesh = generate_roof(2.0);
+  const SurfaceMesh mesh = roof(2.0);
   const auto height = [&](NodeIndex i) { return mesh.coordinates()[i].z(); };
   double anchors = -1e9, others = 1e9;
   for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::corner))
@@ -61,7 +64,7 @@ TEST(Roof, IsHighestAtItsRingsAndLowestAtItsAnchors) {
 
 /// As in the thesis, whose q_mean differ by 0.0001.
 TEST(Roof, SmoothsToABetterMeanQualityTheSameWhetherDistortedOrNot) {
-  SurfaceMesh mesh = generate_roof(2.0), distorted = mesh;
+  SurfaceMesh mesh = roof(2.0), distorted = mesh;
   const double initial = mesh_quality(mesh).q_mean;
   distort(distorted, {.target_q_mean = 0.4983});
   std::vector<double> q_mean;
@@ -78,11 +81,11 @@ TEST(Roof, CanBeCoarserAndIsTheSameEveryTime) {
   std::size_t n_cells_before = 22676 / 2;
   for (const double scale : {1.5, 2.0, 3.0}) {
     SCOPED_TRACE(scale);
-    const SurfaceMesh mesh = generate_roof(scale);
+    const SurfaceMesh mesh = roof(scale);
     EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
     EXPECT_LT(mesh.n_cells(), n_cells_before);
     n_cells_before = mesh.n_cells();
-    EXPECT_EQ(generate_roof(scale).coordinates(), mesh.coordinates());
+    EXPECT_EQ(roof(scale).coordinates(), mesh.coordinates());
   }
   expect_edge_scales("roof", 3);
 }

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 #include <memory>
 
 #include "meshes/distortion/distort.h"
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/cli/commands.h"

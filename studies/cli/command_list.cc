@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
 
 #include "fem/manufactured_solution.h"
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"

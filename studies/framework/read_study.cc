@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "smoothing/base/input_error.h"
 #include "studies/framework/study.h"
 #include "studies/framework/study_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/study_keys.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <memory>
 
 #include "meshes/distortion/distort.h"
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "smoothing/loop/preset.h"
 #include "studies/framework/study.h"
 

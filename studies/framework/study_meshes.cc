@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/study_meshes.h"
 
 #include <openssl/evp.h>
@@ -7,7 +8,7 @@
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 
 namespace smoothfem {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <signal.h>
 #include <unistd.h>
 
@@ -9,7 +10,7 @@
 #include <thread>
 
 #include "fem/manufactured_solution.h"
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"

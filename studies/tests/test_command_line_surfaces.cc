@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Surface meshes, and volume meshes whose boundary slides, by the command line.
-#include "meshes/generators/domains.h"
+#include "meshes/domains/catalogue.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/surface/node_constraints.h"
 #include "smoothing/tests/methods.h"

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The catalogue of domains, to which the files in meshes/domains/ register themselves.
+#include <algorithm>
+#include <stdexcept>
+
+#include "meshes/domains/catalogue.h"
+#include "meshes/tests/mesh_tests.h"
+
+namespace smoothfem {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Domains, AllThatComeWithTheProgramAreRegisteredAndSortedByName) {
+  std::vector<std::string> names;
+  for (const Domain& domain : domains()) names.push_back(domain.name);
+  EXPECT_THAT(names, ::testing::ElementsAre("aorta", "axle", "bridge", "car", "flange", "gear",
+                                            "nonuniform-grid", "piston", "plate", "prosthesis",
+                                            "pump", "random-planar", "ring", "roof", "sphere",
+                                            "subdivision", "sweep"));
+}
+
+TEST(Domains, SayWhatTheyAre) {
+  for (const Domain& domain : domains()) {
+    SCOPED_TRACE(domain.name);
+    EXPECT_FALSE(domain.description.empty());
+    EXPECT_TRUE(domain.dimension == 2 || domain.dimension == 3);
+    EXPECT_FALSE(domain.elements.empty());
+    for (const auto& elements : domain.elements)
+      EXPECT_THAT(element_names(), ::testing::Contains(elements));
+    EXPECT_EQ(domain.elements_named(""), domain.elements.front());
+    EXPECT_EQ(domain.elements_named(domain.elements.back()), domain.elements.back());
+    EXPECT_EQ(&find_domain(domain.name), &domain);
+  }
+}
+
+TEST(Domains, WithATakenNameAreRefused) {
+  EXPECT_THROW(RegisteredDomain({.name = "gear",
+                                 .description = "another one",
+                                 .dimension = 2,
+                                 .elements = {"triangles"},
+                                 .make = nullptr}),
+               std::logic_error);
+}
+
+TEST(Domains, ThatAreNotThereAreRefusedWithTheNearestName) {
+  EXPECT_THAT(
+      input_error_of([] { find_domain("gaer"); }),
+      HasSubstr("there is no domain 'gaer'; did you mean 'gear'? choose one of aorta, axle"));
+  EXPECT_THAT(input_error_of([] { find_domain("bolt"); }),
+              HasSubstr("there is no domain 'bolt'; choose one of aorta, axle"));
+  EXPECT_THAT(input_error_of([] { find_domain("gear").generate({.elements = "hexahedra"}); }),
+              HasSubstr("the domain 'gear' has no mesh of 'hexahedra'; choose one of triangles, "
+                        "quadrilaterals"));
+}
+
+}  // namespace
+}  // namespace smoothfem

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// smoothing/base/find_named.h: how every name that a user gives is looked up.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "smoothing/base/find_named.h"
+
+namespace smoothfem {
+namespace {
+
+struct Named {
+  std::string name;
+  int value;
+};
+
+std::string refusal(const std::string& wanted, const std::vector<std::string>& names) {
+  try {
+    find_named("domain", wanted, names);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+TEST(EditDistance, CountsInsertedDeletedChangedAndSwappedLetters) {
+  EXPECT_EQ(edit_distance("gear", "gear"), 0U);
+  EXPECT_EQ(edit_distance("gear", "gears"), 1U);
+  EXPECT_EQ(edit_distance("gear", "ear"), 1U);
+  EXPECT_EQ(edit_distance("gear", "bear"), 1U);
+  EXPECT_EQ(edit_distance("gear", "gaer"), 1U);
+  EXPECT_EQ(edit_distance("gear", "egra"), 2U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+  EXPECT_EQ(edit_distance("", "ring"), 4U);
+  EXPECT_EQ(edit_distance("ring", ""), 4U);
+  EXPECT_EQ(edit_distance("", ""), 0U);
+  // "ac" from the swapped "ca" would have to be edited again to give "abc".
+  EXPECT_EQ(edit_distance("ca", "abc"), 3U);
+}
+
+TEST(EditDistance, IsSymmetric) {
+  const std::vector<std::string> words{"plate", "pleat", "late", "palette", "axle", ""};
+  for (const auto& a : words)
+    for (const auto& b : words) EXPECT_EQ(edit_distance(a, b), edit_distance(b, a)) << a << b;
+}
+
+TEST(FindNamed, GivesTheElementOfThatName) {
+  std::vector<Named> all{{"axle", 1}, {"gear", 2}, {"gear", 3}};
+  const auto name_of = [](const Named& named) { return named.name; };
+  find_named("domain", "gear", all, name_of).value = 4;
+  EXPECT_EQ(all[1].value, 4);  // the element itself, and the first of the name
+  EXPECT_EQ(all[2].value, 3);
+  const std::map<std::string, int> map{{"axle", 1}, {"gear", 2}};
+  const auto& [name, value] =
+      find_named("domain", "gear", map, [](const auto& entry) { return entry.first; });
+  EXPECT_EQ(value, 2);
+  const std::vector<std::string> names{"axle", "gear"};
+  EXPECT_EQ(&find_named("domain", "gear", names), &names[1]);
+}
+
+TEST(FindNamed, SaysWhichNameIsNear) {
+  EXPECT_EQ(refusal("gaer", {"axle", "gear", "ring"}),
+            "there is no domain 'gaer'; did you mean 'gear'? choose one of axle, gear, ring");
+  EXPECT_EQ(refusal("Gear", {"axle", "gear"}),
+            "there is no domain 'Gear'; did you mean 'gear'? choose one of axle, gear");
+}
+
+TEST(FindNamed, TakesTheNearestNameAndOfEquallyNearOnesTheFirst) {
+  EXPECT_EQ(nearest_name("subdivison", {"subdivide", "subdivision"}), "subdivision");
+  EXPECT_EQ(nearest_name("bing", {"sing", "ring"}), "sing");
+  EXPECT_EQ(nearest_name("bing", {"ring", "sing"}), "ring");
+}
+
+TEST(FindNamed, AsksForNoNameThatIsFar) {
+  EXPECT_EQ(refusal("tooth", {"axle", "gear"}),
+            "there is no domain 'tooth'; choose one of axle, gear");
+  EXPECT_EQ(nearest_name("gxxr", {"gear"}), "");  // two letters of four
+  EXPECT_EQ(nearest_name("nonuniform-gxxx", {"nonuniform-grid"}), "nonuniform-grid");  // 3 of 15
+  EXPECT_EQ(nearest_name("ab", {"bc"}), "");  // in short names one letter may be wrong
+  EXPECT_EQ(nearest_name("ab", {"ac"}), "ac");
+  EXPECT_EQ(nearest_name("", {"gear"}), "");
+}
+
+TEST(FindNamed, SaysThatThereIsNone) {
+  EXPECT_EQ(refusal("gear", {}), "there is no domain 'gear'; there is none to choose");
+  EXPECT_EQ(nearest_name("gear", {}), "");
+}
+
+}  // namespace
+}  // namespace smoothfem

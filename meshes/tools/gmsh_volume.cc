@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/tools/gmsh_volume.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "meshes/tools/gmsh_tetrahedra.h"
+
+namespace smoothfem {
+
+namespace {
+
+gmsh::vectorpair add(const std::vector<Cylinder>& cylinders) {
+  gmsh::vectorpair solids;
+  for (const auto& c : cylinders)
+    solids.emplace_back(3, gmsh::model::occ::addCylinder(c.centre.x(), c.centre.y(), c.bottom, 0.0,
+                                                         0.0, c.top - c.bottom, c.radius));
+  return solids;
+}
+
+void add_extrusion(const Polygons& polygons, double length) {
+  std::vector<int> loops;
+  for (const auto& polygon : polygons) {
+    std::vector<int> points, lines;
+    for (const auto& corner : polygon)
+      points.push_back(gmsh::model::occ::addPoint(corner.x(), corner.y(), 0.0));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      lines.push_back(gmsh::model::occ::addLine(points[i], points[(i + 1) % points.size()]));
+    loops.push_back(gmsh::model::occ::addCurveLoop(lines));
+  }
+  gmsh::vectorpair swept;
+  gmsh::model::occ::extrude({{2, gmsh::model::occ::addPlaneSurface(loops)}}, 0.0, 0.0, length,
+                            swept);
+  gmsh::model::occ::synchronize();
+}
+
+void divide_curves(double edge_length) {
+  gmsh::vectorpair curves;
+  gmsh::model::getEntities(curves, 1);
+  for (const auto& [dim, tag] : curves) {
+    std::string type;
+    gmsh::model::getType(dim, tag, type);
+    double length = 0.0;
+    gmsh::model::occ::getMass(dim, tag, length);
+    const int multiple = type == "Circle" ? 4 : 1;
+    const int n =
+        multiple * std::max(1, static_cast<int>(std::lround(length / edge_length / multiple)));
+    gmsh::model::mesh::setTransfiniteCurve(tag, n + 1);
+  }
+}
+
+VolumeCells mesh_model(const std::function<void()>& build, const EdgeLengths& lengths) {
+  return mesh_with_tetrahedra("the solid", [&](GmshSession& session) {
+    build();
+    set_edge_length(session, lengths.boundary);
+    divide_curves(lengths.boundary);
+    gmsh::model::mesh::generate(2);
+    set_edge_length(session, lengths.inside);
+  });
+}
+
+}  // namespace
+
+void add_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed) {
+  gmsh::vectorpair solid = add(joined);
+  std::vector<gmsh::vectorpair> origin;
+  if (solid.size() > 1) {
+    gmsh::vectorpair whole;
+    gmsh::model::occ::fuse({solid.front()}, {solid.begin() + 1, solid.end()}, whole, origin);
+    solid = whole;
+  }
+  if (!removed.empty()) {
+    gmsh::vectorpair rest;
+    gmsh::model::occ::cut(solid, add(removed), rest, origin);
+  }
+  gmsh::model::occ::synchronize();
+}
+
+VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cylinder>& removed,
+                       const EdgeLengths& lengths) {
+  return mesh_model([&] { add_solid(joined, removed); }, lengths);
+}
+
+VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths) {
+  return mesh_model([&] { add_extrusion(polygons, length); }, lengths);
+}
+
+}  // namespace smoothfem

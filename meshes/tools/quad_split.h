@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "meshes/tools/mesh_cells.h"
+
+namespace smoothfem {
+
+/// The corner of a quadrilateral, 0 or more, that a diagonal to cut it at starts from; or none.
+using Diagonal = std::optional<std::size_t>;
+
+/// Cuts cells, all of them quadrilaterals, into two triangles. diagonals: one a cell.
+void cut_quadrilaterals(PlanarCells& mesh, const std::vector<Diagonal>& diagonals);
+/// Cuts the quadrilaterals that are not convex, so that both triangles are valid.
+void cut_invalid_quadrilaterals(PlanarCells& mesh);
+/// Cuts the n quadrilaterals, or all if there are fewer, with the lowest mean ratio at their
+/// shorter diagonal. All must be convex.
+void cut_worst_quadrilaterals(PlanarCells& mesh, std::size_t n);
+
+/// Splits every cell into quadrilaterals by its edges' midpoints and its centre: a triangle gives
+/// three, a quadrilateral four (one that is not convex six). boundary_midpoint(a, b), if given,
+/// says where the midpoint of the boundary edge between nodes a and b lies (a before b in its
+/// cell).
+PlanarCells split_to_quadrilaterals(
+    const PlanarCells& mesh,
+    const std::function<Point<2>(NodeIndex, NodeIndex)>& boundary_midpoint = {});
+
+}  // namespace smoothfem
