@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fem/finite_element_space.h"
-#include "smoothing/simd/lanes.h"
+#include "smoothing/simd/vectors.h"
 
 namespace smoothfem {
 

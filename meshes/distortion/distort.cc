@@ -51,7 +51,7 @@ template <int dim, int spacedim>
 class Distortion {
  public:
   Distortion(const Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters)
-      : mesh_(mesh), original_(mesh.coordinates()), parameters_(parameters) {
+      : mesh_(mesh), original_(mesh.copied_coordinates()), parameters_(parameters) {
     const Topology& topology = mesh.topology();
     edge_length_.resize(mesh.n_nodes(), 0.0);
     for (const NodeIndex i : topology.free_nodes()) {
@@ -99,11 +99,11 @@ class Distortion {
       double low = 0.0, high = 1.0;
       for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
-        place = allowed_place<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
+        place = allowed_position<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
         const double quality = quality_around(node);
         (quality > 0.0 && degree * (before - quality) < excess ? low : high) = middle;
       }
-      place = allowed_place<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
+      place = allowed_position<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
       return true;
     }
     return false;
@@ -141,7 +141,7 @@ class Distortion {
     SplitMix64 random = counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
     const int n_tries = tries_per_candidate * parameters_.n_candidates;
     for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
-      place = allowed_place<dim, spacedim>(
+      place = allowed_position<dim, spacedim>(
           mesh_, node,
           original_[node] + radius * edge_length_[node] * point_in_unit_ball<spacedim>(random));
       const double quality = quality_around(node);
@@ -210,7 +210,7 @@ double distort_within(Mesh<dim, spacedim>& mesh, double radius,
   require_valid(mesh);
   Distortion<dim, spacedim> distortion(mesh, parameters);
   const double q_mean = distortion.apply(radius);
-  mesh.coordinates() = distortion.mesh().coordinates();
+  mesh.set_coordinates(distortion.mesh().coordinates());
   return q_mean;
 }
 
@@ -246,7 +246,7 @@ DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& 
   const DistortionResult result{lower, mesh_quality(distortion.mesh()).q_mean};
   if (std::abs(result.q_mean - target) > parameters.tolerance)
     throw InputError(not_reached(target, q_lowest, q_initial));
-  mesh.coordinates() = distortion.mesh().coordinates();
+  mesh.set_coordinates(distortion.mesh().coordinates());
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 
+#include "smoothing/geometry/cell_size.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/tools/gmsh_tetrahedra.h"
 #include "smoothing/surface/surface_features.h"

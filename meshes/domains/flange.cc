@@ -66,7 +66,7 @@ PlanarCells quadrilaterals(const std::vector<Circle>& circles, double edge_lengt
   PlanarMesh mesh(std::make_shared<const Topology>(2, cells.coordinates.size(), cells.cells),
                   cells.coordinates);
   untangle(mesh);
-  return {mesh.coordinates(), std::move(cells.cells)};
+  return {mesh.copied_coordinates(), std::move(cells.cells)};
 }
 
 /// The first mesh's cells, then the second's; nodes that lie on the circle in both become one.

@@ -4,7 +4,7 @@
 
 #include "meshes/domains/catalogue.h"
 #include "meshes/tools/quadrilateral_region.h"
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
 namespace {

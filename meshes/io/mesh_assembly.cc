@@ -7,7 +7,7 @@
 #include <string>
 
 #include "smoothing/base/input_error.h"
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
 

@@ -2,7 +2,7 @@
 #include <map>
 
 #include "meshes/tests/mesh_tests.h"
-#include "smoothing/mesh/cell_size.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/volume_meshes.h"
 

@@ -69,6 +69,9 @@ class Mesh {
 
   std::span<const PointType> coordinates() const { return coordinates_; }
   std::span<PointType> coordinates() { return coordinates_; }
+  std::vector<PointType> copied_coordinates() const {
+    return {coordinates_.begin(), coordinates_.end()};
+  }
   /// Copies n_nodes() points into the mesh.
   void set_coordinates(std::span<const PointType> points) {
     assert(points.size() == n_nodes());

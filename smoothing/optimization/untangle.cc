@@ -42,7 +42,7 @@ class Untangling {
   /// Returns the invalid cells of the best mesh found.
   std::vector<CellIndex> run(std::vector<CellIndex> invalid) {
     auto best = invalid;
-    std::vector<Point<dim>> best_positions(mesh_.coordinates().begin(), mesh_.coordinates().end());
+    auto best_positions = mesh_.copied_coordinates();
     for (int round = 0; round < parameters_.max_rounds && !invalid.empty(); ++round) {
       invalid = run_round(round, invalid);
       if (invalid.size() < best.size()) {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/simd/cell_blocks.h"
+#include "smoothing/simd/cells.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {

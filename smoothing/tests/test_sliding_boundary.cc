@@ -6,7 +6,7 @@
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/mesh/cell_size.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
@@ -30,7 +30,7 @@ VolumeMesh disturbed_box(BoxCells cells, std::uint32_t n = 4) {
   for (const NodeIndex i : mesh.topology().free_nodes()) {
     const Point<3> old = mesh.coordinates()[i];
     const double a = random(), b = random(), c = random();
-    mesh.coordinates()[i] = allowed_place(mesh, i, Point<3>(old + 0.3 * Point<3>(a, b, c)));
+    mesh.coordinates()[i] = allowed_position(mesh, i, Point<3>(old + 0.3 * Point<3>(a, b, c)));
     for (const CellIndex cell : mesh.topology().node_cells(i))
       if (!(cell_mean_ratio(mesh, cell) > 0.0)) mesh.coordinates()[i] = old;
   }
@@ -155,8 +155,8 @@ TEST(SlidingBoundaries, HaveTheBordersOfLabelsAsFeatures) {
     const Point<3>& p = mesh.coordinates()[i];
     if (p.z() != 0.0 || p.x() != 2.0) continue;
     const bool is_end = p.y() == 0.0 || p.y() == 4.0;
-    EXPECT_EQ(mesh.constraints()->carriers()[i].kind,
-              is_end ? NodeCarrier::corner : NodeCarrier::line);
+    EXPECT_EQ(mesh.constraints()->classifications()[i].kind,
+              is_end ? GeometricClassification::corner : GeometricClassification::line);
   }
 }
 

@@ -58,7 +58,7 @@ void disturb(SurfaceMesh& mesh, double radius, std::uint64_t seed) {
   for (const NodeIndex i : mesh.topology().free_nodes()) {
     const Point<3> old = mesh.coordinates()[i];
     const double a = random(), b = random(), c = random();
-    mesh.coordinates()[i] = allowed_place(mesh, i, Point<3>(old + radius * Point<3>(a, b, c)));
+    mesh.coordinates()[i] = allowed_position(mesh, i, Point<3>(old + radius * Point<3>(a, b, c)));
     for (const CellIndex cell : mesh.topology().node_cells(i))
       if (!(cell_mean_ratio(mesh, cell) > 0.0)) mesh.coordinates()[i] = old;
   }
@@ -81,10 +81,10 @@ std::vector<SurfaceMesh> disturbed_surfaces() {
   return all;
 }
 
-std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, NodeCarrier::Kind kind) {
+std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, GeometricClassification::Kind kind) {
   std::vector<NodeIndex> nodes;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    if (mesh.constraints()->carriers()[i].kind == kind) nodes.push_back(i);
+    if (mesh.constraints()->classifications()[i].kind == kind) nodes.push_back(i);
   return nodes;
 }
 
@@ -121,11 +121,11 @@ TEST(NearestPoint, OfDegenerateTrianglesAndSegments) {
 TEST(SurfaceFeatures, OfAStepAreItsBoundaryAndTwoLines) {
   const auto mesh = bent_sheet(9, GridCells::quadrilaterals);
   // Corners: four of the sheet, and the ends of both lines on two sides.
-  EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::corner).size(), 8u);
+  EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::corner).size(), 8u);
   // 8 inner nodes of each line; the boundary has 36 nodes.
-  EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::line).size(), 2u * 8u + (36u - 8u));
-  EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::patch).size(), 100u - 8u - 44u);
-  for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::corner))
+  EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::line).size(), 2u * 8u + (36u - 8u));
+  EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::patch).size(), 100u - 8u - 44u);
+  for (const NodeIndex i : nodes_of_kind(mesh, GeometricClassification::corner))
     EXPECT_TRUE(mesh.topology().is_fixed(i));
   EXPECT_EQ(mesh.topology().free_nodes().size(), 92u);
 }
@@ -133,15 +133,15 @@ TEST(SurfaceFeatures, OfAStepAreItsBoundaryAndTwoLines) {
 TEST(SurfaceFeatures, FollowTheAngle) {
   // 12 facets around a quarter turn meet at 90 / 12 degrees.
   const auto smooth_one = cylinder(12, GridCells::quadrilaterals);
-  EXPECT_EQ(nodes_of_kind(smooth_one, NodeCarrier::corner).size(), 4u);
-  EXPECT_EQ(nodes_of_kind(smooth_one, NodeCarrier::line).size(), 44u);
+  EXPECT_EQ(nodes_of_kind(smooth_one, GeometricClassification::corner).size(), 4u);
+  EXPECT_EQ(nodes_of_kind(smooth_one, GeometricClassification::line).size(), 44u);
   EXPECT_TRUE(
-      nodes_of_kind(with_features(smooth_one, {.angle_degrees = 7.0}), NodeCarrier::patch).empty());
+      nodes_of_kind(with_features(smooth_one, {.angle_degrees = 7.0}), GeometricClassification::patch).empty());
   EXPECT_EQ(
-      nodes_of_kind(with_features(smooth_one, {.angle_degrees = 8.0}), NodeCarrier::patch).size(),
+      nodes_of_kind(with_features(smooth_one, {.angle_degrees = 8.0}), GeometricClassification::patch).size(),
       121u);
   const auto step = with_features(bent_sheet(9, GridCells::triangles), {.angle_degrees = 100.0});
-  EXPECT_EQ(nodes_of_kind(step, NodeCarrier::corner).size(), 0u) << "no right angle counts";
+  EXPECT_EQ(nodes_of_kind(step, GeometricClassification::corner).size(), 0u) << "no right angle counts";
 }
 
 TEST(SurfaceFeatures, AreBordersOfTagsAndLabelledEdgesToo) {
@@ -154,10 +154,10 @@ TEST(SurfaceFeatures, AreBordersOfTagsAndLabelledEdgesToo) {
   for (const auto& p : flat.coordinates()) x.emplace_back(p.x(), p.y(), 0.1 * p.x());
   const auto mesh = make_surface_mesh(flat.topology().cells(), x, labels);
   for (NodeIndex j = 1; j < 6; ++j)
-    EXPECT_EQ(mesh.constraints()->carriers()[7 * j + 3].kind, NodeCarrier::line) << j;
+    EXPECT_EQ(mesh.constraints()->classifications()[7 * j + 3].kind, GeometricClassification::line) << j;
   for (const NodeIndex end : {15, 16})
-    EXPECT_EQ(mesh.constraints()->carriers()[end].kind, NodeCarrier::corner) << "a line's end";
-  EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::patch).size(), 25u - 5u - 2u);
+    EXPECT_EQ(mesh.constraints()->classifications()[end].kind, GeometricClassification::corner) << "a line's end";
+  EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::patch).size(), 25u - 5u - 2u);
 }
 
 TEST(SurfaceFeatures, AreRefusedForFacetsThatRunAgainstEachOther) {
@@ -202,7 +202,7 @@ TEST(NodeConstraints, ProjectOntoTheNodesOwnPart) {
 TEST(NodeConstraints, FindTheNearestPoint) {
   const auto mesh = sphere_patch(6, GridCells::triangles);
   test::Random random(3);
-  for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::patch)) {
+  for (const NodeIndex i : nodes_of_kind(mesh, GeometricClassification::patch)) {
     const double a = random(), b = random(), c = random();
     const Point<3> wanted = mesh.coordinates()[i] + 0.5 * Point<3>(a, b, c);
     const Point<3> found = mesh.constraints()->project(i, mesh.coordinates()[i], wanted);
@@ -229,7 +229,7 @@ TEST(SurfaceQuality, TurnsInvalidWhereACellTurnsOver) {
   const NodeIndex i = 4 * 9 + 4;
   EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
   mesh.coordinates()[i] =
-      allowed_place(mesh, i, Point<3>(mesh.coordinates()[i] + Point<3>(0.6, 0.0, 0.0)));
+      allowed_position(mesh, i, Point<3>(mesh.coordinates()[i] + Point<3>(0.6, 0.0, 0.0)));
   EXPECT_GT(mesh_quality(mesh).n_invalid, 0u);
   EXPECT_THROW(require_valid(mesh), InputError);
 }
@@ -278,7 +278,7 @@ TEST_P(SurfaceMethod, KeepsNodesOnTheirPartsAndCornersWhereTheyAre) {
       for (const auto& p : seen.coordinates())
         longest = std::max(longest, mesh.constraints()->distance(p));
       EXPECT_LT(longest, 1e-12) << record.record;
-      for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::line)) {
+      for (const NodeIndex i : nodes_of_kind(mesh, GeometricClassification::line)) {
         const Point<3> again =
             mesh.constraints()->project(i, mesh.coordinates()[i], seen.coordinates()[i]);
         EXPECT_LT((again - seen.coordinates()[i]).norm(), 1e-12) << i;

@@ -85,7 +85,7 @@ TEST(Untangle, NamesCellsThatNothingCanMend) {
   const auto before = mesh.coordinates();
   const auto result = untangle(mesh);
   EXPECT_FALSE(result.valid);
-  EXPECT_EQ(result.unmendable_cells, std::vector<CellIndex>{1});
+  EXPECT_EQ(result.fully_fixed_cells, std::vector<CellIndex>{1});
   EXPECT_EQ(result.n_invalid_after, 1u);
   EXPECT_EQ(mesh.coordinates(), before);
 }
@@ -99,7 +99,7 @@ TEST(Untangle, SaysWhatIsLeftAndKeepsTheMeshWhereItFails) {
   EXPECT_FALSE(result.valid);
   EXPECT_GT(result.n_invalid_after, 0u);
   EXPECT_EQ(result.n_invalid_after, result.invalid_cells.size());
-  EXPECT_TRUE(result.unmendable_cells.empty());
+  EXPECT_TRUE(result.fully_fixed_cells.empty());
   EXPECT_EQ(mesh.coordinates(), before);
 }
 

@@ -8,7 +8,7 @@
 #include "smoothing/optimization/node_terms.h"
 #include "smoothing/optimization/vertex_descent.h"
 #include "smoothing/optimization/volume_cell_derivatives.h"
-#include "smoothing/simd/cell_blocks.h"
+#include "smoothing/simd/cells.h"
 #include "smoothing/tests/dense_derivatives.h"
 #include "smoothing/tests/volume_meshes.h"
 

@@ -9,7 +9,7 @@
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/quality/warpage.h"
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/histogram_figure.h"
 
@@ -59,13 +59,13 @@ std::vector<NamedNumber> geometry_numbers(const VolumeMesh& mesh) {
 }
 /// How many nodes cannot move, and how many move on feature lines only.
 std::vector<NamedNumber> geometry_numbers(const SurfaceMesh& mesh) {
-  const auto count = [&](NodeCarrier::Kind kind) {
-    const auto& carriers = mesh.constraints()->carriers();
+  const auto count = [&](GeometricClassification::Kind kind) {
+    const auto& carriers = mesh.constraints()->classifications();
     return static_cast<double>(std::count_if(carriers.begin(), carriers.end(),
                                              [&](const auto& c) { return c.kind == kind; }));
   };
-  return {{"n_corners", "corners", count(NodeCarrier::corner)},
-          {"n_line_nodes", "on lines", count(NodeCarrier::line)}};
+  return {{"n_corners", "corners", count(GeometricClassification::corner)},
+          {"n_line_nodes", "on lines", count(GeometricClassification::line)}};
 }
 
 /// All that is said about a mesh.

@@ -53,7 +53,7 @@ Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const Arguments& 
     if constexpr (dim == 3)
       if (arguments.boundary == "slide")
         return with_sliding_boundary(mesh, features,
-                                     arguments.slide_distance.value_or(usual_slide_distance));
+                                     arguments.slide_distance.value_or(default_slide_distance));
     if (arguments.feature_angle)
       throw InputError(
           "--feature-angle is for surface meshes and '--boundary slide'; leave it out");
@@ -110,8 +110,8 @@ class Recorder {
 /// Says honestly that untangling did not succeed, and where.
 [[noreturn]] void refuse(const std::string& path, const std::vector<std::size_t>& cell_ids,
                          const UntangleResult& result) {
-  const bool hopeless = !result.unmendable_cells.empty();
-  const auto& cells = hopeless ? result.unmendable_cells : result.invalid_cells;
+  const bool hopeless = !result.fully_fixed_cells.empty();
+  const auto& cells = hopeless ? result.fully_fixed_cells : result.invalid_cells;
   constexpr std::size_t n_named = 5;
   std::string names;
   for (std::size_t i = 0; i < std::min(n_named, cells.size()); ++i)

@@ -2,7 +2,7 @@
 /// Surface meshes, and volume meshes whose boundary slides, by the command line.
 #include "meshes/domains/catalogue.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/surface/surface_constraints.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/command_line.h"
