@@ -17,8 +17,9 @@ from .tables import Group, Table, number_cell
 
 COUNTS = ("element", "transformation", "start", "sigma", "n_elements", "n_regularized", "mean",
           "deviation", "least", "most")
-ELEMENTS = {"tetrahedron": ("#D55E00", "o", ()), "hexahedron": ("#0072B2", "s", (5, 1.5)),
-            "pyramid": ("#009E73", "^", (1.2, 1.2)), "prism": ("#E69F00", "D", (5, 1.5, 1.2, 1.5))}
+# Markers and dash patterns; the colours are those of all figures.
+ELEMENTS = {"tetrahedron": ("o", ()), "hexahedron": ("s", (5, 1.5)), "pyramid": ("^", (1.2, 1.2)),
+            "prism": ("D", (5, 1.5, 1.2, 1.5))}
 STARTS = {"arbitrary": "Arbitrary initial elements", "valid": "Valid initial elements"}
 MOST_SHOWN = 50  # transformations; for small sigma their number has no bound
 MARKED_EVERY = 10  # sigmas between the marks of the standard deviation
@@ -116,7 +117,7 @@ def draw_corridor(results):
     sigma = rows.number("sigma")
     ax.fill_between(sigma, rows.number("least"), rows.number("most"), color="0.85", linewidth=0,
                     label="least to most")
-    ax.plot(sigma, rows.number("mean"), color=ELEMENTS["tetrahedron"][0], label="mean")
+    ax.plot(sigma, rows.number("mean"), color=style.ELEMENT_COLOURS["tetrahedron"], label="mean")
     set_axes(ax)
     ax.legend(loc="upper right")
     return figure
@@ -127,7 +128,8 @@ def draw_speeds(results):
     figure, axes = pyplot.subplots(1, len(STARTS), figsize=(style.FULL_WIDTH, 2.8), sharey=True,
                                    constrained_layout=True)
     for ax, (start, title) in zip(axes, STARTS.items()):
-        for element, (colour, marker, dashes) in ELEMENTS.items():
+        for element, (marker, dashes) in ELEMENTS.items():
+            colour = style.ELEMENT_COLOURS[element]
             rows = whole(results.counts.select(element=element, transformation="dual-element", start=start))
             sigma, mean = rows.number("sigma"), rows.number("mean")
             line, = ax.plot(sigma, mean, color=colour, label=element.capitalize())

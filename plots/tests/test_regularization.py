@@ -3,9 +3,10 @@
 
 import json
 
+from plots import style
 from plots.__main__ import main
-from plots.regularization import (COUNTS, ELEMENTS, FIGURES, STARTS, make_regularization_tables,
-                                  read_regularization_results)
+from plots.regularization import (COUNTS, ELEMENTS, FIGURES, STARTS, draw_corridor, draw_speeds,
+                                  make_regularization_tables, read_regularization_results)
 from plots.table_formats import as_text
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
@@ -40,6 +41,18 @@ class Regularization(InFolder):
         self.assertIn("4.25", text)
         self.assertIn("0.78", text)
         self.assertIn("50.15", as_text(tables[1]))
+
+    def test_element_types_have_the_colours_of_all_figures(self):
+        results = read_regularization_results(write_results(self.folder / "r"))
+        style.apply_style()
+        self.addCleanup(style.pyplot.close, "all")
+        labelled = [line for figure in (draw_corridor(results), draw_speeds(results))
+                    for axes in figure.axes for line in axes.get_lines()
+                    if line.get_label().lower() in (*ELEMENTS, "mean")]
+        self.assertEqual(len(labelled), 1 + 2 * len(ELEMENTS))
+        for line in labelled:
+            element = line.get_label().lower().replace("mean", "tetrahedron")
+            self.assertEqual(line.get_color(), style.ELEMENT_COLOURS[element], element)
 
     def test_files(self):
         folder = write_results(self.folder / "r")
