@@ -4,10 +4,10 @@
 import argparse
 import sys
 
-from .read_results import ResultsError
+from .results.smoothing import ResultsError
+from .results.write_files import write_atomically
 from .study_kinds import outputs_of
-from .table_formats import as_latex, as_markdown, as_text
-from .write_files import write_atomically
+from .tables.formats import as_latex, as_markdown, as_text
 
 
 def parse_arguments(arguments):

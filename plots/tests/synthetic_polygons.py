@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plots.polygon_results import REQUIRED_COLUMNS
+from plots.results.polygons import REQUIRED_COLUMNS
 from plots.tests.synthetic_results import write_csv
 
 

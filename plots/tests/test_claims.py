@@ -6,12 +6,12 @@ import math
 import re
 
 from plots.__main__ import main
-from plots.claim_values import TRAJECTORY, Values
-from plots.claims import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, as_markdown, cases_of, check_claim,
+from plots.claims.check import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, as_markdown, cases_of, check_claim,
                           check_claims, met_in, number_of, read_claims, verdict_of)
-from plots.expressions import Missing, evaluate
-from plots.printed_values import THESIS_FOLDER, read_printed_tables
-from plots.read_results import read_results
+from plots.claims.expressions import Missing, evaluate
+from plots.claims.values import TRAJECTORY, Values
+from plots.results.printed_values import THESIS_FOLDER, read_printed_tables
+from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import (change_provenance, results_row, write_csv,
                                            write_results)
 from plots.tests.synthetic_volume import write_volume_results

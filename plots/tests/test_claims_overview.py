@@ -3,16 +3,16 @@
 
 import unittest
 
-from plots.claims import FAILS, HOLDS
-from plots.claims_overview import BEGIN, END, README, REFERENCE, outcomes_of, overview, with_overview
-from plots.read_results import ResultsError
+from plots.claims.check import FAILS, HOLDS
+from plots.claims.overview import BEGIN, END, README, REFERENCE, outcomes_of, overview, with_overview
+from plots.results.smoothing import ResultsError
 
 
 class Overview(unittest.TestCase):
     def test_it_is_made_from_the_results_there_are(self):
         text = README.read_text(encoding="utf-8")
         self.assertEqual(text, with_overview(text, overview(REFERENCE)),
-                         "run python3 -m plots.claims_overview")
+                         "run python3 -m plots.claims.overview")
 
     def test_every_claim_has_a_row_with_its_verdict(self):
         made = overview(REFERENCE)

@@ -5,8 +5,8 @@ import contextlib
 import io
 import json
 
-from plots import style
-from plots.quality_histogram import counted, draw_quality_histogram, main
+from plots.figures import style
+from plots.figures.quality_histogram import counted, draw_quality_histogram, main
 from plots.tests.test_read_results import InFolder
 
 NUMBERS = {"title": "beam_$1.vtk", "n_invalid": 1, "q_min": 0.0, "q_mean": 0.625,

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from plots.__main__ import main
-from plots.mesh_geometry import boundary_loops, triangles_of
-from plots.read_results import ResultsError, read_results
-from plots.read_vtu import read_vtu
+from plots.figures.planar_geometry import boundary_loops, triangles_of
+from plots.results.smoothing import ResultsError, read_results
+from plots.results.vtu import read_vtu
 from plots.tests.synthetic_results import write_csv, write_results, write_vtu
 
 

@@ -3,11 +3,11 @@
 
 import json
 
-from plots import style
 from plots.__main__ import main
-from plots.regularization import (COUNTS, ELEMENTS, FIGURES, STARTS, draw_corridor, draw_speeds,
+from plots.figures import style
+from plots.figures.regularization import (COUNTS, ELEMENTS, FIGURES, STARTS, draw_corridor, draw_speeds,
                                   make_regularization_tables, read_regularization_results)
-from plots.table_formats import as_text
+from plots.tables.formats import as_text
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
 

@@ -4,11 +4,11 @@
 import math
 from fnmatch import fnmatchcase
 
-from plots.number_format import format_error, grouped, relative_difference
-from plots.printed_values import THESIS_FOLDER, read_printed_tables
-from plots.read_results import read_results, read_rows
-from plots.table_formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
-from plots.tables import escape_tex, make_tables
+from plots.results.printed_values import THESIS_FOLDER, read_printed_tables
+from plots.results.smoothing import read_results, read_rows
+from plots.tables.formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
+from plots.tables.number_format import format_error, grouped, relative_difference
+from plots.tables.smoothing import escape_tex, make_tables
 from plots.tests.synthetic_results import (change_provenance, without_columns,
                                            without_finite_elements, write_results)
 from plots.tests.test_read_results import InFolder

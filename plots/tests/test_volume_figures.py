@@ -12,21 +12,21 @@ from unittest import mock
 
 import numpy as np
 
-from plots import style
 from plots.__main__ import main
-from plots.figure_element_types import (counts_of_types, draw_element_types, is_mixed,
+from plots.figures import style
+from plots.figures.element_types import (counts_of_types, draw_element_types, is_mixed,
                                         type_colours)
-from plots.figure_histograms import draw_histogram_differences, draw_histograms
-from plots.figure_meshes import columns_of
-from plots.figures import pages, read_grids
-from plots.read_results import read_results
-from plots.read_vtu import UnstructuredGrid, read_vtu
-from plots.render_volume import Scene, render
+from plots.figures.histograms import draw_histogram_differences, draw_histograms
+from plots.figures.meshes import columns_of
+from plots.figures.render import Scene, render
+from plots.figures.smoothing_study import pages, read_grids
+from plots.figures.virtual_display import NoDisplay, virtual_display
+from plots.figures.volume_geometry import Cut, view_of, widest_cut
+from plots.results.smoothing import read_results
+from plots.results.vtu import UnstructuredGrid, read_vtu
 from plots.tests.synthetic_results import write_vtu
 from plots.tests.synthetic_volume import box, write_volume_results, write_volume_vtu
 from plots.tests.test_read_results import InFolder
-from plots.virtual_display import NoDisplay, virtual_display
-from plots.volume_geometry import Cut, view_of, widest_cut
 
 try:
     import vtkmodules  # noqa: F401
@@ -125,7 +125,7 @@ class ElementTypes(InFolder):
     def test_picture_of_each_mesh_as_a_whole_and_in_detail(self):
         style.apply_style()
         grid = self.mixed()
-        with mock.patch("plots.figure_sections.IMAGE_DPI", 60):
+        with mock.patch("plots.figures.sections.IMAGE_DPI", 60):
             figure = draw_element_types([("Box", [("Initial", grid), ("GETMe", grid)])])
         captions = [axes.texts[0].get_text() for axes in figure.axes]
         self.assertEqual(captions, ["Initial", "GETMe", "Initial, detail", "GETMe, detail"])
@@ -199,7 +199,7 @@ class Rendering(InFolder):
         self.assertFalse(answers(number))
 
     def test_a_crash_is_one_sentence(self):
-        with mock.patch("plots.render_volume.draw_scene", os._exit):
+        with mock.patch("plots.figures.render.draw_scene", os._exit):
             with self.assertRaisesRegex(NoDisplay, "gave up"):
                 render([1])
 
@@ -208,9 +208,9 @@ class VolumeStudy(InFolder):
     def run_main(self, folder):
         errors = io.StringIO()
         # Coarse pictures: what they look like is not looked at here.
-        with contextlib.redirect_stderr(errors), mock.patch("plots.style.DPI", 40), \
-                mock.patch("plots.figure_sections.IMAGE_DPI", 100), \
-                mock.patch("plots.figure_solid.IMAGE_DPI", 100):
+        with contextlib.redirect_stderr(errors), mock.patch("plots.figures.style.DPI", 40), \
+                mock.patch("plots.figures.sections.IMAGE_DPI", 100), \
+                mock.patch("plots.figures.solid.IMAGE_DPI", 100):
             self.assertEqual(main([str(folder), "--quiet"]), 0, errors.getvalue())
         return errors.getvalue(), {path.stem for path in folder.glob("figures/*.pdf")}
 
