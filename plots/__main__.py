@@ -4,7 +4,7 @@
 import argparse
 import sys
 
-from .results.smoothing import ResultsError
+from .results.rows import ResultsError
 from .results.write_files import write_atomically
 from .study_kinds import outputs_of
 from .tables.formats import as_latex, as_markdown, as_text

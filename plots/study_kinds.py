@@ -5,11 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
 
-from .claims.check import as_markdown as claims_as_markdown, check_claims, read_claims
+from .claims.check import check_claims, read_claims
+from .claims.report import claims_as_markdown
 from .results.polygons import read_polygon_results
 from .results.printed_values import read_printed_tables
-from .results.smoothing import ResultsError, read_provenance, read_results
+from .results.regularization import read_regularization_results
+from .results.rows import ResultsError, read_provenance
+from .results.smoothing import read_results
 from .tables.polygons import make_polygon_tables
+from .tables.regularization import make_regularization_tables
 from .tables.smoothing import make_tables
 
 
@@ -50,11 +54,12 @@ def polygon_outputs(folder):
 
 def regularization_outputs(folder):
     """Of a study of the regularization of volume elements."""
-    from .figures.regularization import (draw_regularization_figures, make_regularization_tables,
-                                 read_regularization_results)
     results = read_regularization_results(folder)
-    return Outputs(results.folder, tuple(make_regularization_tables(results)), {},
-                   lambda report: draw_regularization_figures(results))
+
+    def draw(report):
+        from .figures.regularization import draw_regularization_figures
+        return draw_regularization_figures(results)
+    return Outputs(results.folder, tuple(make_regularization_tables(results)), {}, draw)
 
 
 KINDS = {"smoothing": smoothing_outputs, "polygons": polygon_outputs,

@@ -6,10 +6,12 @@ import sys
 from pathlib import Path
 
 from ..results.printed_values import read_printed_tables
-from ..results.smoothing import ResultsError, read_results
+from ..results.rows import ResultsError
+from ..results.smoothing import read_results
 from ..results.write_files import write_atomically
 from ..tables.formats import escape_markdown
-from .check import FAILS, HOLDS, UNKNOWN, bold_unless_it_holds, check_claims, known_reasons, read_claims
+from .check import FAILS, HOLDS, UNKNOWN, check_claims, read_claims
+from .report import bold_unless_it_holds, known_reasons
 
 RESULTS_FOLDER = Path(__file__).parents[2] / "results"
 README, REFERENCE = RESULTS_FOLDER / "README.md", RESULTS_FOLDER / "reference"
@@ -24,7 +26,7 @@ def overview(reference):
     for folder, (title, found) in outcomes.items():
         if not found:
             continue
-        counts = ", ".join(counted(sum(o.verdict == verdict for o in found), *words) for verdict, words in
+        counts = ", ".join(count_phrase(sum(o.verdict == verdict for o in found), *words) for verdict, words in
                            ((HOLDS, ("holds", "hold")), (FAILS, ("does not hold", "do not hold")),
                             (UNKNOWN, ("cannot be checked", "cannot be checked"))))
         table = f"reference/{folder.name}/tables/claims.md"
@@ -38,7 +40,7 @@ def overview(reference):
     return "\n".join(lines)
 
 
-def counted(number, of_one, of_many):
+def count_phrase(number, of_one, of_many):
     """A number and what is said of so many."""
     return f"{number} {of_one if number == 1 else of_many}"
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.ticker import FixedLocator
 
-from ..results.smoothing import groups_of
+from ..results.rows import groups_of
 from . import style
 from .polygons import domain_text
 

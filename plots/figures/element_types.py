@@ -6,13 +6,11 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 
-from ..results.vtu import VOLUME_CELL_TYPES
-from ..tables.number_format import counted
+from ..results.cell_types import VOLUME_CELL_TYPES, counted
 from . import style
 from .meshes import draw_blocks
 from .render import render
-from .sections import (DETAIL_ASPECT, cuts_of, pixels_of, section_scene, show, shows_edges,
-                              views_of)
+from .sections import DETAIL_ASPECT, cuts_of, pixels_of, section_scene, show, shows_edges, views_of
 
 WHITE_SHARE = 0.35  # of the colours: lighter ones let edges be seen
 

@@ -7,8 +7,7 @@ import numpy as np
 from matplotlib.ticker import StrMethodFormatter
 
 from ..results.smoothing import INITIAL
-from .history import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
-                             method_order)
+from .history import FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size, method_order
 
 BINS = 50
 # The thesis says of Fig. 5.33 at which qualities the differences are largest: 0.72, 0.92 and 0.98,

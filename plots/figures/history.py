@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ..results.smoothing import INITIAL
-from ..tables.descriptions import SYMBOLS
+from ..results.symbols import SYMBOLS
 from . import style
 
 # Of the mesh, hence the same for every degree; numbers that lie between 0 and 1 have linear axes.

@@ -7,7 +7,7 @@ import matplotlib.pyplot as pyplot
 import numpy as np
 
 from ..results.polygons import nodes_of
-from ..results.smoothing import groups_of
+from ..results.rows import groups_of
 from . import style
 
 # The first three nodes tell the orientation, as in the thesis; the others are all alike.

@@ -9,8 +9,8 @@ import json
 import sys
 from pathlib import Path
 
+from ..results.cell_types import counted
 from ..results.write_files import write_atomically
-from ..tables.number_format import counted
 from . import style
 
 SIZE = (4.6, 3.0)  # inches

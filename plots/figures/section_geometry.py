@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .volume_geometry import upwards, unit
+from .volume_geometry import unit, upwards
 
 # Edges of VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE and VTK_PYRAMID.
 EDGES = {10: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),

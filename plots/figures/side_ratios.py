@@ -7,7 +7,7 @@ import matplotlib.pyplot as pyplot
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from ..results.smoothing import groups_of
+from ..results.rows import groups_of
 from . import style
 
 TITLES = {"equilateral": "Equilateral case: $1-y/x$", "right-isosceles": "Right isosceles case: $1-z/y$"}

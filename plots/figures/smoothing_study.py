@@ -9,8 +9,8 @@ from . import style
 from .element_types import draw_element_types, is_mixed
 from .histograms import draw_histogram_differences, draw_histograms
 from .history import draw_history
-from .meshes import DETAIL_CENTRE, DETAIL_WIDTH, MOST_COLUMNS as PLANAR_COLUMNS
-from .meshes import columns_of, draw_meshes
+from .meshes import (DETAIL_CENTRE, DETAIL_WIDTH, MOST_COLUMNS as PLANAR_COLUMNS, columns_of,
+                     draw_meshes)
 from .model import draw_model
 from .pages import DISTORTED_SUFFIX, draw_pages, fits_as_columns, pages
 from .plane_sections import draw_plane_sections, is_coarse

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .smoothing import Rows, read_provenance, read_rows
+from .rows import Rows, read_provenance, read_rows
 
 # What tables and figures cannot do without.
 REQUIRED_COLUMNS = {

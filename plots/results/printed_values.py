@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from .smoothing import ResultsError, entries, read_rows
+from .rows import ResultsError, entries, read_rows
 
 THESIS_FOLDER = Path(__file__).resolve().parents[2] / "studies" / "thesis"
 

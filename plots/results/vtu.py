@@ -13,15 +13,11 @@ from pathlib import Path
 
 import numpy as np
 
-from .smoothing import ResultsError
+from .cell_types import PLANAR_CELL_TYPES, VOLUME_CELL_TYPES
+from .rows import ResultsError
 
 NUMPY_TYPES = {"Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4",
                "UInt32": "u4", "Int64": "i8", "UInt64": "u8", "Float32": "f4", "Float64": "f8"}
-
-# Planar cells whose connectivity walks around the cell: VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
-PLANAR_CELL_TYPES = (5, 7, 9)
-# VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID.
-VOLUME_CELL_TYPES = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid"}
 
 
 @dataclass(frozen=True)

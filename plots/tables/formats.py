@@ -5,7 +5,7 @@ import re
 import textwrap
 from dataclasses import replace
 
-from .smoothing import escape_tex
+from .table import escape_tex
 
 TERMINAL_WIDTH = 110
 GAP = 2  # blanks between groups; within a group there is one

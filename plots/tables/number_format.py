@@ -5,7 +5,6 @@ import math
 import re
 
 MISSING = "–"
-PLURALS = {"tetrahedron": "tetrahedra", "hexahedron": "hexahedra"}
 
 # Below this, four decimals would leave fewer than two digits.
 SMALLEST_FIXED = 1e-3
@@ -57,11 +56,6 @@ def grouped(text):
     if not re.fullmatch(r"\d+(/\d+)*", text):
         return text
     return "/".join(f"{int(count):,}" for count in text.split("/"))
-
-
-def counted(count, name):
-    """'1 prism', '10,600 hexahedra'."""
-    return f"{count:,} {name if count == 1 else PLURALS.get(name, name + 's')}"
 
 
 def relative_difference(ours, printed):

@@ -3,20 +3,15 @@
 
 import numpy as np
 
-from ..results.smoothing import groups_of
-from .descriptions import Heading
+from ..results.rows import groups_of
+from ..results.symbols import Heading
 from .number_format import format_scientific
-from .smoothing import Cell, Group, Table, escape_tex, number_cell
+from .table import Group, Table, escape_tex, number_cell, text_cell
 
 
 def make_polygon_tables(results):
-    """Both tables, for table_formats."""
+    """Both tables, for formats.py."""
     return [theorem_table(results), classification_table(results)]
-
-
-def text_cell(text):
-    """A cell of words."""
-    return Cell(text, tex=escape_tex(text))
 
 
 def column(heading, cells):

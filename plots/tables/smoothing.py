@@ -1,53 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fills the tables of Chapters 5 and 6 of the thesis: our numbers, the printed ones, their difference.
 
-One mechanism for all tables; what differs stands in table_descriptions.py.
+One mechanism for all tables; what differs stands in descriptions.py.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ..results.printed_values import comparison_notes
-from ..results.smoothing import INITIAL, ResultsError
-from .descriptions import DETAILS, KEY_HEADINGS, SYMBOLS, Heading, TABLES
+from ..results.rows import ResultsError
+from ..results.smoothing import INITIAL
+from ..results.symbols import SYMBOLS, Heading
+from .descriptions import DETAILS, KEY_HEADINGS, TABLES
 from .method_order import order_notes
-from .number_format import MISSING, grouped, relative_difference
+from .notes import Notes
+from .number_format import MISSING, relative_difference
+from .table import Cell, Group, Table, escape_tex, number_cell
 
 
 COLUMNS_NOTE = ("Columns: our value, the printed one, and where it makes sense the relative difference "
                 "in %, from ten times the printed one on as a factor (=: the same in all printed "
                 "digits).")
-
-
-@dataclass(frozen=True)
-class Cell:
-    """One entry: the same content for text and LaTeX; `mark` is the letter of a note."""
-
-    text: str
-    mark: str = ""
-    tex: str = ""  # where LaTeX wants other characters than escaped text
-
-
-@dataclass(frozen=True)
-class Group:
-    """Columns under one heading: `subheadings` has an entry for each of the group's columns."""
-
-    heading: Heading
-    subheadings: tuple
-    cells: tuple  # one tuple of cells for each row
-
-
-@dataclass(frozen=True)
-class Table:
-    """A table ready to be written in any format."""
-
-    name: str
-    caption: str
-    key_headings: tuple
-    keys: tuple  # one tuple of cells for each row, empty where the entry repeats the one above
-    rules: tuple  # numbers of the rows above which a rule is drawn
-    left_aligned: tuple  # subheadings of columns that hold words
-    groups: tuple
-    notes: tuple  # (letter or empty, sentence)
 
 
 def make_tables(results, printed):
@@ -189,27 +161,6 @@ def make_group(measure, pairs, notes, if_printed):
     return Group(measure.heading, tuple(subheadings), tuple(zip(*columns)))
 
 
-def number_cell(text, mark=""):
-    """A cell whose LaTeX has true minus signs and powers of ten; counts get their commas."""
-    text = grouped(text)
-    mantissa, exponent, power = text.partition("e")
-    try:
-        float(text)
-    except ValueError:
-        return Cell(text, mark, {MISSING: "--", "=": "$=$"}.get(text, escape_tex(text)))
-    if exponent:
-        return Cell(text, mark, rf"${mantissa}\cdot10^{{{int(power)}}}$")
-    return Cell(text, mark, f"${text}$" if text[0] in "+-" else text)
-
-
-def escape_tex(text):
-    """Text with LaTeX's special characters escaped."""
-    special = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-               "–": "--", "×": r"$\times$", "•": r"\textbullet{}", "<": "$<$", ">": "$>$", "|": "$|$",
-               **{c: "\\" + c for c in "&%$#_{}"}}
-    return "".join(special.get(character, character) for character in text)
-
-
 def key_cells(rows, keys, results):
     """The leading cells of each row, blank where they repeat the row above, and where rules go."""
     cells, rules, above = [], [], None
@@ -230,31 +181,3 @@ def key_cell(name, value, results):
         return Cell(SYMBOLS[value].text, tex=SYMBOLS[value].tex)
     title = results.title(value) if name == "method" else value
     return Cell(title, tex=escape_tex(title))
-
-
-class Notes:
-    """Gives the notes on known deviations letters in the order in which cells ask for them."""
-
-    def __init__(self, deviations, pairs):
-        self.pairs = pairs
-        meshes = {ours.get("mesh", "") for ours, _ in pairs} | {"*"}
-        deviations = [d for d in deviations if d["mesh"] in meshes]
-        self.cell_notes = [d for d in deviations if d["method"] != "*"]
-        columns = {name for _, printed in pairs for name, field in printed.items() if field} | {"*"}
-        self.table_notes = list(dict.fromkeys(d["note"] for d in deviations if d["method"] == "*"
-                                              and d["column"] in columns))
-        self.letters = {}
-
-    def letter(self, column, row):
-        """The letter of the note on a printed cell, or an empty string."""
-        wanted = {**self.pairs[row][0], "column": column}
-        for note in self.cell_notes:
-            if all(note[key] in ("*", wanted.get(key, ""))
-                   for key in ("mesh", "degree", "method", "column")):
-                return self.letters.setdefault(note["note"], chr(ord("a") + len(self.letters)))
-        return ""
-
-    def sentences(self):
-        """All notes as (letter, sentence); those on the table as a whole come last."""
-        lettered = tuple((letter, note) for note, letter in self.letters.items())
-        return lettered + tuple(("", note) for note in self.table_notes)

@@ -6,14 +6,14 @@ import math
 import re
 
 from plots.__main__ import main
-from plots.claims.check import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, as_markdown, cases_of, check_claim,
-                          check_claims, met_in, number_of, read_claims, verdict_of)
+from plots.claims.check import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, cases_of, check_claim,
+                                check_claims, met_in, number_of, read_claims, verdict_of)
 from plots.claims.expressions import Missing, evaluate
+from plots.claims.report import claims_as_markdown
 from plots.claims.values import TRAJECTORY, Values
 from plots.results.printed_values import THESIS_FOLDER, read_printed_tables
 from plots.results.smoothing import read_results
-from plots.tests.synthetic_results import (change_provenance, results_row, write_csv,
-                                           write_results)
+from plots.tests.synthetic_results import change_provenance, results_row, write_csv, write_results
 from plots.tests.synthetic_volume import write_volume_results
 from plots.tests.test_read_results import InFolder
 
@@ -194,7 +194,7 @@ class ClaimsOfTheThesis(InFolder):
     def test_count_of_verdicts(self):
         results = read_results(write_results(self.folder / "r"))
         outcomes = check_claims(read_claims("gear"), results, {})
-        text = as_markdown(outcomes, results)
+        text = claims_as_markdown(outcomes, results)
         for verdict in (FAILS, UNKNOWN):
             self.assertEqual(text.count(f"**{verdict}**"), sum(o.verdict == verdict for o in outcomes))
         reasons = text.partition("Known reasons")[2]

@@ -4,8 +4,9 @@
 import unittest
 
 from plots.claims.check import FAILS, HOLDS
-from plots.claims.overview import BEGIN, END, README, REFERENCE, outcomes_of, overview, with_overview
-from plots.results.smoothing import ResultsError
+from plots.claims.overview import (BEGIN, END, README, REFERENCE, outcomes_of, overview,
+                                   with_overview)
+from plots.results.rows import ResultsError
 
 
 class Overview(unittest.TestCase):

@@ -15,7 +15,7 @@ from plots.figures.polygon_study import FIGURES
 from plots.figures.polygons import angle_text, draw_decomposition, draw_limits, draw_sequences
 from plots.figures.side_ratios import draw_side_ratios
 from plots.results.polygons import nodes_of, read_polygon_results
-from plots.results.smoothing import groups_of
+from plots.results.rows import groups_of
 from plots.tables.formats import as_latex, as_markdown, as_text
 from plots.tables.polygons import make_polygon_tables
 from plots.tests.synthetic_polygons import write_polygon_results

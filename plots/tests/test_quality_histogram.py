@@ -6,7 +6,8 @@ import io
 import json
 
 from plots.figures import style
-from plots.figures.quality_histogram import counted, draw_quality_histogram, main
+from plots.figures.quality_histogram import draw_quality_histogram, main
+from plots.results.cell_types import counted
 from plots.tests.test_read_results import InFolder
 
 NUMBERS = {"title": "beam_$1.vtk", "n_invalid": 1, "q_min": 0.0, "q_mean": 0.625,

@@ -11,7 +11,8 @@ import numpy as np
 
 from plots.__main__ import main
 from plots.figures.planar_geometry import boundary_loops, triangles_of
-from plots.results.smoothing import ResultsError, read_results
+from plots.results.rows import ResultsError
+from plots.results.smoothing import read_results
 from plots.results.vtu import read_vtu
 from plots.tests.synthetic_results import write_csv, write_results, write_vtu
 

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables and figures of a regularization study."""
 
+import contextlib
+import io
 import json
 
 from plots.__main__ import main
 from plots.figures import style
-from plots.figures.regularization import (COUNTS, ELEMENTS, FIGURES, STARTS, draw_corridor, draw_speeds,
-                                  make_regularization_tables, read_regularization_results)
+from plots.figures.regularization import ELEMENTS, FIGURES, STARTS, draw_corridor, draw_speeds
+from plots.results.regularization import COUNTS, read_regularization_results
 from plots.tables.formats import as_text
+from plots.tables.regularization import make_regularization_tables
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
 
@@ -65,4 +68,7 @@ class Regularization(InFolder):
     def test_what_is_missing(self):
         folder = write_results(self.folder / "r")
         (folder / "validity.csv").unlink()
-        self.assertEqual(main([str(folder), "--quiet"]), 2)
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            self.assertEqual(main([str(folder), "--quiet"]), 2)
+        self.assertIn("validity.csv: the file is missing", errors.getvalue())

@@ -5,10 +5,12 @@ import math
 from fnmatch import fnmatchcase
 
 from plots.results.printed_values import THESIS_FOLDER, read_printed_tables
-from plots.results.smoothing import read_results, read_rows
+from plots.results.rows import read_rows
+from plots.results.smoothing import read_results
 from plots.tables.formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
 from plots.tables.number_format import format_error, grouped, relative_difference
-from plots.tables.smoothing import escape_tex, make_tables
+from plots.tables.smoothing import make_tables
+from plots.tables.table import escape_tex
 from plots.tests.synthetic_results import (change_provenance, without_columns,
                                            without_finite_elements, write_results)
 from plots.tests.test_read_results import InFolder

@@ -14,12 +14,12 @@ import numpy as np
 
 from plots.__main__ import main
 from plots.figures import style
-from plots.figures.element_types import (counts_of_types, draw_element_types, is_mixed,
-                                        type_colours)
+from plots.figures.element_types import counts_of_types, draw_element_types, is_mixed, type_colours
 from plots.figures.histograms import draw_histogram_differences, draw_histograms
 from plots.figures.meshes import columns_of
+from plots.figures.pages import pages
 from plots.figures.render import Scene, render
-from plots.figures.smoothing_study import pages, read_grids
+from plots.figures.smoothing_study import read_grids
 from plots.figures.virtual_display import NoDisplay, virtual_display
 from plots.figures.volume_geometry import Cut, view_of, widest_cut
 from plots.results.smoothing import read_results

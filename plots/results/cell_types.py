@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""VTK's numbers of the types of cells, and what a reader calls them."""
+
+# Planar cells whose connectivity walks around the cell: VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
+PLANAR_CELL_TYPES = (5, 7, 9)
+# VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID.
+VOLUME_CELL_TYPES = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid"}
+
+PLURALS = {"tetrahedron": "tetrahedra", "hexahedron": "hexahedra"}
+
+
+def counted(count, name):
+    """'1 prism', '10,600 hexahedra'."""
+    return f"{count:,} {name if count == 1 else PLURALS.get(name, name + 's')}"
