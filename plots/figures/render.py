@@ -12,6 +12,7 @@ from typing import Optional
 
 import numpy as np
 
+from ..results.vtu import NoVtk, vtk_module
 from .virtual_display import NoDisplay, virtual_display
 from .volume_geometry import View
 from .vtk_surface import face_keys, surface_of, with_faces
@@ -48,10 +49,9 @@ def render(scenes):
     """The pictures as arrays (height, width, 3) of uint8, background white; NoDisplay with one
     sentence if there is no VTK, no Xvfb, or VTK ends in the middle."""
     try:
-        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
-    except ImportError as error:
-        raise NoDisplay(f"VTK's Python modules are missing ({error}); install the Debian package "
-                        "python3-vtk9") from None
+        vtk_module("vtkRenderingOpenGL2")
+    except NoVtk as error:
+        raise NoDisplay(str(error)) from None
     with virtual_display(), ProcessPoolExecutor(1, get_context("fork")) as drawer:
         try:
             return [drawer.submit(draw_scene, scene).result() for scene in scenes]
@@ -64,8 +64,8 @@ def draw_scene(scene):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkRenderingCore import (vtkLight, vtkRenderer, vtkRenderWindow,
                                              vtkWindowToImageFilter)
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 
+    vtk_module("vtkRenderingOpenGL2")  # what draws registers itself when it is imported
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     width, height = (SUPERSAMPLING * n for n in scene.pixels)

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which figures belong to a study, what they are called, and what they need."""
 
-import numpy as np
-
 from ..results.smoothing import INITIAL
-from ..results.vtu import read_vtu
 from . import style
 from .element_types import draw_element_types, is_mixed
+from .grids import read_grids
 from .histograms import draw_histogram_differences, draw_histograms
 from .history import draw_history
 from .meshes import (DETAIL_CENTRE, DETAIL_WIDTH, MOST_COLUMNS as PLANAR_COLUMNS, columns_of,
@@ -114,40 +112,6 @@ def draw_history_figures(results, save):
                 draw(main, degree, f"{prefix}_d{degree}", f"history, d = {degree}")
             draw(("e_l2", "e_h1", "l2_error", "h1_error"), degree, f"{prefix}_norms_d{degree}",
                  f"error norms, d = {degree}")
-
-
-def read_grids(results, report):
-    """(mesh, method) -> grid for all meshes that are there, in the order of the study: the planar
-    ones, those of volume cells, and surfaces in space."""
-    planar, volume, surface, missing, unknown = {}, {}, {}, [], []
-    for mesh in results.meshes:
-        for method in (INITIAL, *results.methods):
-            path = results.mesh_file(mesh, method)
-            if not path.exists():
-                missing.append(path.name)
-                continue
-            grid = read_vtu(path)
-            if same_as_sequential(grid, {**planar, **volume, **surface}, mesh, method):
-                continue
-            kind = (planar if grid.is_planar else volume if grid.is_volume else
-                    surface if grid.is_surface else None)
-            if kind is None or "mean_ratio" not in grid.cell_data:
-                unknown.append(path.name)
-            else:
-                kind[mesh, method] = grid
-    for names, reason in ((missing, "are missing"),
-                          (unknown, "have cells of other kinds or lack `mean_ratio`")):
-        if names:
-            report(f"Not drawn, because meshes {reason}: {', '.join(names)}.")
-    return planar, volume, surface
-
-
-def same_as_sequential(grid, found, mesh, method):
-    """Whether this is the mesh of a parallel run that is bit for bit the one of the sequential run:
-    that is shown once."""
-    twin = found.get((mesh, style.sequential_name(method)))
-    return (method != style.sequential_name(method) and twin is not None
-            and np.array_equal(twin.points, grid.points))
 
 
 def solved_grid(results, grids, report):

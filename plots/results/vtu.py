@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads VTK's XML unstructured grids: one piece, arrays inline as base64 ("binary") or as text.
+"""Meshes of a results folder, read by VTK, as arrays."""
 
-Format: VTK File Formats, "XML File Formats", UnstructuredGrid (The VTK User's Guide). Appended and
-compressed data are not written by smoothfem and are refused.
-"""
-
-import base64
-import binascii
-import xml.etree.ElementTree as ElementTree
+import importlib
+import os
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,8 +12,9 @@ import numpy as np
 from .cell_types import PLANAR_CELL_TYPES, VOLUME_CELL_TYPES
 from .rows import ResultsError
 
-NUMPY_TYPES = {"Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4",
-               "UInt32": "u4", "Int64": "i8", "UInt64": "u8", "Float32": "f4", "Float64": "f8"}
+
+class NoVtk(Exception):
+    """VTK's Python modules cannot be imported; the message is half a sentence, for after a colon."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +24,9 @@ class UnstructuredGrid:
     points: np.ndarray
     connectivity: np.ndarray
     offsets: np.ndarray  # n_cells + 1 entries, the first is 0
-    types: np.ndarray
-    point_data: dict
-    cell_data: dict
+    types: np.ndarray  # (n_cells,), VTK's numbers
+    point_data: dict  # name -> array (n,) or (n, components)
+    cell_data: dict  # name -> array (n_cells,) or (n_cells, components)
 
     @property
     def is_planar(self):
@@ -56,72 +53,62 @@ class UnstructuredGrid:
         return np.split(self.connectivity, self.offsets[1:-1])
 
 
+def vtk_module(name):
+    """A module of VTK's Python package, imported when it is needed: that takes a moment. Throws NoVtk."""
+    try:
+        return importlib.import_module(f"vtkmodules.{name}")
+    except ImportError as error:
+        raise NoVtk(f"VTK's Python modules are missing ({error}); install the Debian package "
+                    "python3-vtk9") from None
+
+
 def read_vtu(path):
-    """Reads an unstructured grid; throws ResultsError if the file is missing, truncated or of a kind
-    that is not understood."""
+    """Reads an unstructured grid of at least one cell; throws ResultsError if the file is missing,
+    truncated or of another kind, NoVtk if there is nothing to read it with."""
     path = Path(path)
+    if not path.is_file():
+        raise ResultsError(f"{path}: the file is missing.")
+    reader = vtk_module("vtkIOXML").vtkXMLUnstructuredGridReader()
+    reader.SetFileName(os.fsencode(path))
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(True))
+    with silent_vtk():
+        reader.Update()
+    grid = None if errors else adapted(reader.GetOutput())
+    if grid is None:
+        raise ResultsError(f"{path}: not a complete VTU file of an unstructured grid.")
+    return grid
+
+
+@contextmanager
+def silent_vtk():
+    """VTK writes nothing to the standard error stream: its reader's errors are observed, and the parser
+    within the reader, which nobody can observe, says the same with addresses in memory."""
+    logger = vtk_module("vtkCommonCore").vtkLogger
+    before = logger.GetCurrentVerbosityCutoff()
+    logger.SetStderrVerbosity(logger.VERBOSITY_OFF)
     try:
-        root = ElementTree.parse(path).getroot()
-    except FileNotFoundError:
-        raise ResultsError(f"{path}: the file is missing.") from None
-    except (OSError, ElementTree.ParseError) as error:
-        raise ResultsError(f"{path}: not a complete VTU file ({error}).") from None
-    if root.get("compressor"):
-        raise ResultsError(f"{path}: compressed VTU files are not supported.")
-    try:
-        return read_piece(root)
-    except (ValueError, KeyError, AttributeError, IndexError, binascii.Error) as error:
-        raise ResultsError(f"{path}: not a VTU file that can be read ({error}).") from None
+        yield
+    finally:
+        logger.SetStderrVerbosity(before)
 
 
-def read_piece(root):
-    """The grid of the first (and only) piece below the XML root."""
-    piece = root.find("UnstructuredGrid/Piece")
-    n_points, n_cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
-    byte_order = ">" if root.get("byte_order") == "BigEndian" else "<"
-    header = byte_order + NUMPY_TYPES[root.get("header_type", "UInt32")]
+def adapted(grid):
+    """A grid of VTK as arrays; None if it has no cells, or cells of nodes that are not there."""
+    to_numpy = vtk_module("util.numpy_support").vtk_to_numpy
+    if grid.GetNumberOfCells() == 0 or grid.GetNumberOfPoints() == 0:
+        return None
+    cells = grid.GetCells()
+    connectivity = to_numpy(cells.GetConnectivityArray()).astype(np.int64)
+    offsets = to_numpy(cells.GetOffsetsArray()).astype(np.int64)
+    if not len(connectivity) or connectivity.min() < 0 or connectivity.max() >= grid.GetNumberOfPoints():
+        return None
 
-    def arrays(section, count):
-        parent = piece.find(section)
-        found = {} if parent is None else {
-            array.get("Name"): read_array(array, byte_order, header)
-            for array in parent.findall("DataArray") if array.get("type") in NUMPY_TYPES}
-        for name, values in found.items():
-            if count is not None and len(values) != count:
-                raise ValueError(f"array {name} has {len(values)} entries instead of {count}")
-        return found
-
-    cells = arrays("Cells", None)
-    offsets = np.concatenate(([0], cells["offsets"])).astype(np.int64)
-    if len(offsets) != n_cells + 1 or offsets[-1] != len(cells["connectivity"]):
-        raise ValueError("offsets and connectivity do not fit")
-    points = next(iter(arrays("Points", n_points).values())).reshape(n_points, 3)
-    return UnstructuredGrid(points=points, connectivity=cells["connectivity"].astype(np.int64),
-                            offsets=offsets, types=cells["types"],
-                            point_data=arrays("PointData", n_points),
-                            cell_data=arrays("CellData", n_cells))
-
-
-def read_array(element, byte_order, header):
-    """The values of a DataArray, shape (tuples,) or (tuples, components)."""
-    kind = byte_order + NUMPY_TYPES[element.get("type")]
-    text = (element.text or "").strip()
-    layout = element.get("format", "ascii")
-    if layout == "ascii":
-        values = np.array(text.split(), dtype=kind)
-    elif layout == "binary":
-        values = decode_block("".join(text.split()), kind, header)
-    else:
-        raise ValueError(f"format {layout} is not supported")
-    components = int(element.get("NumberOfComponents", 1))
-    return values.reshape(-1, components) if components > 1 else values
-
-
-def decode_block(text, kind, header):
-    """Decodes one base64 block: its length in bytes as an unsigned integer, then the values."""
-    data = base64.b64decode(text, validate=True)
-    width = np.dtype(header).itemsize
-    length = int(np.frombuffer(data[:width], header)[0])
-    if len(data) - width < length:
-        raise ValueError(f"{len(data) - width} bytes instead of {length}")
-    return np.frombuffer(data[width:width + length], kind)
+    def arrays(attributes):
+        """Name -> numbers; arrays of texts are of no use here."""
+        found = [attributes.GetArray(i) for i in range(attributes.GetNumberOfArrays())]
+        return {array.GetName(): to_numpy(array) for array in found if array is not None}
+    return UnstructuredGrid(
+        points=to_numpy(grid.GetPoints().GetData()), connectivity=connectivity, offsets=offsets,
+        types=to_numpy(grid.GetCellTypesArray()), point_data=arrays(grid.GetPointData()),
+        cell_data=arrays(grid.GetCellData()))
