@@ -4,6 +4,8 @@
 VTK ends the process if something is wrong with the display. So it draws in a process of its own.
 """
 
+import ctypes
+import signal
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, replace
@@ -21,6 +23,7 @@ from .vtk_surface import face_keys, surface_of, with_faces
 # multisampling of OpenGL drivers.
 SUPERSAMPLING = 2
 LIGHT = (-0.4, 0.7, 1.0)  # from the upper left: relative to the viewer, x to the right, y upwards
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
 FEATURE_ANGLE = 30.0  # degrees between two faces from which on their common edge is drawn
 
 
@@ -52,11 +55,17 @@ def render(scenes):
         vtk_module("vtkRenderingOpenGL2")
     except NoVtk as error:
         raise NoDisplay(str(error)) from None
-    with virtual_display(), ProcessPoolExecutor(1, get_context("fork")) as drawer:
+    with virtual_display(), ProcessPoolExecutor(1, get_context("fork"), end_with_parent) as drawer:
         try:
             return [drawer.submit(draw_scene, scene).result() for scene in scenes]
         except BrokenProcessPool:
             raise NoDisplay("VTK gave up drawing off screen") from None
+
+
+def end_with_parent():
+    """Called in the process that draws: it gets SIGTERM when the first one dies, even if that is killed,
+    instead of waiting for another scene forever."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 def draw_scene(scene):

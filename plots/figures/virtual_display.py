@@ -3,19 +3,13 @@
 whole process where no server answers."""
 
 import contextlib
-import ctypes
+import logging
 import os
-import select
 import shutil
-import signal
-import subprocess
-
-SECONDS_TO_START = 20
-PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
 
 class NoDisplay(Exception):
-    """Nothing can be rendered here; the message is one sentence."""
+    """Nothing can be rendered here; the message is half a sentence, for after a colon."""
 
 
 @contextlib.contextmanager
@@ -24,55 +18,44 @@ def virtual_display():
 
     Used even where there is a real display: its software rendering gives the same pixels everywhere.
     """
-    program = shutil.which("Xvfb")
-    if program is None:
-        raise NoDisplay("Xvfb is not installed; install the Debian package xvfb")
-    reader, writer = os.pipe()
+    before = os.environ.get("LIBGL_ALWAYS_SOFTWARE")
+    server = started_server()
     try:
-        server = subprocess.Popen(
-            [program, "-displayfd", str(writer), "-screen", "0", "64x64x24", "-nolisten", "tcp",
-             "-noreset"], pass_fds=(writer,), preexec_fn=end_with_parent,
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    except OSError as error:
-        os.close(reader)
-        raise NoDisplay(f"Xvfb cannot be started ({error})") from None
-    finally:
-        os.close(writer)
-    variables = {"DISPLAY": None, "LIBGL_ALWAYS_SOFTWARE": "1"}
-    before = {name: os.environ.get(name) for name in variables}
-    try:
-        variables["DISPLAY"] = f":{display_number(reader)}"
-        os.environ.update(variables)
+        os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
         yield
     finally:
-        os.close(reader)
-        for name, value in before.items():
-            os.environ.pop(name, None)
-            if value is not None:
-                os.environ[name] = value
-        end(server)
+        server.stop()
+        os.environ.pop("LIBGL_ALWAYS_SOFTWARE")
+        if before is not None:
+            os.environ["LIBGL_ALWAYS_SOFTWARE"] = before
 
 
-def end_with_parent():
-    """Called in the server's process: it gets SIGTERM when Python dies, so none is left behind."""
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
-
-
-def display_number(reader):
-    """The number that the server writes when it is ready."""
-    ready, _, _ = select.select([reader], [], [], SECONDS_TO_START)
-    number = os.read(reader, 16).decode().strip() if ready else ""
-    if not number.isdigit():
-        raise NoDisplay("Xvfb did not start" if ready else
-                        f"Xvfb did not start within {SECONDS_TO_START} s")
-    return number
-
-
-def end(server):
-    """Ends a process and waits until it is gone."""
-    server.terminate()
+def started_server():
+    """The server, ready to draw; throws NoDisplay."""
+    if shutil.which("Xvfb") is None:
+        raise NoDisplay("Xvfb is not installed; install the Debian package xvfb")
     try:
-        server.wait(timeout=5)
-    except subprocess.TimeoutExpired:
-        server.kill()
-        server.wait()
+        from easyprocess import EasyProcessError
+        from pyvirtualdisplay.abstractdisplay import XStartError, XStartTimeoutError
+        from pyvirtualdisplay.xvfb import XvfbDisplay
+    except ImportError as error:
+        raise NoDisplay(f"PyVirtualDisplay is missing ({error}); install the Debian package "
+                        "python3-pyvirtualdisplay") from None
+
+    class Server(XvfbDisplay):
+        """Gets SIGTERM from the kernel when Python dies, so that a killed one leaves none behind."""
+
+        def _cmd(self):
+            return ["setpriv", "--pdeathsig", "TERM", *super()._cmd()]
+
+    # What it says about its attempts is no sentence for a user.
+    logging.getLogger("pyvirtualdisplay").setLevel(logging.CRITICAL)
+    try:
+        # It stays as it is between two pictures, when VTK has closed its window.
+        server = Server(size=(64, 64), retries=1, extra_args=["-noreset"])
+        server.start()
+    except OSError as error:
+        raise NoDisplay(f"Xvfb cannot be started ({error})") from None
+    except (EasyProcessError, XStartError, XStartTimeoutError):
+        raise NoDisplay("Xvfb did not start") from None
+    return server

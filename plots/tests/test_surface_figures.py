@@ -10,7 +10,7 @@ from plots.figures.render import render
 from plots.figures.surfaces import DIRECTION, draw_surfaces, surface_scene
 from plots.figures.volume_geometry import view_of
 from plots.results.vtu import UnstructuredGrid
-from plots.tests.test_volume_figures import needs_rendering
+from plots.tests.rendering import needs_rendering
 
 
 class Surfaces(unittest.TestCase):
