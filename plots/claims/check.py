@@ -10,7 +10,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from ..results.printed_values import THESIS_FOLDER
+from ..results.data_folder import thesis_folder
 from ..results.rows import ResultsError
 from ..tables.number_format import MISSING
 from .expressions import Missing, evaluate
@@ -34,8 +34,9 @@ class Outcome:
     note: str = ""
 
 
-def read_claims(study, path=THESIS_FOLDER / "claims.json"):
+def read_claims(study):
     """The claims about a study, as a list of dictionaries; empty if there are none."""
+    path = thesis_folder() / "claims.json"
     if not path.exists():
         return []
     try:

@@ -3,8 +3,8 @@
 from the results in results/reference."""
 
 import sys
-from pathlib import Path
 
+from ..results.data_folder import data_folder
 from ..results.printed_values import read_printed_tables
 from ..results.rows import ResultsError
 from ..results.smoothing import read_results
@@ -13,15 +13,23 @@ from ..tables.formats import escape_markdown
 from .check import FAILS, HOLDS, UNKNOWN, check_claims, read_claims
 from .report import bold_unless_it_holds, known_reasons
 
-RESULTS_FOLDER = Path(__file__).parents[2] / "results"
-README, REFERENCE = RESULTS_FOLDER / "README.md", RESULTS_FOLDER / "reference"
 # The lines around the overview.
 BEGIN, END = "<!-- made by python3 -m plots.claims.overview -->", "<!-- end of what it made -->"
 
 
-def overview(reference):
+def reference():
+    """The folder of results folders that come with the program."""
+    return data_folder() / "results" / "reference"
+
+
+def readme():
+    """The file with the overview."""
+    return data_folder() / "results" / "README.md"
+
+
+def overview(folders):
     """All claims about the studies in a folder of results folders, as Markdown."""
-    outcomes = {folder: outcomes_of(folder) for folder in sorted(reference.iterdir()) if folder.is_dir()}
+    outcomes = {folder: outcomes_of(folder) for folder in sorted(folders.iterdir()) if folder.is_dir()}
     lines = []
     for folder, (title, found) in outcomes.items():
         if not found:
@@ -57,15 +65,16 @@ def with_overview(text, made):
     before, begin, rest = text.partition(BEGIN + "\n")
     _, end, after = rest.partition(END + "\n")
     if not begin or not end:
-        raise ResultsError(f"{README}: the lines `{BEGIN}` and `{END}` are not there.")
+        raise ResultsError(f"{readme()}: the lines `{BEGIN}` and `{END}` are not there.")
     return f"{before}{begin}\n{made}\n{end}{after}"
 
 
 def main():
     """Writes the file anew; returns the exit code."""
     try:
-        text = README.read_text(encoding="utf-8")
-        write_atomically(README, with_overview(text, overview(REFERENCE)))
+        path = readme()
+        text = path.read_text(encoding="utf-8")
+        write_atomically(path, with_overview(text, overview(reference())))
     except (OSError, ResultsError) as error:
         print(error, file=sys.stderr)
         return 2

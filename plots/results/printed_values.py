@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
 
+from .data_folder import THESIS, thesis_folder
 from .rows import ResultsError, entries, read_rows
-
-THESIS_FOLDER = Path(__file__).resolve().parents[2] / "studies" / "thesis"
 
 
 @dataclass
@@ -23,13 +22,13 @@ class PrintedTable:
     deviations: list = field(default_factory=list)  # table, mesh, degree, method, column, note
 
 
-def read_printed_tables(study, provenance, folder=THESIS_FOLDER):
+def read_printed_tables(study, provenance):
     """The printed tables of a study as a dictionary from content to PrintedTable.
 
     The provenance may choose them (`printed_values`: table numbers or paths); without that key the
     tables are those listed for a study of this name. Empty if there is nothing to compare with.
     """
-    folder = Path(folder)
+    folder = thesis_folder()
     index = folder / "tables.csv"
     if not index.exists():
         return {}
@@ -59,7 +58,7 @@ def is_chosen(entry, study, chosen):
     numbers = {str(name).removeprefix("table_").replace("_", ".") for name in chosen}
     # A folder stands for all of its tables that belong to the study.
     return (Path(entry["file"]).stem in names or entry["table"] in numbers
-            or (THESIS_FOLDER.name in names and entry["study"] == study))
+            or (THESIS.name in names and entry["study"] == study))
 
 
 def comparison_notes(table, results):

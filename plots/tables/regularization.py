@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from ..results.printed_values import THESIS_FOLDER
+from ..results.data_folder import thesis_folder
 from ..results.regularization import whole
 from ..results.rows import groups_of, read_rows
 from ..results.symbols import Heading
@@ -22,7 +22,7 @@ def least_mean(rows):
 
 def printed_numbers():
     """(quantity, element, transformation, start) -> the number as printed."""
-    rows = read_rows(THESIS_FOLDER / "chapter_3.csv",
+    rows = read_rows(thesis_folder() / "chapter_3.csv",
                      ("quantity", "element", "transformation", "start", "printed")).records()
     return {(r["quantity"], r["element"], r["transformation"], r["start"]): r["printed"] for r in rows}
 

@@ -11,7 +11,8 @@ from plots.claims.check import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, cases_of,
 from plots.claims.expressions import Missing, evaluate
 from plots.claims.report import claims_as_markdown
 from plots.claims.values import TRAJECTORY, Values
-from plots.results.printed_values import THESIS_FOLDER, read_printed_tables
+from plots.results.data_folder import thesis_folder
+from plots.results.printed_values import read_printed_tables
 from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import change_provenance, results_row, write_csv, write_results
 from plots.tests.synthetic_volume import write_volume_results
@@ -91,7 +92,7 @@ class Verdicts(InFolder):
 
 def all_claims():
     """The claims about all studies."""
-    return json.loads((THESIS_FOLDER / "claims.json").read_text(encoding="utf-8"))
+    return json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8"))
 
 
 class Trajectories(InFolder):

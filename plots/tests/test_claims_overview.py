@@ -4,20 +4,20 @@
 import unittest
 
 from plots.claims.check import FAILS, HOLDS
-from plots.claims.overview import (BEGIN, END, README, REFERENCE, outcomes_of, overview,
+from plots.claims.overview import (BEGIN, END, outcomes_of, overview, readme, reference,
                                    with_overview)
 from plots.results.rows import ResultsError
 
 
 class Overview(unittest.TestCase):
     def test_it_is_made_from_the_results_there_are(self):
-        text = README.read_text(encoding="utf-8")
-        self.assertEqual(text, with_overview(text, overview(REFERENCE)),
+        text = readme().read_text(encoding="utf-8")
+        self.assertEqual(text, with_overview(text, overview(reference())),
                          "run python3 -m plots.claims.overview")
 
     def test_every_claim_has_a_row_with_its_verdict(self):
-        made = overview(REFERENCE)
-        for folder in REFERENCE.iterdir():
+        made = overview(reference())
+        for folder in reference().iterdir():
             _, outcomes = outcomes_of(folder)
             self.assertTrue(outcomes, folder)
             for outcome in outcomes:

@@ -4,7 +4,8 @@
 import math
 from fnmatch import fnmatchcase
 
-from plots.results.printed_values import THESIS_FOLDER, read_printed_tables
+from plots.results.data_folder import thesis_folder
+from plots.results.printed_values import read_printed_tables
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
 from plots.tables.formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
@@ -148,9 +149,9 @@ class PrintedValues(InFolder):
             self.assertEqual(set(read_printed_tables("own", {"printed_values": [chosen]})), {"smoothing"})
 
     def test_deviations_name_rows_that_are_printed(self):
-        index = read_rows(THESIS_FOLDER / "tables.csv").records()
-        for note in read_rows(THESIS_FOLDER / "deviations.csv").records():
+        index = read_rows(thesis_folder() / "tables.csv").records()
+        for note in read_rows(thesis_folder() / "deviations.csv").records():
             files = [entry["file"] for entry in index if fnmatchcase(entry["table"], note["table"])]
-            rows = [row for name in files for row in read_rows(THESIS_FOLDER / name).records()]
+            rows = [row for name in files for row in read_rows(thesis_folder() / name).records()]
             keys = [key for key in ("mesh", "degree", "method") if note[key] != "*"]
             self.assertTrue(any(all(row.get(key) == note[key] for key in keys) for row in rows), note)
