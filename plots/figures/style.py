@@ -14,6 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot  # noqa: E402  (the backend has to be chosen first)
 import matplotlib.ticker  # noqa: E402,F401
 
+from ..results.cell_types import ANY_CELL  # noqa: E402
 from ..results.smoothing import INITIAL  # noqa: E402
 from ..results.write_files import write_atomically  # noqa: E402
 
@@ -41,7 +42,7 @@ FILL_COLOUR, OUTLINE_COLOUR = "#dbe7f0", "0.15"
 # A type of elements has the same colour in every figure.
 ELEMENT_COLOURS = {"triangle": "#0072B2", "quadrilateral": "#E69F00", "polygon": "#009E73",
                    "tetrahedron": "#0072B2", "hexahedron": "#E69F00", "prism": "#009E73",
-                   "pyramid": "#CC79A7"}
+                   "pyramid": "#CC79A7", ANY_CELL: "0.6"}
 
 
 @dataclass(frozen=True)

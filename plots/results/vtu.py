@@ -41,7 +41,7 @@ class UnstructuredGrid:
     @property
     def has_polygons(self):
         """Whether every cell is a triangle, quadrilateral or polygon."""
-        return bool(np.isin(self.types, PLANAR_CELL_TYPES).all())
+        return bool(np.isin(self.types, list(PLANAR_CELL_TYPES)).all())
 
     @property
     def is_volume(self):
