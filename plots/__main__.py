@@ -42,7 +42,7 @@ def parse_histogram(arguments):
 
 
 def make_study(options):
-    """Makes the tables and figures of a study; throws ResultsError or OSError."""
+    """Makes the tables and figures of a study; raises ResultsError or OSError."""
     def tell(text):
         if not options.quiet:
             print(text)
@@ -63,7 +63,7 @@ def make_study(options):
 
 
 def make_histogram(options):
-    """Draws a histogram; throws ResultsError or OSError."""
+    """Draws a histogram; raises ResultsError or OSError."""
     # Matplotlib takes a second to load.
     from .figures.quality_histogram import SUFFIXES, write_quality_histogram
 

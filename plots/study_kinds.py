@@ -67,7 +67,7 @@ KINDS = {"smoothing": smoothing_outputs, "polygons": polygon_outputs,
 
 
 def outputs_of(folder):
-    """Reads a results folder of any kind; throws ResultsError with one sentence on what is wrong."""
+    """Reads a results folder of any kind; raises ResultsError with one sentence on what is wrong."""
     provenance = read_provenance(Path(folder) / "provenance.json")
     parameters = provenance.get("parameters")
     kind = parameters.get("kind", "smoothing") if isinstance(parameters, dict) else "smoothing"

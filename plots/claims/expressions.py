@@ -17,7 +17,7 @@ class Missing(Exception):
 
 def evaluate(text, names, call):
     """The value of an expression. `names` maps names to values; `call(name, arguments)` evaluates
-    functions and may throw Missing. Throws Missing for a division by zero and for NaN, ValueError
+    functions and may raise Missing. Raises Missing for a division by zero and for NaN, ValueError
     for anything that is not arithmetic."""
 
     def value_of(node):

@@ -86,12 +86,12 @@ def after_iterations(rows, column, mesh, method, degree, n):
     return last(values[early])
 
 
-def after_share_of_time(rows, column, mesh, method, degree, share):
-    """The number when this share of the smoothing time is over, linear between iterations."""
+def after_share_of_time(rows, column, mesh, method, degree, fraction):
+    """The number when this fraction of the smoothing time is over, linear between iterations."""
     rows, values = trajectory(rows, column, mesh, method, degree)
     seconds = rows.number("smoothing_seconds")
     finite = np.isfinite(values)
-    return np.interp(float(share) * seconds[-1], seconds[finite], values[finite])
+    return np.interp(float(fraction) * seconds[-1], seconds[finite], values[finite])
 
 
 def highest(rows, column, mesh, method, degree, stage=None):
@@ -172,8 +172,8 @@ def in_first_stage(rows):
 
 
 def require_all_iterations(rows):
-    """Throws Missing if there are no iterations, or if not each one of the first stage is recorded:
-    what happened in between is not known then. (Later stages may count many steps a row.)"""
+    """Raises Missing if there are no iterations, or if not each one of the first stage is recorded:
+    what happened in between is not known then. (Later stages may count many steps per row.)"""
     numbers = rows.number("iteration")[in_first_stage(rows)]
     if not len(numbers) or numbers[0] > 1 or (np.diff(numbers) > 1).any():
         raise Missing("a record of every iteration")

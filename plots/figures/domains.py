@@ -37,25 +37,12 @@ def draw_domains(results):
     slowest = np.floor(10 * results.domains.number("convergence").min()) / 10
     for (left, right), ((n,), part) in zip(axes, parts):
         inside = part.select(line="")
-        domains = np.array([int(name[2:]) for name in inside.text("domain")])
-        theta, lam, index = grid_of(inside, domains)
-        colours = ListedColormap([DOMAIN_COLOURS[k % len(DOMAIN_COLOURS)]
-                                  for k in range(domains.max() + 1)])
-        left.pcolormesh(theta, lam, index, cmap=colours, vmin=-0.5, vmax=domains.max() + 0.5,
-                        shading="nearest", rasterized=True)
-        for k in range(domains.max() + 1):
-            name_domain(left, theta, lam, index == k, domain_text(f"D_{k}"), colours(k))
-        mesh = right.pcolormesh(theta, lam, grid_of(inside, inside.number("convergence"))[2],
+        colour_domains(left, inside)
+        mesh = right.pcolormesh(*grid_of(inside, inside.number("convergence")),
                                 cmap=style.SOLUTION_MAP, vmin=slowest, vmax=1, shading="nearest",
                                 rasterized=True)
-        for (line,), points in groups_of(part, "line"):
-            if line:
-                dominant = int(line) % 2 == 1
-                order = np.argsort(points.number("theta"))
-                for ax, colour in ((left, "black"), (right, "white")):
-                    ax.plot(points.number("theta")[order], points.number("lambda")[order],
-                            color=colour, linewidth=0.9 if dominant else 0.5,
-                            linestyle="-" if dominant else (0, (2, 2)))
+        draw_lines(left, part, "black")
+        draw_lines(right, part, "white")
         left.set_ylabel(rf"$\lambda$  ($n={n}$)")
     for ax in axes.flat:
         ax.grid(False)
@@ -68,6 +55,28 @@ def draw_domains(results):
     axes[0][1].set_title("Next eigenvalue / dominant one")
     figure.colorbar(mesh, cax=figure.add_axes((0.92, 0.4 / height, 0.02, 1 - 0.62 / height)))
     return figure
+
+
+def colour_domains(ax, rows):
+    """The domains of a full grid with their names."""
+    domains = np.array([int(name[2:]) for name in rows.text("domain")])
+    theta, lam, index = grid_of(rows, domains)
+    colours = ListedColormap([DOMAIN_COLOURS[k % len(DOMAIN_COLOURS)]
+                              for k in range(domains.max() + 1)])
+    ax.pcolormesh(theta, lam, index, cmap=colours, vmin=-0.5, vmax=domains.max() + 0.5,
+                  shading="nearest", rasterized=True)
+    for k in range(domains.max() + 1):
+        name_domain(ax, theta, lam, index == k, domain_text(f"D_{k}"), colours(k))
+
+
+def draw_lines(ax, rows, colour):
+    """The lines on which two eigenvalues have the same size, those of the dominant ones solid."""
+    for (line,), points in groups_of(rows, "line"):
+        if line:
+            dominant = int(line) % 2 == 1
+            order = np.argsort(points.number("theta"))
+            ax.plot(points.number("theta")[order], points.number("lambda")[order], color=colour,
+                    linewidth=0.9 if dominant else 0.5, linestyle="-" if dominant else (0, (2, 2)))
 
 
 def name_domain(ax, theta, lam, mask, text, colour):

@@ -12,7 +12,7 @@ from .meshes import draw_blocks
 from .render import render
 from .sections import DETAIL_ASPECT, cuts_of, pixels_of, section_scene, show, shows_edges, views_of
 
-WHITE_SHARE = 0.35  # of the colours: lighter ones let edges be seen
+WHITE_FRACTION = 0.35  # of the colours: lighter ones let edges be seen
 
 
 def is_mixed(grid):
@@ -21,7 +21,7 @@ def is_mixed(grid):
 
 
 def draw_element_types(blocks, normal=None):
-    """A figure with a row for each mesh; throws NoDisplay if nothing can be rendered.
+    """A figure with a row for each mesh; raises NoDisplay if nothing can be rendered.
 
     `blocks` is a list of (title, [(panel title, grid), ...]); each grid is shown as a whole and in
     detail. `normal` of the cut as in draw_sections.
@@ -50,7 +50,7 @@ def draw_element_types(blocks, normal=None):
 def light_colour(cell_type):
     """The colour of a type, mixed with white; red, green and blue from 0 to 1."""
     colour = np.array(to_rgb(style.ELEMENT_COLOURS[VOLUME_CELL_TYPES[cell_type]]))
-    return (1 - WHITE_SHARE) * colour + WHITE_SHARE
+    return (1 - WHITE_FRACTION) * colour + WHITE_FRACTION
 
 
 def type_colours(grid):

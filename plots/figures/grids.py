@@ -20,7 +20,7 @@ def read_grids(results, report):
 
 
 def sorted_grids(results, report):
-    """The same; throws NoVtk."""
+    """The same; raises NoVtk."""
     planar, volume, surface, missing, unknown = {}, {}, {}, [], []
     for mesh in results.meshes:
         for method in (INITIAL, *results.methods):

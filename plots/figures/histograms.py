@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib.ticker import StrMethodFormatter
 
 from ..results.smoothing import INITIAL
-from .history import FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size, method_order
+from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
+                       styles_in_order)
 
 BINS = 50
 # The thesis says of Fig. 5.33 at which qualities the differences are largest: 0.72, 0.92 and 0.98,
@@ -57,7 +58,7 @@ def draw_histogram_differences(results, pairs, qualities):
 def panels(results, meshes, qualities, markers):
     """(figure, axes, styles of the methods): empty panels side by side below a legend."""
     present = {method for _, method in qualities}
-    styles = {name: look for name, look in method_order(results).items() if name in present}
+    styles = {name: look for name, look in styles_in_order(results).items() if name in present}
     width, height = figure_size(1, len(meshes))
     height += 0.35
     figure, axes = pyplot.subplots(1, len(meshes), squeeze=False, figsize=(width, height))

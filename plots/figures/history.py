@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figure 6.4 of the thesis: mesh quality and solution errors against smoothing time."""
 
-import math
-
 import matplotlib.pyplot as pyplot
 import numpy as np
-from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from ..results.smoothing import INITIAL
 from ..results.symbols import SYMBOLS
-from . import style
+from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
+                       styles_in_order, thin_markers)
 
 # Of the mesh, hence the same for every degree; numbers that lie between 0 and 1 have linear axes.
 QUALITY = ("q_min", "q_star_min", "q_mean", "w_mean")
@@ -25,13 +23,7 @@ LOGARITHMIC_FROM = 12.0
 # then a linear time axis ends at so many times the second longest time, and says when that one ends.
 DOMINANT_FROM, SHOWN_OF_DOMINANT = 20.0, 5.0
 
-# Inches: the titles of the columns, the time axis, and a row of panels with the gap below it.
-HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.4, 1.72
 LABEL_DISTANCE = 0.36  # inches from the axis to its label
-
-INITIAL_DASHES = (1, 2)
-MARKER_SIZE = 2.8
-MARKER_DISTANCE = 3.5  # points between the markers of one line that are drawn
 
 
 def draw_history(results, columns, degree, log_time=False, meshes=None):
@@ -48,16 +40,8 @@ def draw_history(results, columns, degree, log_time=False, meshes=None):
                       for _, v in lines[name, mesh].values())]
     if not columns:
         return None
-    width, height = figure_size(len(columns), len(meshes))
-    figure, axes = pyplot.subplots(len(columns), len(meshes), squeeze=False, sharex="col",
-                                   figsize=(width, height))
-    styles = method_order(results)
-    legend_height = draw_legend(figure, results, styles)
-    figure.set_figheight(height + legend_height)
-    height += legend_height
-    figure.subplots_adjust(left=0.6 / width, right=1 - 0.1 / width, bottom=FOOT / height,
-                           top=1 - (HEAD + legend_height) / height, hspace=0.1,
-                           wspace=0.52 * len(meshes) / width)
+    styles = styles_in_order(results)
+    figure, axes = empty_panels(results, styles, len(columns), len(meshes))
     for letter, row, name in zip("abcdefghij", axes, columns):
         logarithmic = name not in LINEAR and any(
             spans_magnitudes(finite_values(lines[name, mesh])) for mesh in meshes)
@@ -67,12 +51,13 @@ def draw_history(results, columns, degree, log_time=False, meshes=None):
             scale_values(ax, finite_values(lines[name, mesh]), logarithmic)
             if dominant:
                 seconds, values = lines[name, mesh][dominant]
-                write_into_free_place(ax, f"{results.title(dominant)} ends after {seconds[-1]:.3g} s "
+                annotate_free_area(ax, f"{results.title(dominant)} ends after {seconds[-1]:.3g} s "
                                           f"at {values[-1]:.3g}")
         row[0].set_ylabel(f"({letter})  {SYMBOLS[name].tex}"
                           + (f"  ($d={degree}$)" if name not in QUALITY else ""))
         # A fixed distance aligns the labels of all rows, whatever their ticks are.
-        row[0].yaxis.set_label_coords(-LABEL_DISTANCE / (row[0].get_position().width * width), 0.5)
+        row[0].yaxis.set_label_coords(
+            -LABEL_DISTANCE / (row[0].get_position().width * figure.get_figwidth()), 0.5)
     for ax, mesh in zip(axes[0], meshes):
         ax.set_title(results.title(mesh))
     for ax in axes[-1]:
@@ -81,16 +66,18 @@ def draw_history(results, columns, degree, log_time=False, meshes=None):
     return figure
 
 
-def figure_size(n_rows, n_columns):
-    """Width and height in inches, without the legend; up to three columns can be read."""
-    width = style.FULL_WIDTH if n_columns > 1 else 1.3 * style.SINGLE_WIDTH
-    return width, HEAD + FOOT + PANEL_HEIGHT * n_rows
-
-
-def method_order(results):
-    """Styles of the methods in the order of the study; the initial mesh has a line of its own."""
-    styles = style.method_styles(results.methods)
-    return {method: styles[method] for method in (*results.methods, INITIAL)}
+def empty_panels(results, styles, n_rows, n_columns):
+    """(figure, axes (n_rows, n_columns)) below a legend of the methods with these styles."""
+    width, height = figure_size(n_rows, n_columns)
+    figure, axes = pyplot.subplots(n_rows, n_columns, squeeze=False, sharex="col",
+                                   figsize=(width, height))
+    legend_height = draw_legend(figure, results, styles)
+    height += legend_height
+    figure.set_figheight(height)
+    figure.subplots_adjust(left=0.6 / width, right=1 - 0.1 / width, bottom=FOOT / height,
+                           top=1 - (HEAD + legend_height) / height, hspace=0.1,
+                           wspace=0.52 * n_columns / width)
+    return figure, axes
 
 
 def panel_lines(results, name, mesh, degree):
@@ -145,7 +132,7 @@ def dominant_method(lines):
     return ends[-1][1], SHOWN_OF_DOMINANT * ends[-2][0]
 
 
-def write_into_free_place(ax, sentence):
+def annotate_free_area(ax, sentence):
     """Writes at the right of a panel at the height that is farthest from all lines there."""
     points = np.concatenate([line.get_transform().transform(line.get_xydata())
                              for line in ax.get_lines()])
@@ -182,7 +169,7 @@ def scale_values(ax, values, logarithmic):
         ax.set_yscale("log")
         label_logarithmic(ax, values.min(), values.max())
     else:
-        # A little room below: lowest qualities are often as good as zero and would lie on the axis.
+        # A small margin below: lowest qualities are often as good as zero and would lie on the axis.
         ax.set_ylim(min(0.0, values.min()) - 0.03 * high, 1.06 * high)
 
 
@@ -198,50 +185,3 @@ def label_logarithmic(ax, low, high):
         ax.tick_params(axis="y", which="minor", labelsize=8)
     else:
         ax.yaxis.set_minor_formatter(NullFormatter())
-
-
-def draw_legend(figure, results, styles, markers=True):
-    """The legend of all panels, above them, in as few lines as fit; returns its height in inches."""
-    handles = []
-    for method, look in styles.items():
-        handle = Line2D([], [], color=look.colour, marker=(look.marker or None) if markers else None,
-                        markersize=MARKER_SIZE + 0.8, markerfacecolor=look.marker_fill)
-        handle.set_label("Initial mesh" if method == INITIAL else results.title(method))
-        if method == INITIAL:
-            handle.set_linewidth(0.8)
-            handle.set_dashes(INITIAL_DASHES)
-        elif look.dashes:
-            handle.set_dashes(look.dashes)
-        handles.append(handle)
-    for n_lines in range(1, len(handles) + 1):
-        per_line = math.ceil(len(handles) / n_lines)  # lines of about the same length
-        legend = figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0),
-                               ncol=per_line, columnspacing=1.2, handlelength=2.9,
-                               handletextpad=0.5, borderaxespad=0.1)
-        extent = legend.get_window_extent(figure.canvas.get_renderer())
-        if extent.width <= 0.99 * figure.bbox.width or per_line == 1:
-            return extent.height / figure.dpi
-        legend.remove()
-    return 0.0
-
-
-def thin_markers(figure):
-    """Leaves out markers that would touch the last one drawn; the lines keep all their points."""
-    distance = MARKER_DISTANCE * figure.dpi / 72
-    for ax in figure.axes:
-        ax.get_xlim(), ax.get_ylim()  # asking brings the limits, hence transData, up to date
-        for line in ax.get_lines():
-            if line.get_marker() in ("", "None", None):
-                continue
-            points = ax.transData.transform(line.get_xydata())
-            kept, last = [], None
-            for i, point in enumerate(points):
-                if np.isfinite(point).all() and (last is None or np.hypot(*(point - last)) >= distance):
-                    kept.append(i)
-                    last = point
-            finite = np.flatnonzero(np.isfinite(points).all(axis=1))
-            if len(finite) and kept[-1] != finite[-1]:
-                # The last iteration is always marked, for that the marker before it may go.
-                near = len(kept) > 1 and np.hypot(*(points[finite[-1]] - points[kept[-1]])) < distance
-                kept = (kept[:-1] if near else kept) + [finite[-1]]
-            line.set_markevery([int(i) for i in kept])

@@ -63,7 +63,7 @@ def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None, draw_foot=N
     total = np.dot(rows, heights + CAPTION) + len(blocks) * BLOCK_TITLE + FOOT
     figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
 
-    def place(column, top, height):
+    def add_axes(column, top, height):
         return figure.add_axes([(gap + column * (width + gap)) / style.FULL_WIDTH,
                                 (top - height) / total, width / style.FULL_WIDTH, height / total])
     top = total
@@ -71,7 +71,7 @@ def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None, draw_foot=N
         figure.text(0.5, (top - 0.7 * BLOCK_TITLE) / total, title, ha="center", fontsize=10)
         top -= BLOCK_TITLE
         for i in range(n_rows * columns):
-            axes = place(i % columns, top - i // columns * (height + CAPTION), height)
+            axes = add_axes(i % columns, top - i // columns * (height + CAPTION), height)
             if i < len(panels):
                 draw_panel(axes, panels[i][1], number)
                 caption(axes, panels[i][0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which meshes of a study share a figure, so that it fits a page."""
+"""Which meshes of a study are drawn in one figure, so that it fits a page."""
 
 from .meshes import rows_of_panels
 

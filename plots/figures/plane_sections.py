@@ -23,7 +23,7 @@ def is_coarse(grid):
 
 def draw_plane_sections(title, panels):
     """A figure of one mesh: a row of whole meshes from outside, and one for each of the planes through
-    the middle across x, y and z. Throws NoDisplay if nothing can be rendered.
+    the middle across x, y and z. Raises NoDisplay if nothing can be rendered.
 
     `panels` is a list of (panel title, grid or None), None for a mesh that is missing.
     """

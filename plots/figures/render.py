@@ -45,7 +45,7 @@ class Scene:
     plain_colour: tuple = (0.80, 0.86, 0.90)
     cell_edges: bool = False  # of the coloured faces
     feature_edges: bool = False
-    ambient: float = 0.45  # share of a colour that does not depend on the light
+    ambient: float = 0.45  # fraction of a colour that does not depend on the light
 
 
 def render(scenes):
@@ -80,7 +80,7 @@ def draw_scene(scene):
     width, height = (SUPERSAMPLING * n for n in scene.pixels)
     for actor in actors_of(scene):
         renderer.AddActor(actor)
-    place_camera(renderer, scene.view)
+    set_camera(renderer, scene.view)
     light = vtkLight()
     light.SetLightTypeToCameraLight()
     light.SetPosition(*LIGHT)
@@ -197,7 +197,7 @@ def line_actor(lines):
     return actor
 
 
-def place_camera(renderer, view):
+def set_camera(renderer, view):
     """Parallel projection of the view's rectangle."""
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()

@@ -38,8 +38,8 @@ def section(grid, cut):
         tails, heads = (grid.connectivity[starts + np.array(nodes)] for nodes in zip(*edges))
         is_cut = (heights[tails] > 0) != (heights[heads] > 0)
         below = np.where(is_cut, heights[tails] - heights[heads], 1.0)
-        share = (heights[tails] / below)[..., None]
-        corners = (1 - share) * flat[tails] + share * flat[heads]
+        fraction = (heights[tails] / below)[..., None]
+        corners = (1 - fraction) * flat[tails] + fraction * flat[heads]
         counts = is_cut.sum(axis=1)
         middles = np.where(is_cut[..., None], corners, 0.0).sum(axis=1) / counts[:, None]
         x, y = np.moveaxis(corners - middles[:, None], -1, 0)

@@ -20,7 +20,7 @@ AMBIENT = 0.78  # bright enough to find the colours in the colour bar, shaded en
 
 
 def draw_sections(blocks, detail=False, normal=None):
-    """A figure with a block of panels for each mesh; throws NoDisplay if nothing can be rendered.
+    """A figure with a block of panels for each mesh; raises NoDisplay if nothing can be rendered.
 
     `blocks` is a list of (title, [(panel title, grid or None), ...]), None for a mesh that is
     missing. `normal` of the cut, or None for the cut that crosses most cells.

@@ -133,7 +133,7 @@ def figure_settings(results):
 
 
 def blocks_of(results, grids):
-    """Mesh -> (title, panels), one a method."""
+    """Mesh -> (title, panels), one per method."""
     return {mesh: (results.title(mesh), [(results.title(method), grid)
                                          for (name, method), grid in grids.items() if name == mesh])
             for mesh in dict.fromkeys(mesh for mesh, _ in grids)}

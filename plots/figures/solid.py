@@ -16,7 +16,7 @@ MARGIN, BAR, CAPTION = 0.08, 0.62, 0.24
 
 
 def draw_solid(grid):
-    """A figure of the solid (a) and of the point data `exact_solution` on it (b); throws NoDisplay
+    """A figure of the solid (a) and of the point data `exact_solution` on it (b); raises NoDisplay
     if nothing can be rendered."""
     width = 0.5 * (style.FULL_WIDTH - 3 * MARGIN - BAR)
     view = view_of(grid.points, MODEL_DIRECTION)
@@ -32,15 +32,15 @@ def draw_solid(grid):
                                     ambient=0.7)])
     figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
 
-    def place(left, bottom, breadth, tall):
+    def add_axes(left, bottom, breadth, tall):
         return figure.add_axes([left / style.FULL_WIDTH, bottom / total, breadth / style.FULL_WIDTH,
                                 tall / total])
     for i, (picture, text) in enumerate(zip(pictures, ("(a) Model", "(b) Exact solution $u$"))):
-        axes = place(MARGIN + i * (width + MARGIN), CAPTION, width, height)
+        axes = add_axes(MARGIN + i * (width + MARGIN), CAPTION, width, height)
         axes.imshow(picture, aspect="auto")
         axes.axis("off")
         axes.annotate(text, (0.5, 0), (0, -10), "axes fraction", "offset points", ha="center")
-    bar = figure.colorbar(ScalarMappable(scale, style.SOLUTION_MAP), cax=place(
+    bar = figure.colorbar(ScalarMappable(scale, style.SOLUTION_MAP), cax=add_axes(
         3 * MARGIN + 2 * width, CAPTION + 0.1 * height, 0.13, 0.76 * height))
     bar.outline.set_linewidth(0.5)
     bar.ax.set_title("$u$", pad=5)

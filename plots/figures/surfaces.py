@@ -12,7 +12,7 @@ DIRECTION = (-0.35, -1.0, 1.1)
 
 
 def draw_surfaces(blocks):
-    """A figure with a block of panels for each mesh; throws NoDisplay if nothing can be rendered.
+    """A figure with a block of panels for each mesh; raises NoDisplay if nothing can be rendered.
 
     `blocks` is a list of (title, [(panel title, grid), ...]).
     """

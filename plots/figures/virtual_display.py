@@ -31,7 +31,7 @@ def virtual_display():
 
 
 def started_server():
-    """The server, ready to draw; throws NoDisplay."""
+    """The server, ready to draw; raises NoDisplay."""
     if shutil.which("Xvfb") is None:
         raise NoDisplay("Xvfb is not installed; install the Debian package xvfb")
     try:

@@ -28,7 +28,7 @@ class View:
         return replace(self, centre=tuple(centre), width=width, height=width / aspect)
 
     def fitted(self, aspect):
-        """The same view with some room on two sides, so that width / height is `aspect`."""
+        """The same view with a margin on two sides, so that width / height is `aspect`."""
         return replace(self, width=max(self.width, self.height * aspect),
                        height=max(self.height, self.width / aspect))
 
@@ -62,9 +62,9 @@ def view_of(points, direction, margin=0.02):
     low, high = coordinates.min(axis=0), coordinates.max(axis=0)
     middle = 0.5 * (low + high)
     width, height, depth = high - low
-    room = 2 * margin * max(width, height)
+    margins = 2 * margin * max(width, height)
     return View(tuple(middle[0] * right + middle[1] * up + middle[2] * towards), tuple(towards),
-                tuple(up), width + room, height + room, 2 * (width + height + depth))
+                tuple(up), width + margins, height + margins, 2 * (width + height + depth))
 
 
 def cell_centres(grid):
@@ -107,8 +107,8 @@ class Cut:
         """The length of edges that cells on nine tenths of the cut's area exceed: on graded meshes
         most of what is seen are a few large cells."""
         lengths = np.sort(self.edge_lengths(grid))
-        shares = np.cumsum(lengths**2) / np.sum(lengths**2)
-        return float(lengths[np.searchsorted(shares, 0.1)])
+        fractions = np.cumsum(lengths**2) / np.sum(lengths**2)
+        return float(lengths[np.searchsorted(fractions, 0.1)])
 
     def densest_window(self, grid, view, cells_across):
         """(centre, width) of the window of so many cells that holds most of the cells that are cut,
@@ -118,7 +118,7 @@ class Cut:
         width = min(cells_across * cell, LARGEST_DETAIL * min(view.width, view.height))
         middles = cell_centres(grid)[self.crossed(grid)]
         flat = view.flattened(middles)
-        # Some hundreds of candidates are enough to find a place that is filled.
+        # Some hundreds of candidates are enough to find an area that is filled.
         candidates = np.arange(0, len(flat), max(1, len(flat) // 400))
         inside = [(np.abs(flat - flat[i]) < 0.5 * width).all(axis=1) for i in candidates]
         return middles[max(inside, key=np.count_nonzero)].mean(axis=0), width

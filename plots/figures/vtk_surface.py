@@ -24,7 +24,7 @@ def faces_of(surface):
 
 
 def face_keys(surface, n_points):
-    """A number for each face that two faces of one grid share only if they have the same nodes."""
+    """A number for each face that two faces of one grid have in common only if they have the same nodes."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     nodes, offsets = faces_of(surface)

@@ -13,7 +13,7 @@ THESIS = Path("studies", "thesis")  # what the folder has
 def data_folder():
     """The folder above studies/thesis: that which the environment variable SMOOTHFEM_DATA names, else
     the one above this package (the repository, or share/smoothfem of an installation), else
-    share/smoothfem of the prefix that this package is installed under. Throws ResultsError if there is
+    share/smoothfem of the prefix that this package is installed under. Raises ResultsError if there is
     none."""
     chosen = os.environ.get("SMOOTHFEM_DATA")
     if chosen:

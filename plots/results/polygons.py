@@ -38,7 +38,7 @@ class PolygonResults:
 
 
 def read_polygon_results(folder):
-    """Reads the folder; throws ResultsError if a file is missing, truncated or lacks a column."""
+    """Reads the folder; raises ResultsError if a file is missing, truncated or lacks a column."""
     folder = Path(folder)
     files = {name: read_rows(folder / f"{name}.csv", columns)
              for name, columns in REQUIRED_COLUMNS.items()}

@@ -30,7 +30,7 @@ class QualityHistogram:
 def read_quality_histogram(path, title, q_min=None, q_mean=None, n_invalid=0):
     """Reads a CSV file with a row for each bin: `lower` and `upper` mean ratio, `count` of the cells in
     between. Where there is a column `cell_type` (triangle, ..., pyramid), a bin has a row for each of the
-    types. Throws ResultsError if these are no bins and counts."""
+    types. Raises ResultsError if these are no bins and counts."""
     if not Path(path).exists():
         raise ResultsError(f"{path}: the file is missing.")
     rows = read_rows(path, COLUMNS)
@@ -54,6 +54,6 @@ def read_quality_histogram(path, title, q_min=None, q_mean=None, n_invalid=0):
 
 
 def refuse_unless(condition, rows, what):
-    """Throws ResultsError with what is wrong with a file."""
+    """Raises ResultsError with what is wrong with a file."""
     if not condition:
         raise ResultsError(f"{rows.path}: the file {what}.")

@@ -21,7 +21,7 @@ class RegularizationResults:
 
 
 def read_regularization_results(folder):
-    """Reads the folder; throws ResultsError if a file is missing, truncated or lacks a column."""
+    """Reads the folder; raises ResultsError if a file is missing, truncated or lacks a column."""
     folder = Path(folder)
     provenance = read_provenance(folder / "provenance.json")
     title = str(provenance.get("study_title") or folder.resolve().name)

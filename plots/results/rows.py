@@ -48,7 +48,7 @@ class Rows:
 
 
 def read_rows(path, required=()):
-    """Reads a CSV file with a header line; throws ResultsError if it is missing, truncated or lacks a
+    """Reads a CSV file with a header line; raises ResultsError if it is missing, truncated or lacks a
     required column."""
     path = Path(path)
     try:

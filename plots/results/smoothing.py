@@ -62,7 +62,7 @@ class Results:
 
 def read_results(folder):
     """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv and
-    provenance.json may be absent. Throws ResultsError with one sentence on what is wrong."""
+    provenance.json may be absent. Raises ResultsError with one sentence on what is wrong."""
     folder = Path(folder)
     if not folder.is_dir():
         raise ResultsError(f"{folder}: there is no such folder.")

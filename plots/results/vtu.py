@@ -54,7 +54,7 @@ class UnstructuredGrid:
 
 
 def vtk_module(name):
-    """A module of VTK's Python package, imported when it is needed: that takes a moment. Throws NoVtk."""
+    """A module of VTK's Python package, imported when it is needed, since that takes a moment. Raises NoVtk."""
     try:
         return importlib.import_module(f"vtkmodules.{name}")
     except ImportError as error:
@@ -63,7 +63,7 @@ def vtk_module(name):
 
 
 def read_vtu(path):
-    """Reads an unstructured grid of at least one cell; throws ResultsError if the file is missing,
+    """Reads an unstructured grid of at least one cell; raises ResultsError if the file is missing,
     truncated or of another kind, NoVtk if there is nothing to read it with."""
     path = Path(path)
     if not path.is_file():

@@ -17,14 +17,14 @@ class Measure:
     heading: Heading
     format: Optional[Callable]  # None: the field as it stands in the file
     difference: bool = True  # whether a relative difference from the print makes sense
-    usual: tuple = ()  # the column is left out where all fields are one of these
+    unremarkable: tuple = ()  # the column is left out where all fields are one of these
     if_printed: bool = False  # the column is left out where the print has none
     detail: bool = False  # the same where the table of details stands beside this one
     ranks_methods: bool = True  # whether the methods' order by it is compared with the printed one
 
     def numbers(self, fields):
         """The fields of a column of a CSV file as numbers (None if they are shown as they stand) and
-        as the table shows them. Throws ResultsError if one is no number."""
+        as the table shows them. Raises ResultsError if one is no number."""
         if self.format is None:
             return None, [field or form.MISSING for field in fields]
         try:
@@ -67,7 +67,7 @@ SMOOTHING = TableDescription(
         Measure("q_min", SYMBOLS["q_min"], form.format_quality),
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality, detail=True),
         Measure("q_mean", SYMBOLS["q_mean"], form.format_quality),
-        Measure("n_invalid", INVALID, form.format_integer, usual=("0",), detail=True)))
+        Measure("n_invalid", INVALID, form.format_integer, unremarkable=("0",), detail=True)))
 
 WARPAGE = TableDescription(
     content="warpage", source="summary", keys=("mesh", "method"), degree_independent=True,
@@ -111,18 +111,18 @@ DETAILS = TableDescription(
     needs="n_dofs",
     measures=(
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality),
-        Measure("n_invalid", INVALID, form.format_integer, usual=("0",)),
+        Measure("n_invalid", INVALID, form.format_integer, unremarkable=("0",)),
         Measure("n_dofs", Heading("Dofs", "Dofs"), form.format_integer),
         Measure("lambda_min", SYMBOLS["lambda_min"], form.format_scientific),
         Measure("lambda_max", SYMBOLS["lambda_max"], form.format_scientific),
         Measure("condition_residual", Heading("Eigen residual", "Eigen residual"),
                 form.format_scientific),
-        # The usual one of planar studies; where methods differ, a reader has to know.
+        # That of planar studies by default; where methods differ, a reader has to know.
         Measure("condition_method", Heading("cond(A) by", r"$\mathrm{cond}(A)$ by"), None,
-                difference=False, usual=("lanczos+cholesky",)),
+                difference=False, unremarkable=("lanczos+cholesky",)),
         Measure("l2_error", SYMBOLS["l2_error"], form.format_error),
         Measure("h1_error", SYMBOLS["h1_error"], form.format_error),
         Measure("status", Heading("Status", "Status"), None, difference=False,
-                usual=("ok", "not solved"))))
+                unremarkable=("ok", "not solved"))))
 
 TABLES = (SMOOTHING, WARPAGE, SOLVER, ERRORS, THRESHOLDS, DETAILS)

@@ -91,7 +91,7 @@ def printed_sign(one, other):
 
 def disagreements(entries):
     """Sentences on pairs whose order is not the printed one. The method that stands wrong to most
-    others comes first, so that one that alone is out of place takes one sentence."""
+    others comes first, so that one that alone is misplaced takes one sentence."""
     wrong = [pair for pair in combinations(entries, 2) if our_sign(*pair) * printed_sign(*pair) < 0]
     sentences = []
     while wrong:

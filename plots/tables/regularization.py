@@ -38,7 +38,7 @@ def compared(heading, texts, printed):
 
 
 def make_regularization_tables(results):
-    """The fastest sigma of each series, and the shares of valid elements."""
+    """The fastest sigma of each series, and the fractions of valid elements."""
     printed = printed_numbers()
     series = groups_of(results.counts, "element", "transformation", "start")
     least = [least_mean(rows) for _, rows in series]
@@ -58,12 +58,12 @@ def make_regularization_tables(results):
                     "sigmas that made every element regular. The thesis does not say what its printed "
                     "number started from; it is the one for valid elements."),))
     elements = list(results.validity.text("element"))
-    shares = Table(
+    valid = Table(
         name="table_valid", caption=f"{results.study_title}: valid ones among random elements (%)",
         key_headings=(Heading("Element", "Element"),),
         keys=tuple((number_cell(element),) for element in elements), rules=(), left_aligned=(),
-        groups=(compared("Valid", [f"{100 * share:.2f}" for share in results.validity.number("share")],
+        groups=(compared("Valid", [f"{100 * fraction:.2f}" for fraction in results.validity.number("share")],
                          [printed.get(("valid", element, "", "")) for element in elements]),),
         notes=(("", "Nodes uniform in [-1, 1]^3. Both are random samples: with 100,000 elements the share "
                     "of 50 % has a standard deviation of 0.16."),))
-    return [fastest, shares]
+    return [fastest, valid]

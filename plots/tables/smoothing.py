@@ -143,7 +143,7 @@ def make_group(measure, pairs, notes, if_printed):
     fields = [ours.get(measure.column, "") for ours, _ in pairs]
     # None: the print has no such row or column; empty: it has, and leaves it empty.
     prints = [printed.get(measure.column) for _, printed in pairs]
-    if not any(prints) and (if_printed or all(field in ("", *measure.usual) for field in fields)):
+    if not any(prints) and (if_printed or all(field in ("", *measure.unremarkable) for field in fields)):
         return None
     values, texts = measure.numbers(fields)
     columns, subheadings = [[number_cell(text) for text in texts]], ["ours"]

@@ -170,7 +170,7 @@ class ClaimsOfTheThesis(InFolder):
                        for content, table in read_printed_tables(claim["study"], {}).items()}
             theirs = Values([row for rows in printed.values() for row in rows], [])
             for match in NUMBER_IN_NOTE.finditer(claim.get("note", "")):
-                number_of(match[2], {}, lambda *_: 1.0)  # throws if it is no arithmetic
+                number_of(match[2], {}, lambda *_: 1.0)  # raises if it is no arithmetic
                 if match[1]:
                     self.assertIsNotNone(number_of(match[2], {}, theirs), claim["id"])
 

@@ -25,13 +25,13 @@ class Overview(unittest.TestCase):
                 ending = {HOLDS: "| holds |", FAILS: "| **does not hold** |"}
                 self.assertTrue(row.endswith(ending.get(outcome.verdict, "|")), row)
 
-    def test_the_place_for_it(self):
+    def test_what_is_between_the_lines_is_replaced(self):
         text = f"before\n{BEGIN}\nold\n{END}\nafter\n"
         once = with_overview(text, "new")
         self.assertEqual(once, f"before\n{BEGIN}\n\nnew\n{END}\nafter\n")
         self.assertEqual(with_overview(once, "new"), once)
         with self.assertRaises(ResultsError):
-            with_overview("no place", "new")
+            with_overview("no lines", "new")
 
 
 if __name__ == "__main__":

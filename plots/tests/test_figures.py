@@ -9,7 +9,7 @@ import numpy as np
 
 from plots.__main__ import main
 from plots.figures import style
-from plots.figures.history import dominant_method, draw_history, write_into_free_place
+from plots.figures.history import dominant_method, draw_history, annotate_free_area
 from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
@@ -78,7 +78,7 @@ class Figures(InFolder):
             figure, axes = style.pyplot.subplots()
             axes.plot([0, 1], [height, height])
             axes.set(xlim=(0, 1), ylim=(0, 1))
-            write_into_free_place(axes, "words")
+            annotate_free_area(axes, "words")
             self.assertAlmostEqual(axes.texts[0].get_position()[1], expected)
             style.pyplot.close(figure)
 

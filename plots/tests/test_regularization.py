@@ -30,8 +30,8 @@ def write_results(folder):
                                        "1" if mean else "", "2" if mean else "", "20" if mean else "")))
                      for start in STARTS for sigma, mean in zip(SIGMAS, MEANS)]
     write_csv(folder / "regularization.csv", COUNTS, rows)
-    shares = [{"element": e, "n_elements": 10, "n_valid": 5, "share": 0.5} for e in ELEMENTS]
-    write_csv(folder / "validity.csv", list(shares[0]), shares)
+    valid = [{"element": e, "n_elements": 10, "n_valid": 5, "share": 0.5} for e in ELEMENTS]
+    write_csv(folder / "validity.csv", list(valid[0]), valid)
     (folder / "provenance.json").write_text(json.dumps(
         {"study": "r", "study_title": "R", "parameters": {"kind": "regularization"}}))
     return folder
