@@ -22,6 +22,13 @@ def imported_rooms(path):
     return found
 
 
+class Files(unittest.TestCase):
+    def test_every_file_names_its_licence(self):
+        for path in PACKAGE.rglob("*.py"):
+            self.assertTrue(path.read_text(encoding="utf-8").startswith(
+                "# SPDX-License-Identifier: GPL-3.0-or-later\n"), path)
+
+
 class Rooms(unittest.TestCase):
     def test_every_room_is_known(self):
         rooms = {path.parent.name for path in PACKAGE.glob("*/__init__.py")} - {"tests"}
