@@ -5,12 +5,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
 
-from .claims import as_markdown as claims_as_markdown, check_claims, read_claims
-from .polygon_results import read_polygon_results
-from .polygon_tables import make_polygon_tables
-from .printed_values import read_printed_tables
-from .read_results import ResultsError, read_provenance, read_results
-from .tables import make_tables
+from .claims.check import check_claims, read_claims
+from .claims.report import claims_as_markdown
+from .results.polygons import read_polygon_results
+from .results.printed_values import read_printed_tables
+from .results.regularization import read_regularization_results
+from .results.rows import ResultsError, read_provenance
+from .results.smoothing import read_results
+from .tables.polygons import make_polygon_tables
+from .tables.regularization import make_regularization_tables
+from .tables.smoothing import make_tables
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,7 @@ def smoothing_outputs(folder):
         texts["claims.md"] = claims_as_markdown(check_claims(claims, results, printed), results)
 
     def draw(report):
-        from .figures import draw_figures  # matplotlib takes a second to load
+        from .figures.smoothing_study import draw_figures  # matplotlib takes a second to load
         return draw_figures(results, report)
     return Outputs(results.folder, tuple(make_tables(results, printed)), texts, draw)
 
@@ -43,18 +47,19 @@ def polygon_outputs(folder):
     results = read_polygon_results(folder)
 
     def draw(report):
-        from .polygon_figures import draw_polygon_figures
+        from .figures.polygon_study import draw_polygon_figures
         return draw_polygon_figures(results)
     return Outputs(results.folder, tuple(make_polygon_tables(results)), {}, draw)
 
 
 def regularization_outputs(folder):
     """Of a study of the regularization of volume elements."""
-    from .regularization import (draw_regularization_figures, make_regularization_tables,
-                                 read_regularization_results)
     results = read_regularization_results(folder)
-    return Outputs(results.folder, tuple(make_regularization_tables(results)), {},
-                   lambda report: draw_regularization_figures(results))
+
+    def draw(report):
+        from .figures.regularization import draw_regularization_figures
+        return draw_regularization_figures(results)
+    return Outputs(results.folder, tuple(make_regularization_tables(results)), {}, draw)
 
 
 KINDS = {"smoothing": smoothing_outputs, "polygons": polygon_outputs,
@@ -62,7 +67,7 @@ KINDS = {"smoothing": smoothing_outputs, "polygons": polygon_outputs,
 
 
 def outputs_of(folder):
-    """Reads a results folder of any kind; throws ResultsError with one sentence on what is wrong."""
+    """Reads a results folder of any kind; raises ResultsError with one sentence on what is wrong."""
     provenance = read_provenance(Path(folder) / "provenance.json")
     parameters = provenance.get("parameters")
     kind = parameters.get("kind", "smoothing") if isinstance(parameters, dict) else "smoothing"

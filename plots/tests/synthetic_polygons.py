@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plots.polygon_results import REQUIRED_COLUMNS
+from plots.results.polygons import REQUIRED_COLUMNS
 from plots.tests.synthetic_results import write_csv
 
 
@@ -19,11 +19,11 @@ def polygon_rows(n, turns=1, size=1.0, **keys):
 
 def domain_rows(n):
     """A grid whose lower right half is D_1, and the line between."""
-    places = (np.arange(6) + 0.5) / 6
+    centres = (np.arange(6) + 0.5) / 6
     rows = [{"n": n, "line": "", "theta": 1.5 * t, "lambda": lam, "convergence": 0.5,
-             "domain": "D_1" if lam < t else "D_0"} for t in places for lam in places]
+             "domain": "D_1" if lam < t else "D_0"} for t in centres for lam in centres]
     return rows + [{"n": n, "line": line, "theta": 1.5 * t, "lambda": t, "convergence": 1.0,
-                    "domain": "S_0"} for line in (1, 2) for t in places]
+                    "domain": "S_0"} for line in (1, 2) for t in centres]
 
 
 def theorem_row(name, holds="true"):

@@ -26,11 +26,11 @@ def box(kind, size=(4, 2, 3)):
         return points, np.stack([corner(i, j, k) for k in (0, 1) for i, j in floor], axis=1)
     cells = []
     for order in itertools.permutations(range(3)):  # six tetrahedra along the diagonal of each brick
-        place = np.zeros(3, dtype=int)
-        path = [corner(*place)]
+        at = np.zeros(3, dtype=int)
+        path = [corner(*at)]
         for axis in order:
-            place[axis] = 1
-            path.append(corner(*place))
+            at[axis] = 1
+            path.append(corner(*at))
         odd = np.linalg.det(np.eye(3)[list(order)]) < 0
         cells.append(np.stack([path[i] for i in ((0, 2, 1, 3) if odd else (0, 1, 2, 3))], axis=1))
     return points, np.concatenate(cells)

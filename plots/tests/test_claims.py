@@ -6,14 +6,15 @@ import math
 import re
 
 from plots.__main__ import main
-from plots.claim_values import TRAJECTORY, Values
-from plots.claims import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, as_markdown, cases_of, check_claim,
-                          check_claims, met_in, number_of, read_claims, verdict_of)
-from plots.expressions import Missing, evaluate
-from plots.printed_values import THESIS_FOLDER, read_printed_tables
-from plots.read_results import read_results
-from plots.tests.synthetic_results import (change_provenance, results_row, write_csv,
-                                           write_results)
+from plots.claims.check import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, cases_of, check_claim,
+                                check_claims, met_in, number_of, read_claims, verdict_of)
+from plots.claims.expressions import Missing, evaluate
+from plots.claims.report import claims_as_markdown
+from plots.claims.values import TRAJECTORY, Values
+from plots.results.data_folder import thesis_folder
+from plots.results.printed_values import read_printed_tables
+from plots.results.smoothing import read_results
+from plots.tests.synthetic_results import change_provenance, results_row, write_csv, write_results
 from plots.tests.synthetic_volume import write_volume_results
 from plots.tests.test_read_results import InFolder
 
@@ -91,7 +92,7 @@ class Verdicts(InFolder):
 
 def all_claims():
     """The claims about all studies."""
-    return json.loads((THESIS_FOLDER / "claims.json").read_text(encoding="utf-8"))
+    return json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8"))
 
 
 class Trajectories(InFolder):
@@ -169,7 +170,7 @@ class ClaimsOfTheThesis(InFolder):
                        for content, table in read_printed_tables(claim["study"], {}).items()}
             theirs = Values([row for rows in printed.values() for row in rows], [])
             for match in NUMBER_IN_NOTE.finditer(claim.get("note", "")):
-                number_of(match[2], {}, lambda *_: 1.0)  # throws if it is no arithmetic
+                number_of(match[2], {}, lambda *_: 1.0)  # raises if it is no arithmetic
                 if match[1]:
                     self.assertIsNotNone(number_of(match[2], {}, theirs), claim["id"])
 
@@ -194,7 +195,7 @@ class ClaimsOfTheThesis(InFolder):
     def test_count_of_verdicts(self):
         results = read_results(write_results(self.folder / "r"))
         outcomes = check_claims(read_claims("gear"), results, {})
-        text = as_markdown(outcomes, results)
+        text = claims_as_markdown(outcomes, results)
         for verdict in (FAILS, UNKNOWN):
             self.assertEqual(text.count(f"**{verdict}**"), sum(o.verdict == verdict for o in outcomes))
         reasons = text.partition("Known reasons")[2]

@@ -3,20 +3,21 @@
 
 import unittest
 
-from plots.claims import FAILS, HOLDS
-from plots.claims_overview import BEGIN, END, README, REFERENCE, outcomes_of, overview, with_overview
-from plots.read_results import ResultsError
+from plots.claims.check import FAILS, HOLDS
+from plots.claims.overview import (BEGIN, END, outcomes_of, overview, readme, reference,
+                                   with_overview)
+from plots.results.rows import ResultsError
 
 
 class Overview(unittest.TestCase):
     def test_it_is_made_from_the_results_there_are(self):
-        text = README.read_text(encoding="utf-8")
-        self.assertEqual(text, with_overview(text, overview(REFERENCE)),
-                         "run python3 -m plots.claims_overview")
+        text = readme().read_text(encoding="utf-8")
+        self.assertEqual(text, with_overview(text, overview(reference())),
+                         "run python3 -m plots.claims.overview")
 
     def test_every_claim_has_a_row_with_its_verdict(self):
-        made = overview(REFERENCE)
-        for folder in REFERENCE.iterdir():
+        made = overview(reference())
+        for folder in reference().iterdir():
             _, outcomes = outcomes_of(folder)
             self.assertTrue(outcomes, folder)
             for outcome in outcomes:
@@ -24,13 +25,13 @@ class Overview(unittest.TestCase):
                 ending = {HOLDS: "| holds |", FAILS: "| **does not hold** |"}
                 self.assertTrue(row.endswith(ending.get(outcome.verdict, "|")), row)
 
-    def test_the_place_for_it(self):
+    def test_what_is_between_the_lines_is_replaced(self):
         text = f"before\n{BEGIN}\nold\n{END}\nafter\n"
         once = with_overview(text, "new")
         self.assertEqual(once, f"before\n{BEGIN}\n\nnew\n{END}\nafter\n")
         self.assertEqual(with_overview(once, "new"), once)
         with self.assertRaises(ResultsError):
-            with_overview("no place", "new")
+            with_overview("no lines", "new")
 
 
 if __name__ == "__main__":

@@ -7,10 +7,10 @@ from unittest import mock
 
 import numpy as np
 
-from plots import style
 from plots.__main__ import main
-from plots.figure_history import dominant_method, draw_history, write_into_free_place
-from plots.read_results import read_results
+from plots.figures import style
+from plots.figures.history import dominant_method, draw_history, annotate_free_area
+from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
 
@@ -78,7 +78,7 @@ class Figures(InFolder):
             figure, axes = style.pyplot.subplots()
             axes.plot([0, 1], [height, height])
             axes.set(xlim=(0, 1), ylim=(0, 1))
-            write_into_free_place(axes, "words")
+            annotate_free_area(axes, "words")
             self.assertAlmostEqual(axes.texts[0].get_position()[1], expected)
             style.pyplot.close(figure)
 
@@ -95,7 +95,7 @@ class Figures(InFolder):
     def test_figures_of_many_meshes(self):
         folder = without_finite_elements(
             write_results(self.folder / "r", "slab", ("a", "a-distorted", "b", "b-distorted")))
-        with mock.patch("plots.style.DPI", 40):  # what they look like is not looked at here
+        with mock.patch("plots.figures.style.DPI", 40):  # what they look like is not looked at here
             self.run_main(folder, "--quiet")
         names = {path.stem for path in folder.glob("figures/*.pdf")}
         self.assertLessEqual({"history_a", "history_b_log_time", "histograms_a", "histograms_b_log",

@@ -6,12 +6,12 @@ import re
 import unittest
 from types import SimpleNamespace
 
-from plots.method_order import order_notes
-from plots.printed_values import read_printed_tables
-from plots.read_results import read_results
-from plots.table_descriptions import ERRORS, SMOOTHING, THRESHOLDS
-from plots.table_formats import as_latex, as_markdown, as_text
-from plots.tables import make_tables
+from plots.results.printed_values import read_printed_tables
+from plots.results.smoothing import read_results
+from plots.tables.descriptions import ERRORS, SMOOTHING, THRESHOLDS
+from plots.tables.formats import as_latex, as_markdown, as_text
+from plots.tables.method_order import order_notes
+from plots.tables.smoothing import make_tables
 from plots.tests.synthetic_results import without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
 

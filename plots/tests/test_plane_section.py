@@ -5,10 +5,10 @@ import unittest
 
 import numpy as np
 
-from plots.plane_section import section
-from plots.read_vtu import UnstructuredGrid
+from plots.figures.section_geometry import section
+from plots.figures.volume_geometry import Cut
+from plots.results.vtu import UnstructuredGrid
 from plots.tests.synthetic_volume import VTK_TYPES, box
-from plots.volume_geometry import Cut
 
 
 def grid_of(points, cells, kind):

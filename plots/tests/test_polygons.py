@@ -8,16 +8,16 @@ import math
 
 import numpy as np
 
-from plots import style
 from plots.__main__ import main
-from plots.figure_domains import clearance, draw_domains
-from plots.figure_polygons import angle_text, draw_decomposition, draw_limits, draw_sequences
-from plots.figure_side_ratios import draw_side_ratios
-from plots.polygon_figures import FIGURES
-from plots.polygon_results import nodes_of, read_polygon_results
-from plots.read_results import groups_of
-from plots.table_formats import as_latex, as_markdown, as_text
-from plots.polygon_tables import make_polygon_tables
+from plots.figures import style
+from plots.figures.domains import clearance, draw_domains
+from plots.figures.polygon_study import FIGURES
+from plots.figures.polygons import angle_text, draw_decomposition, draw_limits, draw_sequences
+from plots.figures.side_ratios import draw_side_ratios
+from plots.results.polygons import nodes_of, read_polygon_results
+from plots.results.rows import groups_of
+from plots.tables.formats import as_latex, as_markdown, as_text
+from plots.tables.polygons import make_polygon_tables
 from plots.tests.synthetic_polygons import write_polygon_results
 from plots.tests.test_read_results import InFolder
 

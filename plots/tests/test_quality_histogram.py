@@ -1,28 +1,46 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The histogram of the quality command: what it shows, its kinds of file, bad arguments."""
+"""Histograms of one mesh: what they show, their kinds of file, both commands, bad arguments."""
 
 import contextlib
 import io
 import json
 
-from plots import style
-from plots.quality_histogram import counted, draw_quality_histogram, main
+from plots.__main__ import main
+from plots.figures import style
+from plots.figures.quality_histogram import draw_quality_histogram
+from plots.quality_histogram import from_json, main as main_of_json
+from plots.results.cell_types import counted
+from plots.results.quality_histogram import read_quality_histogram
+from plots.results.rows import ResultsError
 from plots.tests.test_read_results import InFolder
 
 NUMBERS = {"title": "beam_$1.vtk", "n_invalid": 1, "q_min": 0.0, "q_mean": 0.625,
            "histogram": {"prism": [1, 0, 2, 1], "hexahedron": [0, 0, 1, 3], "pyramid": [0, 0, 0, 0]}}
+TYPED = "lower,upper,count,cell_type\n" + "".join(
+    f"{b / 4},{(b + 1) / 4},{count},{name}\n" for name, counts in NUMBERS["histogram"].items()
+    for b, count in enumerate(counts))
+OPTIONS = ("--title", NUMBERS["title"], "--q-min", "0", "--q-mean", "0.625", "--n-invalid", "1")
 
 
 class QualityHistogram(InFolder):
     def write(self, name):
+        """By the JSON that smoothfem writes."""
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
-            code = main([str(self.folder / name)], io.StringIO(json.dumps(NUMBERS)))
+            code = main_of_json([str(self.folder / name)], io.StringIO(json.dumps(NUMBERS)))
+        return code, errors.getvalue()
+
+    def run_main(self, text, name, *options):
+        """By a CSV file; the text is its content."""
+        (self.folder / "counts.csv").write_text(text)
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            code = main(["histogram", str(self.folder / "counts.csv"), str(self.folder / name), *options])
         return code, errors.getvalue()
 
     def test_bars_hold_all_cells(self):
         style.apply_style()
-        figure = draw_quality_histogram(NUMBERS)
+        figure = draw_quality_histogram(from_json(json.dumps(NUMBERS)))
         (axes,) = figure.axes
         self.assertEqual(sum(bar.get_height() for bar in axes.patches), 8)
         self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()],
@@ -49,6 +67,52 @@ class QualityHistogram(InFolder):
         code, errors = self.write("file/a.png")
         self.assertEqual(code, 2)
         self.assertIn("cannot be written", errors)
+
+    def test_both_commands_draw_the_same(self):
+        for suffix in ("png", "pdf", "svg"):
+            self.assertEqual(self.write(f"json.{suffix}"), (0, ""))
+            self.assertEqual(self.run_main(TYPED, f"csv.{suffix}", *OPTIONS), (0, ""))
+            self.assertEqual(*((self.folder / f"{name}.{suffix}").read_bytes() for name in ("json", "csv")))
+
+    def test_counts_without_types_in_any_order_of_rows(self):
+        self.assertEqual(self.run_main("count,upper,lower\n7,1,0.25\n2,0.25,0\n", "a.svg"), (0, ""))
+        histogram = read_quality_histogram(self.folder / "counts.csv", "own")
+        self.assertEqual({name: list(counts) for name, counts in histogram.counts.items()}, {"cell": [2, 7]})
+        figure = draw_quality_histogram(histogram)
+        (axes,) = figure.axes
+        self.assertEqual([(bar.get_x(), bar.get_width(), bar.get_height()) for bar in axes.patches],
+                         [(0, 0.25, 2), (0.25, 0.75, 7)])
+        self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()], ["9 cells"])
+        self.assertEqual((axes.get_title(), axes.get_xlim()), ("own", (0, 1)))
+        style.pyplot.close(figure)
+        self.assertIn("counts.csv", (self.folder / "a.svg").read_text())  # the title if none is given
+
+    def test_bins_that_are_none(self):
+        head = "lower,upper,count,cell_type\n"
+        for text, said in (
+                ("lower,upper\n0,1\n", "column `count` is missing"), ("", "empty"),
+                (head + "0,1,,\n", "empty or infinite"), (head + "0,1,many,\n", "not a number"),
+                (head + "1,1,2,\n", "not above"), (head + "0,1,2.5,\n", "no number of cells"),
+                (head + "0,1,-2,\n", "no number of cells"), (head + "0,1,0,\n", "counts no cell"),
+                (head, "counts no cell"), (head + "0,0.6,1,\n0.5,1,1,\n", "overlap"),
+                (head + "0,1,1,prism\n0,1,1,prism\n", "a bin twice"),
+                (head + "0,1,1,wedge\n", "unknown cell type `wedge`; known are triangle")):
+            code, errors = self.run_main(text, "a.png")
+            self.assertEqual((code, errors.count("\n")), (2, 1), text)
+            self.assertIn("counts.csv: ", errors)
+            self.assertIn(said, errors)
+            self.assertFalse((self.folder / "a.png").exists())
+
+    def test_paths_that_cannot_be_used(self):
+        code, errors = self.run_main(TYPED, "a.bmp")
+        self.assertEqual((code, errors.count("\n")), (2, 1))
+        self.assertIn("a.bmp: a figure ends with .pdf, .png or .svg", errors)
+        (self.folder / "file").write_text("")
+        code, errors = self.run_main(TYPED, "file/a.png")
+        self.assertEqual((code, errors.count("\n")), (2, 1))
+        self.assertIn("cannot be written", errors)
+        with self.assertRaisesRegex(ResultsError, "missing"):
+            read_quality_histogram(self.folder / "nowhere.csv", "")
 
     def test_counts_are_words(self):
         self.assertEqual(counted(1, "prism"), "1 prism")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reading of CSV and VTU files, and what is said about broken ones."""
+"""Reading of CSV files, and what is said about broken ones."""
 
 import contextlib
 import io
@@ -7,13 +7,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import numpy as np
-
 from plots.__main__ import main
-from plots.mesh_geometry import boundary_loops, triangles_of
-from plots.read_results import ResultsError, read_results
-from plots.read_vtu import read_vtu
-from plots.tests.synthetic_results import write_csv, write_results, write_vtu
+from plots.results.smoothing import read_results
+from plots.tests.synthetic_results import write_csv, write_results
 
 
 class InFolder(unittest.TestCase):
@@ -21,38 +17,6 @@ class InFolder(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
-
-
-class ReadVtu(InFolder):
-    def test_ascii_and_base64_hold_the_same_grid(self):
-        for layout in ("ascii", "binary"):
-            write_vtu(self.folder / "mesh.vtu", layout)
-            grid = read_vtu(self.folder / "mesh.vtu")
-            self.assertEqual([len(cell) for cell in grid.cells()], [4, 5, 3])
-            self.assertEqual(grid.points.shape, (8, 3))
-            np.testing.assert_array_equal(grid.cell_data["mean_ratio"], [1.0, 0.5, 0.9])
-            np.testing.assert_array_equal(grid.point_data["exact_solution"],
-                                          grid.points[:, 0] * grid.points[:, 1])
-            self.assertTrue(grid.is_planar)
-
-    def test_boundary_and_triangles_of_polygons(self):
-        write_vtu(self.folder / "mesh.vtu")
-        grid = read_vtu(self.folder / "mesh.vtu")
-        self.assertEqual(boundary_loops(grid), [[0, 1, 4, 5, 6, 2, 7, 3]])
-        a, b, c = (grid.points[column, :2] for column in triangles_of(grid).T)
-        areas = 0.5 * np.cross(b - a, c - a)
-        self.assertTrue((areas > 0).all())
-        self.assertAlmostEqual(areas.sum(), 1.0 + 1.5 + 0.4)
-
-    def test_truncated_file(self):
-        path = self.folder / "mesh.vtu"
-        write_vtu(path)
-        whole = path.read_text()
-        for text in (whole[:len(whole) // 2], whole.replace('NumberOfPoints="8"', 'NumberOfPoints="9"'),
-                     whole.replace('format="binary"', 'format="appended"'), "<a/>"):
-            path.write_text(text)
-            with self.assertRaises(ResultsError):
-                read_vtu(path)
 
 
 class ReadResults(InFolder):

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables and figures of a regularization study."""
 
+import contextlib
+import io
 import json
 
 from plots.__main__ import main
-from plots.regularization import (COUNTS, ELEMENTS, FIGURES, STARTS, make_regularization_tables,
-                                  read_regularization_results)
-from plots.table_formats import as_text
+from plots.figures import style
+from plots.figures.regularization import ELEMENTS, FIGURES, STARTS, draw_corridor, draw_speeds
+from plots.results.regularization import COUNTS, read_regularization_results
+from plots.tables.formats import as_text
+from plots.tables.regularization import make_regularization_tables
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
 
@@ -26,8 +30,8 @@ def write_results(folder):
                                        "1" if mean else "", "2" if mean else "", "20" if mean else "")))
                      for start in STARTS for sigma, mean in zip(SIGMAS, MEANS)]
     write_csv(folder / "regularization.csv", COUNTS, rows)
-    shares = [{"element": e, "n_elements": 10, "n_valid": 5, "share": 0.5} for e in ELEMENTS]
-    write_csv(folder / "validity.csv", list(shares[0]), shares)
+    valid = [{"element": e, "n_elements": 10, "n_valid": 5, "share": 0.5} for e in ELEMENTS]
+    write_csv(folder / "validity.csv", list(valid[0]), valid)
     (folder / "provenance.json").write_text(json.dumps(
         {"study": "r", "study_title": "R", "parameters": {"kind": "regularization"}}))
     return folder
@@ -41,6 +45,18 @@ class Regularization(InFolder):
         self.assertIn("0.78", text)
         self.assertIn("50.15", as_text(tables[1]))
 
+    def test_element_types_have_the_colours_of_all_figures(self):
+        results = read_regularization_results(write_results(self.folder / "r"))
+        style.apply_style()
+        self.addCleanup(style.pyplot.close, "all")
+        labelled = [line for figure in (draw_corridor(results), draw_speeds(results))
+                    for axes in figure.axes for line in axes.get_lines()
+                    if line.get_label().lower() in (*ELEMENTS, "mean")]
+        self.assertEqual(len(labelled), 1 + 2 * len(ELEMENTS))
+        for line in labelled:
+            element = line.get_label().lower().replace("mean", "tetrahedron")
+            self.assertEqual(line.get_color(), style.ELEMENT_COLOURS[element], element)
+
     def test_files(self):
         folder = write_results(self.folder / "r")
         self.assertEqual(main([str(folder), "--quiet"]), 0)
@@ -52,4 +68,7 @@ class Regularization(InFolder):
     def test_what_is_missing(self):
         folder = write_results(self.folder / "r")
         (folder / "validity.csv").unlink()
-        self.assertEqual(main([str(folder), "--quiet"]), 2)
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            self.assertEqual(main([str(folder), "--quiet"]), 2)
+        self.assertIn("validity.csv: the file is missing", errors.getvalue())

@@ -5,12 +5,12 @@ import unittest
 
 import numpy as np
 
-from plots import style
-from plots.figure_surfaces import DIRECTION, draw_surfaces, surface_scene
-from plots.read_vtu import UnstructuredGrid
-from plots.render_volume import render
-from plots.tests.test_volume_figures import needs_rendering
-from plots.volume_geometry import view_of
+from plots.figures import style
+from plots.figures.render import render
+from plots.figures.surfaces import DIRECTION, draw_surfaces, surface_scene
+from plots.figures.volume_geometry import view_of
+from plots.results.vtu import UnstructuredGrid
+from plots.tests.rendering import needs_rendering
 
 
 class Surfaces(unittest.TestCase):

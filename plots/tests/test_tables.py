@@ -4,11 +4,14 @@
 import math
 from fnmatch import fnmatchcase
 
-from plots.number_format import format_error, grouped, relative_difference
-from plots.printed_values import THESIS_FOLDER, read_printed_tables
-from plots.read_results import read_results, read_rows
-from plots.table_formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
-from plots.tables import escape_tex, make_tables
+from plots.results.data_folder import thesis_folder
+from plots.results.printed_values import read_printed_tables
+from plots.results.rows import read_rows
+from plots.results.smoothing import read_results
+from plots.tables.formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
+from plots.tables.number_format import format_error, grouped, relative_difference
+from plots.tables.smoothing import make_tables
+from plots.tables.table import escape_tex
 from plots.tests.synthetic_results import (change_provenance, without_columns,
                                            without_finite_elements, write_results)
 from plots.tests.test_read_results import InFolder
@@ -19,7 +22,8 @@ class Numbers(InFolder):
         for ours, printed, expected in (
                 (110.0, "100", "+10.0"), (0.33674, "0.3367", "="), (377.4, "7.39e+02", "-48.9"),
                 (1.0899e8, "1.09e+08", "="), (0.1, "0.0000", "–"), (math.nan, "1.0", "–"),
-                (1.0, "", "–"), (1.00006, "1.0000", "<0.1"), (9.0, "1", "+800.0"), (30.0, "1", "×30"), (1.0, "0.0003", "×3,333")):
+                (1.0, "", "–"), (1.00006, "1.0000", "<0.1"),
+                (9.0, "1", "+800.0"), (30.0, "1", "×30"), (1.0, "0.0003", "×3,333")):
             self.assertEqual(relative_difference(ours, printed), expected)
 
     def test_thousands(self):
@@ -146,9 +150,9 @@ class PrintedValues(InFolder):
             self.assertEqual(set(read_printed_tables("own", {"printed_values": [chosen]})), {"smoothing"})
 
     def test_deviations_name_rows_that_are_printed(self):
-        index = read_rows(THESIS_FOLDER / "tables.csv").records()
-        for note in read_rows(THESIS_FOLDER / "deviations.csv").records():
+        index = read_rows(thesis_folder() / "tables.csv").records()
+        for note in read_rows(thesis_folder() / "deviations.csv").records():
             files = [entry["file"] for entry in index if fnmatchcase(entry["table"], note["table"])]
-            rows = [row for name in files for row in read_rows(THESIS_FOLDER / name).records()]
+            rows = [row for name in files for row in read_rows(thesis_folder() / name).records()]
             keys = [key for key in ("mesh", "degree", "method") if note[key] != "*"]
             self.assertTrue(any(all(row.get(key) == note[key] for key in keys) for row in rows), note)

@@ -1,48 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The figures of volume studies: which are made, what a picture shows, and what happens without VTK."""
+"""The figures of volume studies: which are made, and of what."""
 
 import contextlib
 import io
-import os
-import shutil
-import socket
-import unittest
 from dataclasses import replace
 from unittest import mock
 
 import numpy as np
 
-from plots import style
 from plots.__main__ import main
-from plots.figure_element_types import (counts_of_types, draw_element_types, is_mixed,
-                                        type_colours)
-from plots.figure_histograms import draw_histogram_differences, draw_histograms
-from plots.figure_meshes import columns_of
-from plots.figures import pages, read_grids
-from plots.read_results import read_results
-from plots.read_vtu import UnstructuredGrid, read_vtu
-from plots.render_volume import Scene, render
+from plots.figures import style
+from plots.figures.element_types import counts_of_types, draw_element_types, is_mixed, type_colours
+from plots.figures.histograms import draw_histogram_differences, draw_histograms
+from plots.figures.meshes import columns_of
+from plots.figures.pages import pages
+from plots.figures.smoothing_study import read_grids
+from plots.figures.volume_geometry import Cut, view_of, widest_cut
+from plots.results.smoothing import read_results
+from plots.results.vtu import UnstructuredGrid, read_vtu
+from plots.tests.rendering import needs_rendering
 from plots.tests.synthetic_results import write_vtu
 from plots.tests.synthetic_volume import box, write_volume_results, write_volume_vtu
 from plots.tests.test_read_results import InFolder
-from plots.virtual_display import NoDisplay, virtual_display
-from plots.volume_geometry import Cut, view_of, widest_cut
-
-try:
-    import vtkmodules  # noqa: F401
-    MISSING = "" if shutil.which("Xvfb") else "Xvfb is not installed"
-except ImportError:
-    MISSING = "VTK's Python modules are not installed"
-
-needs_rendering = unittest.skipIf(MISSING, f"{MISSING}: nothing can be rendered off screen")
-
-
-def answers(number):
-    """Whether an X server listens on this display. Linux has its socket by name even where nobody
-    may make the file."""
-    with socket.socket(socket.AF_UNIX) as connection:
-        return connection.connect_ex(f"\0/tmp/.X11-unix/X{number}") == 0
-
 
 class Geometry(InFolder):
     def grid(self, kind):
@@ -125,7 +104,7 @@ class ElementTypes(InFolder):
     def test_picture_of_each_mesh_as_a_whole_and_in_detail(self):
         style.apply_style()
         grid = self.mixed()
-        with mock.patch("plots.figure_sections.IMAGE_DPI", 60):
+        with mock.patch("plots.figures.sections.IMAGE_DPI", 60):
             figure = draw_element_types([("Box", [("Initial", grid), ("GETMe", grid)])])
         captions = [axes.texts[0].get_text() for axes in figure.axes]
         self.assertEqual(captions, ["Initial", "GETMe", "Initial, detail", "GETMe, detail"])
@@ -171,46 +150,13 @@ class Histograms(InFolder):
         style.pyplot.close(figure)
 
 
-@needs_rendering
-class Rendering(InFolder):
-    def test_colours_of_cut_faces_only(self):
-        write_volume_vtu(self.folder / "mesh.vtu", "hex")
-        grid = read_vtu(self.folder / "mesh.vtu")
-        cut = Cut((2.2, 1, 1.5), (1, 0, 0))
-        red = np.tile(np.array([[255, 0, 0]], dtype=np.uint8), (len(grid.types), 1))
-        reds = []
-        views = [view_of(grid.points, direction, margin=0) for direction in ((1, 0, 0), (-1, 0, 0))]
-        scenes = [Scene(grid, view, (60, 40), cells=cut.kept(grid), cell_colours=red, ambient=1.0,
-                        plain_colour=(0, 0, 1)) for view in views]
-        for picture in render(scenes):
-            self.assertEqual(picture.shape, (40, 60, 3))
-            reds.append(np.mean((picture == (255, 0, 0)).all(axis=2)))
-            self.assertFalse((picture == (0, 0, 0)).all(axis=2).any())
-        # The box fills the height of the picture and the width of 2 : 3.
-        self.assertAlmostEqual(reds[0], 40 * 2 / 3 / 60, delta=0.05)
-        self.assertEqual(reds[1], 0)
-
-    def test_server_ends_and_environment_is_restored(self):
-        with mock.patch.dict(os.environ, {"DISPLAY": ":4321"}):
-            with virtual_display():
-                number = os.environ["DISPLAY"].removeprefix(":")
-                self.assertTrue(answers(number))
-            self.assertEqual(os.environ["DISPLAY"], ":4321")
-        self.assertFalse(answers(number))
-
-    def test_a_crash_is_one_sentence(self):
-        with mock.patch("plots.render_volume.draw_scene", os._exit):
-            with self.assertRaisesRegex(NoDisplay, "gave up"):
-                render([1])
-
-
 class VolumeStudy(InFolder):
     def run_main(self, folder):
         errors = io.StringIO()
         # Coarse pictures: what they look like is not looked at here.
-        with contextlib.redirect_stderr(errors), mock.patch("plots.style.DPI", 40), \
-                mock.patch("plots.figure_sections.IMAGE_DPI", 100), \
-                mock.patch("plots.figure_solid.IMAGE_DPI", 100):
+        with contextlib.redirect_stderr(errors), mock.patch("plots.figures.style.DPI", 40), \
+                mock.patch("plots.figures.sections.IMAGE_DPI", 100), \
+                mock.patch("plots.figures.solid.IMAGE_DPI", 100):
             self.assertEqual(main([str(folder), "--quiet"]), 0, errors.getvalue())
         return errors.getvalue(), {path.stem for path in folder.glob("figures/*.pdf")}
 
@@ -244,11 +190,3 @@ class VolumeStudy(InFolder):
         self.assertIn("No pictures of volume meshes", errors)
         self.assertIn("figure_6_7_histograms", names)
         self.assertNotIn("figure_6_6_meshes", names)
-
-    def test_servers_that_do_not_start(self):
-        for broken, said in (
-                (mock.patch("shutil.which", return_value=None), "not installed"),
-                (mock.patch("subprocess.Popen", side_effect=OSError("no memory")), "no memory"),
-                (mock.patch("shutil.which", return_value=shutil.which("true")), "did not start")):
-            with broken, self.assertRaisesRegex(NoDisplay, said), virtual_display():
-                self.fail("there is no server")

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the thesis claims in words, checked against the CSV files of a study.
+
+The claims stand in studies/thesis/claims.json; its README.md says how they are written.
+"""
+
+import itertools
+import json
+import math
+import re
+from dataclasses import dataclass
+
+from ..results.data_folder import thesis_folder
+from ..results.rows import ResultsError
+from ..tables.number_format import MISSING
+from .expressions import Missing, evaluate
+from .values import Values
+
+HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
+# More numbers than these are shown as a range.
+MOST_SHOWN = 4
+# A number in a note: ours, or the printed one.
+NUMBER_IN_NOTE = re.compile(r"\{(printed )?(.+?)\}")
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A claim and what became of it; texts for the table."""
+
+    claim: dict
+    verdict: str
+    printed: str
+    ours: str
+    note: str = ""
+
+
+def read_claims(study):
+    """The claims about a study, as a list of dictionaries; empty if there are none."""
+    path = thesis_folder() / "claims.json"
+    if not path.exists():
+        return []
+    try:
+        claims = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ResultsError(f"{path}: not a complete JSON file ({error}).") from None
+    return [claim for claim in claims if claim["study"] == study]
+
+
+def check_claims(claims, results, printed):
+    """The outcome of each claim; `printed` as in make_tables."""
+    ours = Values(results.summary.records(), results.thresholds.records(), results.iterations)
+    rows = {content: table.rows for content, table in printed.items()}
+    theirs = Values([row for content in rows if content != "thresholds" for row in rows[content]],
+                    rows.get("thresholds", []))
+    return [check_claim(claim, ours, theirs) for claim in claims]
+
+
+def check_claim(claim, ours, theirs):
+    """The outcome of one claim: it holds if all of its checks hold."""
+    if not claim["checks"]:
+        return Outcome(claim, UNKNOWN, claim.get("printed", MISSING), claim["reason"])
+    verdicts, printed, own = [], [], []
+    for check in claim["checks"]:
+        cases = cases_of(check)
+        numbers = [number_of(check["quantity"], case, theirs) for case in cases]
+        found = [number_of(check["quantity"], case, ours) for case in cases]
+        met = met_in(check, found, numbers)
+        verdicts.append(verdict_of(met, check.get("at_least", len(cases))))
+        printed.append(check.get("printed") or
+                       shown(numbers, cases, met_in(check, numbers, numbers)))
+        own.append(shown(found, cases, met))
+    worst = next(v for v in (FAILS, UNKNOWN, HOLDS) if v in verdicts)
+    return Outcome(claim, worst, "; ".join(printed), "; ".join(own),
+                   filled(claim.get("note", ""), ours, theirs))
+
+
+def filled(note, ours, theirs):
+    """A note with the numbers for which it has expressions in braces."""
+    def number(match):
+        value = number_of(match[2], {}, theirs if match[1] else ours)
+        return MISSING if value is None else written(value)
+    return NUMBER_IN_NOTE.sub(number, note)
+
+
+def cases_of(check):
+    """All combinations of what the check is said for: a list of dictionaries from name to value."""
+    lists = check.get("for", {})
+    return [dict(zip(lists, values)) for values in itertools.product(*lists.values())]
+
+
+def number_of(quantity, case, values):
+    """The quantity in one case, or None if something for it is missing."""
+    try:
+        return evaluate(quantity, case, values)
+    except Missing:
+        return None
+
+
+def met_in(check, found, printed):
+    """Whether the condition is met, case by case; None where a number for it is missing."""
+    def met(value, theirs):
+        names = {"value": value, "printed": theirs}
+        if value is None or (theirs is None and "printed" in check["condition"]):
+            return None
+        return evaluate(check["condition"], names, no_functions)
+    return [met(value, theirs) for value, theirs in zip(found, printed)]
+
+
+def verdict_of(met, wanted):
+    """Whether so many cases meet the condition; unknown if missing numbers could still decide."""
+    if met.count(True) >= wanted:
+        return HOLDS
+    return FAILS if met.count(True) + met.count(None) < wanted else UNKNOWN
+
+
+def no_functions(name, _):
+    """Conditions compare numbers and call nothing."""
+    raise ValueError(f"`{name}` in a condition")
+
+
+def shown(numbers, cases, met):
+    """The numbers for the table: each with its case, or of many the range and how many meet the
+    condition."""
+    present = [(case, number) for case, number in zip(cases, numbers) if number is not None]
+    if not present:
+        return MISSING
+    if len(cases) > MOST_SHOWN:
+        values = [number for _, number in present]
+        ends = list(dict.fromkeys(written(value) for value in (min(values), max(values))))
+        return f"{' to '.join(ends)}, met in {met.count(True)} of {len(cases)}"
+    names = [name for name in cases[0] if len({case[name] for case in cases}) > 1]
+    return ", ".join(" ".join([*(label(name, case[name]) for name in names), written(number)])
+                     for case, number in present)
+
+
+def label(name, value):
+    """What a case is called in the table."""
+    return (f"d = {value}" if name == "degree" else str(value)) + ":"
+
+
+def written(number):
+    """Three digits, whole numbers as they are."""
+    if math.isinf(number):
+        return "never"
+    whole = number == int(number) and abs(number) < 1e6
+    return f"{number + 0:.0f}" if whole else f"{number:.3g}"  # + 0 makes -0 zero

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The meshes of a study, by what can be drawn of them."""
+
+import numpy as np
+
+from ..results.smoothing import INITIAL
+from ..results.vtu import NoVtk, read_vtu
+from .style import sequential_name
+
+
+def read_grids(results, report):
+    """(mesh, method) -> grid for all meshes that are there, in the order of the study: the planar
+    ones, those of volume cells, and surfaces in space. `report` takes a sentence for whatever is left
+    out; that is everything where there is no VTK."""
+    try:
+        return sorted_grids(results, report)
+    except NoVtk as error:
+        report(f"No pictures of meshes: {error}.")
+        return {}, {}, {}
+
+
+def sorted_grids(results, report):
+    """The same; raises NoVtk."""
+    planar, volume, surface, missing, unknown = {}, {}, {}, [], []
+    for mesh in results.meshes:
+        for method in (INITIAL, *results.methods):
+            path = results.mesh_file(mesh, method)
+            if not path.exists():
+                missing.append(path.name)
+                continue
+            grid = read_vtu(path)
+            if same_as_sequential(grid, {**planar, **volume, **surface}, mesh, method):
+                continue
+            kind = (planar if grid.is_planar else volume if grid.is_volume else
+                    surface if grid.is_surface else None)
+            if kind is None or "mean_ratio" not in grid.cell_data:
+                unknown.append(path.name)
+            else:
+                kind[mesh, method] = grid
+    for names, reason in ((missing, "are missing"),
+                          (unknown, "have cells of other kinds or lack `mean_ratio`")):
+        if names:
+            report(f"Not drawn, because meshes {reason}: {', '.join(names)}.")
+    return planar, volume, surface
+
+
+def same_as_sequential(grid, found, mesh, method):
+    """Whether this is the mesh of a parallel run that is bit for bit the one of the sequential run:
+    that is shown once."""
+    twin = found.get((mesh, sequential_name(method)))
+    return (method != sequential_name(method) and twin is not None
+            and np.array_equal(twin.points, grid.points))

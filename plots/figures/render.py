@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of volume meshes as arrays of pixels, drawn by VTK off screen.
+
+VTK ends the process if something is wrong with the display. So it draws in a process of its own.
+"""
+
+import ctypes
+import signal
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, replace
+from multiprocessing import get_context
+from typing import Optional
+
+import numpy as np
+
+from ..results.vtu import NoVtk, vtk_module
+from .virtual_display import NoDisplay, virtual_display
+from .volume_geometry import View
+from .vtk_surface import face_keys, surface_of, with_faces
+
+# Each pixel is the mean of this squared: smooth edges, the same on every machine, unlike the
+# multisampling of OpenGL drivers.
+SUPERSAMPLING = 2
+LIGHT = (-0.4, 0.7, 1.0)  # from the upper left: relative to the viewer, x to the right, y upwards
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
+FEATURE_ANGLE = 30.0  # degrees between two faces from which on their common edge is drawn
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One picture: the faces that are seen of some cells of a grid, in plain or given colours.
+
+    With `cell_colours` only faces that are no faces of the whole grid's surface are coloured: those
+    that taking cells away has opened; with `outside_coloured` all of them.
+    """
+
+    grid: object  # UnstructuredGrid with volume cells, or the cells of a surface
+    view: View
+    pixels: tuple  # width, height
+    cells: Optional[np.ndarray] = None  # which are there, (n_cells,) bool; None: all
+    cell_colours: Optional[np.ndarray] = None  # (n_cells, 3) uint8
+    outside_coloured: bool = False
+    point_colours: Optional[np.ndarray] = None  # (n_points, 3) uint8
+    plain_colour: tuple = (0.80, 0.86, 0.90)
+    cell_edges: bool = False  # of the coloured faces
+    feature_edges: bool = False
+    ambient: float = 0.45  # fraction of a colour that does not depend on the light
+
+
+def render(scenes):
+    """The pictures as arrays (height, width, 3) of uint8, background white; NoDisplay with one
+    sentence if there is no VTK, no Xvfb, or VTK ends in the middle."""
+    try:
+        vtk_module("vtkRenderingOpenGL2")
+    except NoVtk as error:
+        raise NoDisplay(str(error)) from None
+    with virtual_display(), ProcessPoolExecutor(1, get_context("fork"), end_with_parent) as drawer:
+        try:
+            return [drawer.submit(draw_scene, scene).result() for scene in scenes]
+        except BrokenProcessPool:
+            raise NoDisplay("VTK gave up drawing off screen") from None
+
+
+def end_with_parent():
+    """Called in the process that draws: it gets SIGTERM when the first one dies, even if that is killed,
+    instead of waiting for another scene forever."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+
+
+def draw_scene(scene):
+    """One picture; needs a display."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkRenderingCore import (vtkLight, vtkRenderer, vtkRenderWindow,
+                                             vtkWindowToImageFilter)
+
+    vtk_module("vtkRenderingOpenGL2")  # what draws registers itself when it is imported
+    renderer = vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    width, height = (SUPERSAMPLING * n for n in scene.pixels)
+    for actor in actors_of(scene):
+        renderer.AddActor(actor)
+    set_camera(renderer, scene.view)
+    light = vtkLight()
+    light.SetLightTypeToCameraLight()
+    light.SetPosition(*LIGHT)
+    renderer.AddLight(light)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetSize(width, height)
+    window.AddRenderer(renderer)
+    window.Render()
+    shot = vtkWindowToImageFilter()
+    shot.SetInput(window)
+    shot.ReadFrontBufferOff()
+    shot.Update()
+    colours = vtk_to_numpy(shot.GetOutput().GetPointData().GetScalars()).reshape(height, width, 3)
+    window.Finalize()
+    blocks = colours[::-1].reshape(scene.pixels[1], SUPERSAMPLING, scene.pixels[0], SUPERSAMPLING, 3)
+    return blocks.mean(axis=(1, 3)).round().astype(np.uint8)
+
+
+def actors_of(scene):
+    """The plain or point-coloured surface, the faces that were opened, and feature edges."""
+    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+
+    surface = surface_of(vtk_grid(scene))
+    if scene.cell_colours is None:
+        found = [actor_of(surface, scene, scene.point_colours is not None)]
+    else:
+        whole = surface_of(vtk_grid(replace(scene, cells=None)))
+        n_points = len(scene.grid.points)
+        opened = ~np.isin(face_keys(surface, n_points), face_keys(whole, n_points))
+        opened |= scene.outside_coloured
+        found = [actor_of(with_faces(surface, chosen), scene, coloured)
+                 for chosen, coloured in ((~opened, False), (opened, True)) if chosen.any()]
+    if scene.feature_edges:
+        edges = vtkFeatureEdges()
+        edges.SetInputData(surface)
+        edges.SetFeatureAngle(FEATURE_ANGLE)
+        edges.ColoringOff()
+        edges.ManifoldEdgesOff()
+        edges.NonManifoldEdgesOff()
+        edges.Update()
+        found.append(line_actor(edges.GetOutput()))
+    return found
+
+
+def vtk_grid(scene):
+    """The chosen cells as VTK's own grid, with colours as scalars."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+    grid = scene.grid
+    chosen = np.ones(len(grid.types), dtype=bool) if scene.cells is None else scene.cells
+    sizes = np.diff(grid.offsets)
+    nodes = grid.connectivity[np.repeat(chosen, sizes)]
+    offsets = np.concatenate(([0], np.cumsum(sizes[chosen])))
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(grid.points, dtype=float), deep=True))
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets.astype(np.int64), deep=True),
+                  numpy_to_vtkIdTypeArray(nodes.astype(np.int64), deep=True))
+    result = vtkUnstructuredGrid()
+    result.SetPoints(points)
+    result.SetCells(numpy_to_vtk(grid.types[chosen].astype(np.uint8), deep=True), cells)
+    if scene.cell_colours is not None:
+        result.GetCellData().SetScalars(numpy_to_vtk(
+            np.ascontiguousarray(scene.cell_colours[chosen]), deep=True))
+    if scene.point_colours is not None:
+        result.GetPointData().SetScalars(numpy_to_vtk(
+            np.ascontiguousarray(scene.point_colours), deep=True))
+    return result
+
+
+def actor_of(surface, scene, coloured):
+    """The faces, with flat light: what looks curved on a coarse mesh is not."""
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.SetColorModeToDirectScalars()
+    # Without the offset, lines would drown in the faces that they bound.
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetScalarVisibility(coloured)
+    if scene.cell_colours is not None:
+        mapper.SetScalarModeToUseCellData()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetColor(*scene.plain_colour)
+    look.SetInterpolationToFlat()
+    look.SetAmbient(scene.ambient)
+    look.SetDiffuse(1 - scene.ambient)
+    look.SetSpecular(0)
+    if scene.cell_edges and coloured:
+        look.EdgeVisibilityOn()
+        look.SetEdgeColor(0.15, 0.15, 0.15)
+        look.SetLineWidth(1.0 * SUPERSAMPLING)
+    return actor
+
+
+def line_actor(lines):
+    """Thin dark lines."""
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(lines)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.15, 0.15, 0.15)
+    actor.GetProperty().SetLineWidth(2.5 * SUPERSAMPLING)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def set_camera(renderer, view):
+    """Parallel projection of the view's rectangle."""
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*view.centre)
+    camera.SetPosition(*(np.asarray(view.centre) + view.distance * np.asarray(view.towards)))
+    camera.SetViewUp(*view.up)
+    camera.SetParallelScale(0.5 * view.height)
+    renderer.ResetCameraClippingRange()

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The look of all figures: sizes, fonts, colours, and how a method is told from the others.
+
+Colours are those of M. Okabe and K. Ito, "Color Universal Design" (2008), without its yellow, which
+is too light for thin lines. Marker and dashes differ as well, so that print in grey stays readable.
+"""
+
+import io
+from dataclasses import dataclass, replace
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot  # noqa: E402  (the backend has to be chosen first)
+import matplotlib.ticker  # noqa: E402,F401
+
+from ..results.cell_types import ANY_CELL  # noqa: E402
+from ..results.smoothing import INITIAL  # noqa: E402
+from ..results.write_files import write_atomically  # noqa: E402
+
+SINGLE_WIDTH, FULL_WIDTH = 3.4, 7.0  # inches: one and two columns of a journal page
+DPI = 300
+
+SETTINGS = {
+    "font.family": "serif", "font.serif": ["STIXGeneral"], "mathtext.fontset": "stix",
+    "font.size": 9, "axes.labelsize": 9, "axes.titlesize": 9, "xtick.labelsize": 8,
+    "ytick.labelsize": 8, "legend.fontsize": 9, "axes.linewidth": 0.6, "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
+    "xtick.direction": "in", "ytick.direction": "in", "lines.linewidth": 1.0,
+    "grid.linewidth": 0.4, "grid.color": "0.88", "axes.grid": True, "axes.axisbelow": True,
+    "legend.frameon": False, "savefig.dpi": DPI,
+    # Type 42: text in the PDF stays text and needs no Type 3 fonts, which some journals refuse.
+    "pdf.fonttype": 42,
+    # Names inside a svg file are made from this instead of random numbers.
+    "svg.hashsalt": "smoothfem", "svg.fonttype": "none",
+}
+
+QUALITY_MAP = "RdYlBu"  # low quality red, high quality blue; safe for the colour-blind
+SOLUTION_MAP = "viridis"
+INITIAL_COLOUR = "0.45"
+FILL_COLOUR, OUTLINE_COLOUR = "#dbe7f0", "0.15"
+# A type of elements has the same colour in every figure.
+ELEMENT_COLOURS = {"triangle": "#0072B2", "quadrilateral": "#E69F00", "polygon": "#009E73",
+                   "tetrahedron": "#0072B2", "hexahedron": "#E69F00", "prism": "#009E73",
+                   "pyramid": "#CC79A7", ANY_CELL: "0.6"}
+
+
+@dataclass(frozen=True)
+class MethodStyle:
+    """Colour, marker and dash pattern of a method's line."""
+
+    colour: str
+    marker: str
+    dashes: tuple  # on, off, ... in line widths; empty: solid
+    hollow: bool = False  # whether the marker is white inside
+
+    @property
+    def marker_fill(self):
+        """The colour inside the marker."""
+        return "white" if self.hollow else self.colour
+
+
+KNOWN_METHODS = {
+    "getme": MethodStyle("#D55E00", "o", ()),
+    "global-optimization": MethodStyle("#009E73", "^", (5, 1.5)),
+    "smart-laplace": MethodStyle("#E69F00", "s", (1.2, 1.2)),
+    "weighted-laplace": MethodStyle("#0072B2", "D", (5, 1.5, 1.2, 1.5)),
+    "laplace": MethodStyle("#56B4E9", "v", (3, 1.2)),
+    "getme-simultaneous": MethodStyle("#CC79A7", "P", (8, 1.5)),
+    "getme-sequential": MethodStyle("#000000", "X", (2.5, 2.5)),
+    "getme-adaptive": MethodStyle("#8B4513", "<", (8, 1.5, 2, 1.5)),
+    "getme-qgamma": MethodStyle("#7A3E9D", ">", (3, 1.2, 1.2, 1.2)),
+}
+
+OTHER_METHODS = tuple(
+    MethodStyle(colour, marker, dashes) for colour, marker, dashes in zip(
+        ("#000000", "#56B4E9", "#CC79A7", "#8B4513", "#7A3E9D", "#0072B2", "#E69F00", "#009E73"),
+        ("h", "*", "p", "d", "8", "H", "4", "1"),
+        ((6, 1, 1, 1, 1, 1), (2, 1), (1, 2), (10, 2), (4, 1, 2, 1), (7, 1, 1, 1), (2, 2, 6, 2),
+         (12, 1.5, 2, 1.5))))
+
+
+# How the name of a method ends that is the one of the same name on several threads.
+PARALLEL_SUFFIX = "-parallel"
+PARALLEL_DASHES = (6, 1.5, 1, 1.5, 1, 1.5)
+
+
+def sequential_name(method):
+    """The name of the method on one thread."""
+    return method.removesuffix(PARALLEL_SUFFIX)
+
+
+def method_styles(methods):
+    """A style for each method. The known ones always have the same; any other takes the next free
+    one in the alphabetical order of the names, whatever the order of the study. A parallel method
+    looks like its sequential one with a hollow marker and other dashes."""
+    sequential = {sequential_name(name) for name in methods}
+    others = sorted(sequential - KNOWN_METHODS.keys())
+    found = {**KNOWN_METHODS,
+             **{name: OTHER_METHODS[i % len(OTHER_METHODS)] for i, name in enumerate(others)}}
+    styles = {name: found[sequential_name(name)] for name in methods}
+    styles.update((name, replace(look, dashes=PARALLEL_DASHES, hollow=True))
+                  for name, look in styles.items() if name != sequential_name(name))
+    styles[INITIAL] = MethodStyle(INITIAL_COLOUR, "", ())
+    return styles
+
+
+def apply_style():
+    """Makes the settings those of all figures drawn from now on."""
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update(SETTINGS)
+
+
+def figure_bytes(figure, suffix, title):
+    """The figure as the content of a pdf, png or svg file, without a date: the same figure gives the
+    same bytes."""
+    metadata = {"pdf": {"Title": title, "Creator": "smoothfem", "CreationDate": None},
+                "png": {"Title": title, "Software": "smoothfem"},
+                "svg": {"Title": title, "Creator": "smoothfem", "Date": None}}[suffix]
+    stream = io.BytesIO()
+    figure.savefig(stream, format=suffix, dpi=DPI, metadata=metadata)
+    return stream.getvalue()
+
+
+def save_figure(figure, folder, name, title):
+    """Writes `name`.pdf and `name`.png, closes the figure and returns the two paths."""
+    paths = [write_atomically(folder / f"{name}.{suffix}", figure_bytes(figure, suffix, title))
+             for suffix in ("pdf", "png")]
+    pyplot.close(figure)
+    return paths

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""VTK's numbers of the types of cells, and what a reader calls them."""
+
+# Planar cells whose connectivity walks around the cell: VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
+PLANAR_CELL_TYPES = {5: "triangle", 7: "polygon", 9: "quadrilateral"}
+# VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID.
+VOLUME_CELL_TYPES = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid"}
+CELL_NAMES = (*PLANAR_CELL_TYPES.values(), *VOLUME_CELL_TYPES.values())
+ANY_CELL = "cell"  # where it is not known of which type
+
+PLURALS = {"tetrahedron": "tetrahedra", "hexahedron": "hexahedra"}
+
+
+def counted(count, name):
+    """'1 prism', '10,600 hexahedra'."""
+    return f"{count:,} {name if count == 1 else PLURALS.get(name, name + 's')}"

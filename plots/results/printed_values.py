@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the printed tables that a study is compared with, and what is known about deviations.
+
+The values stand in studies/thesis/; its README.md says where each of them is printed.
+"""
+
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from .data_folder import THESIS, thesis_folder
+from .rows import ResultsError, entries, read_rows
+
+
+@dataclass
+class PrintedTable:
+    """The printed values of one kind of content (`smoothing`, `solver`, `errors`, `thresholds`)."""
+
+    number: str = ""
+    measured_on: str = ""
+    rows: list = field(default_factory=list)  # dictionaries from column name to string
+    deviations: list = field(default_factory=list)  # table, mesh, degree, method, column, note
+
+
+def read_printed_tables(study, provenance):
+    """The printed tables of a study as a dictionary from content to PrintedTable.
+
+    The provenance may choose them (`printed_values`: table numbers or paths); without that key the
+    tables are those listed for a study of this name. Empty if there is nothing to compare with.
+    """
+    folder = thesis_folder()
+    index = folder / "tables.csv"
+    if not index.exists():
+        return {}
+    chosen = provenance.get("printed_values")
+    tables = {}
+    for entry in read_rows(index, ("table", "study", "content", "file", "measured_on")).records():
+        if is_chosen(entry, study, chosen):
+            table = tables.setdefault(entry["content"],
+                                      PrintedTable(entry["table"], entry["measured_on"]))
+            table.rows += read_rows(folder / entry["file"], ("mesh", "method")).records()
+    deviations = folder / "deviations.csv"
+    if tables and deviations.exists():
+        required = ("table", "mesh", "degree", "method", "column", "note")
+        notes = read_rows(deviations, required).records()
+        for table in tables.values():
+            table.deviations = [note for note in notes if fnmatchcase(table.number, note["table"])]
+    return tables
+
+
+def is_chosen(entry, study, chosen):
+    """Whether an entry of the index belongs to a study that names the `chosen` tables or paths."""
+    if chosen is None:
+        return entry["study"] == study
+    if not isinstance(chosen, list):
+        raise ResultsError("provenance.json: `printed_values` is not a list.")
+    names = {Path(str(name)).stem for name in chosen if "/" in str(name) or str(name).endswith(".csv")}
+    numbers = {str(name).removeprefix("table_").replace("_", ".") for name in chosen}
+    # A folder stands for all of its tables that belong to the study.
+    return (Path(entry["file"]).stem in names or entry["table"] in numbers
+            or (THESIS.name in names and entry["study"] == study))
+
+
+def comparison_notes(table, results):
+    """What the printed values were measured on, whether ours were as well, and what the study says
+    about that: a list of notes."""
+    measured = [row["mesh"] for row in table.rows]
+    stand_ins = [mesh for mesh in results.meshes if mesh in measured and not results.is_published(mesh)]
+    note = f"Printed values: Table {table.number}, measured on the {table.measured_on}."
+    own = [results.note] if results.note else []
+    if not stand_ins:
+        return [note, *own]
+    known = {entry["name"] for entry in entries(results.provenance, "meshes") if "published" in entry}
+    names = ", ".join(stand_ins)
+    if not known.issuperset(stand_ins):
+        return [f"{note} Whether ours are these meshes is not recorded for: {names}.", *own]
+    return [f"{note} Not these meshes but stand-ins for them, whose numbers cannot be compared digit "
+            f"for digit: {names}.", *own]

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rows of CSV files, and what a study says about itself in provenance.json."""
+
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+
+class ResultsError(Exception):
+    """A file of the results folder is missing, truncated or malformed; the message is one sentence."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows of a CSV file, column by column, as the strings that stand in the file."""
+
+    path: Path
+    columns: dict  # name -> numpy array of str, all of the same length
+
+    def __len__(self):
+        return len(next(iter(self.columns.values()), ()))
+
+    def text(self, name):
+        """The strings of a column, shape (rows,); empty strings if the file has no such column."""
+        return self.columns.get(name, np.full(len(self), "", dtype=object))
+
+    def number(self, name):
+        """The numbers of a column, shape (rows,); NaN where the field is empty."""
+        try:
+            return np.array([float(field) if field else np.nan for field in self.text(name)])
+        except ValueError as error:
+            raise ResultsError(f"{self.path}: column `{name}` holds something that is "
+                               f"not a number ({error}).") from None
+
+    def select(self, **wanted):
+        """The rows whose columns equal the given strings, in the order of the file."""
+        mask = np.ones(len(self), dtype=bool)
+        for name, value in wanted.items():
+            mask &= self.text(name) == value
+        return Rows(self.path, {name: column[mask] for name, column in self.columns.items()})
+
+    def records(self):
+        """The rows as a list of dictionaries from column name to string."""
+        return [dict(zip(self.columns, fields)) for fields in zip(*self.columns.values())]
+
+
+def read_rows(path, required=()):
+    """Reads a CSV file with a header line; raises ResultsError if it is missing, truncated or lacks a
+    required column."""
+    path = Path(path)
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            lines = list(csv.reader(stream))
+    except FileNotFoundError:
+        raise ResultsError(f"{path}: the file is missing; has the study been run?") from None
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ResultsError(f"{path}: the file cannot be read ({error}).") from None
+    if not lines:
+        raise ResultsError(f"{path}: the file is empty.")
+    header, body = lines[0], lines[1:]
+    for name in required:
+        if name not in header:
+            raise ResultsError(f"{path}: column `{name}` is missing.")
+    for number, line in enumerate(body, start=2):
+        if len(line) != len(header):
+            raise ResultsError(f"{path}, row {number}: {len(line)} fields instead of {len(header)}; "
+                               "the file looks truncated.")
+    # Strings of any length: object arrays, so that comparing and selecting need no common width.
+    table = np.array(body, dtype=object).reshape(len(body), len(header))
+    return Rows(path, {name: table[:, i] for i, name in enumerate(header)})
+
+
+def groups_of(rows, *names):
+    """The rows as (values of these columns, rows that have them), in the order of the file."""
+    keys = list(zip(*(rows.text(name) for name in names)))
+    found = {}
+    for number, key in enumerate(keys):
+        found.setdefault(key, []).append(number)
+    return [(key, Rows(rows.path, {name: column[numbers] for name, column in rows.columns.items()}))
+            for key, numbers in found.items()]
+
+
+def read_provenance(path):
+    """Reads provenance.json; an empty dictionary if there is none."""
+    try:
+        provenance = json.loads(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError) as error:
+        raise ResultsError(f"{path}: not a complete JSON file ({error}).") from None
+    if not isinstance(provenance, dict):
+        raise ResultsError(f"{path}: a JSON object is expected.")
+    return provenance
+
+
+def entries(provenance, key):
+    """The list of named objects under a key of the provenance; bare names count as objects too."""
+    found = provenance.get(key)
+    if not isinstance(found, list):
+        return []
+    found = [{"name": entry} if isinstance(entry, str) else entry for entry in found]
+    return [entry for entry in found if isinstance(entry, dict) and "name" in entry]
+
+
+def order_of(names, provenance, key):
+    """The names that occur in the rows: first in the order of the provenance, then as they appear."""
+    occurring = list(dict.fromkeys(names))
+    declared = [entry["name"] for entry in entries(provenance, key) if entry["name"] in occurring]
+    return tuple(dict.fromkeys(declared + occurring))

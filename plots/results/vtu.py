@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes of a results folder, read by VTK, as arrays."""
+
+import importlib
+import os
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .cell_types import PLANAR_CELL_TYPES, VOLUME_CELL_TYPES
+from .rows import ResultsError
+
+
+class NoVtk(Exception):
+    """VTK's Python modules cannot be imported; the message is half a sentence, for after a colon."""
+
+
+@dataclass(frozen=True)
+class UnstructuredGrid:
+    """Points (n, 3); cells in CSR form: cell c has nodes connectivity[offsets[c]:offsets[c + 1]]."""
+
+    points: np.ndarray
+    connectivity: np.ndarray
+    offsets: np.ndarray  # n_cells + 1 entries, the first is 0
+    types: np.ndarray  # (n_cells,), VTK's numbers
+    point_data: dict  # name -> array (n,) or (n, components)
+    cell_data: dict  # name -> array (n_cells,) or (n_cells, components)
+
+    @property
+    def is_planar(self):
+        """Whether every cell is a triangle, quadrilateral or polygon, of one plane."""
+        return self.has_polygons and bool((self.points[:, 2] == self.points[0, 2]).all())
+
+    @property
+    def is_surface(self):
+        """The same in space."""
+        return self.has_polygons and not self.is_planar
+
+    @property
+    def has_polygons(self):
+        """Whether every cell is a triangle, quadrilateral or polygon."""
+        return bool(np.isin(self.types, list(PLANAR_CELL_TYPES)).all())
+
+    @property
+    def is_volume(self):
+        """Whether every cell is a tetrahedron, hexahedron, prism or pyramid."""
+        return bool(np.isin(self.types, list(VOLUME_CELL_TYPES)).all())
+
+    def cells(self):
+        """The cells as a list of arrays of node numbers."""
+        return np.split(self.connectivity, self.offsets[1:-1])
+
+
+def vtk_module(name):
+    """A module of VTK's Python package, imported when it is needed, since that takes a moment. Raises NoVtk."""
+    try:
+        return importlib.import_module(f"vtkmodules.{name}")
+    except ImportError as error:
+        raise NoVtk(f"VTK's Python modules are missing ({error}); install the Debian package "
+                    "python3-vtk9") from None
+
+
+def read_vtu(path):
+    """Reads an unstructured grid of at least one cell; raises ResultsError if the file is missing,
+    truncated or of another kind, NoVtk if there is nothing to read it with."""
+    path = Path(path)
+    if not path.is_file():
+        raise ResultsError(f"{path}: the file is missing.")
+    reader = vtk_module("vtkIOXML").vtkXMLUnstructuredGridReader()
+    reader.SetFileName(os.fsencode(path))
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(True))
+    with silent_vtk():
+        reader.Update()
+    grid = None if errors else adapted(reader.GetOutput())
+    if grid is None:
+        raise ResultsError(f"{path}: not a complete VTU file of an unstructured grid.")
+    return grid
+
+
+@contextmanager
+def silent_vtk():
+    """VTK writes nothing to the standard error stream: its reader's errors are observed, and the parser
+    within the reader, which nobody can observe, says the same with addresses in memory."""
+    logger = vtk_module("vtkCommonCore").vtkLogger
+    before = logger.GetCurrentVerbosityCutoff()
+    logger.SetStderrVerbosity(logger.VERBOSITY_OFF)
+    try:
+        yield
+    finally:
+        logger.SetStderrVerbosity(before)
+
+
+def adapted(grid):
+    """A grid of VTK as arrays; None if it has no cells, or cells of nodes that are not there."""
+    to_numpy = vtk_module("util.numpy_support").vtk_to_numpy
+    if grid.GetNumberOfCells() == 0 or grid.GetNumberOfPoints() == 0:
+        return None
+    cells = grid.GetCells()
+    connectivity = to_numpy(cells.GetConnectivityArray()).astype(np.int64)
+    offsets = to_numpy(cells.GetOffsetsArray()).astype(np.int64)
+    if not len(connectivity) or connectivity.min() < 0 or connectivity.max() >= grid.GetNumberOfPoints():
+        return None
+
+    def arrays(attributes):
+        """Name -> numbers; arrays of texts are of no use here."""
+        found = [attributes.GetArray(i) for i in range(attributes.GetNumberOfArrays())]
+        return {array.GetName(): to_numpy(array) for array in found if array is not None}
+    return UnstructuredGrid(
+        points=to_numpy(grid.GetPoints().GetData()), connectivity=connectivity, offsets=offsets,
+        types=to_numpy(grid.GetCellTypesArray()), point_data=arrays(grid.GetPointData()),
+        cell_data=arrays(grid.GetCellData()))

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes a Table as aligned text, as Markdown and as LaTeX (booktabs, graphicx)."""
+
+import re
+import textwrap
+from dataclasses import replace
+
+from .table import escape_tex
+
+TERMINAL_WIDTH = 110
+GAP = 2  # blanks between groups; within a group there is one
+
+SUPERSCRIPTS = dict(zip("abcdefghij", "ᵃᵇᶜᵈᵉᶠᵍʰⁱʲ"))
+
+
+def superscript(letter):
+    """The mark of a note in plain text: one character wide where Unicode has one."""
+    return SUPERSCRIPTS.get(letter, f"[{letter}]" if letter else "")
+
+
+def as_text(table, width=TERMINAL_WIDTH):
+    """The table for a terminal; groups that do not fit the width go to a panel below."""
+    key_width = sum(w + GAP for w in key_widths(table))
+    panels, used = [[]], key_width
+    for group in table.groups:
+        needed = GAP + group_width(group)
+        if panels[-1] and used + needed > width:
+            panels.append([])
+            used = key_width
+        panels[-1].append(group)
+        used += needed
+    lines = [table.caption, ""]
+    for panel in panels:
+        lines += panel_lines(replace(table, groups=tuple(panel))) + [""]
+    for letter, sentence in table.notes:
+        lines += textwrap.wrap(sentence, width, initial_indent=f"{superscript(letter):2}",
+                               subsequent_indent="  ")
+    return "\n".join(line.rstrip() for line in lines).rstrip() + "\n"
+
+
+def panel_lines(table):
+    """One panel: headings, subheadings and rows between rules."""
+    widths = key_widths(table)
+    keys = (" " * GAP).join(h.text.ljust(w) for h, w in zip(table.key_headings, widths))
+    first = [keys] + [g.heading.text.center(group_width(g)) for g in table.groups]
+    second = [" " * len(keys)] + [joined(g, g.subheadings) for g in table.groups]
+    body = []
+    for number, key in enumerate(table.keys):
+        cells = [(" " * GAP).join(c.text.ljust(w) for c, w in zip(key, widths))]
+        for group in table.groups:
+            marked = any(cell.mark for row in group.cells for cell in row)
+            # Without the blank after unmarked numbers the digits would not stand in columns.
+            cells.append(joined(group, [cell.text + (superscript(cell.mark) or
+                                                     (" " if marked and i == 1 else ""))
+                                        for i, cell in enumerate(group.cells[number])],
+                                left=group.heading.text in table.left_aligned))
+        body.append((" " * GAP).join(cells))
+    gap = " " * GAP
+    length = max(len(line) for line in body)
+    for number in reversed(table.rules):
+        body.insert(number, "-" * length)
+    header = [gap.join(first)] + ([gap.join(second)] if gap.join(second).strip() else [])
+    return ["=" * length] + header + ["-" * length] + body + ["=" * length]
+
+
+def key_widths(table):
+    """Width of each key column."""
+    return [max([len(heading.text)] + [len(row[i].text) for row in table.keys])
+            for i, heading in enumerate(table.key_headings)]
+
+
+def column_widths(group):
+    """Width of each of a group's columns, so that the group is as wide as its heading."""
+    widths = []
+    for i, subheading in enumerate(group.subheadings):
+        column = [row[i] for row in group.cells]
+        mark = max(len(superscript(cell.mark)) for cell in column)
+        widths.append(max([len(subheading)] + [len(cell.text) + mark for cell in column]))
+    missing = len(group.heading.text) - (sum(widths) + len(widths) - 1)
+    widths[0] += max(0, missing)
+    return widths
+
+
+def group_width(group):
+    """Width of a group with single blanks between its columns."""
+    widths = column_widths(group)
+    return sum(widths) + len(widths) - 1
+
+
+def joined(group, texts, left=False):
+    """The texts of one line of a group, aligned."""
+    return " ".join(text.ljust(w) if left else text.rjust(w)
+                    for text, w in zip(texts, column_widths(group)))
+
+
+def escape_markdown(text):
+    """Text with the characters escaped that would end a cell or begin emphasis."""
+    return re.sub(r"([|*_])", r"\\\1", text)
+
+
+def as_markdown(table):
+    """The table for a Markdown page; headings are repeated in each column."""
+    def marked(cell):
+        return escape_markdown(cell.text) + (f"<sup>{cell.mark}</sup>" if cell.mark else "")
+
+    headings = [h.text for h in table.key_headings]
+    alignment = [":--" for _ in headings]
+    for group in table.groups:
+        headings += [f"{group.heading.text} {sub}".strip() for sub in group.subheadings]
+        left = group.heading.text in table.left_aligned
+        alignment += [":--" if left else "--:" for _ in group.subheadings]
+    headings = " | ".join(escape_markdown(heading) for heading in headings)
+    lines = [f"**{escape_markdown(table.caption)}**", "", f"| {headings} |", f"|{'|'.join(alignment)}|"]
+    for number, key in enumerate(table.keys):
+        cells = list(key) + [cell for group in table.groups for cell in group.cells[number]]
+        lines.append("| " + " | ".join(marked(cell) for cell in cells) + " |")
+    lines.append("")
+    for letter, sentence in table.notes:
+        lines.append((f"<sup>{letter}</sup> " if letter else "") + escape_markdown(sentence) + "  ")
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def as_latex(table):
+    """The table for LaTeX; needs the packages booktabs and graphicx.
+
+    Shrunk to the line width if it is wider, never enlarged.
+    """
+    columns = "l" * len(table.key_headings)
+    first, second, rules, column = [h.tex for h in table.key_headings], [], [], len(columns) + 1
+    second = ["" for _ in first]
+    for group in table.groups:
+        n = len(group.subheadings)
+        columns += "l" if group.heading.text in table.left_aligned else "r" * n
+        first.append(rf"\multicolumn{{{n}}}{{c}}{{{group.heading.tex}}}" if n > 1
+                     else group.heading.tex)
+        second += [escape_tex(subheading) for subheading in group.subheadings]
+        rules += [rf"\cmidrule(lr){{{column}-{column + n - 1}}}"] if n > 1 else []
+        column += n
+    body = []
+    for number, key in enumerate(table.keys):
+        if number in table.rules:
+            body.append(r"\addlinespace")
+        cells = list(key) + [cell for group in table.groups for cell in group.cells[number]]
+        body.append(" & ".join(tex_cell(cell) for cell in cells) + r" \\")
+    header = [" & ".join(first) + r" \\"]
+    if any(second):
+        header += ["".join(rules), " & ".join(second) + r" \\"]
+    notes = [rf"\textsuperscript{{{letter}}}~{escape_tex(sentence)}" if letter
+             else escape_tex(sentence) for letter, sentence in table.notes]
+    caption = table.caption.partition(": ")[2] if table.caption.startswith("Table ") else table.caption
+    lines = [r"% Needs \usepackage{booktabs} and \usepackage{graphicx}.", r"\begin{table}", r"\centering",
+             rf"\caption{{{escape_tex(caption)}}}", rf"\label{{tab:{table.name}}}", r"\footnotesize",
+             r"\setlength{\tabcolsep}{3pt}",
+             r"\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{%",
+             rf"\begin{{tabular}}{{{columns}}}", r"\toprule", *header, r"\midrule", *body,
+             r"\bottomrule", r"\end{tabular}}"]
+    lines += [r"\par\smallskip\begin{minipage}{\linewidth}\scriptsize",
+              "\\par\n".join(notes), r"\end{minipage}"] if notes else []
+    return "\n".join(lines + [r"\end{table}"]) + "\n"
+
+
+def tex_cell(cell):
+    """A cell in LaTeX with its mark; \\rlap keeps the digits of marked numbers in their columns."""
+    text = cell.tex or escape_tex(cell.text)
+    return text + (rf"\rlap{{\textsuperscript{{{cell.mark}}}}}" if cell.mark else "")

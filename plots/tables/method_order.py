@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the methods of a table stand in the printed order, mesh by mesh and number by number."""
+
+import math
+from collections import Counter
+from dataclasses import dataclass
+from itertools import combinations
+
+from ..results.smoothing import INITIAL
+from .number_format import grouped
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A number of one method: ours and the printed one, as values and as the table shows them."""
+
+    method: str  # its title
+    ours: float
+    printed: float
+    ours_shown: str
+    printed_shown: str
+
+    @property
+    def shown(self):
+        """Both as the table shows them."""
+        return self.ours_shown, self.printed_shown
+
+
+def order_notes(description, pairs, results):
+    """Sentences on the order of the methods in a table: one where it is that of the print, else one
+    more for each case where it is not, with the numbers.
+
+    `pairs` are (our row, printed row or {}). Numbers that the table shows alike, ours or printed,
+    have no order, and the mesh before smoothing is no method. Empty if the print has no two methods
+    to compare.
+    """
+    if "method" not in description.keys:
+        return []
+    compared, cases = [], {}
+    for measure in description.measures:
+        if measure.ranks_methods and measure.format is not None:
+            found = {case: entries for case, entries
+                     in entries_of(measure, description, pairs, results).items() if len(entries) > 1}
+            compared += [measure.heading.text] if found else []
+            for case, entries in found.items():
+                cases.setdefault(case, []).append((measure.heading.text, entries))
+    if not compared:
+        return []
+    exceptions = [f"• {case}, {name}: {sentence}" for case, numbers in cases.items()
+                  for name, entries in numbers for sentence in disagreements(entries)]
+    names = " and ".join(filter(None, (", ".join(compared[:-1]), compared[-1])))
+    beginning = f"The order of the methods by {names} is the printed one"
+    return [f"{beginning}, but for these:", *exceptions] if exceptions else [f"{beginning}."]
+
+
+def entries_of(measure, description, pairs, results):
+    """Name of a mesh (and degree) -> entries of the methods that have both numbers. A method that
+    is shown like one before it, such as the same one on several threads, would add nothing."""
+    values, texts = measure.numbers([ours.get(measure.column, "") for ours, _ in pairs])
+    found = {}
+    for (ours, printed), value, text in zip(pairs, values, texts):
+        theirs = number_or_nan(printed.get(measure.column))
+        if ours["method"] == INITIAL or math.isnan(value) or math.isnan(theirs):
+            continue
+        case = results.title(ours["mesh"])
+        case += f", d = {ours['degree']}" if "degree" in description.keys else ""
+        entry = Entry(results.title(ours["method"]), value, theirs, grouped(text),
+                      grouped(printed[measure.column]))
+        if all(entry.shown != other.shown for other in found.setdefault(case, [])):
+            found[case].append(entry)
+    return found
+
+
+def number_or_nan(text):
+    """The number in a field of the print, which may be absent, empty or a word."""
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def our_sign(one, other):
+    """1 or -1 if our number of one method is above or below that of another, 0 if shown alike."""
+    return 0 if one.ours_shown == other.ours_shown else 1 if one.ours > other.ours else -1
+
+
+def printed_sign(one, other):
+    """The same for the printed ones."""
+    return (one.printed > other.printed) - (one.printed < other.printed)
+
+
+def disagreements(entries):
+    """Sentences on pairs whose order is not the printed one. The method that stands wrong to most
+    others comes first, so that one that alone is misplaced takes one sentence."""
+    wrong = [pair for pair in combinations(entries, 2) if our_sign(*pair) * printed_sign(*pair) < 0]
+    sentences = []
+    while wrong:
+        counts = Counter(entry for pair in wrong for entry in pair)
+        misplaced = max(entries, key=lambda entry: counts[entry])
+        others = [entry for entry in entries
+                  if (entry, misplaced) in wrong or (misplaced, entry) in wrong]
+        wrong = [pair for pair in wrong if misplaced not in pair]
+        for side, ours, printed in ((1, ">", "<"), (-1, "<", ">")):
+            partners = [other for other in others if our_sign(misplaced, other) == side]
+            if partners:
+                named = ", ".join(f"{other.method} ({other.ours_shown})" for other in partners)
+                numbers = ", ".join(other.printed_shown for other in partners)
+                sentences.append(f"{misplaced.method} ({misplaced.ours_shown}) {ours} {named}; "
+                                 f"printed {misplaced.printed_shown} {printed} {numbers}")
+    return sentences

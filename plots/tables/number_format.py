@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How numbers are written in tables: ours with fixed digits, and their difference from the print."""
+
+import math
+import re
+
+MISSING = "–"
+
+# Below this, four decimals would leave fewer than two digits.
+SMALLEST_FIXED = 1e-3
+# From this factor on, percents are hard to read.
+FACTOR_FROM = 10
+
+
+def format_integer(values):
+    """Whole numbers."""
+    return [MISSING if math.isnan(v) else f"{v:.0f}" for v in values]
+
+
+def format_scientific(values):
+    """Three digits and an exponent, as the thesis prints condition numbers."""
+    return [MISSING if math.isnan(v) else f"{v:.2e}" for v in values]
+
+
+def format_quality(values):
+    """Four decimals, as the thesis prints mean ratio numbers."""
+    return [MISSING if math.isnan(v) else f"{v:.4f}" for v in values]
+
+
+def format_seconds(values):
+    """Milliseconds resolved, and as many decimals more as the shortest time needs for two digits."""
+    shortest = min((v for v in values if v > 0), default=1.0)
+    decimals = min(max(3, 1 - math.floor(math.log10(shortest))), 6)
+    return [MISSING if math.isnan(v) else f"{v:.{decimals}f}" for v in values]
+
+
+def format_factor(values):
+    """One decimal, as the thesis prints speedups."""
+    return [MISSING if math.isnan(v) else f"{v:.1f}" for v in values]
+
+
+def format_memory(values):
+    """Two decimals: one more than the thesis prints, since its meshes are larger than most of ours."""
+    return [MISSING if math.isnan(v) else f"{v:.2f}" for v in values]
+
+
+def format_error(values):
+    """Four decimals as in the thesis; with an exponent for the whole column if these are too few."""
+    sizes = [abs(v) for v in values if not math.isnan(v) and v != 0]
+    fixed = not sizes or (min(sizes) >= SMALLEST_FIXED and max(sizes) < 1e5)
+    return [MISSING if math.isnan(v) else f"{v:.4f}" if fixed else f"{v:.4e}" for v in values]
+
+
+def grouped(text):
+    """Counts such as 5099700 and 124/5099700 with commas between thousands; other text as it is."""
+    if not re.fullmatch(r"\d+(/\d+)*", text):
+        return text
+    return "/".join(f"{int(count):,}" for count in text.split("/"))
+
+
+def relative_difference(ours, printed):
+    """(ours - printed) / printed in percent; "=" if ours has all the printed digits; from ten times
+    the printed number on the factor, such as ×12.
+
+    The sign is left out where one decimal would leave only a zero. `ours` is a number,
+    `printed` the string of the print; MISSING where there is nothing to compare or the print is zero
+    and ours is not.
+    """
+    try:
+        reference = float(printed)
+    except ValueError:
+        return MISSING
+    if math.isnan(ours):
+        return MISSING
+    if as_printed(ours, printed) == as_printed(reference, printed):
+        return "="
+    if reference == 0:
+        return MISSING
+    percent = 100 * (ours - reference) / reference
+    if abs(percent) < 0.05:
+        return "<0.1"
+    return f"{percent:+.1f}" if ours / reference < FACTOR_FROM else f"×{ours / reference:,.0f}"
+
+
+def as_printed(value, printed):
+    """A number written with the digits of a printed one ("1.09e+08": three, ".3367": 4 decimals)."""
+    mantissa, exponent, _ = printed.lower().partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    return f"{value:.{decimals}{'e' if exponent else 'f'}}"

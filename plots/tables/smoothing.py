@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fills the tables of Chapters 5 and 6 of the thesis: our numbers, the printed ones, their difference.
+
+One mechanism for all tables; what differs stands in descriptions.py.
+"""
+
+from dataclasses import replace
+
+from ..results.printed_values import comparison_notes
+from ..results.rows import ResultsError
+from ..results.smoothing import INITIAL
+from ..results.symbols import SYMBOLS, Heading
+from .descriptions import DETAILS, KEY_HEADINGS, TABLES
+from .method_order import order_notes
+from .notes import Notes
+from .number_format import MISSING, relative_difference
+from .table import Cell, Group, Table, escape_tex, number_cell
+
+
+COLUMNS_NOTE = ("Columns: our value, the printed one, and where it makes sense the relative difference "
+                "in %, from ten times the printed one on as a factor (=: the same in all printed "
+                "digits).")
+
+
+def make_tables(results, printed):
+    """All tables of a results folder; `printed` maps content to PrintedTable and may be empty."""
+    tables = [make_table(description, results, printed.get(description.content))
+              for description in TABLES]
+    return [table for table in tables if table is not None]
+
+
+def make_table(description, results, printed):
+    """One table, or None if the study has no rows or no numbers for it."""
+    rows = getattr(results, description.source).records()
+    if description.degree_independent:
+        rows = [row for row in rows if row.get("degree", "") == first_degree(row, rows)]
+    if not has_what_it_needs(description, rows):
+        return None
+    reference = printed.rows if printed else []
+    sentences = ()
+    if description.pivot:
+        sentences = unreached(rows, results)
+        description, rows, reference = pivot(description, rows, reference, results)
+    rows = in_study_order(rows, description.keys, results)
+    by_key = {}
+    for row in reference:
+        by_key.setdefault(key_of(row, description.keys), {}).update(row)
+    pairs = [(row, by_key.get(key_of(row, description.keys), {})) for row in rows]
+    compared = any(printed_row for _, printed_row in pairs)
+    notes = Notes(printed.deviations if printed and compared else [], pairs)
+    detailed = has_what_it_needs(DETAILS, rows)
+    groups = [make_group(measure, pairs, notes, measure.if_printed or (measure.detail and detailed))
+              for measure in description.measures]
+    groups = tuple(group for group in groups if group is not None)
+    if not rows or not groups:
+        return None
+    keys, rules = key_cells(rows, description.keys, results)
+    name, caption = description.content, f"{results.study_title}: {description.caption}"
+    sentences += notes.sentences()
+    if compared:
+        name = f"{printed.number.replace('.', '_')}_{name}"
+        caption = f"Table {printed.number}: {caption}"
+        sentences = tuple(("", sentence) for sentence in (
+            *comparison_notes(printed, results), COLUMNS_NOTE,
+            *order_notes(description, pairs, results))) + sentences
+    return Table(name=f"table_{name}", caption=caption, keys=keys, rules=rules, groups=groups,
+                 key_headings=tuple(KEY_HEADINGS[key] for key in description.keys),
+                 left_aligned=("Status", "cond(A) by"), notes=sentences)
+
+
+def has_what_it_needs(description, rows):
+    """Whether the rows have something in the column without which the table would say nothing."""
+    return not description.needs or any(row.get(description.needs) for row in rows)
+
+
+def first_degree(row, rows):
+    """The degree of the first row with the same mesh and method."""
+    return next(other.get("degree", "") for other in rows
+                if (other["mesh"], other["method"]) == (row["mesh"], row["method"]))
+
+
+def key_of(row, keys):
+    """The tuple by which our rows and printed rows are matched."""
+    return tuple(row.get(key, "") for key in keys)
+
+
+def in_study_order(rows, keys, results):
+    """The rows sorted by mesh, degree, then method as in the study (errors stay as they stand)."""
+    orders = {"mesh": results.meshes, "degree": results.degrees, "error": tuple(SYMBOLS),
+              "method": (INITIAL,) + results.methods}
+
+    def position(row):
+        return tuple(orders[key].index(row[key]) if row[key] in orders[key] else len(orders[key])
+                     for key in keys)
+    return sorted(rows, key=position)
+
+
+def pivot(description, rows, reference, results):
+    """Makes one row of the rows that differ in the method only: their columns become columns named
+    `column method`, headed by the method's title."""
+    by_method = [m for m in description.measures if m.column in ("method_seconds", "speedup")]
+    occurring = {row["method"] for row in rows}
+    methods = [method for method in results.methods if method in occurring]
+    references = list(dict.fromkeys(row["reference_method"] for row in rows))
+    if len(references) > 1:
+        raise ResultsError(f"{results.thresholds.path}: more than one reference_method.")
+
+    def headed(measure, method, column):
+        title = results.title(method)
+        prefix = "Speedup " if measure.column == "speedup" else ""
+        unit = "" if prefix else " (s)"
+        return replace(measure, column=column, heading=Heading(prefix + title + unit,
+                                                               prefix + escape_tex(title) + unit))
+    measures = []
+    for measure in description.measures:
+        if measure.column == "reference_seconds" and references:
+            measures.append(headed(measure, references[0], measure.column))
+        elif measure not in by_method:
+            measures.append(measure)
+    measures += [headed(measure, method, f"{measure.column} {method}")
+                 for method in methods for measure in by_method]
+
+    def merged(records):
+        found = {}
+        for record in records:
+            row = found.setdefault(key_of(record, description.keys), dict(record))
+            row.update({f"{m.column} {record['method']}": record[m.column] for m in by_method})
+        return list(found.values())
+    return replace(description, measures=tuple(measures)), merged(rows), merged(reference)
+
+
+def unreached(rows, results):
+    """A note that names the methods that reached none of the thresholds; they have no column."""
+    reached = {row["method"] for row in rows if row["method_seconds"]}
+    never = [m for m in results.methods if m not in reached and any(m == r["method"] for r in rows)]
+    names = ", ".join(results.title(method) for method in never)
+    return (("", f"No threshold was reached by: {names}."),) if never else ()
+
+
+def make_group(measure, pairs, notes, if_printed):
+    """The columns of one measure, or None if there is nothing in them worth showing; with
+    `if_printed` that is where the print has none."""
+    fields = [ours.get(measure.column, "") for ours, _ in pairs]
+    # None: the print has no such row or column; empty: it has, and leaves it empty.
+    prints = [printed.get(measure.column) for _, printed in pairs]
+    if not any(prints) and (if_printed or all(field in ("", *measure.unremarkable) for field in fields)):
+        return None
+    values, texts = measure.numbers(fields)
+    columns, subheadings = [[number_cell(text) for text in texts]], ["ours"]
+    if any(prints):
+        marks = ["" if printed is None else notes.letter(measure.column, row)
+                 for row, printed in enumerate(prints)]
+        columns.append([number_cell(printed or MISSING, mark) for printed, mark in zip(prints, marks)])
+        subheadings.append("printed")
+        if measure.difference and values is not None:
+            columns.append([number_cell(relative_difference(value, printed or ""))
+                            for value, printed in zip(values, prints)])
+            subheadings.append("%")
+    else:
+        subheadings = [""]
+    return Group(measure.heading, tuple(subheadings), tuple(zip(*columns)))
+
+
+def key_cells(rows, keys, results):
+    """The leading cells of each row, blank where they repeat the row above, and where rules go."""
+    cells, rules, above = [], [], None
+    for number, row in enumerate(rows):
+        key = key_of(row, keys)
+        shown = [above is None or key[:i + 1] != above[:i + 1] for i in range(len(keys))]
+        if above is not None and any(shown[:-1]):
+            rules.append(number)
+        cells.append(tuple(key_cell(name, row[name], results) if show else Cell("")
+                           for name, show in zip(keys, shown)))
+        above = key
+    return tuple(cells), tuple(rules)
+
+
+def key_cell(name, value, results):
+    """The cell of a key: titles for methods, symbols for errors; meshes keep their short names."""
+    if name == "error" and value in SYMBOLS:
+        return Cell(SYMBOLS[value].text, tex=SYMBOLS[value].tex)
+    title = results.title(value) if name == "method" else value
+    return Cell(title, tex=escape_tex(title))
