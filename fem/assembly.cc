@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/assembly.h"
 
 #include "fem/cell_integrals.h"
@@ -34,22 +35,6 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
     }
   }
 }
-
-// One function an element: templates are not compiled for wider registers.
-#define SMOOTHFEM_COMPUTE(dim, n_dofs, n_vertices)                                               \
-  void compute(const ReferenceElement& element, const CellBatch<dim, n_dofs, n_vertices>& batch, \
-               CellIntegrals<n_dofs, Lanes>& integrals) {                                        \
-    integrals.compute<dim, n_vertices>(element, batch.vertices, batch.load);                     \
-  }
-SMOOTHFEM_COMPUTE(2, 3, 3)
-SMOOTHFEM_COMPUTE(2, 6, 3)
-SMOOTHFEM_COMPUTE(2, 4, 4)
-SMOOTHFEM_COMPUTE(2, 9, 4)
-SMOOTHFEM_COMPUTE(3, 4, 4)
-SMOOTHFEM_COMPUTE(3, 10, 4)
-SMOOTHFEM_COMPUTE(3, 8, 8)
-SMOOTHFEM_COMPUTE(3, 27, 8)
-#undef SMOOTHFEM_COMPUTE
 
 /// b_i += integral of f phi_i over the cells of one element.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
@@ -96,8 +81,8 @@ void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
     CellIntegrals<n_dofs, Lanes> integrals;
     for (std::size_t first = 0; first < group.n_cells(); first += n_lanes) {
-      const CellBatch<dim, n_dofs, n_vertices> batch(group, x, nodal_load, first);
-      compute(group.element, batch, integrals);
+      const ElementBatch<dim, n_dofs, n_vertices> batch(group, x, nodal_load, first);
+      integrals.template compute<dim, n_vertices>(group.element, batch.vertices, batch.load);
       for (std::size_t l = 0; l < batch.size; ++l) {
         add_cell(space, group, batch.cells[l], integrals, l, system);
         if (batch.cells[l] < group.n_own && !(integrals.smallest_determinant[l] > 0.0))

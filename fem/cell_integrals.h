@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
 #include <limits>
 
 #include "fem/finite_element_space.h"
-#include "smoothing/simd/vectors.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -70,9 +71,9 @@ struct CellIntegrals {
   Real smallest_determinant;  ///< of the mapping, at the points where it was taken
 
   template <int dim, std::size_t n_vertices>
-  void compute(const ReferenceElement& element,
-               const std::array<Vector<dim, Real>, n_vertices>& vertices,
-               const std::array<Real, n_dofs>& f) {
+  [[gnu::flatten]] void compute(const ReferenceElement& element,
+                                const std::array<Vector<dim, Real>, n_vertices>& vertices,
+                                const std::array<Real, n_dofs>& f) {
     if constexpr (n_vertices == dim + 1)
       compute_affine<dim>(element, vertices, f);
     else
@@ -142,15 +143,15 @@ struct CellIntegrals {
 
 /// Up to n_lanes cells of one element, worked on together; missing ones repeat the last.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
-struct CellBatch {
+struct ElementBatch {
   std::array<std::size_t, n_lanes> cells;
   std::size_t size;
   std::array<Vector<dim, Lanes>, n_vertices> vertices;
   std::array<Lanes, n_dofs> load;  ///< f at the dofs
 
   /// x: local nodes' coordinates. nodal_load: f at all local dofs.
-  CellBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
-            const Eigen::VectorXd& nodal_load, std::size_t first)
+  ElementBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
+               const Eigen::VectorXd& nodal_load, std::size_t first)
       : size(std::min(n_lanes, group.n_cells() - first)) {
     std::array<const NodeIndex*, n_lanes> rows;
     for (std::size_t l = 0; l < n_lanes; ++l) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/distributed_dofs.h"
 
 #include <deal.II/fe/fe_q.h>

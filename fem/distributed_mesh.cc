@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/distributed_mesh.h"
 
 #include <deal.II/distributed/fully_distributed_tria.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/finite_element_space.h"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ void find_places(FiniteElementSpace<dim>& space) {
 
 template <int dim>
 std::vector<Point<dim>> FiniteElementSpace<dim>::local_coordinates(
-    const std::vector<Point<dim>>& coordinates) const {
+    std::span<const Point<dim>> coordinates) const {
   std::vector<Point<dim>> of_ranks;
   of_ranks.reserve(nodes_of_ranks.size());
   for (const NodeIndex node : nodes_of_ranks) of_ranks.push_back(coordinates[node]);
@@ -106,7 +107,7 @@ std::vector<Point<dim>> FiniteElementSpace<dim>::local_coordinates(
 
 template <int dim>
 std::vector<Point<dim>> FiniteElementSpace<dim>::dof_points(
-    const std::vector<Point<dim>>& local_coordinates) const {
+    std::span<const Point<dim>> local_coordinates) const {
   std::vector<Point<dim>> points(n_local);
   for (std::size_t dof = 0; dof < n_local; ++dof) {
     Point<dim> sum = Point<dim>::Zero();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -58,10 +59,10 @@ struct FiniteElementSpace {
 
   /// coordinates: of the mesh, needed on the root only. Returns those of the local nodes.
   /// Collective.
-  std::vector<Point<dim>> local_coordinates(const std::vector<Point<dim>>& coordinates) const;
+  std::vector<Point<dim>> local_coordinates(std::span<const Point<dim>> coordinates) const;
 
   /// Where the local dofs are, from the places of the local nodes.
-  std::vector<Point<dim>> dof_points(const std::vector<Point<dim>>& local_coordinates) const;
+  std::vector<Point<dim>> dof_points(std::span<const Point<dim>> local_coordinates) const;
 };
 
 /// Gauss points a direction: on quadrilaterals eight agree with the print of the thesis to 0.2 %;

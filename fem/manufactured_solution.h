@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <functional>
@@ -41,6 +42,6 @@ const ManufacturedSolution<dim>& manufactured_solution(const std::string& name);
 template <int dim>
 ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::string& gradient,
                                           const std::string& load,
-                                          const std::vector<Point<dim>>& sample);
+                                          std::span<const Point<dim>> sample);
 
 }  // namespace smoothfem

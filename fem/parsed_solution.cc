@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/function_parser.h>
 
 #include <cmath>
@@ -51,7 +52,7 @@ std::string place_text(const Point<dim>& p) {
 /// Central differences of u against the given derivatives. Their error at this step is some 1e-6 of
 /// the size of the third and fourth derivatives; a wrong sign or factor is off by far more.
 template <int dim>
-void check_derivatives(const ManufacturedSolution<dim>& s, const std::vector<Point<dim>>& sample) {
+void check_derivatives(const ManufacturedSolution<dim>& s, std::span<const Point<dim>> sample) {
   constexpr double h = 1e-3, allowed = 1e-2;
   for (const auto& p : sample) {
     const double u = s.value(p);
@@ -79,7 +80,7 @@ void check_derivatives(const ManufacturedSolution<dim>& s, const std::vector<Poi
 template <int dim>
 ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::string& gradient,
                                           const std::string& load,
-                                          const std::vector<Point<dim>>& sample) {
+                                          std::span<const Point<dim>> sample) {
   const Expression<dim> u(value, 1), grad(gradient, dim), f(load, 1);
   ManufacturedSolution<dim> solution{
       .name = "expression",
@@ -97,8 +98,8 @@ ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::s
 }
 
 template ManufacturedSolution<2> parsed_solution(const std::string&, const std::string&,
-                                                 const std::string&, const std::vector<Point<2>>&);
+                                                 const std::string&, std::span<const Point<2>>);
 template ManufacturedSolution<3> parsed_solution(const std::string&, const std::string&,
-                                                 const std::string&, const std::vector<Point<3>>&);
+                                                 const std::string&, std::span<const Point<3>>);
 
 }  // namespace smoothfem

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/poisson_solver.h"
 
 #include <chrono>
@@ -119,7 +120,7 @@ void record_cost(const std::string& name, const ConjugateGradientsResult& run,
 }  // namespace
 
 template <int dim>
-SolutionRecord PoissonSolver<dim>::solve(const std::vector<Point<dim>>& coordinates,
+SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates,
                                          const ManufacturedSolution<dim>& solution,
                                          bool is_result) {
   auto& work = *work_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <limits>
@@ -67,7 +68,7 @@ class PoissonSolver {
   /// coordinates: on the root, of all nodes of a mesh of the topology, all of whose cells are
   /// valid. is_result: an initial or resulting mesh of a study, with all that is recorded for
   /// those.
-  SolutionRecord solve(const std::vector<Point<dim>>& coordinates,
+  SolutionRecord solve(std::span<const Point<dim>> coordinates,
                        const ManufacturedSolution<dim>& solution, bool is_result = true);
 
   /// On the root: |u - u_h| of the last solve at each mesh node; 0 at nodes that no cell uses.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/reference_element.h"
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/bench/stock_path.h"
 
 #include <deal.II/lac/affine_constraints.h>

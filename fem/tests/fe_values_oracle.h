@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // deal.II's own path through FEValues, in its own numbering: the oracle of the kernels.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Trilinos needs MPI, on one process too.
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // deal.II's own path through FEValues as the oracle of the kernels for matrices, loads and norms.
 #include <deal.II/lac/full_matrix.h>
 #include <gtest/gtest.h>

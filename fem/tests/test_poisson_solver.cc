@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/poisson_solver.h"
 
 #include <gmock/gmock.h>

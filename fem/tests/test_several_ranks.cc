@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Run by mpirun: records must not depend on the number of processes. Each rank runs every test,
 // the root alone reports.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Global optimization of large, heavily distorted volume meshes: whole runs with and without its
 /// start phase, and the phases of one Newton step.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Times of the smoothers: whole runs and single kernels, by element and as multiples of a plain
 /// Laplace sweep over the same mesh (the cheapest thing a smoother can do). Meshes: a generated
 /// distorted grid, and the published gears where the folder SMOOTHFEM_BENCH_MESHES (environment;

@@ -34,9 +34,9 @@ Preset read_preset(const fs::path& file) {
       if (key == "planar" || key == "volume")
         add_settings(preset, key == "planar" ? 2 : 3, value);
       else if (key != "description" && key != "source" && key != "extends" && key != "why")
-        throw InputError(file.string() + ": a preset has no key '" + key + "'; " +
-                         choose_one_of({"description", "source", "extends", "planar", "volume",
-                                        "why"}));
+        throw InputError(
+            file.string() + ": a preset has no key '" + key + "'; " +
+            choose_one_of({"description", "source", "extends", "planar", "volume", "why"}));
     return preset;
   } catch (const Json::exception&) {
     throw InputError(file.string() +

@@ -157,7 +157,7 @@ inline double mean_size(const Topology& topology, std::span<const Point<dim>> x,
 /// One Newton step of one node, halved until the objective of its cells falls enough.
 template <int dim>
 [[gnu::flatten]] void descend_node(const Topology& topology, NodeIndex node, double softness,
-                         std::span<Point<dim>> x) {
+                                   std::span<Point<dim>> x) {
   constexpr double sufficient = 1e-4;
   constexpr int max_halvings = 30;
   if (softness > 0.0) softness *= mean_size<dim>(topology, x, node);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/polygons/triangle_transformations.h"
 
 #include <array>

@@ -16,6 +16,20 @@
 
 namespace smoothfem {
 
+/// The k-th corners of n_lanes cells, given by their nodes. coordinates_of(node): by reference.
+template <int dim, class CoordinatesOf>
+inline Vector<dim, Lanes> gather_corner(const CoordinatesOf& coordinates_of,
+                                        const std::array<const NodeIndex*, n_lanes>& nodes,
+                                        std::size_t k) {
+  const Point<dim>&a = coordinates_of(nodes[0][k]), &b = coordinates_of(nodes[1][k]),
+        &c = coordinates_of(nodes[2][k]), &d = coordinates_of(nodes[3][k]);
+  if constexpr (dim == 2)
+    return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()}};
+  else
+    return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()},
+            Lanes{a.z(), b.z(), c.z(), d.z()}};
+}
+
 /// Up to n_lanes cells of one type with n nodes each, side by side: one a lane. Where there are
 /// fewer, the last one stands in for the lanes behind `count`.
 template <std::size_t n>
@@ -29,7 +43,7 @@ struct CellBatch {
   template <int dim, class CoordinatesOf>
   std::array<Vector<dim, Lanes>, n> corners_at(const CoordinatesOf& coordinates_of) const {
     return [&]<std::size_t... k>(std::index_sequence<k...>) {
-      return std::array<Vector<dim, Lanes>, n>{corner<dim>(coordinates_of, k)...};
+      return std::array<Vector<dim, Lanes>, n>{gather_corner<dim>(coordinates_of, nodes, k)...};
     }
     (std::make_index_sequence<n>{});
   }
@@ -54,18 +68,6 @@ struct CellBatch {
       store_lanes(values, numbers + first);
     else
       for (std::size_t l = 0; l < count; ++l) numbers[first + l] = values[l];
-  }
-
- private:
-  template <int dim, class CoordinatesOf>
-  Vector<dim, Lanes> corner(const CoordinatesOf& coordinates_of, std::size_t k) const {
-    const Point<dim>&a = coordinates_of(nodes[0][k]), &b = coordinates_of(nodes[1][k]),
-          &c = coordinates_of(nodes[2][k]), &d = coordinates_of(nodes[3][k]);
-    if constexpr (dim == 2)
-      return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()}};
-    else
-      return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()},
-              Lanes{a.z(), b.z(), c.z(), d.z()}};
   }
 };
 

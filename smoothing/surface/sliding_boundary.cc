@@ -56,8 +56,7 @@ VolumeMesh with_sliding_boundary(const VolumeMesh& mesh, const FeatureParameters
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     fixed[i] = topology.is_fixed(i) && !topology.on_boundary()[i];
   return with_fixed_nodes(
-      VolumeMesh(mesh.shared_topology(), mesh.copied_coordinates(),
-                 std::move(constraints)),
+      VolumeMesh(mesh.shared_topology(), mesh.copied_coordinates(), std::move(constraints)),
       std::move(fixed));
 }
 

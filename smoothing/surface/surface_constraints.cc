@@ -174,8 +174,8 @@ SurfaceMesh with_features(const SurfaceMesh& mesh, const FeatureParameters& para
   std::vector<bool> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     fixed[i] = topology.is_fixed(i) && !mesh.constraints()->is_corner(i);
-  return make_surface_mesh(topology.cells(), mesh.copied_coordinates(),
-                           topology.labels(), std::move(fixed), parameters);
+  return make_surface_mesh(topology.cells(), mesh.copied_coordinates(), topology.labels(),
+                           std::move(fixed), parameters);
 }
 
 }  // namespace smoothfem

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What every method has to hold, whichever it is: a new one is tested by being registered.
 #include <gtest/gtest.h>
 

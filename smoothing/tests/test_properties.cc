@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What every method and the untangling have to hold on random meshes. RapidCheck makes the meshes
 /// and, where a property fails, looks for a smaller mesh that fails as well.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Table 6.1 of the thesis on the published gear meshes, digit for digit.
 #include <gtest/gtest.h>
 

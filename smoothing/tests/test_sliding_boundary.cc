@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Volume meshes whose boundary nodes slide on the initial boundary.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -5,8 +6,8 @@
 #include <set>
 
 #include "smoothing/base/parallel.h"
-#include "smoothing/loop/smooth.h"
 #include "smoothing/geometry/cell_size.h"
+#include "smoothing/loop/smooth.h"
 #include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Meshes of surfaces in space: projection, and that every method keeps nodes on the surface.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -135,13 +136,16 @@ TEST(SurfaceFeatures, FollowTheAngle) {
   const auto smooth_one = cylinder(12, GridCells::quadrilaterals);
   EXPECT_EQ(nodes_of_kind(smooth_one, GeometricClassification::corner).size(), 4u);
   EXPECT_EQ(nodes_of_kind(smooth_one, GeometricClassification::line).size(), 44u);
-  EXPECT_TRUE(
-      nodes_of_kind(with_features(smooth_one, {.angle_degrees = 7.0}), GeometricClassification::patch).empty());
-  EXPECT_EQ(
-      nodes_of_kind(with_features(smooth_one, {.angle_degrees = 8.0}), GeometricClassification::patch).size(),
-      121u);
+  EXPECT_TRUE(nodes_of_kind(with_features(smooth_one, {.angle_degrees = 7.0}),
+                            GeometricClassification::patch)
+                  .empty());
+  EXPECT_EQ(nodes_of_kind(with_features(smooth_one, {.angle_degrees = 8.0}),
+                          GeometricClassification::patch)
+                .size(),
+            121u);
   const auto step = with_features(bent_sheet(9, GridCells::triangles), {.angle_degrees = 100.0});
-  EXPECT_EQ(nodes_of_kind(step, GeometricClassification::corner).size(), 0u) << "no right angle counts";
+  EXPECT_EQ(nodes_of_kind(step, GeometricClassification::corner).size(), 0u)
+      << "no right angle counts";
 }
 
 TEST(SurfaceFeatures, AreBordersOfTagsAndLabelledEdgesToo) {
@@ -154,9 +158,11 @@ TEST(SurfaceFeatures, AreBordersOfTagsAndLabelledEdgesToo) {
   for (const auto& p : flat.coordinates()) x.emplace_back(p.x(), p.y(), 0.1 * p.x());
   const auto mesh = make_surface_mesh(flat.topology().cells(), x, labels);
   for (NodeIndex j = 1; j < 6; ++j)
-    EXPECT_EQ(mesh.constraints()->classifications()[7 * j + 3].kind, GeometricClassification::line) << j;
+    EXPECT_EQ(mesh.constraints()->classifications()[7 * j + 3].kind, GeometricClassification::line)
+        << j;
   for (const NodeIndex end : {15, 16})
-    EXPECT_EQ(mesh.constraints()->classifications()[end].kind, GeometricClassification::corner) << "a line's end";
+    EXPECT_EQ(mesh.constraints()->classifications()[end].kind, GeometricClassification::corner)
+        << "a line's end";
   EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::patch).size(), 25u - 5u - 2u);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Quality and transformations of volume elements, against second formulas: the thesis' tables as
 /// printed, dense matrices, printed numbers.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -133,7 +134,7 @@ void make_valid(const Arguments& arguments, const Method<dim, spacedim>& method,
                 Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines) {
   const bool needs_valid =
       std::any_of(method.stages.begin(), method.stages.end(),
-                  [](const auto& stage) { return stage->rule().needs_valid_mesh; });
+                  [](const auto& stage) { return stage->traits().needs_valid_mesh; });
   if (!arguments.untangle) {
     if (needs_valid) require_valid(mesh, arguments.in, cell_lines);
     return;
@@ -185,12 +186,12 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Whoever reads the result knows nothing of a boundary to slide on: its nodes are fixed there.
-  write_mesh(
-      arguments.out,
-      arguments.boundary == "slide"
-          ? Mesh<dim, spacedim>(topology_of_file, mesh.coordinates(), mesh.shared_constraints())
-          : mesh,
-      fields);
+  write_mesh(arguments.out,
+             arguments.boundary == "slide"
+                 ? Mesh<dim, spacedim>(topology_of_file, mesh.copied_coordinates(),
+                                       mesh.shared_constraints())
+                 : mesh,
+             fields);
   recorder.write_log();
   if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");

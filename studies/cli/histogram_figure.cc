@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/cli/histogram_figure.h"
 
 #include <fcntl.h>

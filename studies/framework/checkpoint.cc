@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/checkpoint.h"
 
 #include <cstring>
@@ -107,14 +108,14 @@ void Checkpoint::remove() const {
 }
 
 template <int dim>
-std::vector<double> numbers_of(const std::vector<Point<dim>>& points) {
+std::vector<double> numbers_of(std::span<const Point<dim>> points) {
   std::vector<double> numbers;
   numbers.reserve(dim * points.size());
   for (const auto& p : points) numbers.insert(numbers.end(), p.begin(), p.end());
   return numbers;
 }
-template std::vector<double> numbers_of(const std::vector<Point<2>>&);
-template std::vector<double> numbers_of(const std::vector<Point<3>>&);
+template std::vector<double> numbers_of(std::span<const Point<2>>);
+template std::vector<double> numbers_of(std::span<const Point<3>>);
 
 template <int dim>
 std::vector<Point<dim>> points_of(const std::vector<double>& numbers) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <filesystem>
@@ -51,7 +52,7 @@ class Checkpoint {
 
 /// Points as numbers, one coordinate after the other, and back.
 template <int dim>
-std::vector<double> numbers_of(const std::vector<Point<dim>>& points);
+std::vector<double> numbers_of(std::span<const Point<dim>> points);
 template <int dim>
 std::vector<Point<dim>> points_of(const std::vector<double>& numbers);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run_study.h"
 
 #include <cstdio>
@@ -170,7 +171,7 @@ class StudyRun {
                                      : static_cast<int>(options_.smoothing_threads));
     const Trajectory trajectory = record_trajectory(
         prepared.mesh, method, study_,
-        [&](std::size_t record, const std::vector<Point<spacedim>>& coordinates) {
+        [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
         },
         watch);

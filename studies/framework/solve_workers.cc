@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/solve_workers.h"
 
 #include <mutex>
@@ -96,12 +97,12 @@ class TeamWorker {
 
 template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
-                                         const std::vector<Point<dim>>& sample) {
+                                         std::span<const Point<dim>> sample) {
   if (solution.name != "expression") return manufactured_solution<dim>(solution.name);
   return parsed_solution<dim>(solution.value, solution.gradient, solution.load, sample);
 }
-template ManufacturedSolution<2> study_solution(const StudySolution&, const std::vector<Point<2>>&);
-template ManufacturedSolution<3> study_solution(const StudySolution&, const std::vector<Point<3>>&);
+template ManufacturedSolution<2> study_solution(const StudySolution&, std::span<const Point<2>>);
+template ManufacturedSolution<3> study_solution(const StudySolution&, std::span<const Point<3>>);
 
 std::vector<SolveQueue::Worker> solve_workers(StudyData<2>& data,
                                               const std::vector<SolveTask*>& tasks,

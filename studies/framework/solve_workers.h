@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include "studies/framework/solve_queue.h"
@@ -9,7 +10,7 @@ namespace smoothfem {
 /// The study's solution; expressions are checked at the points of `sample`.
 template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
-                                         const std::vector<Point<dim>>& sample);
+                                         std::span<const Point<dim>> sample);
 
 /// Workers for a queue of these tasks, whose outcomes are noted in the data and in its checkpoint.
 /// Planar meshes: n_threads, each with its own solvers; volume meshes: one, which leads the team.

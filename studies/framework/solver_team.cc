@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/solver_team.h"
 
 #include <chrono>
@@ -65,7 +66,7 @@ void SolverTeam::make_solver(const Mesh<3>& mesh, const PoissonOptions& options)
                  [&] { solver_ = std::make_unique<PoissonSolver<3>>(&mesh, options, ranks_); });
 }
 
-SolutionRecord SolverTeam::solve(const std::vector<Point<3>>& coordinates,
+SolutionRecord SolverTeam::solve(std::span<const Point<3>> coordinates,
                                  const ManufacturedSolution<3>& solution, bool is_result) {
   Command command{.task = Task::solve, .is_result = is_result};
   exchange(ranks_, command);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <memory>
@@ -26,7 +27,7 @@ class SolverTeam {
   /// The functions of PoissonSolver, on the root. The solver before is given up first. solution:
   /// the one that the others have.
   void make_solver(const Mesh<3>& mesh, const PoissonOptions& options);
-  SolutionRecord solve(const std::vector<Point<3>>& coordinates,
+  SolutionRecord solve(std::span<const Point<3>> coordinates,
                        const ManufacturedSolution<3>& solution, bool is_result);
   std::vector<double> nodal_errors();
   std::vector<double> eigenvectors();

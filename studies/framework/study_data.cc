@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/study_data.h"
 
 #include "meshes/io/mesh_file.h"
@@ -162,7 +163,7 @@ class TaskMaker {
 
 template <int dim, int spacedim>
 std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const SolveTask& task) const {
-  if (task.job.trajectory.empty()) return meshes[task.job.mesh].mesh.coordinates();
+  if (task.job.trajectory.empty()) return meshes[task.job.mesh].mesh.copied_coordinates();
   return points_of<spacedim>(checkpoint.load_numbers(task.job.trajectory, task.record));
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/trajectory.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
       trajectory.snapshots.push_back(record.record);
       if (keeps_all) keep(record.record, now.coordinates());
     }
-    if (keeps_all) last = now.coordinates();
+    if (keeps_all) last = now.copied_coordinates();
   };
   const PeakMemory memory;
   Mesh<dim, spacedim> smoothed = mesh;
@@ -83,7 +84,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   trajectory.warpage = warpage_of(smoothed);
   trajectory.peak_memory_gib = memory.gib();
   trajectory.result_record = result.result_record;
-  const auto also = [&](std::size_t record, const std::vector<Point<spacedim>>& coordinates) {
+  const auto also = [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
     auto& snapshots = trajectory.snapshots;
     const auto place = std::lower_bound(snapshots.begin(), snapshots.end(), record);
     if (record == 0 || (place != snapshots.end() && *place == record)) return;

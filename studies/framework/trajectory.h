@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <functional>
@@ -31,7 +32,7 @@ MeshWarpage warpage_of(const Mesh<dim, spacedim>& mesh);
 /// Puts the mesh of a record away.
 template <int spacedim>
 using KeepSnapshot =
-    std::function<void(std::size_t record, const std::vector<Point<spacedim>>& coordinates)>;
+    std::function<void(std::size_t record, std::span<const Point<spacedim>> coordinates)>;
 
 /// Sees every iteration of every run, between two of them.
 using WatchIteration = std::function<void(const IterationRecord&)>;

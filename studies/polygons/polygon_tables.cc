@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/polygons/limit_polygons.h"
 #include "studies/framework/csv_text.h"
 #include "studies/polygons/classification.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/regularization/regularization.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 #include "meshes/distortion/counter_random.h"
 #include "smoothing/base/parallel.h"
-#include "smoothing/getme/element_regularization.h"
+#include "smoothing/getme/regularize.h"
 
 namespace smoothfem {
 
@@ -69,8 +70,9 @@ struct Tally {
 
 /// Transformations until each of n_lanes elements is regular; max + 1 where it is not by then.
 template <std::size_t n>
-inline void count_lanes(const ElementRegularization<3>& transformation, ElementLanes<n> elements,
-                        double regular, int max, std::array<int, n_lanes>& counts) {
+[[gnu::flatten]] void count_lanes(const ElementRegularization<3>& transformation,
+                                  ElementLanes<n> elements, double regular, int max,
+                                  std::array<int, n_lanes>& counts) {
   counts.fill(max + 1);
   std::size_t n_left = n_lanes;
   for (int count = 0; count <= max && n_left > 0; ++count) {
@@ -86,40 +88,23 @@ inline void count_lanes(const ElementRegularization<3>& transformation, ElementL
   }
 }
 
-using Counts = std::array<int, n_lanes>;
-void count(const ElementRegularization<3>& transformation, const ElementLanes<4>& elements,
-           double regular, int max, Counts& counts) {
-  count_lanes<4>(transformation, elements, regular, max, counts);
-}
-void count(const ElementRegularization<3>& transformation, const ElementLanes<5>& elements,
-           double regular, int max, Counts& counts) {
-  count_lanes<5>(transformation, elements, regular, max, counts);
-}
-void count(const ElementRegularization<3>& transformation, const ElementLanes<6>& elements,
-           double regular, int max, Counts& counts) {
-  count_lanes<6>(transformation, elements, regular, max, counts);
-}
-void count(const ElementRegularization<3>& transformation, const ElementLanes<8>& elements,
-           double regular, int max, Counts& counts) {
-  count_lanes<8>(transformation, elements, regular, max, counts);
-}
-
-ElementRegularization<3> transformation_of(const RegularizationSeries& series) {
-  using Transformation = ElementRegularization<3>;
-  Transformation transformation;
-  transformation.rho = 1.0;
-  transformation.scaling = static_cast<int>(ScalingRule::mean_edge_length);
-  transformation.tetrahedron_transformation = series.transformation == "opposite-face-normals"
-                                                  ? Transformation::opposite_face_normals
-                                                  : Transformation::dual_element;
-  return transformation;
+ElementParameters<3> parameters_of(const RegularizationSeries& series, double sigma) {
+  using Parameters = ElementParameters<3>;
+  return {.tetrahedron = {sigma, sigma},
+          .pyramid = {sigma, sigma},
+          .prism = {sigma, sigma},
+          .hexahedron = {sigma, sigma},
+          .rho = 1.0,
+          .tetrahedron_transformation = series.transformation == "opposite-face-normals"
+                                            ? Parameters::opposite_face_normals
+                                            : Parameters::dual_element,
+          .scaling = Parameters::mean_edge_length};
 }
 
 template <std::size_t n>
 std::vector<Tally> tallies(const RegularizationSeries& series, std::size_t first,
                            std::size_t last) {
   std::vector<Tally> result(series.sigmas.size());
-  ElementRegularization<3> transformation = transformation_of(series);
   for (std::size_t number = first; number < last; number += n_lanes) {
     ElementLanes<n> elements{};
     const std::size_t n_used = std::min(n_lanes, last - number);
@@ -133,10 +118,10 @@ std::vector<Tally> tallies(const RegularizationSeries& series, std::size_t first
     }
     for (std::size_t s = 0; s < series.sigmas.size(); ++s) {
       const double sigma = series.sigmas[s];
-      transformation.tetrahedron = transformation.pyramid = transformation.prism =
-          transformation.hexahedron = {sigma, sigma};
-      Counts counts;
-      count(transformation, elements, 1.0 - series.tolerance, series.max_transformations, counts);
+      const ElementRegularization<3> transformation(parameters_of(series, sigma));
+      std::array<int, n_lanes> counts;
+      count_lanes<n>(transformation, elements, 1.0 - series.tolerance, series.max_transformations,
+                     counts);
       for (std::size_t l = 0; l < n_used; ++l)
         if (counts[l] <= series.max_transformations) result[s].add(counts[l]);
     }

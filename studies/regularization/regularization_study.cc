@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/regularization/regularization_study.h"
 
 #include "studies/framework/csv_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/tests/printed_tables.h"
 
 namespace smoothfem {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that are killed, and runs on several processes, through the command line.
 #include <csignal>
 #include <random>
