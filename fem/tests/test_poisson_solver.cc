@@ -338,7 +338,7 @@ TEST(PoissonSolver, NamesTheFirstCellOfAnotherType) {
   // A cube, and on its top a tetrahedron over half of the face: tetrahedra and hexahedra do not
   // go together.
   auto mesh = test::box_mesh(1, 1, 1, test::BoxCells::hexahedra);
-  auto points = mesh.coordinates();
+  auto points = mesh.copied_coordinates();
   points.emplace_back(2.0, 2.0, 2.0);
   auto cells = mesh.topology().cells();
   cells.append(std::vector<NodeIndex>{4, 5, 7, 8});

@@ -17,7 +17,7 @@ const std::string fixed = "fixed_node_indices 1\n2\n";
 
 TEST_F(PolygonalText, ReadsNodesPolygonsFixedNodesAndLines) {
   const PlanarFile read = read_planar(file_with("a.mesh", title + "\n" + nodes + polygons + fixed));
-  EXPECT_EQ(read.mesh.coordinates()[2], Point<2>(1, 1));
+  EXPECT_EQ(read.mesh.copied_coordinates()[2], Point<2>(1, 1));
   EXPECT_EQ(read.mesh.topology().free_nodes(), (std::vector<NodeIndex>{0, 1, 3}));
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{9, 10}));
 }

@@ -10,7 +10,7 @@ namespace smoothfem::bench {
 /// that keep them valid.
 inline void distort_strongly(VolumeMesh& mesh, double radius, int n_sweeps, std::uint64_t seed,
                              int n_candidates = 15) {
-  const auto original = mesh.coordinates();
+  const auto original = mesh.copied_coordinates();
   const Topology& topology = mesh.topology();
   test::Random random(seed);
   const auto mean_quality = [&](NodeIndex i) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "smoothing/base/input_error.h"
+#include "smoothing/base/find_named.h"
 
 namespace smoothfem {
 
@@ -16,25 +16,36 @@ struct Entry {
 };
 
 /// Ordered by name, so listings do not depend on the order in which files are linked or loaded.
-std::map<std::string, Entry>& entries() {
-  static std::map<std::string, Entry> catalogue;
+using Entries = std::map<std::string, Entry>;
+Entries& registered_entries() {
+  static Entries catalogue;
   return catalogue;
+}
+/// What is wrong with them: nothing can be thrown while a library is loaded.
+std::string& registration_error() {
+  static std::string error;
+  return error;
+}
+
+const Entries& entries() {
+  if (!registration_error().empty()) throw InputError(registration_error());
+  return registered_entries();
 }
 
 const Entry& entry(const std::string& name) {
-  const auto found = entries().find(name);
-  if (found != entries().end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [known_name, unused] : entries()) known.push_back(known_name);
-  throw InputError("there is no method '" + name + "'; " + choose_one_of(known));
+  return find_named("method", name, entries(), [](const auto& entry) { return entry.first; }).second;
 }
 
 }  // namespace
 
 RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
-  const std::string name = info.name;
-  if (!entries().emplace(name, Entry{std::move(info), std::move(factories)}).second)
-    throw std::logic_error("two methods are registered as '" + name + "'");
+  const std::string name = info.name, title = info.title;
+  const auto [found, is_new] =
+      registered_entries().emplace(name, Entry{std::move(info), std::move(factories)});
+  if (!is_new)
+    registration_error() = "two methods are registered as '" + name + "', '" +
+                           found->second.info.title + "' and '" + title +
+                           "'; give one of them another name";
 }
 
 std::vector<MethodInfo> method_catalogue() {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <type_traits>
 
-#include "smoothing/base/input_error.h"
+#include "smoothing/base/find_named.h"
 
 namespace smoothfem {
 
@@ -74,7 +74,7 @@ std::vector<double> numbers_in_range(const Parameter& parameter, const std::stri
 int position_of(const Choice& choice, const std::string& text, const std::string& what) {
   const auto found = std::find(choice.names.begin(), choice.names.end(), text);
   if (found != choice.names.end()) return static_cast<int>(found - choice.names.begin());
-  throw InputError(what + " is given as '" + text + "'; " + choose_one_of(choice.names));
+  throw InputError(what + " is given as '" + text + "'; " + choose_one_of(choice.names, text));
 }
 
 }  // namespace
@@ -101,7 +101,9 @@ const Parameter& find_parameter(const Parameters& parameters, const std::string&
     if (parameter.name == name) return parameter;
     known.push_back(parameter.name);
   }
-  throw InputError(owner + " has no parameter '" + name + "'; it has " +
+  const std::string nearest = nearest_name(name, known);
+  throw InputError(owner + " has no parameter '" + name + "'; " +
+                   (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") + "it has " +
                    (known.empty() ? "none" : joined(known)));
 }
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "smoothing/base/data_folder.h"
-#include "smoothing/base/input_error.h"
+#include "smoothing/base/find_named.h"
 
 namespace smoothfem {
 
@@ -60,12 +60,7 @@ const std::vector<Preset>& presets() {
 }
 
 const Preset& find_preset(const std::string& name) {
-  std::vector<std::string> known;
-  for (const Preset& preset : presets()) {
-    if (preset.name == name) return preset;
-    known.push_back(preset.name);
-  }
-  throw InputError("there is no preset '" + name + "'; " + choose_one_of(known));
+  return find_named("preset", name, presets(), [](const Preset& preset) { return preset.name; });
 }
 
 template <int dim, int spacedim>

@@ -304,8 +304,10 @@ void require_constraints_kept(const Mesh<dim, spacedim>& mesh,
 
 std::string SmoothingResult::iterations_text() const {
   std::string text;
-  for (const auto& stage : stages)
-    text += (text.empty() ? "" : "/") + std::to_string(stage.iterations);
+  for (const auto& stage : stages) {
+    if (!text.empty()) text += '/';
+    text += std::to_string(stage.iterations);
+  }
   return text;
 }
 

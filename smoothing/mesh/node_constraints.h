@@ -31,6 +31,9 @@ class NodeConstraints {
   /// and where it is if it is a corner or wanted == from. The nearer `from` is, the faster.
   virtual Point<3> project(NodeIndex node, const Point<3>& from, const Point<3>& wanted) const = 0;
 
+  /// Distance of a point from the surface.
+  virtual double distance(const Point<3>& point) const = 0;
+
   /// The largest distance from the surface that facets may have, at their middles and those of
   /// their sides; `unbounded` if there is none.
   virtual double facet_bound() const = 0;

@@ -28,8 +28,7 @@ class SurfaceConstraints final : public NodeConstraints {
 
   Point<3> project(NodeIndex node, const Point<3>& from, const Point<3>& wanted) const override;
 
-  /// Distance of a point from the initial surface.
-  double distance(const Point<3>& point) const;
+  double distance(const Point<3>& point) const override;
 
   double facet_bound() const override { return facet_bound_; }
   double facet_distance(std::span<const Point<3>> coordinates) const override;

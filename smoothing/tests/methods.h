@@ -37,7 +37,7 @@ inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
 template <int dim, int spacedim>
 bool claims_validity(const Method<dim, spacedim>& method) {
   return std::all_of(method.stages.begin(), method.stages.end(),
-                     [](const auto& stage) { return stage->rule().needs_valid_mesh; });
+                     [](const auto& stage) { return stage->traits().needs_valid_mesh; });
 }
 
 /// How many fixed nodes are elsewhere than in the mesh `before`; 0 if nothing went wrong.

@@ -25,22 +25,22 @@ std::vector<PlanarMesh> distorted_meshes(double radius) {
 
 TEST(ShapeObjective, CountsRegularElements) {
   const auto squares = grid_mesh(4, GridCells::quadrilaterals);
-  EXPECT_NEAR(ShapeObjective<2>(squares.shared_topology()).value(squares.coordinates()), 16.0,
+  EXPECT_NEAR(ShapeObjective<2>(squares.shared_topology()).value(squares.copied_coordinates()), 16.0,
               1e-13);
   const auto triangles = grid_mesh(3, GridCells::triangles, true);
-  EXPECT_NEAR(ShapeObjective<2>(triangles.shared_topology()).value(triangles.coordinates()), 18.0,
+  EXPECT_NEAR(ShapeObjective<2>(triangles.shared_topology()).value(triangles.copied_coordinates()), 18.0,
               1e-13);
   const auto hexagons = test::honeycomb_mesh();
-  EXPECT_NEAR(ShapeObjective<2>(hexagons.shared_topology()).value(hexagons.coordinates()), 37.0,
+  EXPECT_NEAR(ShapeObjective<2>(hexagons.shared_topology()).value(hexagons.copied_coordinates()), 37.0,
               1e-12);
 }
 
 TEST(ShapeObjective, OfARightTriangleAndARectangle) {
   const auto triangle = test::make_mesh({{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}});
-  EXPECT_NEAR(ShapeObjective<2>(triangle.shared_topology()).value(triangle.coordinates()),
+  EXPECT_NEAR(ShapeObjective<2>(triangle.shared_topology()).value(triangle.copied_coordinates()),
               4.0 / 3.0, 1e-14);
   const auto rectangle = test::make_mesh({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {{0, 1, 2, 3}});
-  EXPECT_NEAR(ShapeObjective<2>(rectangle.shared_topology()).value(rectangle.coordinates()),
+  EXPECT_NEAR(ShapeObjective<2>(rectangle.shared_topology()).value(rectangle.copied_coordinates()),
               1.25 * 1.25, 1e-14);
 }
 
@@ -115,7 +115,7 @@ TEST(BlockConjugateGradients, SolvesLikeADenseFactorization) {
 TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
   constexpr double share = 0.9;
   for (const auto& mesh : distorted_meshes(0.3)) {
-    auto to = mesh.coordinates();
+    auto to = mesh.copied_coordinates();
     test::Random random(3);
     for (const NodeIndex i : mesh.topology().free_nodes()) {
       const double dx = random(), dy = random();
@@ -123,7 +123,7 @@ TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
     }
     std::vector<double> limits;
     const double smallest =
-        feasible_fractions(mesh.topology(), mesh.coordinates(), to, share, limits);
+        feasible_fractions<2>(mesh.topology(), mesh.coordinates(), to, share, limits);
     /// The smallest determinant of a cell's corners in terms of that at the start.
     const auto remaining = [&](CellIndex c, double t) {
       const auto nodes = mesh.topology().cell_nodes(c);
@@ -186,7 +186,7 @@ TEST(GlobalOptimization, ReachesTheSameMinimumWithStartSweeps) {
     smooth(swept, with);
     smooth(plain, without);
     const double expected = objective.value(plain.coordinates());
-    EXPECT_NEAR(objective.value(swept.coordinates()), expected, 1e-7 * expected);
+    EXPECT_NEAR(objective.value(swept.copied_coordinates()), expected, 1e-7 * expected);
   }
 }
 

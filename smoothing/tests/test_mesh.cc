@@ -127,7 +127,7 @@ TEST(Mesh, CopiesShareTheTopologyButNotTheCoordinates) {
   auto copy = mesh;
   copy.coordinates()[0] = {9, 9};
   EXPECT_EQ(&copy.topology(), &mesh.topology());
-  EXPECT_EQ(mesh.coordinates()[0], Point<2>(0, 0));
+  EXPECT_EQ(mesh.copied_coordinates()[0], Point<2>(0, 0));
 }
 
 }  // namespace

@@ -252,7 +252,7 @@ void never_lowers_what_it_keeps(const std::string& name, const RandomMesh<dim>& 
   auto mesh = valid_mesh(random);
   auto method = test::short_method<dim>(name, "4");
   for (auto& stage : method.stages) {
-    const ResultMesh kept = stage->rule().result;
+    const ResultMesh kept = stage->traits().result;
     Method<dim> alone{method.info, {}};
     alone.stages.push_back(std::move(stage));
     const MeshQuality before = mesh_quality(mesh);
@@ -307,7 +307,7 @@ void check_numbers_of_threads() {
       auto method = test::short_method<dim>(name, "3");
       smooth(result, method);
       if (!expected) expected = result;
-      RC_ASSERT((result.coordinates() == expected->coordinates()));
+      RC_ASSERT((result.copied_coordinates() == expected->copied_coordinates()));
     });
   };
   std::ostringstream text;
@@ -338,7 +338,7 @@ void check_untangling(const RandomMesh<dim>& random, bool fixed_in_place, Untang
   RC_ASSERT(result.valid == (result.n_invalid_after == 0u));
   RC_ASSERT(test::n_moved_fixed_nodes(tangled, mesh) == 0u);
   if (result.valid) RC_ASSERT(mesh_quality(mesh).n_invalid == 0u);
-  if (!result.valid || n_invalid == 0) RC_ASSERT((mesh.coordinates() == tangled.coordinates()));
+  if (!result.valid || n_invalid == 0) RC_ASSERT((mesh.copied_coordinates() == tangled.copied_coordinates()));
   if (n_invalid > 0) ++(result.valid ? counts.mended : counts.given_up);
 }
 
@@ -368,7 +368,7 @@ void check_valid_meshes_stay() {
     const auto result = untangle(mesh);
     RC_ASSERT(result.valid);
     RC_ASSERT(result.n_sweeps == 0);
-    RC_ASSERT((mesh.coordinates() == valid.coordinates()));
+    RC_ASSERT((mesh.copied_coordinates() == valid.copied_coordinates()));
   });
 }
 

@@ -4,7 +4,7 @@
 #include <complex>
 #include <numeric>
 
-#include "smoothing/getme/element_regularization.h"
+#include "smoothing/getme/regularize.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/tests/planar_meshes.h"
 
@@ -111,11 +111,8 @@ TEST(PolygonTransformation, TwiceNapoleonMakesTrianglesRegularAtOnce) {
 
 std::vector<Vector2<double>> regularized(const std::vector<Vector2<double>>& in, double rho) {
   std::vector<Vector2<double>> out(in.size());
-  ElementRegularization<2> element;
-  element.lambda = lambda;
-  element.theta_degrees = theta * 180.0 / std::numbers::pi;
-  element.rho = rho;
-  element.prepare();
+  const ElementRegularization<2> element(
+      {.lambda = lambda, .theta_degrees = theta * 180.0 / std::numbers::pi, .rho = rho});
   element.regularize(std::span<const Vector2<double>>(in), std::span<Vector2<double>>(out));
   return out;
 }

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "smoothing/getme/element_regularization.h"
+#include "smoothing/getme/regularize.h"
 #include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/tests/volume_meshes.h"
@@ -280,13 +280,15 @@ TEST_P(VolumeElements, CentroidsAreAsInTheLemma) {
   EXPECT_EQ(all_moves < 1e-14, GetParam() == 8) << all_moves;
 }
 
-ElementRegularization<3> regularization(double sigma) {
-  ElementRegularization<3> element;
-  element.tetrahedron = element.pyramid = element.prism = element.hexahedron = {sigma, sigma};
-  element.rho = 1.0;
-  return element;
+ElementParameters<3> regularization(double sigma) {
+  return {.tetrahedron = {sigma, sigma},
+          .pyramid = {sigma, sigma},
+          .prism = {sigma, sigma},
+          .hexahedron = {sigma, sigma},
+          .rho = 1.0};
 }
-Points regularized(const ElementRegularization<3>& element, const Points& x) {
+Points regularized(const ElementParameters<3>& parameters, const Points& x) {
+  const ElementRegularization<3> element(parameters);
   return with_span(x, [&](auto in, auto out) { element.regularize(in, out); });
 }
 
@@ -331,11 +333,11 @@ TEST_P(VolumeElements, KeepWhatScalingSaysAndRelax) {
     const Points full = regularized(element, x);
     EXPECT_LT((mean(full) - mean(x)).norm(), 1e-15);
     EXPECT_NEAR(edge_sum(full), edge_sum(x), 1e-14 * edge_sum(x));
-    element.scaling = static_cast<int>(ScalingRule::mean_volume);
+    element.scaling = ElementParameters<3>::mean_volume;
     const Points same_volume = regularized(element, x);
     EXPECT_LT((mean(same_volume) - mean(x)).norm(), 1e-15);
     EXPECT_NEAR(volume_sum(same_volume), volume_sum(x), 1e-13 * volume_sum(x));
-    element.scaling = static_cast<int>(ScalingRule::mean_edge_length);
+    element.scaling = ElementParameters<3>::mean_edge_length;
     element.rho = 0.1;
     const Points tenth = regularized(element, x);
     for (std::size_t k = 0; k < x.size(); ++k)
@@ -415,12 +417,13 @@ TEST(VolumeLanes, AreTheSameAsSingleCells) {
         lanes[k].z[l] = cells[l][k].z();
       }
     }
-    const auto element = regularization(1.1);
+    const auto parameters = regularization(1.1);
+    const ElementRegularization<3> element(parameters);
     const Lanes q = element.regularize(std::span<const Vector3<Lanes>, n>(lanes),
                                        std::span<Vector3<Lanes>, n>(result));
     for (std::size_t l = 0; l < n_lanes; ++l) {
       EXPECT_EQ(q[l], quality(cells[l])) << n;
-      const Points single = regularized(element, cells[l]);
+      const Points single = regularized(parameters, cells[l]);
       for (std::size_t k = 0; k < n; ++k)
         EXPECT_EQ(single[k], Point<3>(result[k].x[l], result[k].y[l], result[k].z[l])) << n;
     }

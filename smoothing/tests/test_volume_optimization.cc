@@ -75,7 +75,7 @@ TEST(VolumeShapeObjective, AgreesWithItsDefinition) {
     const auto mesh = distorted_box(3, kind, 0.4, 5);
     const double expected = plain_objective(mesh);
     const ShapeObjective<3> objective(mesh.shared_topology());
-    EXPECT_NEAR(objective.value(mesh.coordinates()), expected, 1e-12 * expected);
+    EXPECT_NEAR(objective.value(mesh.copied_coordinates()), expected, 1e-12 * expected);
   }
 }
 
@@ -132,7 +132,7 @@ TEST(VolumeCellDerivatives, OfTheConvexModelArePositiveSemidefinite) {
   for (const BoxCells kind : all_kinds) {
     const auto mesh = distorted_box(3, kind, 0.9, 3);
     for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-      with_corners<3>(mesh.topology().cell_nodes(c), mesh.coordinates(), [&](auto x) {
+      with_corners<3>(mesh.topology().cell_nodes(c), mesh.coordinates().data(), [&](auto x) {
         constexpr std::size_t n = decltype(x)::extent;
         std::array<Vector3<double>, n> nodes;
         std::copy(x.begin(), x.end(), nodes.begin());
@@ -193,7 +193,7 @@ TEST(VolumeFeasibleFractions, StopBeforeADeterminantIsDownAndNotMuchEarlier) {
   constexpr double share = 0.9;
   for (const BoxCells kind : all_kinds) {
     const auto mesh = distorted_box(3, kind, 0.3, 2);
-    auto to = mesh.coordinates();
+    auto to = mesh.copied_coordinates();
     test::Random random(3);
     for (const NodeIndex i : mesh.topology().free_nodes()) {
       const double dx = random(), dy = random(), dz = random();
@@ -238,7 +238,7 @@ TEST(NodeTerms, AreThoseOfTheCell) {
   for (const BoxCells kind : all_kinds) {
     const auto mesh = distorted_box(3, kind, 0.3, 4);
     for (CellIndex c = 0; c < mesh.n_cells(); c += 7)
-      with_corners<3>(mesh.topology().cell_nodes(c), mesh.coordinates(), [&](auto x) {
+      with_corners<3>(mesh.topology().cell_nodes(c), mesh.coordinates().data(), [&](auto x) {
         constexpr std::size_t n = decltype(x)::extent;
         std::array<Vector3<double>, n> nodes;
         std::copy(x.begin(), x.end(), nodes.begin());
@@ -326,8 +326,8 @@ TEST(VolumeGlobalOptimization, DoesNotDependOnTheNumberOfThreads) {
       method.set("start_sweeps", "1");
       method.set("max_iterations", "2");
       smooth(mesh, method);
-      if (!expected) expected = mesh.coordinates();
-      EXPECT_EQ(mesh.coordinates(), *expected) << n << " threads";
+      if (!expected) expected = mesh.copied_coordinates();
+      EXPECT_EQ(mesh.copied_coordinates(), *expected) << n << " threads";
     }
   }
   set_n_threads(before);

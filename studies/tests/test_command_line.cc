@@ -170,10 +170,10 @@ TEST_F(CommandLine, TheRuleForFixedNodesDecidesWhichMove) {
     const Outcome outcome = smoothfem({"smooth", "in.msh", "-m", "laplace", "-o", "out.msh",
                                        "--fix", rule, "--set", "max_iterations=1"});
     ASSERT_EQ(outcome.exit_code, 0) << rule << ": " << outcome.err;
-    const auto after = read_volume(file("out.msh")).coordinates();
+    const auto after = read_volume(file("out.msh")).copied_coordinates();
     const auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule(rule));
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      EXPECT_EQ(after[i] == mesh.coordinates()[i], fixed[i]) << rule << " node " << i;
+      EXPECT_EQ(after[i] == mesh.copied_coordinates()[i], fixed[i]) << rule << " node " << i;
   }
 }
 
@@ -194,7 +194,7 @@ VolumeMesh tangled_box() {
   MeshLabels labels;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) labels.cell_ids.push_back(100 + c);
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) labels.node_ids.push_back(1 + i);
-  auto coordinates = mesh.coordinates();
+  auto coordinates = mesh.copied_coordinates();
   coordinates[mesh.topology().free_nodes()[0]] += Point<3>(2.2, 2.2, 2.2);
   return {std::make_shared<const Topology>(3, mesh.n_nodes(), mesh.topology().cells(), std::nullopt,
                                            labels),

@@ -174,7 +174,7 @@ TEST_F(BadInput, TangledVolumeMesh) {
                           3, regular.n_nodes(), regular.topology().cells(), std::nullopt, labels),
                       coordinates);
   };
-  auto places = regular.coordinates();
+  auto places = regular.copied_coordinates();
   places[13] = {1.0, 1.0, 2.5};
   write_mesh(file("tangled.msh"), labelled(places));
   const std::vector<std::string> words = {"tangled.msh: 4 of 8 cells are invalid",

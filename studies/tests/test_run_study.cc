@@ -274,7 +274,7 @@ TEST_F(RunStudy, ProvenanceSaysWhereEverythingComesFrom) {
   EXPECT_EQ(std::fread(digits, 1, 64, pipe), 64u);
   ::pclose(pipe);
   EXPECT_EQ(mesh.at("sha256"), std::string(digits));
-  EXPECT_EQ(read_planar(initial).mesh.coordinates(), shaken_grid(5, 0.2).coordinates());
+  EXPECT_EQ(read_planar(initial).mesh.copied_coordinates(), shaken_grid(5, 0.2).copied_coordinates());
 }
 
 TEST_F(RunStudy, PublishedMeshesAreTakenAsTheyAre) {
