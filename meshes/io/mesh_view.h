@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+
+#include <span>
 
 #include "smoothing/mesh/mesh.h"
 
@@ -9,8 +12,8 @@ namespace smoothfem {
 class MeshView {
  public:
   MeshView(const PlanarMesh& mesh) : topology_(mesh.topology()), planar_(&mesh) {}
-  MeshView(const VolumeMesh& mesh) : topology_(mesh.topology()), in_space_(&mesh.coordinates()) {}
-  MeshView(const SurfaceMesh& mesh) : topology_(mesh.topology()), in_space_(&mesh.coordinates()) {}
+  MeshView(const VolumeMesh& mesh) : topology_(mesh.topology()), in_space_(mesh.coordinates()) {}
+  MeshView(const SurfaceMesh& mesh) : topology_(mesh.topology()), in_space_(mesh.coordinates()) {}
   MeshView(const AnyMesh& mesh)
       : MeshView(std::visit([](const auto& m) { return MeshView(m); }, mesh)) {}
 
@@ -22,7 +25,7 @@ class MeshView {
   bool is_surface() const { return dimension() == 2 && !planar_; }
 
   Point<3> point(NodeIndex node) const {
-    if (in_space_) return (*in_space_)[node];
+    if (!planar_) return in_space_[node];
     const auto& p = planar_->coordinates()[node];
     return {p.x(), p.y(), 0.0};
   }
@@ -33,7 +36,7 @@ class MeshView {
  private:
   const Topology& topology_;
   const PlanarMesh* planar_ = nullptr;
-  const std::vector<Point<3>>* in_space_ = nullptr;
+  std::span<const Point<3>> in_space_;  ///< of all but planar meshes
 };
 
 }  // namespace smoothfem
