@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmsh.h>
 
+#include <csignal>
+
 #include "meshes/tests/mesh_tests.h"
 #include "meshes/tools/gmsh_session.h"
 #include "smoothing/base/parallel.h"
@@ -13,6 +15,16 @@ TEST(GmshSession, LeavesTheNumberOfThreadsAlone) {
     set_n_threads(threads);
     { const GmshSession session; }
     EXPECT_EQ(n_threads(), threads);
+  }
+}
+
+/// Studies end in good order when they are interrupted.
+TEST(GmshSession, LeavesSignalHandlersAlone) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const auto handler = [](int) {};
+    const auto former = std::signal(signal, handler);
+    { const GmshSession session; }
+    EXPECT_EQ(std::signal(signal, former), static_cast<void (*)(int)>(handler));
   }
 }
 
