@@ -57,16 +57,17 @@ PlanarCells quadrilaterals(const std::vector<Circle>& circles, double edge_lengt
   }
   const PlanarCells coarse =
       mesh_region(polygons, 2.0 * edge_length, PlanarPattern::quadrilaterals);
-  PlanarCells cells = split_to_quadrilaterals(coarse, [&](NodeIndex a, NodeIndex b) -> Point<2> {
-    const Circle& circle = circles[circle_of_node[a]];
-    const Point<2> chord = 0.5 * (coarse.coordinates[a] + coarse.coordinates[b]);
-    return circle.centre + circle.radius * (chord - circle.centre).normalized();
-  });
+  const PlanarCells cells =
+      split_to_quadrilaterals(coarse, [&](NodeIndex a, NodeIndex b) -> Point<2> {
+        const Circle& circle = circles[circle_of_node[a]];
+        const Point<2> chord = 0.5 * (coarse.coordinates[a] + coarse.coordinates[b]);
+        return circle.centre + circle.radius * (chord - circle.centre).normalized();
+      });
   // Where edges are long against a hole, its arcs reach into the cells at their chords.
   PlanarMesh mesh(std::make_shared<const Topology>(2, cells.coordinates.size(), cells.cells),
                   cells.coordinates);
   untangle(mesh);
-  return {mesh.coordinates(), std::move(cells.cells)};
+  return cells_of(mesh);
 }
 
 /// The first mesh's cells, then the second's; nodes that lie on the circle in both become one.

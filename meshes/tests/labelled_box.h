@@ -32,7 +32,7 @@ inline VolumeMesh labelled_box(test::BoxCells kind) {
   std::vector<bool> fixed = topology.on_boundary();
   fixed[topology.free_nodes().front()] = true;
   return {std::make_shared<const Topology>(3, mesh.n_nodes(), topology.cells(), fixed, labels),
-          mesh.coordinates()};
+          {mesh.coordinates().begin(), mesh.coordinates().end()}};
 }
 
 }  // namespace smoothfem

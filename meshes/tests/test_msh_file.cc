@@ -33,7 +33,7 @@ TEST_P(MshVariants, RoundTripKeepsCellsAndPhysicalNames) {
   EXPECT_EQ(read.mesh.topology().cells(), mesh.topology().cells());
   EXPECT_EQ(read.mesh.topology().labels(), mesh.topology().labels());
   EXPECT_EQ(read.cell_lines.empty(), GetParam().options.msh_binary);
-  EXPECT_EQ(read.mesh.coordinates(), mesh.coordinates());  // bit by bit
+  EXPECT_EQ(coordinates_of(read.mesh), coordinates_of(mesh));  // bit by bit
 }
 
 TEST_P(MshVariants, RoundTripWithoutLabels) {
@@ -81,7 +81,7 @@ std::string square(const std::string& last_node = "9 0 1 0",
 TEST_F(Msh, NodesAreNumberedFromZeroWithoutUnusedOnes) {
   const PlanarFile read = read_planar(file_with("a.msh", square()));
   const std::vector<Point<2>> expected = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  EXPECT_EQ(read.mesh.coordinates(), expected);
+  EXPECT_EQ(coordinates_of(read.mesh), expected);
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{1, 1}));
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{15, 16}));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Surface meshes from and to files, and their distortion.
 #include "meshes/distortion/distort.h"
 #include "meshes/tests/mesh_tests.h"
@@ -44,7 +45,7 @@ TEST_F(SurfaceFiles, KeepEveryBitAndTheFeatures) {
     const MeshFile read = read_mesh(file(name));
     const auto* same = std::get_if<SurfaceMesh>(&read.mesh);
     ASSERT_NE(same, nullptr);
-    EXPECT_EQ(same->coordinates(), mesh.coordinates());
+    EXPECT_EQ(coordinates_of(*same), coordinates_of(mesh));
     EXPECT_EQ(same->topology().cells(), mesh.topology().cells());
     EXPECT_EQ(same->topology().free_nodes(), mesh.topology().free_nodes());
     EXPECT_EQ(same->topology().labels().facet_tags, mesh.topology().labels().facet_tags);
@@ -87,7 +88,7 @@ TEST(DistortedSurface, HasTheMeanQualityAskedForAndNeverLeavesTheSurface) {
   }
   EXPECT_GT(n_moved, mesh.n_nodes() * 8 / 10);
   distort(again, parameters);
-  EXPECT_EQ(again.coordinates(), distorted.coordinates());
+  EXPECT_EQ(coordinates_of(again), coordinates_of(distorted));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ PlanarCells halved(PlanarCells mesh, const Polygons& polygons, std::size_t strid
         std::make_shared<const Topology>(2, mesh.coordinates.size(), std::move(mesh.cells));
     PlanarMesh moved(std::move(topology), std::move(mesh.coordinates));
     untangle(moved);
-    mesh = {moved.coordinates(), moved.topology().cells()};
+    mesh = cells_of(moved);
     if (stride > 2) smooth_quadrilaterals(mesh);
   }
   return mesh;
@@ -76,7 +76,7 @@ void smooth_quadrilaterals(PlanarCells& cells) {
   PlanarMesh mesh = mesh_of(std::move(cells), "generated region");
   auto method = make_method<2>("getme");
   smooth(mesh, method);
-  cells = {mesh.coordinates(), mesh.topology().cells()};
+  cells = cells_of(mesh);
 }
 
 PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length) {
