@@ -34,7 +34,7 @@ double median_seconds(int n, const auto& work) {
   return all[n / 2];
 }
 
-/// Bytes a second of a = b + s c on arrays too large for the cache, with the present threads.
+/// Bytes per second of a = b + s c on arrays too large for the cache, with the present threads.
 double triad_bandwidth() {
   constexpr std::size_t n = 1 << 25;
   std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);

@@ -148,14 +148,14 @@ class NearestCount {
   bool is_close() const { return deviation_ <= 0.012; }
   double n_wanted() const { return n_wanted_; }
 
-  /// Returns the mesh's share of the wanted count.
+  /// Returns the mesh's count as a fraction of the wanted one.
   double offer(VolumeCells mesh) {
-    const double share = static_cast<double>(mesh.cells.size()) / n_wanted_;
-    if (std::abs(share - 1.0) < deviation_) {
-      deviation_ = std::abs(share - 1.0);
+    const double fraction = static_cast<double>(mesh.cells.size()) / n_wanted_;
+    if (std::abs(fraction - 1.0) < deviation_) {
+      deviation_ = std::abs(fraction - 1.0);
       mesh_ = std::move(mesh);
     }
-    return share;
+    return fraction;
   }
 
   VolumeCells take() {
@@ -202,7 +202,7 @@ VolumeCells tetrahedra(const EdgeLengths& lengths) {
                     removed, lengths);
 }
 
-/// The length on the boundary decides on the share of nodes and cells, that inside on their count.
+/// The length on the boundary decides on the ratio of nodes to cells, that inside on their count.
 VolumeCells tetrahedra(double edge_scale) {
   constexpr double n_cells = 566004.0;
   constexpr EdgeLengths first_try{0.215, 0.193};

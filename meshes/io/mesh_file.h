@@ -28,7 +28,7 @@ MeshFile read_mesh(const std::filesystem::path& path);
 /// The planar mesh of a file. Throws InputError if it is another one; `path` names it.
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path);
 
-/// Named numbers to write along with a mesh: one a cell, one a node.
+/// Named numbers to write along with a mesh: one per cell or one per node.
 struct MeshFields {
   std::map<std::string, std::vector<double>> cell, point;
 };

@@ -166,8 +166,10 @@ class MshWriter {
           low = low.cwiseMin(point);
           high = high.cwiseMax(point);
         }
+    // Gmsh scales boxes about their middles, by 1 here, which rounds: the files stay the same.
+    const Point<3> middle = 0.5 * (low + high);
     for (const Point<3>& corner : {low, high})
-      for (const double x : corner) out_.rounded(x);
+      for (const double x : Point<3>((corner - middle) + middle)) out_.rounded(x);
   }
 
   /// All nodes stand in the first entity of the cells, in their order, whichever entities use them.

@@ -118,6 +118,10 @@ inline PlanarFile read_planar(const std::filesystem::path& path) {
   return {planar_mesh(file, path), file.cell_lines};
 }
 
+inline VolumeMesh read_volume(const std::filesystem::path& path) {
+  return std::get<VolumeMesh>(read_mesh(path).mesh);
+}
+
 template <int dim, int spacedim>
 std::vector<Point<spacedim>> coordinates_of(const Mesh<dim, spacedim>& mesh) {
   return {mesh.coordinates().begin(), mesh.coordinates().end()};

@@ -29,8 +29,8 @@ TEST(Roof, HasTheCountsAndTheQualityOfTheThesis) {
   EXPECT_NEAR(quality.q_star_min, 0.2467, 0.0005);
   EXPECT_EQ(euler_characteristic(mesh), 1 - 2) << "a disc without two rings";
   const Adjacency cells = adjacency(mesh, 4);
-  EXPECT_GT(cells.irregular_share, 0.0) << "unstructured";
-  EXPECT_LT(cells.irregular_share, 0.01) << "in rows";
+  EXPECT_GT(cells.irregular_fraction, 0.0) << "unstructured";
+  EXPECT_LT(cells.irregular_fraction, 0.01) << "in rows";
 }
 
 TEST(Roof, HasNoFeaturesButAnchorsCablesAndRings) {

@@ -81,10 +81,10 @@ TEST(DistortedSurface, HasTheMeanQualityAskedForAndNeverLeavesTheSurface) {
   EXPECT_EQ(mesh_quality(distorted).n_invalid, 0u);
   std::size_t n_moved = 0;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    const Point<3>& place = distorted.coordinates()[i];
-    n_moved += place != mesh.coordinates()[i];
-    EXPECT_LT(mesh.constraints()->distance(place), 1e-14);
-    EXPECT_LT((mesh.constraints()->project(i, mesh.coordinates()[i], place) - place).norm(), 1e-14);
+    const Point<3>& point = distorted.coordinates()[i];
+    n_moved += point != mesh.coordinates()[i];
+    EXPECT_LT(mesh.constraints()->distance(point), 1e-14);
+    EXPECT_LT((mesh.constraints()->project(i, mesh.coordinates()[i], point) - point).norm(), 1e-14);
   }
   EXPECT_GT(n_moved, mesh.n_nodes() * 8 / 10);
   distort(again, parameters);
