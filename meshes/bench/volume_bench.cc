@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Times of the smoothers on volume meshes of the size of the thesis' Section 6.3: 568,000
 /// distorted tetrahedra, 68,600 distorted hexahedra, on one and two threads. An iteration is set in
 /// relation to a plain Laplace sweep, to the same work on a mesh that fits the innermost cache, and
@@ -33,7 +34,7 @@ double median_seconds(int n, const auto& work) {
   return all[n / 2];
 }
 
-/// Bytes a second of a = b + s c on arrays too large for the cache, with the present threads.
+/// Bytes per second of a = b + s c on arrays too large for the cache, with the present threads.
 double triad_bandwidth() {
   constexpr std::size_t n = 1 << 25;
   std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
@@ -46,12 +47,12 @@ double triad_bandwidth() {
   return 3.0 * sizeof(double) * n / seconds;
 }
 
-/// What a pass over the mesh cannot avoid: cells' nodes, coordinates, qualities written, sums of
-/// the nodes read and written, new coordinates.
+/// What a pass over the mesh cannot avoid: cells' nodes and where their rows begin, coordinates,
+/// qualities written, sums of the nodes read and written, new coordinates.
 double bytes_of_iteration(const VolumeMesh& mesh) {
   const double nodes = static_cast<double>(mesh.n_nodes());
   return static_cast<double>(mesh.topology().cells().n_entries()) * sizeof(NodeIndex) +
-         static_cast<double>(mesh.n_cells()) * (sizeof(std::size_t) + sizeof(double)) +
+         static_cast<double>(mesh.n_cells()) * (sizeof(RowOffset) + sizeof(double)) +
          nodes * (3 * sizeof(Point<3>) + 2 * 4 * sizeof(double));
 }
 

@@ -59,7 +59,7 @@ VolumeMesh swept_gear(bool distorted) {
       std::get<PlanarMesh>(find_domain("gear").generate({.elements = "quadrilaterals"}));
   std::vector<double> heights;
   for (int layer = 0; layer <= 11; ++layer) heights.push_back(0.2 * layer);
-  const VolumeCells swept = sweep({gear.copied_coordinates(), gear.topology().cells()}, heights);
+  const VolumeCells swept = sweep(cells_of(gear), heights);
   VolumeMesh mesh = test::make_volume_mesh(swept.coordinates, swept.cells);
   if (!distorted) return mesh;
   return kept("swept_gear_distorted.vtu", [&](const auto& path) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -21,11 +22,8 @@ class SplitMix64 {
 
   /// Uniform in [0, n), n >= 1, by the high half of the 128-bit product; the bias is below n 2^-64.
   std::uint64_t below(std::uint64_t n) {
-    const std::uint64_t x = next();
-    const std::uint64_t low = (x & 0xffffffffu) * (n & 0xffffffffu);
-    const std::uint64_t middle_1 = (x >> 32) * (n & 0xffffffffu) + (low >> 32);
-    const std::uint64_t middle_2 = (x & 0xffffffffu) * (n >> 32) + (middle_1 & 0xffffffffu);
-    return (x >> 32) * (n >> 32) + (middle_1 >> 32) + (middle_2 >> 32);
+    __extension__ using Product = unsigned __int128;
+    return static_cast<std::uint64_t>(static_cast<Product>(next()) * n >> 64);
   }
 
  private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/distortion/distort.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ void require_in_range(const DistortionParameters& p) {
     throw InputError("the distortion's target mean quality " + std::to_string(p.target_q_mean) +
                      " is not between 0 and 1");
   if (p.n_candidates < 1)
-    throw InputError("the distortion needs at least 1 candidate a node, not " +
+    throw InputError("the distortion needs at least 1 candidate per node, not " +
                      std::to_string(p.n_candidates));
   if (p.n_sweeps < 1)
     throw InputError("the distortion needs at least 1 sweep, not " + std::to_string(p.n_sweeps));
@@ -38,20 +39,21 @@ Point<dim> point_in_unit_ball(SplitMix64& random) {
   }
 }
 
-/// Of one turn; a thread's start costs more than moving a few nodes, of which those of volume
-/// meshes take longer by far.
-constexpr std::size_t nodes_a_thread(int dim) {
+/// Fewer nodes of a level are not worth a thread; those of volume meshes take longer by far.
+constexpr std::size_t least_nodes_per_thread(int dim) {
   return dim == 2 ? 64 : 4;
 }
 
-/// In a ball larger than the node's cells few places are valid; some nodes have hardly any.
+/// In a ball larger than the node's cells few points are valid; some nodes have hardly any.
 constexpr int tries_per_candidate = 20;
 
 template <int dim, int spacedim>
 class Distortion {
  public:
   Distortion(const Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters)
-      : mesh_(mesh), original_(mesh.copied_coordinates()), parameters_(parameters) {
+      : mesh_(mesh),
+        original_(mesh.coordinates().begin(), mesh.coordinates().end()),
+        parameters_(parameters) {
     const Topology& topology = mesh.topology();
     edge_length_.resize(mesh.n_nodes(), 0.0);
     for (const NodeIndex i : topology.free_nodes()) {
@@ -59,89 +61,95 @@ class Distortion {
         edge_length_[i] += (original_[j] - original_[i]).norm();
       edge_length_[i] /= static_cast<double>(topology.node_neighbours(i).size());
     }
-    turns_ = turns_of(topology);
+    levels_ = dependency_levels(topology);
   }
 
   /// Moves all nodes within a radius and returns the mean quality that gives.
   double apply(double radius) {
-    mesh_.coordinates() = original_;
+    std::copy(original_.begin(), original_.end(), mesh_.coordinates().begin());
     for (int sweep = 0; sweep < parameters_.n_sweeps; ++sweep)
-      for (std::size_t turn = 0; turn < turns_.size(); ++turn)
-        parallel_for_ranges(turns_[turn].size(), nodes_a_thread(dim),
+      for (std::size_t level = 0; level < levels_.size(); ++level) {
+        const auto nodes = levels_[level];
+        parallel_for_ranges(nodes.size(), least_nodes_per_thread(dim),
                             [&](std::size_t first, std::size_t last) {
-                              for (const NodeIndex node : turns_[turn].subspan(first, last - first))
-                                mesh_.coordinates()[node] = worst_place(node, sweep, radius);
+                              for (const NodeIndex node : nodes.subspan(first, last - first))
+                                mesh_.coordinates()[node] = worst_candidate(node, sweep, radius);
                             });
+      }
     return mesh_quality(mesh_).q_mean;
   }
 
   /// Moves further nodes, one after the other, until the mean quality, at present above the target,
-  /// has fallen to it; the last one stops on its way. The places that keep a node's cells valid are
-  /// convex, because the Jacobian at each point is linear in the node's coordinates, so the way is
-  /// valid (on surfaces nearly; it is looked at). False if the target is not reached.
+  /// has fallen to it; the last one stops on its way. The points that keep a node's cells valid
+  /// form a convex set, because the Jacobian at each point is linear in the node's coordinates, so
+  /// the way is valid (on surfaces nearly; it is looked at). False if the target is not reached.
   bool finish(double target, double radius) {
     const auto n_cells = static_cast<double>(mesh_.n_cells());
     double excess = (mesh_quality(mesh_).q_mean - target) * n_cells;
     for (const NodeIndex node : mesh_.topology().free_nodes()) {
-      Point<spacedim>& place = mesh_.coordinates()[node];
-      const Point<spacedim> from = place, to = worst_place(node, parameters_.n_sweeps, radius);
+      Point<spacedim>& x = mesh_.coordinates()[node];
+      const Point<spacedim> from = x, to = worst_candidate(node, parameters_.n_sweeps, radius);
       const auto degree = static_cast<double>(mesh_.topology().node_cells(node).size());
       const double before = quality_around(node);
-      place = to;
+      x = to;
       const double loss = degree * (before - quality_around(node));
       if (loss < excess) {
         if (loss > 0.0)
           excess -= loss;
         else
-          place = from;
+          x = from;
         continue;
       }
       double low = 0.0, high = 1.0;
       for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
-        place = allowed_position<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
+        x = allowed_place<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
         const double quality = quality_around(node);
         (quality > 0.0 && degree * (before - quality) < excess ? low : high) = middle;
       }
-      place = allowed_position<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
+      x = allowed_place<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
       return true;
     }
     return false;
   }
 
   const Mesh<dim, spacedim>& mesh() const { return mesh_; }
+  void copy_to(Mesh<dim, spacedim>& mesh) const {
+    std::copy(mesh_.coordinates().begin(), mesh_.coordinates().end(), mesh.coordinates().begin());
+  }
 
  private:
-  /// The free nodes in turns that have the outcome of one node after the other: a node's turn comes
-  /// after those of the nodes before it that share a cell with it.
-  static CompressedRows<NodeIndex> turns_of(const Topology& topology) {
-    std::vector<std::size_t> turn_of_node(topology.n_nodes(), 0);
-    std::vector<std::vector<NodeIndex>> turns;
+  /// The free nodes in levels: those of one level move at the same time, with the outcome of one
+  /// node after the other. A node depends on the nodes before it that share a cell with it, and so
+  /// its level is behind theirs.
+  static CompressedRows<NodeIndex> dependency_levels(const Topology& topology) {
+    std::vector<std::size_t> level_of_node(topology.n_nodes(), 0);
+    std::vector<std::vector<NodeIndex>> levels;
     for (const NodeIndex node : topology.free_nodes()) {
-      std::size_t turn = 0;
+      std::size_t level = 0;
       for (const CellIndex cell : topology.node_cells(node))
         for (const NodeIndex other : topology.cell_nodes(cell))
           if (other < node && !topology.is_fixed(other))
-            turn = std::max(turn, turn_of_node[other] + 1);
-      turn_of_node[node] = turn;
-      if (turn == turns.size()) turns.emplace_back();
-      turns[turn].push_back(node);
+            level = std::max(level, level_of_node[other] + 1);
+      level_of_node[node] = level;
+      if (level == levels.size()) levels.emplace_back();
+      levels[level].push_back(node);
     }
     CompressedRows<NodeIndex> rows;
-    for (const auto& nodes : turns) rows.append(nodes);
+    for (const auto& nodes : levels) rows.append(nodes);
     return rows;
   }
 
-  /// The worst valid place of those a node chooses from; the present one if there is none.
-  Point<spacedim> worst_place(NodeIndex node, int sweep, double radius) {
-    Point<spacedim>& place = mesh_.coordinates()[node];
-    const Point<spacedim> present = place;
+  /// Of a node's candidates the valid one of lowest quality; where the node is if none is valid.
+  Point<spacedim> worst_candidate(NodeIndex node, int sweep, double radius) {
+    Point<spacedim>& x = mesh_.coordinates()[node];
+    const Point<spacedim> present = x;
     Point<spacedim> worst = present;
     double worst_quality = 2.0;  // above every mean ratio
     SplitMix64 random = counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
     const int n_tries = tries_per_candidate * parameters_.n_candidates;
     for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
-      place = allowed_position<dim, spacedim>(
+      x = allowed_place<dim, spacedim>(
           mesh_, node,
           original_[node] + radius * edge_length_[node] * point_in_unit_ball<spacedim>(random));
       const double quality = quality_around(node);
@@ -149,10 +157,10 @@ class Distortion {
       ++n_valid;
       if (quality < worst_quality) {
         worst_quality = quality;
-        worst = place;
+        worst = x;
       }
     }
-    place = present;
+    x = present;
     return worst;
   }
 
@@ -187,7 +195,7 @@ class Distortion {
   std::vector<Point<spacedim>> original_;
   std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
   DistortionParameters parameters_;
-  CompressedRows<NodeIndex> turns_;
+  CompressedRows<NodeIndex> levels_;
 };
 
 /// Balls of this radius contain the cells of nearly every node; larger ones change nothing.
@@ -210,7 +218,7 @@ double distort_within(Mesh<dim, spacedim>& mesh, double radius,
   require_valid(mesh);
   Distortion<dim, spacedim> distortion(mesh, parameters);
   const double q_mean = distortion.apply(radius);
-  mesh.set_coordinates(distortion.mesh().coordinates());
+  distortion.copy_to(mesh);
   return q_mean;
 }
 
@@ -226,7 +234,7 @@ DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& 
                      ", because the mesh itself has " + std::to_string(q_initial) +
                      "; distortion only lowers it");
 
-  // The mean quality falls with the radius until the balls hold all valid places: the first step
+  // The mean quality falls with the radius until the balls hold all valid points: the first step
   // below the target brackets the radius.
   Distortion<dim, spacedim> distortion(mesh, parameters);
   double lower = 0.0, upper = 0.0, q_lowest = q_initial;
@@ -246,7 +254,7 @@ DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& 
   const DistortionResult result{lower, mesh_quality(distortion.mesh()).q_mean};
   if (std::abs(result.q_mean - target) > parameters.tolerance)
     throw InputError(not_reached(target, q_lowest, q_initial));
-  mesh.set_coordinates(distortion.mesh().coordinates());
+  distortion.copy_to(mesh);
   return result;
 }
 

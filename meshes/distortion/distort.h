@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <cstdint>
@@ -6,23 +7,25 @@
 
 namespace smoothfem {
 
-/// n_candidates that reach the mean quality of the thesis' distorted meshes of a dimension. Planar:
-/// at radii of about 1.2, and smart Laplace smoothing then behaves as on the published meshes;
-/// fewer do not reach it, more reach it with smaller movements. Volume: 15 do not reach it on
-/// coarse tetrahedra. On the flange with seed 1, whether the second stage of GETMe with the thesis'
-/// patience repairs tetrahedra hangs on single cells: with 40 it does with all and with a tenth of
-/// them, with 20 not with all, with 30 not with a tenth.
-constexpr int usual_candidates(int dim) {
+/// n_candidates that reach the mean quality of the thesis' distorted meshes of a dimension, 2 or 3.
+/// Planar: at radii of about 1.2, and smart Laplace smoothing then behaves as on the published
+/// meshes; fewer do not reach it, more reach it with smaller movements. Volume: 15 do not reach it
+/// on coarse tetrahedra. On the flange with seed 1, whether the second stage of GETMe with the
+/// thesis' patience repairs tetrahedra depends on single cells: with 40 it does with all and with a
+/// tenth of them, with 20 not with all, with 30 not with a tenth.
+constexpr int default_candidates(int dim) {
   return dim == 2 ? 10 : 40;
 }
 
 /// How to make a good mesh bad in a way that smoothing can undo.
 struct DistortionParameters {
-  double target_q_mean = 0.3699;  ///< the published triangle gear; the quad gear has 0.4180
+  double target_q_mean = 0.3699;  ///< in (0, 1); the published gear of triangles has this, that of
+                                  ///< quadrilaterals 0.4180
   std::uint64_t seed = 1;
-  int n_candidates = usual_candidates(2);  ///< valid random places that a node chooses from
-  int n_sweeps = 1;  ///< times all nodes are moved; several make meshes that resist every smoother
-  double tolerance = 1e-4;  ///< largest distance of q_mean from the target
+  int n_candidates = default_candidates(2);  ///< valid random points per node, at least 1
+  int n_sweeps = 1;         ///< times all nodes are moved, at least 1; several make meshes that
+                            ///< resist every smoother
+  double tolerance = 1e-4;  ///< largest distance of q_mean from the target, positive
 };
 
 struct DistortionResult {
@@ -31,12 +34,12 @@ struct DistortionResult {
 };
 
 /// Moves the free nodes of a valid mesh at random until its mean quality is the target.
-/// Node after node takes, of n_candidates random places in a ball around its original place that
+/// Node after node takes, of n_candidates random points in a ball around its original position that
 /// keep all its cells valid, the one with the worst mean quality of these cells; a node for which
-/// no such place turns up stays. The ball's radius, relative to the mean length of the node's edges
+/// no such point turns up stays. The ball's radius, relative to the mean length of the node's edges
 /// in the original mesh, is found by bisection; every radius sees the same random numbers.
 /// Hexahedra keep a positive Jacobian inside, too (has_positive_mapping), because finite elements
-/// need it. On surface meshes the places in the ball are projected onto the surface or feature line
+/// need it. On surface meshes the points in the ball are projected onto the surface or feature line
 /// first. The result is valid and depends only on mesh and parameters, not on machine and threads.
 /// Throws InputError, with the mesh unchanged, for an invalid mesh, parameters out of range (target
 /// in (0, 1), n_candidates and n_sweeps >= 1, tolerance > 0) and a target that no radius reaches,

@@ -23,13 +23,13 @@ struct Layers {
 
 /// A plane between pieces of an axis, and whether layers are thin there.
 struct Plane {
-  double place;
+  double coordinate;
   bool is_thin;
 };
 
 /// The fewest layers that reach from one plane to the next, shrunk to fit.
 std::vector<double> widths(const Plane& from, const Plane& to, const Layers& layers) {
-  const double length = to.place - from.place;
+  const double length = to.coordinate - from.coordinate;
   std::vector<double> widths;
   double sum = 0.0;
   for (int n = 1; sum < length; ++n) {
@@ -48,13 +48,13 @@ std::vector<double> widths(const Plane& from, const Plane& to, const Layers& lay
 }
 
 std::vector<double> axis(const std::vector<Plane>& planes, const Layers& layers) {
-  std::vector<double> places{planes.front().place};
+  std::vector<double> coordinates{planes.front().coordinate};
   for (std::size_t k = 1; k < planes.size(); ++k) {
     for (const double width : widths(planes[k - 1], planes[k], layers))
-      places.push_back(places.back() + width);
-    places.back() = planes[k].place;
+      coordinates.push_back(coordinates.back() + width);
+    coordinates.back() = planes[k].coordinate;
   }
-  return places;
+  return coordinates;
 }
 
 bool is_in_body(double x, double y, double z) {

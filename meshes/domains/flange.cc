@@ -57,16 +57,17 @@ PlanarCells quadrilaterals(const std::vector<Circle>& circles, double edge_lengt
   }
   const PlanarCells coarse =
       mesh_region(polygons, 2.0 * edge_length, PlanarPattern::quadrilaterals);
-  PlanarCells cells = split_to_quadrilaterals(coarse, [&](NodeIndex a, NodeIndex b) -> Point<2> {
-    const Circle& circle = circles[circle_of_node[a]];
-    const Point<2> chord = 0.5 * (coarse.coordinates[a] + coarse.coordinates[b]);
-    return circle.centre + circle.radius * (chord - circle.centre).normalized();
-  });
+  const PlanarCells cells =
+      split_to_quadrilaterals(coarse, [&](NodeIndex a, NodeIndex b) -> Point<2> {
+        const Circle& circle = circles[circle_of_node[a]];
+        const Point<2> chord = 0.5 * (coarse.coordinates[a] + coarse.coordinates[b]);
+        return circle.centre + circle.radius * (chord - circle.centre).normalized();
+      });
   // Where edges are long against a hole, its arcs reach into the cells at their chords.
   PlanarMesh mesh(std::make_shared<const Topology>(2, cells.coordinates.size(), cells.cells),
                   cells.coordinates);
   untangle(mesh);
-  return {mesh.copied_coordinates(), std::move(cells.cells)};
+  return cells_of(mesh);
 }
 
 /// The first mesh's cells, then the second's; nodes that lie on the circle in both become one.
@@ -147,14 +148,14 @@ class NearestCount {
   bool is_close() const { return deviation_ <= 0.012; }
   double n_wanted() const { return n_wanted_; }
 
-  /// Returns the mesh's share of the wanted count.
+  /// Returns the mesh's count as a fraction of the wanted one.
   double offer(VolumeCells mesh) {
-    const double share = static_cast<double>(mesh.cells.size()) / n_wanted_;
-    if (std::abs(share - 1.0) < deviation_) {
-      deviation_ = std::abs(share - 1.0);
+    const double fraction = static_cast<double>(mesh.cells.size()) / n_wanted_;
+    if (std::abs(fraction - 1.0) < deviation_) {
+      deviation_ = std::abs(fraction - 1.0);
       mesh_ = std::move(mesh);
     }
-    return share;
+    return fraction;
   }
 
   VolumeCells take() {
@@ -201,7 +202,7 @@ VolumeCells tetrahedra(const EdgeLengths& lengths) {
                     removed, lengths);
 }
 
-/// The length on the boundary decides on the share of nodes and cells, that inside on their count.
+/// The length on the boundary decides on the ratio of nodes to cells, that inside on their count.
 VolumeCells tetrahedra(double edge_scale) {
   constexpr double n_cells = 566004.0;
   constexpr EdgeLengths first_try{0.215, 0.193};

@@ -16,7 +16,7 @@ struct GearParameters {
   int n_teeth = 17;
   double module = 1.0;  ///< pitch diameter / n_teeth
   /// The flanks of the published mesh lie on the involute of this angle within its rounding; the
-  /// usual 20 degrees make teeth that are thinner at the root and wider at the tip.
+  /// common 20 degrees make teeth that are thinner at the root and wider at the tip.
   double pressure_angle_degrees = 25.0;
   double tip_radius = 9.5;
   double root_radius = 7.25;
@@ -41,8 +41,8 @@ struct GearParameters {
   /// as a rule exactly.
   std::size_t n_cells = 14346;
 
-  /// Random edge flips for each triangle. Gmsh's triangles are too good: they can be smoothed to a
-  /// mean quality of .99. With this share the optimum is near that of the published mesh, .894.
+  /// Random edge flips per triangle. Gmsh's triangles are too good: they can be smoothed to a
+  /// mean quality of .99. With this fraction the optimum is near that of the published mesh, .894.
   double edge_flips_per_cell = 0.32;
   std::uint64_t seed = 1;  ///< of the edge flips
 };

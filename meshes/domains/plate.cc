@@ -77,11 +77,11 @@ CompressedRows<NodeIndex> append_cuboid(VolumeCells& mesh) {
       for (std::size_t i = 0; i < cuboid_cells[u]; ++i)
         for (std::size_t j = 0; j < cuboid_cells[v]; ++j) {
           const auto at = [&](std::size_t di, std::size_t dj) {
-            std::array<std::size_t, 3> place{};
-            place[d] = level;
-            place[u] = i + di;
-            place[v] = j + dj;
-            return node(place);
+            std::array<std::size_t, 3> position{};
+            position[d] = level;
+            position[u] = i + di;
+            position[v] = j + dj;
+            return node(position);
           };
           const bool even = (i + j) % 2 == 0;  // diagonals in turn
           triangles.append(

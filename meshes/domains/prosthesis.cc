@@ -46,10 +46,10 @@ std::vector<Point<3>> boundary_nodes() {
 
 /// Whether a point lies inside, at least `depth` below the boundary of one of the parts.
 bool is_inside(const Point<3>& p, double depth) {
-  const double share = p.z() / shaft_height;
+  const double height = p.z() / shaft_height;  // as a fraction
   const bool in_shaft =
       p.z() > depth && p.z() < shaft_height - depth &&
-      std::hypot(p.x(), p.y()) < tip_radius + share * (top_radius - tip_radius) - depth;
+      std::hypot(p.x(), p.y()) < tip_radius + height * (top_radius - tip_radius) - depth;
   const Point<3> axis = head_centre - neck_foot;
   const double along = axis.dot(p - neck_foot) / axis.squaredNorm();
   const bool in_neck =

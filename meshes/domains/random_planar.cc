@@ -78,14 +78,14 @@ bool is_convex(const PlanarCells& squares, CellIndex c) {
 PlanarCells disturbed(const Topology& topology, PlanarCells squares, double radius,
                       std::uint64_t seed) {
   for (NodeIndex i = 0; i < squares.coordinates.size(); ++i) {
-    const Point<2> place = squares.coordinates[i];
+    const Point<2> original = squares.coordinates[i];
     SplitMix64 random = counter_random(seed, disturbance, i);
     const double distance = radius * std::sqrt(random.uniform());
     Point<2> step =
         on_circle(Point<2>::Zero(), distance, 2.0 * std::numbers::pi * random.uniform());
     const auto cells = topology.node_cells(i);
     do {
-      squares.coordinates[i] = place + step;
+      squares.coordinates[i] = original + step;
       step *= 0.5;
     } while (!std::all_of(cells.begin(), cells.end(),
                           [&](CellIndex c) { return is_convex(squares, c); }));

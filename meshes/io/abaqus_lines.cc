@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/abaqus_lines.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/atomic_file.h"
 
 #include <fcntl.h>
@@ -106,8 +107,7 @@ void write_all(const fs::path& path, const fs::path& temporary, std::string_view
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write,
-                      Survives survives) {
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   require_replaceable(path);
   create_folder_of(path);
   const fs::path temporary = temporary_beside(path);
@@ -119,16 +119,15 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   } catch (const std::exception& error) {
     fail(path, error.what());
   }
-  if (survives == Survives::power_failure) flush_to_disk(path, temporary);
+  flush_to_disk(path, temporary);
   std::error_code error;
   fs::rename(temporary, path, error);
   if (error) fail(path, error.message());
   guard.keep();
 }
 
-void write_atomically(const fs::path& path, std::string_view content, Survives survives) {
-  write_atomically(
-      path, [&](const fs::path& temporary) { write_all(path, temporary, content); }, survives);
+void write_atomically(const fs::path& path, std::string_view content) {
+  write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, content); });
 }
 
 void flush_file_system(const fs::path& folder) {

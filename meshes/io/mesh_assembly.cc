@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/mesh_assembly.h"
 
 #include <algorithm>
@@ -95,9 +96,9 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
   try {
     return {make_mesh(parts, dim), lines};
   } catch (const CellError& error) {
-    std::string place = path.string() + ":";
-    if (!lines.empty()) place += std::to_string(lines[error.cell()]) + ":";
-    throw InputError(place + " " + error.what());
+    std::string position = path.string() + ":";
+    if (!lines.empty()) position += std::to_string(lines[error.cell()]) + ":";
+    throw InputError(position + " " + error.what());
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
   }

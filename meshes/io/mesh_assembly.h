@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -37,7 +38,7 @@ struct MeshParts {
 /// "path:line: " or "path: ".
 MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts);
 
-/// A physical name as one line "dimension tag name", for formats that have no place of their own.
+/// A physical name as one line "dimension tag name", for formats that have no section for it.
 std::string physical_name_line(const std::pair<int, int>& dimension_and_tag,
                                const std::string& name);
 /// Adds the name of such a line; false if it is none.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/mesh_file.h"
 
 #include <algorithm>
@@ -32,7 +33,6 @@ MeshFormat vtk_format(const std::string& name, const std::string& description,
           .holds_surface_meshes = true,
           .holds_polygons = true,
           .holds_fixed_nodes = true,
-          .holds_fields = true,
           .holds_physical_names = true,
           .holds_numbers = true,
           .read = read,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <filesystem>
@@ -27,7 +28,7 @@ MeshFile read_mesh(const std::filesystem::path& path);
 /// The planar mesh of a file. Throws InputError if it is another one; `path` names it.
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path);
 
-/// Named numbers to write along with a mesh: one a cell, one a node.
+/// Named numbers to write along with a mesh: one per cell or one per node.
 struct MeshFields {
   std::map<std::string, std::vector<double>> cell, point;
 };
@@ -56,7 +57,6 @@ struct MeshFormat {
   bool holds_planar_meshes = false, holds_volume_meshes = false, holds_surface_meshes = false;
   bool holds_polygons = false;        ///< cells with five and more nodes
   bool holds_fixed_nodes = false;     ///< otherwise boundary nodes are fixed after reading
-  bool holds_fields = false;          ///< MeshFields are written
   bool holds_physical_names = false;  ///< labelled facets, and names of tags (all but polygonal
                                       ///< text hold the cells' tags)
   bool holds_numbers = false;         ///< numbers of nodes and cells

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
@@ -34,7 +36,7 @@ class MeshView {
  private:
   const Topology& topology_;
   const PlanarMesh* planar_ = nullptr;
-  std::span<const Point<3>> in_space_;
+  std::span<const Point<3>> in_space_;  ///< of all but planar meshes
 };
 
 }  // namespace smoothfem

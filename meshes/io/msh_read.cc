@@ -1,153 +1,204 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gmsh.h>
-
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <set>
 #include <string>
+#include <type_traits>
 
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
+#include "meshes/io/msh_elements.h"
 #include "meshes/io/msh_file.h"
-#include "meshes/tools/gmsh_session.h"
+#include "meshes/io/msh_groups.h"
+#include "meshes/io/msh_input.h"
+#include "meshes/io/msh_nodes.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// Elements of one dimension of the current Gmsh model, with what the model says about them.
-struct GmshElements {
-  std::vector<std::size_t> tags;
-  CompressedRows<NodeIndex> nodes;
-  std::vector<int> physical_tags;  ///< 0 without a group
-};
+/// Walks through the sections of a file. No count is trusted: nothing is allocated before the file
+/// has shown that it holds it.
+template <class Input>
+class MshReader {
+ public:
+  MshReader(Input input, MshVersion version)
+      : in_(std::move(input)), is_version_4_(version == MshVersion::v4_1) {}
 
-int first_physical_tag(int dimension, int entity) {
-  std::vector<int> tags;
-  gmsh::model::getPhysicalGroupsForEntity(dimension, entity, tags);
-  return tags.empty() ? 0 : tags.front();
-}
-
-std::vector<std::size_t> ascending(const std::vector<std::size_t>& tags) {
-  std::vector<std::size_t> order(tags.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  return order;
-}
-
-/// Nodes in the order of their tags, so that the numbering does not depend on Gmsh's entities.
-void add_nodes(MeshParts& parts) {
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz, parameters;
-  gmsh::model::mesh::getNodes(tags, xyz, parameters);
-  for (const std::size_t i : ascending(tags)) {
-    parts.node_ids.push_back(tags[i]);
-    parts.coordinates.emplace_back(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+  MeshParts parts() {
+    in_.require_end("$MeshFormat");
+    for (std::string section = in_.next_section(); !section.empty(); section = in_.next_section())
+      read(section);
+    for (const std::string section : {"$Nodes", "$Elements"})
+      if (!seen_.contains(section))
+        in_.refuse("the file has no section " + section + "; it is truncated or holds no mesh");
+    for (int dimension = 1; dimension <= 3; ++dimension) sort(parts_.elements[dimension]);
+    parts_.names = groups_.used_names();
+    parts_.coordinates = std::move(nodes_.coordinates);
+    parts_.node_ids = std::move(nodes_.tags);
+    return std::move(parts_);
   }
-}
 
-/// Number of nodes of a straight-sided element type with corners only.
-std::size_t n_corners(int type) {
-  std::string name;
-  int dimension = 0, order = 0, n_nodes = 0, n_primary = 0;
-  std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, local, n_primary);
-  if (n_nodes != n_primary || order > 1)
-    throw InputError("the mesh has elements of type '" + name +
-                     "' with nodes besides their corners; save it with element order 1");
-  return static_cast<std::size_t>(n_nodes);
-}
+ private:
+  void read(const std::string& section) {
+    const bool is_read_once = section == "$Nodes" || section == "$Elements";
+    if (!seen_.insert(section).second && is_read_once)
+      in_.refuse("there is a second section " + section + "; save the mesh as one");
+    if (section == "$PhysicalNames")
+      groups_.read_names(in_);
+    else if (section == "$Entities" && is_version_4_)
+      groups_.read_entities(in_, false);
+    else if (section == "$PartitionedEntities" && is_version_4_)
+      groups_.read_entities(in_, true);
+    else if (section == "$Nodes")
+      is_version_4_ ? nodes_.read_4(in_) : nodes_.read_2(in_);
+    else if (section == "$Elements")
+      is_version_4_ ? read_elements_4() : read_elements_2();
+    else if (section == "$ParametricNodes")
+      in_.refuse("the nodes have parametric coordinates; save the mesh without them");
+    else
+      return in_.skip_section(section);
+    in_.require_end(section);
+  }
 
-/// node_tags: ascending.
-NodeIndex number_of(std::size_t node, std::size_t element,
-                    const std::vector<std::size_t>& node_tags) {
-  const auto found = node - 1 < node_tags.size() && node_tags[node - 1] == node
-                         ? node_tags.begin() + static_cast<std::ptrdiff_t>(node - 1)
-                         : std::lower_bound(node_tags.begin(), node_tags.end(), node);
-  if (found == node_tags.end() || *found != node)
-    throw InputError("element " + std::to_string(element) + " names node " + std::to_string(node) +
-                     ", which the file does not have");
-  return static_cast<NodeIndex>(found - node_tags.begin());
-}
+  const MshElementType& known_type(int number) const {
+    if (const auto* type = msh_element_type(number)) return *type;
+    in_.refuse("the mesh has elements of Gmsh's type " + std::to_string(number) +
+               ", but only points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms "
+               "and pyramids without nodes besides their corners can be read; save it with element "
+               "order 1");
+  }
 
-GmshElements elements_of_dimension(int dimension, const std::vector<std::size_t>& node_tags) {
-  GmshElements result;
-  gmsh::vectorpair entities;
-  gmsh::model::getEntities(entities, dimension);
-  std::vector<NodeIndex> row;
-  for (const auto& [_, entity] : entities) {
-    const int physical_tag = first_physical_tag(dimension, entity);
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-    for (std::size_t t = 0; t < types.size(); ++t) {
-      const std::size_t n = n_corners(types[t]);
-      row.resize(n);
-      for (std::size_t e = 0; e < tags[t].size(); ++e) {
-        for (std::size_t k = 0; k < n; ++k)
-          row[k] = number_of(nodes[t][e * n + k], tags[t][e], node_tags);
-        result.nodes.append(row);
-        result.tags.push_back(tags[t][e]);
-        result.physical_tags.push_back(physical_tag);
+  void read_elements_2() {
+    const std::uint64_t n_elements = msh_count_in_text(in_, "the number of elements");
+    for (std::uint64_t i = 0; i < n_elements;) {
+      in_.begin("element", i, n_elements);
+      if constexpr (std::is_same_v<Input, MshBinaryInput>) {
+        const MshElementType& type = known_type(in_.integer("element"));
+        const std::uint64_t n = in_.count("the number of elements of a type");
+        const std::uint64_t n_tags = in_.count("the number of the element's tags");
+        if (n < 1 || n > n_elements - i) in_.fail("a block of elements has a wrong count");
+        for (const std::uint64_t end = i + n; i < end; ++i)
+          add_element_2(in_.tag("the element's tag"), type, n_tags);
+      } else {
+        const std::uint64_t tag = in_.tag("the element's tag");
+        const MshElementType& type = known_type(in_.integer("element"));
+        add_element_2(tag, type, in_.count("the number of the element's tags"));
+        ++i;
       }
     }
   }
-  return result;
-}
 
-void add_elements(const GmshElements& found, const MshStructure& structure, ElementList& elements) {
-  for (const std::size_t e : ascending(found.tags)) {
-    elements.nodes.append(found.nodes[e]);
-    elements.tags.push_back(found.physical_tags[e]);
-    elements.ids.push_back(found.tags[e]);
-    const auto line = structure.element_lines.find(found.tags[e]);
-    if (line != structure.element_lines.end()) elements.lines.push_back(line->second);
+  void add_element_2(std::uint64_t tag, const MshElementType& type, std::uint64_t n_tags) {
+    in_.require_bytes(n_tags, sizeof(std::int32_t));
+    int group = 0;
+    for (std::uint64_t k = 0; k < n_tags; ++k) {
+      const int value = in_.integer("element");
+      if (k == 0) group = value;
+    }
+    groups_.use(type.dimension, group);
+    add_element(tag, type, group);
   }
-  if (elements.lines.size() != elements.nodes.size()) elements.lines.clear();
-}
 
-void add_names(MeshParts& parts) {
-  gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups);
-  for (const auto& [dimension, tag] : groups) {
-    std::string name;
-    gmsh::model::getPhysicalName(dimension, tag, name);
-    if (!name.empty()) parts.names[{dimension, tag}] = name;
+  void read_elements_4() {
+    in_.begin("the numbers of elements");
+    const std::uint64_t n_blocks = in_.count("the number of element blocks");
+    const std::uint64_t n_elements = in_.count("the number of elements");
+    msh_skip_range(in_);
+    std::uint64_t n_found = 0;
+    for (std::uint64_t b = 0; b < n_blocks; ++b) {
+      in_.begin("element block", b, n_blocks);
+      const int dimension = in_.integer("block"), entity = in_.integer("block");
+      const MshElementType& type = known_type(in_.integer("block"));
+      if (dimension != type.dimension)
+        in_.fail("the block's entity has dimension " + std::to_string(dimension) +
+                 ", its elements have " + std::to_string(type.dimension));
+      const std::uint64_t n = in_.count("the number of elements in the block");
+      in_.require_bytes(n, (1 + type.n_nodes) * sizeof(std::uint64_t));
+      const int group = groups_.tag_of_entity(dimension, entity);
+      for (std::uint64_t i = 0; i < n; ++i) {
+        in_.begin("element", i, n);
+        add_element(in_.tag("the element's tag"), type, group);
+      }
+      n_found += n;
+    }
+    msh_require_total(in_, "elements", n_found, n_elements);
   }
-}
 
-/// Gmsh skips what it cannot place without an error; the announced number tells.
-void require_complete(const MshStructure& structure) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> tags, nodes;
-  gmsh::model::mesh::getElements(types, tags, nodes);
-  std::size_t n_elements = 0;
-  for (const auto& of_type : tags) n_elements += of_type.size();
-  if (n_elements != structure.n_elements)
-    throw InputError("the file announces " + std::to_string(structure.n_elements) +
-                     " elements but " + std::to_string(n_elements) + " could be read");
-}
+  void add_element(std::uint64_t tag, const MshElementType& type, int group) {
+    std::array<NodeIndex, 8> nodes{};
+    for (std::size_t k = 0; k < type.n_nodes; ++k) {
+      if (!in_.has_value())
+        in_.fail("element " + std::to_string(tag) + " has " + std::to_string(k) +
+                 " nodes, but those of Gmsh's type " + std::to_string(type.number) + " have " +
+                 std::to_string(type.n_nodes));
+      const std::int64_t node = in_.node_of_element();
+      const auto index = nodes_.index_of(static_cast<std::uint64_t>(node));
+      if (!index)
+        in_.fail("element " + std::to_string(tag) + " names node " + std::to_string(node) +
+                 ", which the file does not have");
+      nodes[k] = *index;
+    }
+    in_.end();
+    if (type.dimension == 0) return;
+    ElementList& elements = parts_.elements[static_cast<std::size_t>(type.dimension)];
+    elements.nodes.append(std::span(nodes).first(type.n_nodes));
+    elements.tags.push_back(group);
+    elements.ids.push_back(tag);
+    elements.lines.push_back(in_.position());
+  }
+
+  void sort(ElementList& elements) {
+    const auto order = ascending_order(elements.ids);
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (elements.ids[order[i]] == elements.ids[order[i - 1]])
+        in_.fail_at(elements.lines[order[i]],
+                    "the element tag " + std::to_string(elements.ids[order[i]]) + " appears twice");
+    if (!std::is_sorted(elements.ids.begin(), elements.ids.end())) {
+      CompressedRows<NodeIndex> nodes;
+      for (const std::size_t e : order) nodes.append(elements.nodes[e]);
+      elements.nodes = std::move(nodes);
+      elements.tags = in_order(elements.tags, order);
+      elements.ids = in_order(elements.ids, order);
+      elements.lines = in_order(elements.lines, order);
+    }
+    if constexpr (std::is_same_v<Input, MshBinaryInput>) elements.lines.clear();
+  }
+
+  Input in_;
+  bool is_version_4_;
+  std::set<std::string> seen_;
+  MshGroups groups_;
+  MshNodes nodes_;
+  MeshParts parts_;
+};
 
 }  // namespace
 
 MeshFile read_msh(const std::filesystem::path& path) {
-  const MshStructure structure = check_msh_structure(path, read_whole_file(path));
+  const std::string content = read_whole_file(path);
+  LineReader reader(path, content);
+  reader.require_line("the first line");
+  if (reader.word() != "$MeshFormat")
+    reader.fail("the first line is not '$MeshFormat'; this is not a Gmsh mesh file");
+  reader.require_line("the format's version");
+  const std::string word(reader.word());
+  const bool is_4_1 = word == "4.1";
+  if (!is_4_1 && word != "2.2" && word != "2.1" && word != "2" && word != "2.0")
+    reader.fail("the file has version '" + word.substr(0, 40) + "'; save it as version 4.1 or 2.2");
+  const MshVersion version = is_4_1 ? MshVersion::v4_1 : MshVersion::v2_2;
+  const bool is_binary = reader.integer("the file type", 2) == 1;
+  const std::uint64_t size = reader.integer("the size of numbers");
+  if (is_binary && size != sizeof(double))
+    reader.fail("the file's numbers have " + std::to_string(size) +
+                " bytes instead of 8; save it as text");
   MeshParts parts;
-  const GmshSession session;
-  session.run(path.string(), [&] { gmsh::merge(path.string()); });
-  try {
-    session.run(path.string(), [&] {
-      require_complete(structure);
-      add_nodes(parts);
-      for (int dimension = 1; dimension <= 3; ++dimension)
-        add_elements(elements_of_dimension(dimension, parts.node_ids), structure,
-                     parts.elements[dimension]);
-      add_names(parts);
-    });
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    throw InputError(message.starts_with(path.string()) ? message : path.string() + ": " + message);
+  if (is_binary) {
+    MshBinaryInput input(path.string(), content, content.size() - reader.rest().size(), version);
+    parts = MshReader(std::move(input), version).parts();
+  } else {
+    parts = MshReader(MshTextInput(reader), version).parts();
   }
   drop_unused_nodes(parts);
   return assemble_mesh(path, std::move(parts));

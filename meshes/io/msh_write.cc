@@ -1,219 +1,262 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gmsh.h>
-
 #include <algorithm>
-#include <fstream>
-#include <map>
-#include <numeric>
-#include <set>
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <string>
-#include <unordered_map>
+#include <vector>
 
 #include "meshes/io/atomic_file.h"
-#include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
+#include "meshes/io/msh_elements.h"
+#include "meshes/io/msh_entities.h"
 #include "meshes/io/msh_file.h"
-#include "meshes/io/number_text.h"
-#include "meshes/tools/gmsh_session.h"
+#include "meshes/io/msh_output.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// Gmsh's number of the element type with these nodes; its nodes have our order.
-int gmsh_type(int dim, std::size_t n_nodes) {
-  if (dim == 1) return 1;
-  switch (element_type(dim, n_nodes)) {
-    case ElementType::triangle:
-      return 2;
-    case ElementType::quadrilateral:
-      return 3;
-    case ElementType::tetrahedron:
-      return 4;
-    case ElementType::hexahedron:
-      return 5;
-    case ElementType::prism:
-      return 6;
-    case ElementType::pyramid:
-      return 7;
-    case ElementType::polygon:
-      break;  // refused before
-  }
-  return 0;
-}
-
-void require_tags_fit(const std::filesystem::path& path, const Topology& topology,
-                      const MeshWriteOptions& options) {
-  const auto& tags = topology.labels().cell_tags;
-  const auto n_untagged = static_cast<std::size_t>(std::count(tags.begin(), tags.end(), 0));
-  const bool tagged_in_part = n_untagged > 0 && n_untagged < tags.size();
-  const bool only_edges_tagged = topology.labels().facets.size() > 0 && n_untagged == tags.size();
-  if (options.msh_version == MshVersion::v2_2 && (tagged_in_part || only_edges_tagged))
-    throw InputError("cannot write " + path.string() +
-                     ": some cells have no physical tag, which version 2.2 cannot hold; use 4.1");
-}
-
-/// The numbers that nodes or cells get: those of the labels, or 1, 2, ...
-std::vector<std::size_t> numbers(const std::vector<std::size_t>& ids, std::size_t n) {
-  if (!ids.empty()) return ids;
-  std::vector<std::size_t> plain(n);
-  std::iota(plain.begin(), plain.end(), std::size_t{1});
-  return plain;
-}
-
-void add_nodes(const MeshView& mesh, const std::vector<std::size_t>& tags) {
-  std::vector<double> xyz;
-  xyz.reserve(3 * mesh.n_nodes());
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    const Point<3> point = mesh.point(i);
-    xyz.insert(xyz.end(), {point.x(), point.y(), point.z()});
-  }
-  gmsh::model::mesh::addNodes(mesh.dimension(), 1, tags, xyz);
-}
-
-/// Elements of one physical tag by Gmsh type: their tags and their node tags.
-struct TypedElements {
-  std::map<int, std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> by_type;
-
-  void add(int dim, std::size_t tag, std::span<const NodeIndex> nodes,
-           const std::vector<std::size_t>& node_tags) {
-    auto& [tags, nodes_of_all] = by_type[gmsh_type(dim, nodes.size())];
-    tags.push_back(tag);
-    for (const NodeIndex node : nodes) nodes_of_all.push_back(node_tags[node]);
-  }
-};
-
-/// One discrete entity for each physical tag; 0 stands for no group. first_exists: entity 1 is
-/// there already.
-void add_entities(int dim, bool first_exists, const std::map<int, TypedElements>& by_tag,
-                  const std::map<std::pair<int, int>, std::string>& names) {
-  int entity = 0;
-  for (const auto& [tag, elements] : by_tag) {
-    ++entity;
-    if (!first_exists || entity != 1) gmsh::model::addDiscreteEntity(dim, entity);
-    for (const auto& [type, lists] : elements.by_type)
-      gmsh::model::mesh::addElementsByType(entity, type, lists.first, lists.second);
-    if (tag == 0) continue;
-    gmsh::model::addPhysicalGroup(dim, {entity}, tag);
-    const auto name = names.find({dim, tag});
-    if (name != names.end()) gmsh::model::setPhysicalName(dim, tag, name->second);
-  }
-}
-
-/// Facets are numbered behind the cells.
-void build_model(const MeshView& mesh) {
-  const Topology& topology = mesh.topology();
-  const MeshLabels& labels = topology.labels();
-  const int dim = mesh.dimension();
-  const auto node_tags = numbers(labels.node_ids, mesh.n_nodes());
-  const auto cell_tags = numbers(labels.cell_ids, mesh.n_cells());
-  std::map<int, TypedElements> cells, facets;
-  for (CellIndex c = 0; c < topology.n_cells(); ++c)
-    cells[labels.cell_tags.empty() ? 0 : labels.cell_tags[c]].add(
-        dim, cell_tags[c], topology.cell_nodes(c), node_tags);
-  std::size_t last = *std::max_element(cell_tags.begin(), cell_tags.end());
-  for (std::size_t f = 0; f < labels.facets.size(); ++f)
-    facets[labels.facet_tags[f]].add(dim - 1, ++last, labels.facets[f], node_tags);
-  // All nodes stand in the first entity of the cells, in their order, whichever entities use them.
-  gmsh::model::addDiscreteEntity(dim, 1);
-  add_nodes(mesh, node_tags);
-  add_entities(dim, true, cells, labels.names);
-  add_entities(dim - 1, false, facets, labels.names);
-}
-
-/// Gmsh does not look whether its writes succeed: a full disk shows as a missing end.
-void require_complete_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  constexpr std::string_view end = "$EndElements";
-  const std::size_t last = content.find_last_not_of("\r\n");
-  if (last == std::string::npos || !std::string_view(content).substr(0, last + 1).ends_with(end))
-    throw std::runtime_error("only a part of it could be written; is the disk full?");
-}
-
-/// Gmsh prints 16 digits into text files: one too few to get every coordinate back, and enough of
-/// a difference to make a barely valid cell invalid. Prints those of $Nodes again with all.
-class NodesPrintedAgain {
+class MshWriter {
  public:
-  NodesPrintedAgain(const std::filesystem::path& file, const MeshView& mesh)
-      : content_(read_whole_file(file)), reader_(file, content_), mesh_(mesh) {
-    const auto tags = numbers(mesh.topology().labels().node_ids, mesh.n_nodes());
-    for (NodeIndex i = 0; i < tags.size(); ++i) index_of_tag_.emplace(tags[i], i);
+  MshWriter(const MeshView& mesh, MshOutput& out)
+      : mesh_(mesh),
+        labels_(mesh.topology().labels()),
+        out_(out),
+        entities_(msh_entities(mesh.topology())) {
+    const auto& ids = labels_.cell_ids;
+    last_cell_ = ids.empty() ? mesh.n_cells() : *std::max_element(ids.begin(), ids.end());
   }
 
-  std::string text(bool version_4) {
-    do reader_.require_line("$Nodes");
-    while (reader_.word() != "$Nodes");
-    text_ = content_.substr(0, content_.size() - reader_.rest().size());
-    reader_.require_line("the number of nodes");
-    copy_line();
-    const std::uint64_t n = reader_.integer("the number of nodes or blocks");
-    for (std::uint64_t i = 0; i < n; ++i) version_4 ? print_block() : print_node();
-    return text_.append(reader_.rest());
+  void write_2() {
+    write_header("2.2");
+    write_names();
+    write_nodes_2();
+    write_elements_2();
+    out_.finish();
+  }
+
+  void write_4() {
+    write_header("4.1");
+    write_names();
+    write_entities();
+    write_nodes_4();
+    write_elements_4();
+    out_.finish();
   }
 
  private:
-  void copy_line() { text_.append(reader_.text()).append("\n"); }
+  // --- What the file's records are made of ------------------------------------------------------
 
-  void print_node() {
-    reader_.require_line("a node");
-    const std::uint64_t tag = reader_.integer("the node's tag");
-    append_number(text_, tag);
-    text_ += ' ';
-    print_point(tag);
+  std::size_t node_number(NodeIndex node) const {
+    return labels_.node_ids.empty() ? std::size_t{node} + 1 : labels_.node_ids[node];
+  }
+  const CompressedRows<NodeIndex>& rows(const MshEntity& entity) const {
+    return is_of_cells(entity) ? mesh_.topology().cells() : labels_.facets;
+  }
+  bool is_of_cells(const MshEntity& entity) const { return entity.dimension == mesh_.dimension(); }
+  /// Facets are numbered behind the cells.
+  std::size_t element_number(const MshEntity& entity, std::uint32_t i) const {
+    if (!is_of_cells(entity)) return last_cell_ + 1 + i;
+    return labels_.cell_ids.empty() ? std::size_t{i} + 1 : labels_.cell_ids[i];
+  }
+  std::size_t n_elements() const { return mesh_.n_cells() + labels_.facets.size(); }
+
+  void end_section(const std::string& name) {
+    out_.text(out_.is_binary() ? "\n$End" + name + "\n" : "$End" + name + "\n");
   }
 
-  void print_block() {
-    reader_.require_line("a block of nodes");
-    copy_line();
-    for (int skipped = 0; skipped < 3; ++skipped) reader_.word();
-    std::vector<std::uint64_t> tags(reader_.integer("the number of nodes in the block"));
-    for (auto& tag : tags) {
-      reader_.require_line("a node's tag");
-      tag = reader_.integer("the node's tag");
-      copy_line();
-    }
-    for (const std::uint64_t tag : tags) {
-      reader_.require_line("a node's coordinates");
-      print_point(tag);
-    }
+  // --- Sections of both versions -----------------------------------------------------------------
+
+  void write_header(const std::string& version) {
+    out_.text("$MeshFormat\n" + version + (out_.is_binary() ? " 1 8\n" : " 0 8\n"));
+    if (out_.is_binary()) out_.number(std::int32_t{1});  // shows the byte order
+    end_section("MeshFormat");
   }
 
-  void print_point(std::uint64_t tag) {
-    const Point<3> point = mesh_.point(index_of_tag_.at(tag));
-    for (int d = 0; d < 3; ++d) {
-      append_number(text_, point[d]);
-      text_ += d < 2 ? ' ' : '\n';
+  /// Text also in binary files. A name cannot hold the character that ends it.
+  void write_names() {
+    std::string lines;
+    int n = 0;
+    for (const auto& [group, name] : labels_.names) {
+      const bool is_used =
+          std::any_of(entities_.begin(), entities_.end(), [&](const MshEntity& entity) {
+            return entity.dimension == group.first && entity.group == group.second;
+          });
+      if (!is_used || group.second == 0) continue;
+      std::string quoted = name;
+      std::replace(quoted.begin(), quoted.end(), '"', '\'');
+      lines += std::to_string(group.first) + " " + std::to_string(group.second) + " \"" + quoted +
+               "\"\n";
+      ++n;
     }
+    if (n > 0)
+      out_.text("$PhysicalNames\n" + std::to_string(n) + "\n" + lines + "$EndPhysicalNames\n");
   }
 
-  std::string content_, text_;
-  LineReader reader_;
+  void write_point(NodeIndex node) {
+    for (const double x : mesh_.point(node)) out_.number(x);
+  }
+
+  // --- Version 2.2 -------------------------------------------------------------------------------
+
+  void write_nodes_2() {
+    out_.text("$Nodes\n" + std::to_string(mesh_.n_nodes()) + "\n");
+    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      out_.number(static_cast<std::int32_t>(node_number(i)));
+      write_point(i);
+      out_.end_record();
+    }
+    end_section("Nodes");
+  }
+
+  /// Type by type, as Gmsh does; readers sort by the numbers.
+  void write_elements_2() {
+    out_.text("$Elements\n" + std::to_string(n_elements()) + "\n");
+    for (const MshElementType& type : msh_element_types)
+      for (const MshEntity& entity : entities_) {
+        const auto elements = entity.by_type.find(type.number);
+        if (elements == entity.by_type.end()) continue;
+        for (const std::uint32_t i : elements->second) write_element_2(entity, type, i);
+      }
+    end_section("Elements");
+  }
+
+  void write_element_2(const MshEntity& entity, const MshElementType& type, std::uint32_t i) {
+    constexpr std::int32_t n_tags = 2;  // physical group and entity
+    const auto number = static_cast<std::int32_t>(element_number(entity, i));
+    const auto head = out_.is_binary() ? std::array<std::int32_t, 4>{type.number, 1, n_tags, number}
+                                       : std::array<std::int32_t, 4>{number, type.number, n_tags};
+    for (std::size_t k = 0; k < (out_.is_binary() ? 4 : 3); ++k) out_.number(head[k]);
+    out_.number(static_cast<std::int32_t>(entity.group));
+    out_.number(static_cast<std::int32_t>(entity.number));
+    for (const NodeIndex node : rows(entity)[i])
+      out_.number(static_cast<std::int32_t>(node_number(node)));
+    out_.end_record();
+  }
+
+  // --- Version 4.1 -------------------------------------------------------------------------------
+
+  void write_entities() {
+    out_.text("$Entities\n");
+    std::array<std::size_t, 4> n_entities{};
+    for (const MshEntity& entity : entities_)
+      ++n_entities[static_cast<std::size_t>(entity.dimension)];
+    for (const std::size_t n : n_entities) out_.number(n);
+    out_.end_record();
+    for (const MshEntity& entity : entities_) {
+      out_.number(entity.number);
+      write_box(entity);
+      const std::size_t n_groups = entity.group != 0 ? 1 : 0, n_on_boundary = 0;
+      out_.number(n_groups);
+      if (n_groups > 0) out_.number(entity.group);
+      out_.number(n_on_boundary);
+      out_.end_record(true);
+    }
+    end_section("Entities");
+  }
+
+  void write_box(const MshEntity& entity) {
+    Point<3> low = Point<3>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const auto& [type, elements] : entity.by_type)
+      for (const std::uint32_t i : elements)
+        for (const NodeIndex node : rows(entity)[i]) {
+          const Point<3> point = mesh_.point(node);
+          low = low.cwiseMin(point);
+          high = high.cwiseMax(point);
+        }
+    // Gmsh scales boxes about their middles, by 1 here, which rounds: the files stay the same.
+    const Point<3> middle = 0.5 * (low + high);
+    for (const Point<3>& corner : {low, high})
+      for (const double x : Point<3>((corner - middle) + middle)) out_.rounded(x);
+  }
+
+  /// All nodes stand in the first entity of the cells, in their order, whichever entities use them.
+  void write_nodes_4() {
+    out_.text("$Nodes\n");
+    const auto& ids = labels_.node_ids;
+    out_.number(entities_.size());
+    out_.number(mesh_.n_nodes());
+    out_.number(ids.empty() ? std::size_t{1} : *std::min_element(ids.begin(), ids.end()));
+    out_.number(ids.empty() ? mesh_.n_nodes() : *std::max_element(ids.begin(), ids.end()));
+    out_.end_record();
+    for (const MshEntity& entity : entities_) {
+      const bool has_nodes = is_of_cells(entity) && entity.number == 1;
+      for (const int value : {entity.dimension, entity.number, 0}) out_.number(value);
+      out_.number(has_nodes ? mesh_.n_nodes() : std::size_t{0});
+      out_.end_record();
+      if (!has_nodes) continue;
+      for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+        out_.number(node_number(i));
+        out_.end_record();
+      }
+      for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+        write_point(i);
+        out_.end_record();
+      }
+    }
+    end_section("Nodes");
+  }
+
+  void write_elements_4() {
+    out_.text("$Elements\n");
+    const auto& ids = labels_.cell_ids;
+    std::size_t n_blocks = 0;
+    for (const MshEntity& entity : entities_) n_blocks += entity.by_type.size();
+    out_.number(n_blocks);
+    out_.number(n_elements());
+    out_.number(ids.empty() ? std::size_t{1} : *std::min_element(ids.begin(), ids.end()));
+    out_.number(last_cell_ + labels_.facets.size());
+    out_.end_record();
+    for (const MshEntity& entity : entities_)
+      for (const auto& [type, elements] : entity.by_type) {
+        for (const int value : {entity.dimension, entity.number, type}) out_.number(value);
+        out_.number(elements.size());
+        out_.end_record();
+        for (const std::uint32_t i : elements) {
+          out_.number(element_number(entity, i));
+          for (const NodeIndex node : rows(entity)[i]) out_.number(node_number(node));
+          out_.end_record(true);
+        }
+      }
+    end_section("Elements");
+  }
+
   const MeshView& mesh_;
-  std::unordered_map<std::uint64_t, NodeIndex> index_of_tag_;
+  const MeshLabels& labels_;
+  MshOutput& out_;
+  std::vector<MshEntity> entities_;  ///< of the facets, then of the cells
+  std::size_t last_cell_ = 0;
 };
+
+void require_version_2_holds(const std::filesystem::path& path, const Topology& topology) {
+  const MeshLabels& labels = topology.labels();
+  const auto& tags = labels.cell_tags;
+  const auto n_untagged = static_cast<std::size_t>(std::count(tags.begin(), tags.end(), 0));
+  const bool is_tagged_in_part = n_untagged > 0 && n_untagged < tags.size();
+  const bool has_only_tagged_facets = labels.facets.size() > 0 && n_untagged == tags.size();
+  if (is_tagged_in_part || has_only_tagged_facets)
+    throw InputError("cannot write " + path.string() +
+                     ": some cells have no physical tag, which version 2.2 cannot hold; use 4.1");
+  for (const auto* ids : {&labels.node_ids, &labels.cell_ids})
+    for (const std::size_t id : *ids)
+      if (id > INT32_MAX - labels.facets.size())
+        throw InputError("cannot write " + path.string() + ": the number " + std::to_string(id) +
+                         " does not fit into 32 bits, which version 2.2 has; use 4.1");
+}
 
 }  // namespace
 
 void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                const MeshWriteOptions& options) {
   require_no_polygons(path, mesh);
-  require_tags_fit(path, mesh.topology(), options);
-  GmshSession session;
-  const bool version_4 = options.msh_version == MshVersion::v4_1;
-  session.set_option("Mesh.MshFileVersion", version_4 ? 4.1 : 2.2);
-  session.set_option("Mesh.Binary", options.msh_binary ? 1 : 0);
-  session.set_option("Mesh.PreserveNumberingMsh2", 1);    // the order of the cells
-  session.set_option("Mesh.SaveAll", version_4 ? 1 : 0);  // 2.2 would lose the tags
+  const bool is_version_4 = options.msh_version == MshVersion::v4_1;
+  if (!is_version_4) require_version_2_holds(path, mesh.topology());
   write_atomically(path, [&](const std::filesystem::path& temporary) {
-    session.run("cannot write " + path.string(), [&] {
-      build_model(mesh);
-      gmsh::write(temporary.string());
-    });
-    require_complete_file(temporary);
-    if (!options.msh_binary)
-      write_atomically(temporary, NodesPrintedAgain(temporary, mesh).text(version_4));
+    MshOutput out(temporary, options.msh_binary);
+    MshWriter writer(mesh, out);
+    is_version_4 ? writer.write_4() : writer.write_2();
   });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -15,14 +16,12 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <limits>
-#include <stdexcept>
+#include <streambuf>
 #include <string>
 
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/error_latching_filebuf.h"
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/node_order.h"
 #include "meshes/io/vtk_files.h"
@@ -169,41 +168,6 @@ void run(Writer& writer, const std::filesystem::path& path) {
                      ": VTK: " + (message.empty() ? "unknown error" : message));
 }
 
-/// A file that takes everything and remembers what it could not write: VTK's writer may crash where
-/// a write fails.
-class PatientFile final : public std::filebuf {
- public:
-  explicit PatientFile(const std::filesystem::path& path) {
-    if (!open(path, std::ios::out | std::ios::binary)) remember();
-  }
-
-  /// Throws std::runtime_error with the reason unless everything is in the file.
-  void finish() {
-    if (!close()) remember();
-    if (error_ != 0) throw std::runtime_error(std::strerror(error_));
-  }
-
- protected:
-  int_type overflow(int_type c) override {
-    if (traits_type::eq_int_type(std::filebuf::overflow(c), traits_type::eof())) remember();
-    return traits_type::not_eof(c);
-  }
-  std::streamsize xsputn(const char* bytes, std::streamsize n) override {
-    if (error_ == 0 && std::filebuf::xsputn(bytes, n) != n) remember();
-    return n;
-  }
-  int sync() override {
-    if (std::filebuf::sync() != 0) remember();
-    return 0;
-  }
-
- private:
-  void remember() {
-    if (error_ == 0) error_ = errno != 0 ? errno : EIO;
-  }
-  int error_ = 0;
-};
-
 /// VTK's writer into a buffer of ours; as a string it would hold the file twice.
 class StreamingWriter final : public vtkXMLUnstructuredGridWriter {
  public:
@@ -250,7 +214,7 @@ void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const Me
   writer->SetCompressorTypeToNone();
   writer->SetInputData(grid_of(mesh, fields));
   write_atomically(path, [&](const std::filesystem::path& temporary) {
-    PatientFile file(temporary);
+    ErrorLatchingFilebuf file(temporary);
     writer->set_buffer(file);
     run(*writer, path);
     file.finish();

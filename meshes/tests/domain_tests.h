@@ -42,11 +42,11 @@ inline double volume_inside(const VolumeMesh& mesh) {
   return six_times / 6.0;
 }
 
-/// How many cells use a node: extremes and mean over all nodes, share of inner nodes with another
-/// number than `regular`.
+/// How many cells use a node: extremes and mean over all nodes, fraction of inner nodes with
+/// another number than `regular`.
 struct Adjacency {
   std::size_t least = 1000, most = 0;
-  double mean = 0.0, irregular_share = 0.0;
+  double mean = 0.0, irregular_fraction = 0.0;
 };
 
 template <int dim, int spacedim>
@@ -62,7 +62,7 @@ Adjacency adjacency(const Mesh<dim, spacedim>& mesh, std::size_t regular) {
     ++n_inner;
     n_irregular += n != regular;
   }
-  result.irregular_share = static_cast<double>(n_irregular) / static_cast<double>(n_inner);
+  result.irregular_fraction = static_cast<double>(n_irregular) / static_cast<double>(n_inner);
   return result;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "meshes/io/mesh_file.h"
 #include "smoothing/base/input_error.h"
@@ -116,9 +118,18 @@ inline PlanarFile read_planar(const std::filesystem::path& path) {
   return {planar_mesh(file, path), file.cell_lines};
 }
 
+inline VolumeMesh read_volume(const std::filesystem::path& path) {
+  return std::get<VolumeMesh>(read_mesh(path).mesh);
+}
+
+template <int dim, int spacedim>
+std::vector<Point<spacedim>> coordinates_of(const Mesh<dim, spacedim>& mesh) {
+  return {mesh.coordinates().begin(), mesh.coordinates().end()};
+}
+
 template <int dim>
 void expect_same_mesh(const Mesh<dim>& a, const Mesh<dim>& b) {
-  EXPECT_EQ(a.copied_coordinates(), b.copied_coordinates());  // bit by bit
+  EXPECT_EQ(coordinates_of(a), coordinates_of(b));  // bit by bit
   EXPECT_EQ(a.topology().cells(), b.topology().cells());
   EXPECT_EQ(a.topology().free_nodes(), b.topology().free_nodes());
 }

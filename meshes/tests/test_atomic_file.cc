@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/atomic_file.h"
 #include "meshes/tests/mesh_tests.h"
 

@@ -1,8 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/distortion/distort.h"
 
+#include <cmath>
 #include <cstring>
 
 #include "meshes/distortion/counter_random.h"
+#include "meshes/tests/distortion_again.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -65,6 +68,28 @@ TEST(SplitMix64, UniformNumbersFillTheirRangeEvenly) {
   for (const int count : dice) EXPECT_NEAR(count, n / 7, 600);
 }
 
+/// The high half of a product of 64-bit numbers, as at school: by halves of 32 bits with carries.
+std::uint64_t high_half(std::uint64_t x, std::uint64_t y) {
+  const std::uint64_t mask = 0xffffffff;
+  const std::uint64_t low = (x & mask) * (y & mask);
+  const std::uint64_t middle = (x >> 32) * (y & mask) + (low >> 32);
+  const std::uint64_t other_middle = (x & mask) * (y >> 32) + (middle & mask);
+  return (x >> 32) * (y >> 32) + (middle >> 32) + (other_middle >> 32);
+}
+
+TEST(SplitMix64, NumbersBelowALimitAreFractionsOfIt) {
+  SplitMix64 random(42), same(42);
+  for (const std::uint64_t n : {std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{7},
+                                std::uint64_t{1} << 32, ~std::uint64_t{0}})
+    for (int i = 0; i < 1000; ++i) EXPECT_EQ(random.below(n), high_half(same.next(), n));
+}
+
+TEST(CounterRandom, MixesSeedStreamAndItemOneAfterTheOther) {
+  SplitMix64 random = counter_random(42, 7, 3);
+  std::uint64_t state = first_number(first_number(first_number(42) + 7) + 3);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(random.next(), next_number(state));
+}
+
 TEST(CounterRandom, DependsOnEachOfItsArguments) {
   const std::uint64_t first = counter_random(1, 2, 3).next();
   EXPECT_EQ(counter_random(1, 2, 3).next(), first);
@@ -86,7 +111,7 @@ TEST_P(Distort, MeetsTheTargetWithAValidMeshAndFixedBoundary) {
     EXPECT_EQ(quality.n_invalid, 0u);
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
       if (!mesh.topology().is_fixed(i)) continue;
-      EXPECT_EQ(mesh.copied_coordinates()[i], original.copied_coordinates()[i]);
+      EXPECT_EQ(mesh.coordinates()[i], original.coordinates()[i]);
     }
   }
 }
@@ -118,10 +143,47 @@ INSTANTIATE_TEST_SUITE_P(Grids, Distort, ::testing::Bool(), [](const auto& info)
   return info.param ? "triangles" : "quadrilaterals";
 });
 
+TEST(DistortOnAnyMachine, GivesTheBitsOfASecondImplementation) {
+  const PlanarMesh original = grid(12, true);
+  for (const std::uint64_t seed : {1, 42})
+    for (const int n_sweeps : {1, 3}) {
+      PlanarMesh mesh = original;
+      distort_within(mesh, 0.8, {.seed = seed, .n_candidates = 7, .n_sweeps = n_sweeps});
+      EXPECT_EQ(coordinates_of(mesh), distorted_again(original, 0.8, seed, 7, n_sweeps));
+    }
+}
+
+/// Four free nodes, whose bits are those of the machine that this was written on.
 TEST(DistortOnAnyMachine, GivesTheseBits) {
-  PlanarMesh mesh = grid(12, true);
-  distort(mesh, {.target_q_mean = 0.45, .seed = 42});
-  EXPECT_EQ(hash(mesh), 14600698170712444354u);
+  const PlanarMesh original = grid(3, true);
+  PlanarMesh mesh = original;
+  distort_within(mesh, 0.5, {.seed = 42, .n_candidates = 4});
+  EXPECT_EQ(coordinates_of(mesh), distorted_again(original, 0.5, 42, 4, 1));
+  std::vector<Point<2>> free;
+  for (const NodeIndex node : mesh.topology().free_nodes())
+    free.push_back(mesh.coordinates()[node]);
+  EXPECT_EQ(free, (std::vector<Point<2>>{{0x1.d42123b873d9ep-2, 0x1.fd3426ef3f135p-1},
+                                         {0x1.9d8f895dcce24p+0, 0x1.37df09294b4fcp-1},
+                                         {0x1.82e5e3d9d5688p+0, 0x1.04e47a8f132fcp+1},
+                                         {0x1.8f6036546969ep+0, 0x1.04fde787d60a9p+1}}));
+}
+
+/// The radius is found by bisection of a sixteenth of the largest one, 4, in twelve steps. From the
+/// first node on, nodes move once more until the mean quality is the target; all behind them are
+/// where the radius puts them.
+TEST(DistortOnAnyMachine, FindsThisRadius) {
+  const PlanarMesh original = grid(12, true);
+  PlanarMesh mesh = original;
+  const DistortionResult result = distort(mesh, {.target_q_mean = 0.45, .seed = 42});
+  EXPECT_EQ(result.radius, 12804 * 0x1p-14);
+  const auto expected = distorted_again(original, result.radius, 42, default_candidates(2), 1);
+  const auto& free = mesh.topology().free_nodes();
+  std::size_t n_moved_again = free.size();
+  while (n_moved_again > 0 &&
+         mesh.coordinates()[free[n_moved_again - 1]] == expected[free[n_moved_again - 1]])
+    --n_moved_again;
+  EXPECT_EQ(n_moved_again, 3u);
+  EXPECT_NEAR(result.q_mean, 0.45, 1e-12);
 }
 
 TEST(DistortErrors, SayWhatCanBeReached) {
@@ -129,7 +191,7 @@ TEST(DistortErrors, SayWhatCanBeReached) {
   PlanarMesh mesh = original;
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 0.01}); }),
               HasSubstr("cannot reach the mean quality 0.010000; on this mesh it reaches values"));
-  EXPECT_EQ(mesh.copied_coordinates(), original.copied_coordinates());
+  EXPECT_EQ(coordinates_of(mesh), coordinates_of(original));
   mesh = grid(6, true);
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 0.95}); }),
               HasSubstr("because the mesh itself has 0.866025"));

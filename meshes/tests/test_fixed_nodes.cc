@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/tests/volume_meshes.h"
@@ -20,7 +21,7 @@ VolumeMesh box() {
   fixed[13] = true;
   return {
       std::make_shared<const Topology>(3, mesh.n_nodes(), mesh.topology().cells(), fixed, labels),
-      mesh.coordinates()};
+      coordinates_of(mesh)};
 }
 
 std::vector<NodeIndex> fixed_by(const std::string& rule) {

@@ -152,9 +152,9 @@ TEST(TriangulationEdits, FlipsKeepCountsValidityAndDegrees) {
   GearParameters parameters = gear_of_the_thesis(ElementType::triangle, 2.0);
   parameters.edge_flips_per_cell = 0.0;
   const PlanarMesh plain = generate_gear(parameters);
-  PlanarCells cells{plain.copied_coordinates(), plain.topology().cells()};
+  PlanarCells cells = cells_of(plain);
   EXPECT_EQ(flip_edges(cells, 1000, 1), 1000u);
-  EXPECT_EQ(cells.coordinates, plain.copied_coordinates());
+  EXPECT_EQ(cells.coordinates, coordinates_of(plain));
   const PlanarMesh flipped(
       std::make_shared<const Topology>(2, cells.coordinates.size(), cells.cells),
       cells.coordinates);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
-#include "meshes/tools/gmsh_session.h"
-#include "smoothing/base/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
@@ -35,7 +33,7 @@ TEST_P(MshVariants, RoundTripKeepsCellsAndPhysicalNames) {
   EXPECT_EQ(read.mesh.topology().cells(), mesh.topology().cells());
   EXPECT_EQ(read.mesh.topology().labels(), mesh.topology().labels());
   EXPECT_EQ(read.cell_lines.empty(), GetParam().options.msh_binary);
-  EXPECT_EQ(read.mesh.copied_coordinates(), mesh.copied_coordinates());  // bit by bit
+  EXPECT_EQ(coordinates_of(read.mesh), coordinates_of(mesh));  // bit by bit
 }
 
 TEST_P(MshVariants, RoundTripWithoutLabels) {
@@ -69,6 +67,9 @@ using Msh = FileTest;
 
 const std::string head_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
 
+const std::string head_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+const std::string nodes_4 = "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
+
 /// Two triangles, the second in line 16, on nodes with gaps in their tags and one node of no cell.
 std::string square(const std::string& last_node = "9 0 1 0",
                    const std::string& last_element = "12 2 2 1 1 2 7 9") {
@@ -80,7 +81,7 @@ std::string square(const std::string& last_node = "9 0 1 0",
 TEST_F(Msh, NodesAreNumberedFromZeroWithoutUnusedOnes) {
   const PlanarFile read = read_planar(file_with("a.msh", square()));
   const std::vector<Point<2>> expected = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  EXPECT_EQ(read.mesh.copied_coordinates(), expected);
+  EXPECT_EQ(coordinates_of(read.mesh), expected);
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{1, 1}));
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{15, 16}));
@@ -97,6 +98,83 @@ TEST_F(Msh, ConstantZIsPlanarWhateverItsValue) {
   for (const std::string node : {"0 0 0\n", "1 0 0\n", "5 5 0\n", "1 1 0\n", "0 1 0\n"})
     content.replace(content.find(node) + 4, 1, "2.5");
   EXPECT_EQ(read_planar(file_with("a.msh", content)).mesh.n_cells(), 2u);
+}
+
+TEST_F(Msh, TagsOfVersion2AreThoseOfTheElementsNotOfTheirEntity) {
+  const PlanarFile read = read_planar(file_with("a.msh", square("9 0 1 0", "12 2 3 4 1 0 2 7 9")));
+  EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{1, 4}));
+}
+
+TEST_F(Msh, ElementsNeedNoTags) {
+  const PlanarFile read = read_planar(file_with("a.msh", square("9 0 1 0", "12 2 0 2 7 9")));
+  EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{1, 0}));
+}
+
+/// Their entity is in two groups; the first is the cells' tag, and the names of both are kept.
+TEST_F(Msh, EntitiesOfVersion4MayBeInSeveralGroupsAndOnSeveralLines) {
+  const std::string names =
+      "$PhysicalNames\n4\n2 3 \"three\"\n2 7 \"seven\"\n2 9 \"nine\"\n2 3 \"drei\"\n"
+      "$EndPhysicalNames\n";
+  const std::string entities =
+      "$Entities\n1 1 1\n 0\n1 0 0 0 1 2\n1 0 0 0 1 0 0 0 2 1 -1\n1 0 0 0 1 1\n 0 2 7 3 1 -1\n"
+      "$EndEntities\n";
+  const PlanarFile read =
+      read_planar(file_with("a.msh", head_4 + names + entities + nodes_4 +
+                                         "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n"));
+  const MeshLabels& labels = read.mesh.topology().labels();
+  EXPECT_EQ(labels.cell_tags, (std::vector<int>{7}));
+  EXPECT_EQ(labels.names, (decltype(labels.names){{{2, 3}, "three"}, {{2, 7}, "seven"}}));
+}
+
+TEST_F(Msh, PartitionsAreReadWithTheGroupsOfTheirEntities) {
+  const std::string partitions =
+      "$PartitionedEntities\n2\n1\n9 1\n0 0 2 0\n1 2 5 1 1 0 0 0 1 1 0 1 8 0\n"
+      "2 2 5 2 1 2 0 0 0 1 1 0 0 0\n$EndPartitionedEntities\n";
+  const std::string nodes =
+      "$Nodes\n1 4 1 4\n2 1 0 4\n4\n3\n2\n1\n0 1 0\n1 1 0\n1 0 0\n0 0 0\n$EndNodes\n";
+  const PlanarFile read = read_planar(
+      file_with("a.msh", head_4 + partitions + nodes +
+                             "$Elements\n2 2 1 2\n2 2 2 1\n2 1 3 4\n2 1 2 1\n1 1 2 3\n"
+                             "$EndElements\n$GhostElements\n1\n1 1 1 2\n$EndGhostElements\n"));
+  EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{8, 0}));
+  EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(read.mesh.coordinates()[2], Point<2>(1, 1));
+  EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{29, 27}));
+}
+
+TEST_F(Msh, OtherSectionsAreSkippedWhateverTheyAnnounce) {
+  const std::string others =
+      "$Comments\n$Nodes are below\n$EndComments\n$NodeData\n1\n\"x\"\n1\n0\n3\n0\n1\n1000000000\n"
+      "1 2\n$EndNodeData\n$Periodic\n1000000000\n$EndPeriodic\n$Whatever\n$EndWhatever\n";
+  std::string content = square();
+  content.insert(head_2.size(), others);
+  content += others;
+  EXPECT_EQ(read_planar(file_with("a.msh", content)).mesh.n_cells(), 2u);
+}
+
+TEST_P(MshVariants, NumbersAreKeptIfTheVersionHasThem) {
+  MeshLabels labels = labels_of_mixed_mesh();
+  for (std::size_t i = 0; i < 10; ++i) labels.node_ids.push_back(100 - 9 * i);
+  labels.cell_ids = {12, 5, 7, 70, 6, 900};
+  const PlanarMesh mesh = mixed_mesh(false, labels);
+  write_mesh(file("a.msh"), mesh, {}, GetParam().options);
+  // Nodes and cells come in the order of their numbers.
+  const PlanarFile read = read_planar(file("a.msh"));
+  std::reverse(labels.node_ids.begin(), labels.node_ids.end());
+  EXPECT_EQ(read.mesh.topology().labels().node_ids, labels.node_ids);
+  EXPECT_EQ(read.mesh.topology().labels().cell_ids,
+            (std::vector<std::size_t>{5, 6, 7, 12, 70, 900}));
+  EXPECT_EQ(read.mesh.coordinates()[9], mesh.coordinates()[0]);
+  labels.cell_ids[2] = 5'000'000'000;
+  const auto write = [&] {
+    write_mesh(file("b.msh"), mixed_mesh(false, labels), {}, GetParam().options);
+  };
+  if (GetParam().options.msh_version == MshVersion::v2_2) {
+    EXPECT_THAT(input_error_of(write), HasSubstr("the number 5000000000 does not fit into 32"));
+    return;
+  }
+  write();
+  EXPECT_EQ(read_planar(file("b.msh")).mesh.topology().labels().cell_ids.back(), 5'000'000'000u);
 }
 
 TEST_F(Msh, ClockwiseCellsAreReadAndNamedByRequireValid) {
@@ -123,8 +201,6 @@ TEST_P(BadMshFile, IsRefusedWithReasonAndNothingOnTheTerminal) {
   EXPECT_THAT(message, HasSubstr(GetParam().message));
 }
 
-const std::string head_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-const std::string nodes_4 = "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
 const std::string second_order =
     head_2 +
     "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 .5 0 0\n5 .5 .5 0\n6 0 .5 0\n$EndNodes\n$Elements\n"
@@ -144,42 +220,58 @@ INSTANTIATE_TEST_SUITE_P(
         BadMsh{"nan", square("9 0 nan 0"), ":10: the node's y coordinate is 'nan'"},
         BadMsh{"missing_node", square("9 0 1 0", "12 2 2 1 1 2 7 8"),
                ":16: element 12 names node 8, which the file does not have"},
-        BadMsh{"too_few_element_nodes", square("9 0 1 0", "12 2 2 1 1 2 7"), "Gmsh"},
+        BadMsh{"too_few_element_nodes", square("9 0 1 0", "12 2 2 1 1 2 7"),
+               ":16: element 12 has 2 nodes, but those of Gmsh's type 2 have 3"},
+        BadMsh{"too_many_element_nodes", square("9 0 1 0", "12 2 2 1 1 2 7 9 3"),
+               ":16: unexpected '3' at the end of the line"},
+        BadMsh{"few_tags", square("9 0 1 0", "12 2 4 1 1"), ":16: the element's line ends before"},
+        BadMsh{"wide_tag", square("9 0 1 0", "12 2 2 3000000000 1 2 7 9"),
+               ":16: the element's line holds '3000000000', which is not an integer of 32 bits"},
+        BadMsh{"same_element_tag_twice", square("9 0 1 0", "11 2 2 1 1 2 7 9"),
+               ":16: the element tag 11 appears twice"},
+        BadMsh{"nodes_twice", square() + "$Nodes\n0\n$EndNodes\n",
+               ":18: there is a second section $Nodes"},
+        BadMsh{"elements_first",
+               head_2 + "$Elements\n1\n1 2 0 1 2 3\n$EndElements\n$Nodes\n1\n1 0 0 0\n$EndNodes\n",
+               ":6: element 1 names node 1, which the file does not have"},
+        BadMsh{"parametric_nodes", head_2 + "$ParametricNodes\n0\n$EndParametricNodes\n",
+               ":4: the nodes have parametric coordinates; save the mesh without them"},
+        BadMsh{"dimension_of_name", square() + "$PhysicalNames\n1\n4 1 \"x\"\n$EndPhysicalNames\n",
+               ":20: the physical group's dimension is 4, but must be from 0 to 3"},
+        BadMsh{"more_names", square() + "$PhysicalNames\n0\n2 1 \"x\"\n$EndPhysicalNames\n",
+               ":20: expected $EndPhysicalNames"},
+        BadMsh{"no_end_of_data", square() + "$NodeData\n1\n\"x\"\n",
+               ":20: the file ends before $EndNodeData; it is truncated"},
         BadMsh{"node_twice", square("9 0 1 0", "12 2 2 1 1 2 7 7"),
                ":16: cell 1 names node 2 more than once"},
         BadMsh{"element_junk", square("9 0 1 0", "12 2 2 1 1 2 7 x"),
                ":16: the element's line holds 'x'"},
         BadMsh{"same_node_tag_twice", square("7 0 1 0"), ":10: the node tag 7 appears twice"},
-        BadMsh{"second_order", second_order, "save it with element order 1"},
+        BadMsh{"second_order", second_order,
+               ":15: the mesh has elements of Gmsh's type 9, but only points, lines, triangles, "},
+        BadMsh{"second_order_advice", second_order, "save it with element order 1"},
         BadMsh{"only_points",
                head_2 + "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 2 0 1 1\n$EndElements\n",
                "the mesh has no cells"},
         BadMsh{"block_total_4",
                head_4 + nodes_4 + "$Elements\n1 2 1 2\n2 1 2 1\n1 1 2 3\n$EndElements\n",
                "announces 2 elements but has 1"},
+        BadMsh{"dimension_of_block_4",
+               head_4 + nodes_4 + "$Elements\n1 1 1 1\n3 1 2 1\n1 1 2 3\n$EndElements\n",
+               ":16: the block's entity has dimension 3, its elements have 2"},
+        BadMsh{"dimension_of_nodes_4", head_4 + "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n",
+               ":6: the entity's dimension is 4, but must be from 0 to 3"},
+        BadMsh{"total_of_nodes_4", head_4 + "$Nodes\n1 2 1 1\n2 1 0 1\n1\n0 0 0\n$EndNodes\n",
+               "announces 2 nodes but has 1"},
+        BadMsh{"entities_4", head_4 + "$Entities\n0 0 1 0\n1 0 0 0\n1 1 0 9 1 2\n$EndEntities\n",
+               ":8: the entity's line holds '$EndEntities', which is not an integer"},
+        BadMsh{"bytes_of_numbers", "$MeshFormat\n4.1 1 4\n", ":2: the file's numbers have 4 bytes"},
+        BadMsh{"byte_order", "$MeshFormat\n4.1 1 8\nABCD\n$EndMeshFormat\n",
+               "at byte 24: the number that shows the byte order is 1145258561 instead of 1"},
         BadMsh{"missing_node_4",
                head_4 + nodes_4 + "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 4\n$EndElements\n",
                "element 1 names node 4"}),
     [](const auto& info) { return info.param.name; });
-
-TEST_F(Msh, SessionsLeaveTheNumberOfThreadsAlone) {
-  for (const int threads : {3, 2}) {
-    set_n_threads(threads);
-    { const GmshSession session; }
-    EXPECT_EQ(n_threads(), threads);
-  }
-}
-
-TEST_F(Msh, SessionsMayBeNestedAndKeepOptionsApart) {
-  GmshSession outer;
-  outer.set_option("Mesh.SaveAll", 1);
-  write_mesh(file("a.msh"), mixed_mesh(false, labels_of_mixed_mesh()), {},
-             {MshVersion::v2_2, false});
-  const PlanarFile read = read_planar(file("a.msh"));
-  EXPECT_EQ(read.mesh.topology().labels(), labels_of_mixed_mesh());
-  EXPECT_THAT(input_error_of([&] { outer.run("here", [] { throw std::string("words"); }); }),
-              "here: Gmsh: words");
-}
 
 }  // namespace
 }  // namespace smoothfem

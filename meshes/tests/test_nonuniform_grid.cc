@@ -16,7 +16,7 @@ TEST(NonuniformGrid, HasTheCountsAndMeanRatiosOfTheThesis) {
   EXPECT_NEAR(quality.q_mean, 0.0943, 5e-5);
   const std::vector<double> ratios = cell_mean_ratios(mesh);
   EXPECT_NEAR(*std::max_element(ratios.begin(), ratios.end()), 0.5714, 5e-5);
-  EXPECT_EQ(adjacency(mesh, 8).irregular_share, 0.0);
+  EXPECT_EQ(adjacency(mesh, 8).irregular_fraction, 0.0);
 }
 
 TEST(NonuniformGrid, HasFewerPlanesOnLargerScales) {

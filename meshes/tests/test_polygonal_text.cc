@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/quality/mean_ratio.h"
@@ -57,7 +58,7 @@ struct BadText {
 
 class BadPolygonalText : public FileTest, public ::testing::WithParamInterface<BadText> {};
 
-TEST_P(BadPolygonalText, IsRefusedWithPlaceAndReason) {
+TEST_P(BadPolygonalText, IsRefusedWithPositionAndReason) {
   const auto path = file_with("bad.mesh", GetParam().content);
   const std::string message = input_error_of([&] { read_planar(path); });
   EXPECT_THAT(message, StartsWith(path.string() + ":" + std::to_string(GetParam().line) + ": "));

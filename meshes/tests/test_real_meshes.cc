@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every method on meshes of other people, with its defaults and with the parameters of the thesis.
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"

@@ -3,7 +3,7 @@
 #include "meshes/tests/domain_tests.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/surface/surface_constraints.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 namespace {
@@ -12,10 +12,10 @@ SurfaceMesh roof(double edge_scale = 1.0) {
   return std::get<SurfaceMesh>(find_domain("roof").generate({.edge_scale = edge_scale}));
 }
 
-std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, GeometricClassification::Kind kind) {
+std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, NodeCarrier::Kind kind) {
   std::vector<NodeIndex> nodes;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    if (mesh.constraints()->classifications()[i].kind == kind) nodes.push_back(i);
+    if (mesh.constraints()->carriers()[i].kind == kind) nodes.push_back(i);
   return nodes;
 }
 
@@ -29,19 +29,19 @@ TEST(Roof, HasTheCountsAndTheQualityOfTheThesis) {
   EXPECT_NEAR(quality.q_star_min, 0.2467, 0.0005);
   EXPECT_EQ(euler_characteristic(mesh), 1 - 2) << "a disc without two rings";
   const Adjacency cells = adjacency(mesh, 4);
-  EXPECT_GT(cells.irregular_share, 0.0) << "unstructured";
-  EXPECT_LT(cells.irregular_share, 0.01) << "in rows";
+  EXPECT_GT(cells.irregular_fraction, 0.0) << "unstructured";
+  EXPECT_LT(cells.irregular_fraction, 0.01) << "in rows";
 }
 
 TEST(Roof, HasNoFeaturesButAnchorsCablesAndRings) {
   for (const double scale : {1.0, 2.0, 3.0}) {
     SCOPED_TRACE(scale);
     const SurfaceMesh mesh = roof(scale);
-    EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::corner).size(), 6u);
+    EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::corner).size(), 6u);
     std::set<std::uint32_t> lines;
-    for (const NodeIndex i : nodes_of_kind(mesh, GeometricClassification::line)) {
+    for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::line)) {
       EXPECT_TRUE(mesh.topology().on_boundary()[i]) << i;
-      lines.insert(mesh.constraints()->classifications()[i].part);
+      lines.insert(mesh.constraints()->carriers()[i].part);
     }
     EXPECT_EQ(lines.size(), 6u + 2u);
   }
@@ -51,7 +51,7 @@ TEST(Roof, IsHighestAtItsRingsAndLowestAtItsAnchors) {
   const SurfaceMesh mesh = roof(2.0);
   const auto height = [&](NodeIndex i) { return mesh.coordinates()[i].z(); };
   double anchors = -1e9, others = 1e9;
-  for (const NodeIndex i : nodes_of_kind(mesh, GeometricClassification::corner))
+  for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::corner))
     anchors = std::max(anchors, height(i));
   NodeIndex highest = 0;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
@@ -85,7 +85,7 @@ TEST(Roof, CanBeCoarserAndIsTheSameEveryTime) {
     EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
     EXPECT_LT(mesh.n_cells(), n_cells_before);
     n_cells_before = mesh.n_cells();
-    EXPECT_EQ(roof(scale).copied_coordinates(), mesh.copied_coordinates());
+    EXPECT_EQ(coordinates_of(roof(scale)), coordinates_of(mesh));
   }
   expect_edge_scales("roof", 3);
 }

@@ -13,7 +13,7 @@ TEST(Subdivision, IsThatOfTheThesis) {
   EXPECT_EQ(cells.least, 1u);
   EXPECT_EQ(cells.most, 16u);
   EXPECT_NEAR(cells.mean, 7.8, 0.05);
-  EXPECT_GT(cells.irregular_share, 0.48);
+  EXPECT_GT(cells.irregular_fraction, 0.48);
   EXPECT_NEAR(mesh_quality(mesh).q_min, 0.5400, 5e-5);
 }
 
@@ -29,7 +29,7 @@ TEST(Subdivision, FillsTheCubeWithoutGaps) {
   }
 }
 
-TEST(Subdivision, EachLevelAdds74CellsAnOctant) {
+TEST(Subdivision, EachLevelAdds74CellsPerOctant) {
   const auto n_cells = [](double scale) {
     return mesh_of_domain<3>("subdivision", {.edge_scale = scale}).n_cells();
   };

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Surface meshes from and to files, and their distortion.
 #include "meshes/distortion/distort.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/surface/surface_constraints.h"
+#include "smoothing/surface/node_constraints.h"
 
 namespace smoothfem {
 namespace {
@@ -44,12 +45,12 @@ TEST_F(SurfaceFiles, KeepEveryBitAndTheFeatures) {
     const MeshFile read = read_mesh(file(name));
     const auto* same = std::get_if<SurfaceMesh>(&read.mesh);
     ASSERT_NE(same, nullptr);
-    EXPECT_EQ(same->coordinates(), mesh.copied_coordinates());
+    EXPECT_EQ(coordinates_of(*same), coordinates_of(mesh));
     EXPECT_EQ(same->topology().cells(), mesh.topology().cells());
     EXPECT_EQ(same->topology().free_nodes(), mesh.topology().free_nodes());
     EXPECT_EQ(same->topology().labels().facet_tags, mesh.topology().labels().facet_tags);
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      EXPECT_EQ(same->constraints()->classifications()[i].kind, mesh.constraints()->classifications()[i].kind);
+      EXPECT_EQ(same->constraints()->carriers()[i].kind, mesh.constraints()->carriers()[i].kind);
   }
 }
 
@@ -80,14 +81,14 @@ TEST(DistortedSurface, HasTheMeanQualityAskedForAndNeverLeavesTheSurface) {
   EXPECT_EQ(mesh_quality(distorted).n_invalid, 0u);
   std::size_t n_moved = 0;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    const Point<3>& place = distorted.coordinates()[i];
-    n_moved += place != mesh.coordinates()[i];
-    EXPECT_LT(mesh.constraints()->distance(place), 1e-14);
-    EXPECT_LT((mesh.constraints()->project(i, mesh.coordinates()[i], place) - place).norm(), 1e-14);
+    const Point<3>& point = distorted.coordinates()[i];
+    n_moved += point != mesh.coordinates()[i];
+    EXPECT_LT(mesh.constraints()->distance(point), 1e-14);
+    EXPECT_LT((mesh.constraints()->project(i, mesh.coordinates()[i], point) - point).norm(), 1e-14);
   }
   EXPECT_GT(n_moved, mesh.n_nodes() * 8 / 10);
   distort(again, parameters);
-  EXPECT_EQ(again.copied_coordinates(), distorted.copied_coordinates());
+  EXPECT_EQ(coordinates_of(again), coordinates_of(distorted));
 }
 
 }  // namespace

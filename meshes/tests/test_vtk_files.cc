@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtu_series.h"
 #include "meshes/tests/mesh_tests.h"

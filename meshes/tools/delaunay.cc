@@ -30,13 +30,13 @@ VolumeCells delaunay_mesh(
   for (auto& row : rows) {
     const auto at = [&](std::size_t l) -> const Point<3>& { return mesh.coordinates[row[l]]; };
     if ((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) < 0.0) std::swap(row[2], row[3]);
-    std::array<Vector3<double>, 4> places;
+    std::array<Vector3<double>, 4> corners_of_cell;
     Point<3> centre = Point<3>::Zero();
     for (std::size_t l = 0; l < 4; ++l) {
-      places[l] = vector_of(at(l));
+      corners_of_cell[l] = vector_of(at(l));
       centre += 0.25 * at(l);
     }
-    if (keeps(centre, mean_ratio(std::span<const Vector3<double>, 4>(places))))
+    if (keeps(centre, mean_ratio(std::span<const Vector3<double>, 4>(corners_of_cell))))
       mesh.cells.append(row);
   }
   return mesh;

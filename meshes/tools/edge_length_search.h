@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
@@ -21,9 +22,9 @@ class EdgeLengthSearch {
       return;
     }
     // Between the two by a straight line in logarithms, but away from its ends.
-    const double share = finer_.excess / (finer_.excess - coarser_.excess);
+    const double fraction = finer_.excess / (finer_.excess - coarser_.excess);
     length_ =
-        std::exp(std::lerp(finer_.log_length, coarser_.log_length, std::clamp(share, 0.1, 0.9)));
+        std::exp(std::lerp(finer_.log_length, coarser_.log_length, std::clamp(fraction, 0.1, 0.9)));
   }
 
  private:

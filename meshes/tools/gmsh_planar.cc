@@ -41,7 +41,8 @@ std::vector<Point<2>> grid_points(const Polygons& polygons, double spacing) {
   return points;
 }
 
-/// One point a corner, one undivided line an edge, one plane surface with the inner points in it.
+/// One point per corner, one undivided line per edge, one plane surface with the inner points in
+/// it.
 void build_geometry(const Polygons& polygons, const std::vector<Point<2>>& inner_points) {
   std::vector<int> loops;
   int point = 0;
@@ -65,7 +66,7 @@ void build_geometry(const Polygons& polygons, const std::vector<Point<2>>& inner
 }
 
 void set_options(GmshSession& session, double edge_length, bool recombine) {
-  session.set_option("Mesh.Algorithm", frontal_delaunay);  // 8 hangs on some domains
+  session.set_option("Mesh.Algorithm", frontal_delaunay);  // 8 never ends on some domains
   session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
   session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
   session.set_option("Mesh.CharacteristicLengthMin", edge_length);

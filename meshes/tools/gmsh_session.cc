@@ -3,7 +3,6 @@
 
 #include <gmsh.h>
 
-#include <csignal>
 #include <exception>
 #include <string_view>
 #include <vector>
@@ -16,21 +15,6 @@ namespace smoothfem {
 namespace {
 
 int n_sessions = 0;
-
-/// Debian's Gmsh installs none today, but other builds of it do (through PETSc).
-class KeptSignalHandlers {
- public:
-  KeptSignalHandlers() {
-    for (int s = 0; s < 2; ++s) sigaction(signals[s], nullptr, &handlers_[s]);
-  }
-  ~KeptSignalHandlers() {
-    for (int s = 0; s < 2; ++s) sigaction(signals[s], &handlers_[s], nullptr);
-  }
-
- private:
-  static constexpr int signals[] = {SIGINT, SIGTERM};
-  struct sigaction handlers_[2];
-};
 
 /// Gmsh's error lines without their label, joined to one sentence.
 std::string logged_errors() {
@@ -46,12 +30,10 @@ std::string logged_errors() {
 }  // namespace
 
 GmshSession::GmshSession() : former_threads_(n_threads()) {
-  if (n_sessions == 0) {
-    const KeptSignalHandlers kept;
+  if (n_sessions == 0)
     gmsh::initialize(0, nullptr, false);
-  } else {
+  else
     gmsh::model::getCurrent(outer_model_);
-  }
   set_option("General.Terminal", 0);
   set_option("General.AbortOnError", 2);
   set_option("General.NumThreads", 1);

@@ -11,7 +11,7 @@ namespace smoothfem {
 
 namespace {
 
-constexpr int frontal_delaunay_2d = 6;  // 8 hangs on some domains
+constexpr int frontal_delaunay_2d = 6;  // 8 never ends on some domains
 constexpr int delaunay_3d = 1;
 constexpr int triangle = 2, tetrahedron = 4;  // Gmsh's numbers of the types
 

@@ -107,18 +107,17 @@ PlanarCells GridRegion::cells() const {
     return std::array{a, a + 1, b + 1, b};
   };
   for (std::size_t cell = 0; cell < is_in_.size(); ++cell)
-    for (const std::size_t place : corners(cell)) used[place] |= is_in_[cell];
+    for (const std::size_t corner : corners(cell)) used[corner] |= is_in_[cell];
   std::vector<NodeIndex> number(used.size());
-  for (std::size_t place = 0; place < used.size(); ++place) {
-    if (used[place] == 0) continue;
-    number[place] = static_cast<NodeIndex>(mesh.coordinates.size());
-    mesh.coordinates.push_back(origin_ +
-                               spacing_ * Point<2>(place % (n_x_ + 1), place / (n_x_ + 1)));
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0) continue;
+    number[i] = static_cast<NodeIndex>(mesh.coordinates.size());
+    mesh.coordinates.push_back(origin_ + spacing_ * Point<2>(i % (n_x_ + 1), i / (n_x_ + 1)));
   }
   for (std::size_t cell = 0; cell < is_in_.size(); ++cell) {
     if (is_in_[cell] == 0) continue;
     std::vector<NodeIndex> row;
-    for (const std::size_t place : corners(cell)) row.push_back(number[place]);
+    for (const std::size_t corner : corners(cell)) row.push_back(number[corner]);
     mesh.cells.append(row);
   }
   return mesh;

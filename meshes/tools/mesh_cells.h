@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <string>
@@ -21,6 +22,12 @@ using VolumeCells = MeshCells<3>;
 /// with that name if a cell is invalid.
 template <int dim>
 Mesh<dim> mesh_of(MeshCells<dim> cells, const std::string& name);
+
+/// The other way round, without labels and fixed nodes.
+template <int dim>
+MeshCells<dim> cells_of(const Mesh<dim>& mesh) {
+  return {{mesh.coordinates().begin(), mesh.coordinates().end()}, mesh.topology().cells()};
+}
 
 /// Throws InputError that names the domain, unless 1 <= edge_scale <= most.
 void require_edge_scale(const std::string& domain, double edge_scale, int most);

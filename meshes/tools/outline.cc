@@ -32,8 +32,8 @@ Curve polyline(std::vector<Point<2>> points) {
             const double wanted = t * lengths.back();
             const auto next = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, wanted);
             const auto i = static_cast<std::size_t>(next - lengths.begin());
-            const double share = (wanted - lengths[i - 1]) / (lengths[i] - lengths[i - 1]);
-            return (1.0 - share) * points[i - 1] + share * points[i];
+            const double fraction = (wanted - lengths[i - 1]) / (lengths[i] - lengths[i - 1]);
+            return (1.0 - fraction) * points[i - 1] + fraction * points[i];
           }};
 }
 

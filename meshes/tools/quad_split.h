@@ -12,7 +12,7 @@ namespace smoothfem {
 /// The corner of a quadrilateral, 0 or more, that a diagonal to cut it at starts from; or none.
 using Diagonal = std::optional<std::size_t>;
 
-/// Cuts cells, all of them quadrilaterals, into two triangles. diagonals: one a cell.
+/// Cuts cells, all of them quadrilaterals, into two triangles. diagonals: one per cell.
 void cut_quadrilaterals(PlanarCells& mesh, const std::vector<Diagonal>& diagonals);
 /// Cuts the quadrilaterals that are not convex, so that both triangles are valid.
 void cut_invalid_quadrilaterals(PlanarCells& mesh);

@@ -31,19 +31,20 @@ class SkippedCorners {
   explicit SkippedCorners(const Polygons& polygons) : polygons_(polygons) {
     for (std::size_t p = 0; p < polygons.size(); ++p)
       for (std::size_t i = 0; i < polygons[p].size(); ++i)
-        places_[{polygons[p][i].x(), polygons[p][i].y()}] = {p, i};
+        corners_[{polygons[p][i].x(), polygons[p][i].y()}] = {p, i};
   }
 
   Point<2> between(const Point<2>& a, const Point<2>& b, std::size_t stride) const {
-    const auto [polygon, i] = places_.at({a.x(), a.y()});
+    const auto [polygon, i] = corners_.at({a.x(), a.y()});
     const auto& corners = polygons_[polygon];
-    const bool forwards = (i + stride) % corners.size() == places_.at({b.x(), b.y()}).second;
+    const bool forwards = (i + stride) % corners.size() == corners_.at({b.x(), b.y()}).second;
     return corners[(i + (forwards ? stride / 2 : corners.size() - stride / 2)) % corners.size()];
   }
 
  private:
   const Polygons& polygons_;
-  std::map<std::pair<double, double>, std::pair<std::size_t, std::size_t>> places_;
+  /// By coordinates: number of the polygon, and of the corner in it.
+  std::map<std::pair<double, double>, std::pair<std::size_t, std::size_t>> corners_;
 };
 
 PlanarCells coarse_mesh(const Polygons& polygons, double edge_length, std::size_t stride,
@@ -64,7 +65,7 @@ PlanarCells halved(PlanarCells mesh, const Polygons& polygons, std::size_t strid
         std::make_shared<const Topology>(2, mesh.coordinates.size(), std::move(mesh.cells));
     PlanarMesh moved(std::move(topology), std::move(mesh.coordinates));
     untangle(moved);
-    mesh = {moved.copied_coordinates(), moved.topology().cells()};
+    mesh = cells_of(moved);
     if (stride > 2) smooth_quadrilaterals(mesh);
   }
   return mesh;
@@ -76,7 +77,7 @@ void smooth_quadrilaterals(PlanarCells& cells) {
   PlanarMesh mesh = mesh_of(std::move(cells), "generated region");
   auto method = make_method<2>("getme");
   smooth(mesh, method);
-  cells = {mesh.copied_coordinates(), mesh.topology().cells()};
+  cells = cells_of(mesh);
 }
 
 PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length) {
@@ -86,7 +87,7 @@ PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length) {
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
                                        const QuadrilateralMeshing& meshing) {
   constexpr int most_tries = 24;
-  constexpr double few = 0.03, mendable = 0.25;  // shares of the cells
+  constexpr double few = 0.03, fixable = 0.25;  // fractions of the cells
   const std::size_t stride = std::size_t{1} << meshing.n_halvings;
   const std::size_t n_cells_halved_once = n_cells / (stride * stride / 4);
   const auto wanted = static_cast<double>(n_cells_halved_once);
@@ -95,7 +96,7 @@ PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_c
   struct {
     double deviation;
     PlanarCells mesh;
-  } below{mendable, {}}, above{std::numeric_limits<double>::infinity(), {}};
+  } below{fixable, {}}, above{std::numeric_limits<double>::infinity(), {}};
   for (int i = 0; i < most_tries && below.deviation > few; ++i) {
     PlanarCells coarse = coarse_mesh(polygons, search.length(), stride, meshing.pattern);
     cut_invalid_quadrilaterals(coarse);

@@ -22,21 +22,21 @@ VolumeCells tensor_grid(const std::array<std::vector<double>, 3>& planes,
   };
   for_each_cell([&](std::size_t cell, std::size_t i, std::size_t j, std::size_t k) {
     if (keep && !keep(i, j, k)) kept[cell] = 0;
-    for (const std::size_t place : corners(i, j, k)) used[place] |= kept[cell];
+    for (const std::size_t corner : corners(i, j, k)) used[corner] |= kept[cell];
   });
   VolumeCells grid;
   std::vector<NodeIndex> number(used.size());
-  for (std::size_t place = 0; place < used.size(); ++place) {
-    if (used[place] == 0) continue;
-    number[place] = static_cast<NodeIndex>(grid.coordinates.size());
-    grid.coordinates.emplace_back(planes[0][place % nx], planes[1][place / nx % ny],
-                                  planes[2][place / (nx * ny)]);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0) continue;
+    number[i] = static_cast<NodeIndex>(grid.coordinates.size());
+    grid.coordinates.emplace_back(planes[0][i % nx], planes[1][i / nx % ny],
+                                  planes[2][i / (nx * ny)]);
   }
   for_each_cell([&](std::size_t cell, std::size_t i, std::size_t j, std::size_t k) {
     if (kept[cell] == 0) return;
     std::array<NodeIndex, 8> nodes{};
-    const auto places = corners(i, j, k);
-    for (std::size_t c = 0; c < nodes.size(); ++c) nodes[c] = number[places[c]];
+    const auto row = corners(i, j, k);
+    for (std::size_t c = 0; c < nodes.size(); ++c) nodes[c] = number[row[c]];
     grid.cells.append(nodes);
   });
   return grid;

@@ -9,7 +9,7 @@
 
 namespace smoothfem {
 
-/// Hexahedra between the planes x, y and z through given coordinates, at least two a direction,
+/// Hexahedra between the planes x, y and z through given coordinates, at least two per direction,
 /// ascending; x runs fastest. keep(i, j, k): whether the cell from the i-th, j-th and k-th plane on
 /// is there; without it all are. Nodes of no cell are left out.
 VolumeCells tensor_grid(

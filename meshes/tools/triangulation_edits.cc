@@ -34,7 +34,7 @@ class Triangulation {
 
   std::size_t size() const { return triangles_.size(); }
 
-  /// Splits the longest inner edges, each by at most one a triangle, n_splits at most.
+  /// Splits the longest inner edges, at most one per triangle, n_splits at most.
   void split_longest(std::size_t n_splits) {
     struct InnerEdge {
       double squared_length;

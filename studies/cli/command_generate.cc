@@ -24,7 +24,7 @@ void distort_and_write(Mesh<dim, spacedim>& mesh, const Arguments& arguments) {
     DistortionParameters parameters;
     parameters.target_q_mean = arguments.distort_to;
     parameters.seed = arguments.seed;
-    parameters.n_candidates = usual_candidates(dim);
+    parameters.n_candidates = default_candidates(dim);
     distort(mesh, parameters);
   }
   write_mesh(arguments.out, mesh);

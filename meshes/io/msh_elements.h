@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace smoothfem {
+
+/// An element type of Gmsh whose nodes are its corners; they have our order.
+struct MshElementType {
+  int number;  ///< in files
+  int dimension;
+  std::size_t n_nodes;
+};
+
+/// Point, line, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid.
+constexpr std::array<MshElementType, 8> msh_element_types{
+    {{15, 0, 1}, {1, 1, 2}, {2, 2, 3}, {3, 2, 4}, {4, 3, 4}, {5, 3, 8}, {6, 3, 6}, {7, 3, 5}}};
+
+/// The type of a number; null for all others, those with nodes on edges among them.
+constexpr const MshElementType* msh_element_type(int number) {
+  const auto* found = std::find_if(msh_element_types.begin(), msh_element_types.end(),
+                                   [&](const auto& type) { return type.number == number; });
+  return found == msh_element_types.end() ? nullptr : found;
+}
+
+/// The type of elements with so many nodes; null if there is none.
+constexpr const MshElementType* msh_element_type(int dimension, std::size_t n_nodes) {
+  const auto* found = std::find_if(
+      msh_element_types.begin(), msh_element_types.end(),
+      [&](const auto& type) { return type.dimension == dimension && type.n_nodes == n_nodes; });
+  return found == msh_element_types.end() ? nullptr : found;
+}
+
+}  // namespace smoothfem

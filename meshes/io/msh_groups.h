@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace smoothfem {
+
+/// The number in a line of a .msh file that is text in both encodings. Input: one of msh_input.h.
+template <class Input>
+std::uint64_t msh_count_in_text(Input& in, const char* what) {
+  const std::string_view line = in.text_line(what);
+  const char* const last = line.data() + line.size();
+  std::uint64_t n = 0;
+  const auto [end, error] = std::from_chars(line.data(), last, n);
+  const std::string_view rest(end, static_cast<std::size_t>(last - end));
+  if (error != std::errc() || rest.find_first_not_of(" \t\r") != rest.npos)
+    in.fail(std::string(what) + " is '" + std::string(line.substr(0, 40)) +
+            "', which is not an integer from 0 on");
+  return n;
+}
+
+/// The physical groups of a .msh file: their names, and in version 4 the groups of the model's
+/// entities, which are those of their elements.
+class MshGroups {
+ public:
+  /// $PhysicalNames: lines 'dimension tag "name"'. Of a group with two names the first counts.
+  template <class Input>
+  void read_names(Input& in) {
+    const std::uint64_t n = msh_count_in_text(in, "the number of physical names");
+    for (std::uint64_t i = 0; i < n; ++i) {
+      const std::string_view line = in.text_line("a physical name");
+      std::istringstream numbers{std::string(line)};
+      Group group;
+      if (!(numbers >> group.first >> group.second))
+        in.fail("expected dimension, tag and name of a physical group");
+      if (group.first < 0 || group.first > 3)
+        in.fail("the physical group's dimension is " + std::to_string(group.first) +
+                ", but must be from 0 to 3");
+      const std::size_t begin = line.find('"'), end = line.find('"', begin + 1);
+      if (begin != line.npos && end != line.npos && end > begin + 1)
+        names_.emplace(group, line.substr(begin + 1, end - begin - 1));
+    }
+  }
+
+  /// $Entities or $PartitionedEntities, whose text may be broken into lines anywhere.
+  template <class Input>
+  void read_entities(Input& in, bool is_partitioned) {
+    const auto integer = [&] {
+      in.find_value("the end of the entities");
+      return in.integer("entity");
+    };
+    const auto count = [&] {
+      in.find_value("the end of the entities");
+      return in.count("a count of the entities");
+    };
+    const auto skip_integers = [&](std::uint64_t n) {
+      while (n-- > 0) integer();
+    };
+    if (is_partitioned) {
+      count();                                              // partitions
+      for (auto n = count(); n > 0; --n) skip_integers(2);  // ghosts
+    }
+    std::array<std::uint64_t, 4> n_entities{};
+    for (auto& n : n_entities) n = count();
+    for (int dimension = 0; dimension < 4; ++dimension)
+      for (auto i = n_entities[static_cast<std::size_t>(dimension)]; i > 0; --i) {
+        const int entity = integer();
+        if (is_partitioned) {
+          skip_integers(2);  // dimension and number of the whole entity
+          skip_integers(count());
+        }
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) {  // the point, or a box
+          in.find_value("the end of the entities");
+          in.skip_number("a coordinate");
+        }
+        for (auto n = count(); n > 0; --n) add(dimension, entity, integer());
+        if (dimension > 0) skip_integers(count());  // its boundary
+      }
+  }
+
+  /// Of several groups of an entity the first; 0 if it has none.
+  int tag_of_entity(int dimension, int entity) const {
+    const auto found = tags_of_entities_.find({dimension, entity});
+    return found == tags_of_entities_.end() ? 0 : found->second;
+  }
+
+  /// An element has this tag; 0 stands for none. A negative one means the group, turned over.
+  void use(int dimension, int tag) {
+    if (tag != 0) used_.insert(unsigned_group(dimension, tag));
+  }
+
+  /// The names of groups that entities or elements are in.
+  std::map<std::pair<int, int>, std::string> used_names() const {
+    std::map<Group, std::string> names = names_;
+    std::erase_if(names, [&](const auto& name) {
+      return !used_.contains(unsigned_group(name.first.first, name.first.second));
+    });
+    return names;
+  }
+
+ private:
+  using Group = std::pair<int, int>;  // dimension and tag
+
+  /// The same for both signs; the negative one, which every integer has.
+  static Group unsigned_group(int dimension, int tag) { return {dimension, tag > 0 ? -tag : tag}; }
+
+  void add(int dimension, int entity, int tag) {
+    tags_of_entities_.emplace(Group(dimension, entity), tag);
+    use(dimension, tag);
+  }
+
+  std::map<Group, std::string> names_;
+  std::map<Group, int> tags_of_entities_;  ///< by dimension and number of the entity
+  std::set<Group> used_;                   ///< unsigned
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "meshes/io/line_reader.h"
+#include "meshes/io/mesh_file.h"
+
+/// The two encodings of a .msh file behind one interface, so that its sections are read by the same
+/// lines. A record is a line in text and has no mark in binary files. Positions are line numbers in
+/// text, from 1, and bytes in binary files. Whatever is wrong throws InputError with the position.
+
+namespace smoothfem {
+
+class MshTextInput {
+ public:
+  explicit MshTextInput(LineReader reader) : reader_(std::move(reader)) {}
+
+  std::size_t position() const { return reader_.line(); }
+  /// Something is missing or damaged.
+  [[noreturn]] void fail(const std::string& message) const { reader_.fail(message); }
+  [[noreturn]] void fail_at(std::size_t position, const std::string& message) const {
+    reader_.fail_at(position, message);
+  }
+  /// Something is as it should be, but cannot be used.
+  [[noreturn]] void refuse(const std::string& message) const { reader_.fail(message); }
+
+  /// Goes to the beginning of the next section; its name, or nothing at the end of the file.
+  std::string next_section();
+  void skip_section(const std::string& section);
+  void require_end(const std::string& section);
+
+  /// The next record; its name in error messages is "node 5 of 11".
+  void begin(const char* what, std::uint64_t i, std::uint64_t n);
+  void begin(const char* what) { reader_.require_line(what); }
+  void end() { reader_.require_end_of_line(); }
+  /// A record that is text in both encodings.
+  std::string_view text_line(const char* what);
+
+  /// Where records may be broken into lines anywhere: goes on to the next line at the end of one.
+  void find_value(const char* what) { reader_.require_word(what, '\0'); }
+  bool has_value() const { return reader_.has_word(); }
+  std::uint64_t count(const char* what) { return reader_.integer(what); }
+  std::uint64_t tag(const char* what) { return reader_.integer(what); }
+  double coordinate(const char* what) { return reader_.number(what); }
+  /// of: what the record is about.
+  int integer(const char* of) { return static_cast<int>(signed_integer(of, INT32_MIN, INT32_MAX)); }
+  std::int64_t node_of_element() { return signed_integer("element", INT64_MIN, INT64_MAX); }
+  void skip_number(const char* what);
+  /// n items have to follow, of at least so many bytes each; for binary files.
+  void require_bytes(std::uint64_t, std::size_t) const {}
+
+ private:
+  std::int64_t signed_integer(const char* of, std::int64_t least, std::int64_t most);
+
+  LineReader reader_;
+};
+
+class MshBinaryInput {
+ public:
+  /// begin: of the number after the line with the version, by which the byte order shows.
+  MshBinaryInput(std::string path, std::string_view content, std::size_t begin, MshVersion version);
+
+  std::size_t position() const { return at_; }
+  [[noreturn]] void fail(const std::string& message) const { fail_at(at_, message); }
+  [[noreturn]] void fail_at(std::size_t position, const std::string& message) const;
+  [[noreturn]] void refuse(const std::string& message) const;
+
+  std::string next_section();
+  void skip_section(const std::string& section);
+  void require_end(const std::string& section);
+
+  void begin(const char*, std::uint64_t, std::uint64_t) {}
+  void begin(const char*) {}
+  void end() {}
+  std::string_view text_line(const char* what);
+
+  void find_value(const char*) {}
+  bool has_value() const { return true; }
+  std::uint64_t count(const char*) { return size(); }
+  std::uint64_t tag(const char*) { return size(); }
+  double coordinate(const char*) { return take<double>(); }
+  int integer(const char*) { return take<std::int32_t>(); }
+  std::int64_t node_of_element() {
+    return is_version_4_ ? take<std::int64_t>() : take<std::int32_t>();
+  }
+  void skip_number(const char*) { take<double>(); }
+  void require_bytes(std::uint64_t n, std::size_t size) const {
+    if (n > (content_.size() - at_) / size) fail("a count is larger than the file");
+  }
+
+ private:
+  std::uint64_t size() {
+    if (is_version_4_) return take<std::uint64_t>();
+    const auto value = take<std::int32_t>();
+    if (value < 0) fail("a count or a tag is negative");
+    return static_cast<std::uint64_t>(value);
+  }
+
+  template <class T>
+  T take() {
+    require_bytes(1, sizeof(T));
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, content_.data() + at_, sizeof bytes);
+    if (is_swapped_) std::reverse(bytes, bytes + sizeof bytes);
+    at_ += sizeof bytes;
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  }
+
+  bool skip_blanks();
+
+  std::string path_;
+  std::string_view content_;
+  std::size_t at_;
+  bool is_version_4_, is_swapped_ = false;
+};
+
+}  // namespace smoothfem

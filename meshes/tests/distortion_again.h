@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "meshes/tests/mesh_tests.h"
+
+namespace smoothfem {
+
+/// The generator a second time, from the paper's description: the state goes on by the odd number
+/// next to 2^64 divided by the golden ratio; a number is the state, mixed by two multiplications.
+inline std::uint64_t next_number(std::uint64_t& state) {
+  state += 0x9e3779b97f4a7c15;
+  std::uint64_t z = state;
+  z ^= z >> 30;
+  z *= 0xbf58476d1ce4e5b9;
+  z ^= z >> 27;
+  z *= 0x94d049bb133111eb;
+  return z ^ z >> 31;
+}
+inline std::uint64_t first_number(std::uint64_t state) {
+  return next_number(state);
+}
+
+/// The distortion of triangles a second time, from its documentation and with other formulas:
+/// nodes one after the other, their numbers from the generator above.
+inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radius,
+                                             std::uint64_t seed, int n_candidates, int n_sweeps) {
+  const Topology& topology = mesh.topology();
+  const std::vector<Point<2>> original = coordinates_of(mesh);
+  std::vector<Point<2>> x = original;
+  const auto length = [&](NodeIndex a, NodeIndex b) {
+    return std::sqrt((original[b] - original[a]).squaredNorm());
+  };
+  // Of a triangle, 2 sqrt(3) times twice its area over the sum of its squared sides; here without
+  // the constants: only the order matters. At most 0 if one is invalid.
+  const auto quality_around = [&](NodeIndex node) {
+    double sum = 0.0;
+    for (const CellIndex cell : topology.node_cells(node)) {
+      const auto t = topology.cell_nodes(cell);
+      const Point<2> u = x[t[1]] - x[t[0]], v = x[t[2]] - x[t[0]], w = x[t[2]] - x[t[1]];
+      const double twice_area = u.x() * v.y() - u.y() * v.x();
+      if (!(twice_area > 0.0)) return 0.0;
+      sum += twice_area / (u.squaredNorm() + v.squaredNorm() + w.squaredNorm());
+    }
+    return sum;
+  };
+  const auto coordinate = [](std::uint64_t& state) {
+    return 2.0 * std::ldexp(static_cast<double>(next_number(state) >> 11), -53) - 1.0;
+  };
+  for (int sweep = 0; sweep < n_sweeps; ++sweep)
+    for (const NodeIndex node : topology.free_nodes()) {
+      double mean_length = 0.0;
+      for (const NodeIndex other : topology.node_neighbours(node))
+        mean_length += length(node, other);
+      mean_length /= static_cast<double>(topology.node_neighbours(node).size());
+      std::uint64_t state =
+          first_number(first_number(first_number(seed) + node) + static_cast<std::uint64_t>(sweep));
+      const Point<2> present = x[node];
+      Point<2> worst = present;
+      double worst_quality = std::numeric_limits<double>::infinity();
+      int n_valid = 0;
+      for (int i = 0; i < 20 * n_candidates && n_valid < n_candidates; ++i) {
+        double u = 0.0, v = 0.0;
+        do {  // the last coordinate comes first
+          v = coordinate(state);
+          u = coordinate(state);
+        } while (u * u + v * v > 1.0);
+        const double ball = radius * mean_length;
+        x[node] = {original[node].x() + ball * u, original[node].y() + ball * v};
+        const double quality = quality_around(node);
+        if (!(quality > 0.0)) continue;
+        ++n_valid;
+        if (quality >= worst_quality) continue;
+        worst_quality = quality;
+        worst = x[node];
+      }
+      x[node] = worst;
+    }
+  return x;
+}
+
+}  // namespace smoothfem
