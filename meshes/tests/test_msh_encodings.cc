@@ -82,8 +82,8 @@ TEST_F(MshEncodings, BinaryFilesOfBothByteOrdersAreRead) {
   for (auto* const file_of : {&binary_2, &binary_4})
     for (const bool is_swapped : {false, true}) {
       const PlanarFile read = read_planar(file_with("a.msh", (*file_of)(is_swapped, {})));
-      EXPECT_EQ(read.mesh.coordinates()[0], Point<2>(0, 1)) << "node 4 comes first";
-      EXPECT_EQ(read.mesh.coordinates()[3], Point<2>(1, 1));
+      EXPECT_EQ(read.mesh.copied_coordinates()[0], Point<2>(0, 1)) << "node 4 comes first";
+      EXPECT_EQ(read.mesh.copied_coordinates()[3], Point<2>(1, 1));
       EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{1, 2, 3, 1, 3, 0}));
       const MeshLabels& labels = read.mesh.topology().labels();
       EXPECT_EQ(labels.cell_tags, (std::vector<int>{6, 6}));

@@ -138,7 +138,7 @@ TEST_F(Msh, PartitionsAreReadWithTheGroupsOfTheirEntities) {
                              "$EndElements\n$GhostElements\n1\n1 1 1 2\n$EndGhostElements\n"));
   EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{8, 0}));
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
-  EXPECT_EQ(read.mesh.coordinates()[2], Point<2>(1, 1));
+  EXPECT_EQ(read.mesh.copied_coordinates()[2], Point<2>(1, 1));
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{29, 27}));
 }
 
@@ -164,7 +164,7 @@ TEST_P(MshVariants, NumbersAreKeptIfTheVersionHasThem) {
   EXPECT_EQ(read.mesh.topology().labels().node_ids, labels.node_ids);
   EXPECT_EQ(read.mesh.topology().labels().cell_ids,
             (std::vector<std::size_t>{5, 6, 7, 12, 70, 900}));
-  EXPECT_EQ(read.mesh.coordinates()[9], mesh.coordinates()[0]);
+  EXPECT_EQ(read.mesh.copied_coordinates()[9], mesh.copied_coordinates()[0]);
   labels.cell_ids[2] = 5'000'000'000;
   const auto write = [&] {
     write_mesh(file("b.msh"), mixed_mesh(false, labels), {}, GetParam().options);

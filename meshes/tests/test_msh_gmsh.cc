@@ -97,7 +97,7 @@ Elements cells_of(const Mesh<dim>& mesh) {
     Element& cell = cells[labels.cell_ids.empty() ? c + 1 : labels.cell_ids[c]];
     cell.tag = labels.cell_tags.empty() ? 0 : labels.cell_tags[c];
     for (const NodeIndex node : mesh.topology().cell_nodes(c))
-      cell.nodes.push_back(in_space(mesh.coordinates()[node]));
+      cell.nodes.push_back(in_space(mesh.copied_coordinates()[node]));
   }
   return cells;
 }
@@ -110,7 +110,7 @@ std::vector<Element> facets_of(const Mesh<dim>& mesh) {
   for (std::size_t f = 0; f < labels.facets.size(); ++f) {
     Element& facet = facets.emplace_back(Element{labels.facet_tags[f], {}});
     for (const NodeIndex node : labels.facets[f])
-      facet.nodes.push_back(in_space(mesh.coordinates()[node]));
+      facet.nodes.push_back(in_space(mesh.copied_coordinates()[node]));
   }
   return facets;
 }

@@ -3,7 +3,7 @@
 #include "meshes/tests/domain_tests.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
 namespace {
@@ -12,10 +12,10 @@ SurfaceMesh roof(double edge_scale = 1.0) {
   return std::get<SurfaceMesh>(find_domain("roof").generate({.edge_scale = edge_scale}));
 }
 
-std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, NodeCarrier::Kind kind) {
+std::vector<NodeIndex> nodes_of_kind(const SurfaceMesh& mesh, GeometricClassification::Kind kind) {
   std::vector<NodeIndex> nodes;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    if (mesh.constraints()->carriers()[i].kind == kind) nodes.push_back(i);
+    if (mesh.constraints()->classifications()[i].kind == kind) nodes.push_back(i);
   return nodes;
 }
 
@@ -37,11 +37,11 @@ TEST(Roof, HasNoFeaturesButAnchorsCablesAndRings) {
   for (const double scale : {1.0, 2.0, 3.0}) {
     SCOPED_TRACE(scale);
     const SurfaceMesh mesh = roof(scale);
-    EXPECT_EQ(nodes_of_kind(mesh, NodeCarrier::corner).size(), 6u);
+    EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::corner).size(), 6u);
     std::set<std::uint32_t> lines;
-    for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::line)) {
+    for (const NodeIndex i : nodes_of_kind(mesh, GeometricClassification::line)) {
       EXPECT_TRUE(mesh.topology().on_boundary()[i]) << i;
-      lines.insert(mesh.constraints()->carriers()[i].part);
+      lines.insert(mesh.constraints()->classifications()[i].part);
     }
     EXPECT_EQ(lines.size(), 6u + 2u);
   }
@@ -51,7 +51,7 @@ TEST(Roof, IsHighestAtItsRingsAndLowestAtItsAnchors) {
   const SurfaceMesh mesh = roof(2.0);
   const auto height = [&](NodeIndex i) { return mesh.coordinates()[i].z(); };
   double anchors = -1e9, others = 1e9;
-  for (const NodeIndex i : nodes_of_kind(mesh, NodeCarrier::corner))
+  for (const NodeIndex i : nodes_of_kind(mesh, GeometricClassification::corner))
     anchors = std::max(anchors, height(i));
   NodeIndex highest = 0;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {

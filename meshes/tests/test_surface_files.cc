@@ -3,7 +3,7 @@
 #include "meshes/distortion/distort.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/surface/node_constraints.h"
+#include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
 namespace {
@@ -50,7 +50,7 @@ TEST_F(SurfaceFiles, KeepEveryBitAndTheFeatures) {
     EXPECT_EQ(same->topology().free_nodes(), mesh.topology().free_nodes());
     EXPECT_EQ(same->topology().labels().facet_tags, mesh.topology().labels().facet_tags);
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      EXPECT_EQ(same->constraints()->carriers()[i].kind, mesh.constraints()->carriers()[i].kind);
+      EXPECT_EQ(same->constraints()->classifications()[i].kind, mesh.constraints()->classifications()[i].kind);
   }
 }
 

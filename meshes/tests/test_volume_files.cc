@@ -113,7 +113,7 @@ void expect_sound(const Mesh<dim, spacedim>& mesh) {
   const Topology& topology = mesh.topology();
   const MeshLabels& labels = topology.labels();
   const std::size_t n_nodes = mesh.n_nodes(), n_cells = mesh.n_cells();
-  EXPECT_EQ(mesh.coordinates().size(), n_nodes);
+  EXPECT_EQ(mesh.copied_coordinates().size(), n_nodes);
   for (const auto& point : mesh.coordinates()) EXPECT_TRUE(point.allFinite());
   EXPECT_GT(n_cells, 0u);
   for (const auto* rows : {&topology.cells(), &labels.facets})

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "meshes/tests/mesh_tests.h"
-#include "smoothing/mesh/cell_size.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
