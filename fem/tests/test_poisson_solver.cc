@@ -276,8 +276,8 @@ TEST(PoissonSolver, CubeOfEightHexahedraByHand) {
   EXPECT_NEAR(record.condition_number, 1.0, 1e-14);
 }
 
-/// Four Gauss points a direction on hexahedra beside eight: what that changes on a badly distorted
-/// box, relatively. The bounds are what was measured, rounded up.
+/// Four Gauss points per direction on hexahedra beside eight: what that changes on a badly
+/// distorted box, relatively. The bounds are what was measured, rounded up.
 TEST(PoissonSolver, FourGaussPointsADirectionAreEnoughOnHexahedra) {
   struct Bounds {
     int degree;
@@ -338,7 +338,7 @@ TEST(PoissonSolver, NamesTheFirstCellOfAnotherType) {
   // A cube, and on its top a tetrahedron over half of the face: tetrahedra and hexahedra do not
   // go together.
   auto mesh = test::box_mesh(1, 1, 1, test::BoxCells::hexahedra);
-  auto points = mesh.coordinates();
+  auto points = mesh.copied_coordinates();
   points.emplace_back(2.0, 2.0, 2.0);
   auto cells = mesh.topology().cells();
   cells.append(std::vector<NodeIndex>{4, 5, 7, 8});
