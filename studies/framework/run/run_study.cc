@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "meshes/io/atomic_file.h"
-#include "meshes/io/mesh_file.h"
 #include "smoothing/base/parallel.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
+#include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
 #include "studies/framework/run/solve_workers.h"
 #include "studies/framework/run/study_data.h"
@@ -39,34 +39,22 @@ class StudyRun {
     if (options_.force) rename_existing(options_.out);
     earlier_ = read_provenance(options_.out / "provenance.json");
     require_same_settings(earlier_, study_.header, {}, options_.out);
-    timed("meshes", [&] {
+    times_.measure("meshes", [&] {
       prepare_meshes();
       require_same_settings(earlier_, study_.header, mesh_facts(), options_.out);
       if (!study_.degrees.empty()) data_.solution = make_solution();
     });
     if (earlier_.status == "complete") return report_complete();
     begin_writing();
-    timed("smoothing", [&] { smooth_meshes(); });
+    times_.measure("smoothing", [&] { smooth_meshes(); });
     make_tasks(data_);
-    if (!study_.degrees.empty()) timed("finite_elements", [&] { solve(); });
-    timed("writing", [&] { write_results(); });
+    if (!study_.degrees.empty()) times_.measure("finite_elements", [&] { solve(); });
+    times_.measure("writing", [&] { write_results(); });
     write_provenance("complete");
     data_.checkpoint.remove();
   }
 
  private:
-  template <class Work>
-  void timed(const std::string& phase, const Work& work) {
-    phase_ = phase;
-    phase_started_ = std::chrono::steady_clock::now();
-    work();
-    seconds_[phase] = phase_seconds();
-    phase_.clear();
-  }
-  double phase_seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - phase_started_).count();
-  }
-
   void report_complete() {
     std::string text = "The results in " + options_.out.string() + " are complete";
     if (earlier_.commit != program_commit())
@@ -76,20 +64,13 @@ class StudyRun {
 
   std::vector<MeshFacts> mesh_facts() const { return {data_.meshes.begin(), data_.meshes.end()}; }
 
-  fs::path initial_mesh_path(const std::string& mesh) const {
-    // The text format of planar and volume meshes knows no surfaces.
-    return mesh_path(options_.out, mesh, "initial", dim == spacedim ? ".mesh" : ".vtk");
-  }
-
   void prepare_meshes() {
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
       progress_.update(data_.meshes.size(), description.name);
-      data_.meshes.push_back(prepare_mesh<dim, spacedim>(
-          description, study_, options_.mesh_dir,
-          earlier_.status.empty() ? fs::path() : initial_mesh_path(description.name)));
-      data_.meshes.back().file =
-          initial_mesh_path(description.name).lexically_relative(options_.out).string();
+      data_.meshes.push_back(
+          prepare_mesh<dim, spacedim>(description, study_, options_.mesh_dir,
+                                      earlier_.status.empty() ? fs::path() : options_.out));
       stop_if_interrupted();
     }
     progress_.end();
@@ -110,35 +91,12 @@ class StudyRun {
     if (earlier_.status.empty()) {
       data_.checkpoint.remove();  // of a run whose provenance is gone
       write_provenance("running");
-      for (auto& prepared : data_.meshes) write_initial_mesh(prepared);
+      for (auto& prepared : data_.meshes) write_initial_mesh(prepared, options_.out);
     } else {
-      require_same_meshes();
+      for (auto& prepared : data_.meshes) require_same_mesh(prepared, earlier_, options_.out);
       progress_.say("Going on where the run in " + options_.out.string() + " was.");
     }
     write_provenance("running");  // now with the checksums
-  }
-
-  void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared) {
-    const fs::path path = initial_mesh_path(prepared.description.name);
-    write_mesh(path, prepared.mesh);
-    prepared.sha256 = sha256_of_file(path);
-  }
-
-  /// The files of an interrupted run may have been changed since.
-  void require_same_meshes() {
-    for (auto& prepared : data_.meshes) {
-      const auto noted = earlier_.meshes.find(prepared.description.name);
-      if (noted == earlier_.meshes.end() || noted->second.empty()) {
-        write_initial_mesh(prepared);  // killed before it was written, or before that was noted
-        continue;
-      }
-      const fs::path path = initial_mesh_path(prepared.description.name);
-      prepared.sha256 = sha256_of_file(path);
-      if (prepared.sha256 != noted->second)
-        throw InputError(path.string() +
-                         " has been changed since the run began; start anew with --force, which "
-                         "keeps the folder under another name");
-    }
   }
 
   void smooth_meshes() {
@@ -261,8 +219,6 @@ class StudyRun {
   }
 
   void write_provenance(const std::string& status) {
-    auto seconds = seconds_;
-    if (!phase_.empty()) seconds[phase_] = phase_seconds();
     write_atomically(
         options_.out / "provenance.json",
         provenance_json({.study = study_.header,
@@ -270,7 +226,7 @@ class StudyRun {
                                         options_.ranks.size()},
                          .status = status,
                          .started = started_,
-                         .seconds = seconds,
+                         .seconds = times_.seconds(),
                          .earlier_sessions = earlier_.sessions,
                          .dimensions = study_.dimensions,
                          .meshes = mesh_facts(),
@@ -286,9 +242,7 @@ class StudyRun {
   EarlierRun earlier_;
   bool writing_ = false;  ///< the folder of the results holds files of this run
   const std::string started_ = now_utc();
-  std::string phase_;
-  std::chrono::steady_clock::time_point phase_started_;
-  std::map<std::string, double> seconds_;
+  PhaseTimes times_;
 };
 
 }  // namespace

@@ -91,12 +91,15 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
 template <int dim, int spacedim>
 PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Study& study,
                                          const std::filesystem::path& mesh_dir,
-                                         const std::filesystem::path& kept) {
+                                         const std::filesystem::path& earlier) {
   const Source source = source_of(description, mesh_dir);
+  // The text format of planar and volume meshes knows no surfaces.
+  const std::string initial =
+      "meshes/" + description.name + "_initial" + (dim == spacedim ? ".mesh" : ".vtk");
   const bool as_read = !source.file.empty() && (source.published || !is_distorted(description));
   Mesh<dim, spacedim> mesh =
-      dim == spacedim && !as_read && std::filesystem::exists(kept)
-          ? read_valid_mesh<dim, spacedim>(kept)
+      dim == spacedim && !as_read && !earlier.empty() && std::filesystem::exists(earlier / initial)
+          ? read_valid_mesh<dim, spacedim>(earlier / initial)
           : make_mesh<dim, spacedim>(description, source,
                                      study.edge_scale * description.edge_scale);
   if (!study.degrees.empty()) require_finite_elements<dim>(mesh.topology());
@@ -105,18 +108,42 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                   .n_cells = mesh.n_cells(),
                   .quality = mesh_quality(mesh),
                   .origin = source.origin,
+                  .file = initial,
                   .published = source.published,
                   .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file),
                   .sha256 = {}};
   return {std::move(facts), std::move(mesh)};
 }
-template PreparedMesh<2> prepare_mesh(const StudyMesh&, const Study&, const std::filesystem::path&,
-                                      const std::filesystem::path&);
-template PreparedMesh<3> prepare_mesh(const StudyMesh&, const Study&, const std::filesystem::path&,
-                                      const std::filesystem::path&);
-template PreparedMesh<2, 3> prepare_mesh(const StudyMesh&, const Study&,
-                                         const std::filesystem::path&,
-                                         const std::filesystem::path&);
+
+template <int dim, int spacedim>
+void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesystem::path& out) {
+  write_mesh(out / prepared.file, prepared.mesh);
+  prepared.sha256 = sha256_of_file(out / prepared.file);
+}
+
+template <int dim, int spacedim>
+void require_same_mesh(PreparedMesh<dim, spacedim>& prepared, const EarlierRun& run,
+                       const std::filesystem::path& out) {
+  const auto noted = run.meshes.find(prepared.description.name);
+  if (noted == run.meshes.end() || noted->second.empty()) return write_initial_mesh(prepared, out);
+  const std::filesystem::path path = out / prepared.file;
+  prepared.sha256 = sha256_of_file(path);
+  if (prepared.sha256 != noted->second)
+    throw InputError(path.string() +
+                     " has been changed since the run began; start anew with --force, which keeps "
+                     "the folder under another name");
+}
+
+#define SMOOTHFEM_INSTANTIATE(...)                                                                 \
+  template PreparedMesh<__VA_ARGS__> prepare_mesh(                                                 \
+      const StudyMesh&, const Study&, const std::filesystem::path&, const std::filesystem::path&); \
+  template void write_initial_mesh(PreparedMesh<__VA_ARGS__>&, const std::filesystem::path&);      \
+  template void require_same_mesh(PreparedMesh<__VA_ARGS__>&, const EarlierRun&,                   \
+                                  const std::filesystem::path&);
+SMOOTHFEM_INSTANTIATE(2, 2)
+SMOOTHFEM_INSTANTIATE(3, 3)
+SMOOTHFEM_INSTANTIATE(2, 3)
+#undef SMOOTHFEM_INSTANTIATE
 
 std::string sha256_of_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/table_study.h"
 
-#include <chrono>
 #include <cstdlib>
 
 #include "meshes/io/atomic_file.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
+#include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
 
 namespace smoothfem {
@@ -31,7 +31,7 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
                  "name.");
     return;
   }
-  std::map<std::string, double> seconds;
+  PhaseTimes times;
   const std::string started = now_utc();
   const auto write_provenance = [&](const std::string& status) {
     write_atomically(options.out / "provenance.json",
@@ -39,16 +39,13 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
                                       .processors = {options.smoothing_threads, 1, 1},
                                       .status = status,
                                       .started = started,
-                                      .seconds = seconds,
+                                      .seconds = times.seconds(),
                                       .earlier_sessions = earlier.sessions}));
   };
   write_provenance("running");
   for (const auto& table : tables) {
     progress.begin(table.file, 0);
-    const auto begin = std::chrono::steady_clock::now();
-    write_atomically(options.out / table.file, table.compute());
-    seconds[table.file] =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    times.measure(table.file, [&] { write_atomically(options.out / table.file, table.compute()); });
     progress.end();
     if (options.interrupted != nullptr && *options.interrupted) {
       write_provenance("interrupted");
