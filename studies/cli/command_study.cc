@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "smoothing/base/input_error.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/kinds/study_kinds.h"
