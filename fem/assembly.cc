@@ -16,13 +16,13 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
               const CellIntegrals<n_dofs, Lanes>& integrals, std::size_t lane,
               PoissonSystem& system) {
   const std::uint32_t* dofs = &group.dofs[cell * n_dofs];
-  const std::uint32_t* places = &group.places[cell * n_dofs * n_dofs];
+  const std::uint32_t* entries = &group.entries[cell * n_dofs * n_dofs];
   double* values = system.matrix.valuePtr();
   const auto add = [&](std::size_t i, std::size_t j, double stiffness) {
     if (dofs[i] >= space.n_own) return;
-    const std::uint32_t place = places[i * n_dofs + j];
-    if (place != absent)
-      values[place] += stiffness;
+    const std::uint32_t entry = entries[i * n_dofs + j];
+    if (entry != absent)
+      values[entry] += stiffness;
     else
       system.right_hand_side[dofs[i]] -= stiffness * system.exact[dofs[j]];
   };
@@ -47,7 +47,7 @@ void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCell
     const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
     for (std::size_t q = 0; q < table.n_points; ++q) {
       const auto mapped = map_point<dim, double>(table, q, vertices);
-      const double f = solution.load(point_of(mapped.place)) * mapped.weight;
+      const double f = solution.load(point_of(mapped.position)) * mapped.weight;
       for (std::size_t i = 0; i < n_dofs; ++i) {
         const std::uint32_t row = group.dofs[cell * n_dofs + i];
         if (row < space.n_own) right_hand_side[row] += f * table.shape[q * n_dofs + i];

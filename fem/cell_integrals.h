@@ -41,7 +41,7 @@ struct Jacobian {
 /// A straight-sided cell's mapping at one quadrature point.
 template <int dim, class Real>
 struct MappedPoint {
-  Vector<dim, Real> place;
+  Vector<dim, Real> position;
   Jacobian<dim, Real> jacobian;
   Real weight;  ///< quadrature weight times the Jacobian's determinant
 };
@@ -50,15 +50,15 @@ struct MappedPoint {
 template <int dim, class Real, std::size_t n_vertices>
 inline MappedPoint<dim, Real> map_point(const QuadratureTable& table, std::size_t q,
                                         const std::array<Vector<dim, Real>, n_vertices>& vertices) {
-  Vector<dim, Real> place{};
+  Vector<dim, Real> position{};
   std::array<Vector<dim, Real>, dim> columns{};
   for (std::size_t v = 0; v < n_vertices; ++v) {
     const double* gradient = &table.geometry_gradient[dim * (q * n_vertices + v)];
-    place = place + table.geometry[q * n_vertices + v] * vertices[v];
+    position = position + table.geometry[q * n_vertices + v] * vertices[v];
     for (int d = 0; d < dim; ++d) columns[d] = columns[d] + gradient[d] * vertices[v];
   }
   const Jacobian<dim, Real> jacobian(columns);
-  return {place, jacobian, table.weights[q] * jacobian.determinant};
+  return {position, jacobian, table.weights[q] * jacobian.determinant};
 }
 
 /// A cell's stiffness matrix, upper triangle row by row, and its load: the mass matrix times the

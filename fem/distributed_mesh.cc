@@ -35,8 +35,8 @@ void fill_triangulation(const Mesh<dim>& mesh, dealii::Triangulation<dim>& trian
   triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
 }
 
-/// Cells and nodes get other numbers on each rank, but a vertex keeps its place. So each one's
-/// first coordinate becomes its number, before the triangulation is dealt out.
+/// Cells and nodes get other numbers on each rank, but a vertex keeps its coordinates. So each
+/// one's first coordinate becomes its number, before the triangulation is dealt out.
 template <int dim>
 void write_numbers_into_vertices(dealii::Triangulation<dim>& triangulation) {
   for (const auto& cell : triangulation.active_cell_iterators())

@@ -18,7 +18,7 @@ template <int dim>
 constexpr std::array element_types =
     dim == 2 ? std::array{ElementType::triangle, ElementType::quadrilateral}
              : std::array{ElementType::tetrahedron, ElementType::hexahedron};
-/// Places in that list, and in lists of what belongs to them.
+/// Indices into that list, and into lists of what belongs to them.
 constexpr unsigned int simplex_index = 0, tensor_index = 1;
 
 /// mesh: on the root, of these types; not looked at elsewhere. One process: a triangulation with

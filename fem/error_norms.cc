@@ -59,7 +59,7 @@ void add_cells(const ElementCells& group, const std::vector<Point<dim>>& x,
       const double* shape_gradient = &table.shape_gradient[dim * q * n_dofs];
       const FunctionAtPoint<dim> e_h(difference, shape, shape_gradient, mapped);
       const FunctionAtPoint<dim> u_h(approximation, shape, shape_gradient, mapped);
-      const auto u = solution.value_and_gradient(point_of(mapped.place));
+      const auto u = solution.value_and_gradient(point_of(mapped.position));
       nodal.add(mapped.weight, e_h.value, e_h.gradient);
       true_error.add(mapped.weight, u.value - u_h.value, vector_of(u.gradient) - u_h.gradient);
     }

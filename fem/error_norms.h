@@ -21,8 +21,8 @@ struct ErrorNorms {
   double h1_error = 0.0;
 };
 
-/// exact: u at all local dofs; discrete: u_h at all local dofs. x: places of the local nodes of a
-/// mesh without invalid cells. Collective; the same on all ranks.
+/// exact: u at all local dofs; discrete: u_h at all local dofs. x: coordinates of the local nodes
+/// of a mesh without invalid cells. Collective; the same on all ranks.
 template <int dim>
 ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
                        const ManufacturedSolution<dim>& solution, const Eigen::VectorXd& exact,

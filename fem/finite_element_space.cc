@@ -73,18 +73,18 @@ void build_pattern(FiniteElementSpace<dim>& space) {
 }
 
 template <int dim>
-void find_places(FiniteElementSpace<dim>& space) {
+void find_entries(FiniteElementSpace<dim>& space) {
   const int* starts = space.pattern.outerIndexPtr();
   const int* columns = space.pattern.innerIndexPtr();
   for (auto& group : space.groups) {
     const std::size_t n = group.element.n_dofs;
-    group.places.reserve(group.n_cells() * n * n);
+    group.entries.reserve(group.n_cells() * n * n);
     for (std::size_t first = 0; first < group.dofs.size(); first += n)
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) {
           const std::uint32_t row = group.dofs[first + i], column = group.dofs[first + j];
           const bool stored = row < space.n_own && column < space.n_columns;
-          group.places.push_back(
+          group.entries.push_back(
               stored ? static_cast<std::uint32_t>(std::lower_bound(columns + starts[row],
                                                                    columns + starts[row + 1],
                                                                    static_cast<int>(column)) -
@@ -134,7 +134,7 @@ std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
   space->nodes_of_ranks = ranks.gather(space->nodes);
   locate_dofs(*space);
   build_pattern(*space);
-  find_places(*space);
+  find_entries(*space);
   return space;
 }
 

@@ -20,11 +20,11 @@ struct ElementCells {
   ReferenceElement element;
   std::size_t n_own = 0;  ///< these come first; the others belong to other ranks, but touch
                           ///< equations of this one
-  std::vector<NodeIndex> vertices;    ///< local nodes in the element's order
-  std::vector<std::uint32_t> dofs;    ///< local dofs in the element's order
-  std::vector<std::uint32_t> places;  ///< n_dofs x n_dofs each: where in the values of the pattern;
-                                      ///< FiniteElementSpace::absent for rows of other ranks and
-                                      ///< for boundary dofs
+  std::vector<NodeIndex> vertices;     ///< local nodes in the element's order
+  std::vector<std::uint32_t> dofs;     ///< local dofs in the element's order
+  std::vector<std::uint32_t> entries;  ///< n_dofs x n_dofs each: where in the values of the
+                                       ///< pattern; FiniteElementSpace::absent for rows of other
+                                       ///< ranks and for boundary dofs
 
   std::size_t n_cells() const { return vertices.size() / element.n_vertices; }
 };
@@ -45,8 +45,8 @@ struct FiniteElementSpace {
   std::size_t n_own_boundary = 0;  ///< boundary dofs of this rank: the first of their kind
 
   std::vector<ElementCells> groups;
-  /// Local nodes whose mean is a dof's place: a node, or the ends of an edge, the corners of a face
-  /// or of a cell.
+  /// Local nodes whose mean is a dof's position: a node, or the ends of an edge, the corners of a
+  /// face or of a cell.
   CompressedRows<NodeIndex> dof_nodes;
   std::vector<NodeIndex> nodes;  ///< the mesh's node of each local node
   std::vector<NodeIndex>
@@ -61,11 +61,11 @@ struct FiniteElementSpace {
   /// Collective.
   std::vector<Point<dim>> local_coordinates(std::span<const Point<dim>> coordinates) const;
 
-  /// Where the local dofs are, from the places of the local nodes.
+  /// Coordinates of the local dofs, from those of the local nodes.
   std::vector<Point<dim>> dof_points(std::span<const Point<dim>> local_coordinates) const;
 };
 
-/// Gauss points a direction: on quadrilaterals eight agree with the print of the thesis to 0.2 %;
+/// Gauss points per direction: on quadrilaterals eight agree with the print of the thesis to 0.2 %;
 /// on hexahedra four, see results/README.md.
 struct TensorPoints {
   int quadrilateral = 8;
@@ -79,7 +79,7 @@ void require_finite_elements(const Topology& topology);
 
 /// mesh: needed on the root only, null elsewhere; its coordinates need not be valid. degree: 1 or
 /// 2. Collective. One process numbers dofs as cells come in planar meshes (CG's counts on badly
-/// conditioned matrices hang on rounding, hence on the order, and this one comes closest to the
+/// conditioned matrices depend on rounding, hence on the order, and this one comes closest to the
 /// thesis' counts), and part by part in volume meshes, whose products are faster then. Throws
 /// InputError for planar cells with more than four nodes and for volume meshes of anything but
 /// tetrahedra or hexahedra alone, naming the first such cell, and if no dof is free.

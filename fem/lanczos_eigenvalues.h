@@ -9,7 +9,7 @@ namespace smoothfem {
 struct RitzValue {
   double value = 0.0;
   /// |A x - value x| / value of the vector that belongs to it, as far as the Lanczos process is
-  /// exact: the eigenvalue next to it is no further away than this share.
+  /// exact: the eigenvalue next to it is no further away than this fraction.
   double residual = 0.0;
 };
 

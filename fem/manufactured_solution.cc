@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "smoothing/base/find_named.h"
+
 namespace smoothfem {
 
 namespace {
@@ -67,7 +69,7 @@ ManufacturedSolution<dim> sine_solution() {
   };
   return {.name = "sine",
           .formula = dim == 2 ? "sin(pi x) sin(pi y)" : "sin(pi x) sin(pi y) sin(pi z)",
-          .source = "the usual first test",
+          .source = "the common first test",
           .value = value,
           .value_and_gradient = [=](const Point<dim>& p) -> ValueAndGradient<dim> {
             Point<dim> gradient;
@@ -147,13 +149,9 @@ const std::vector<ManufacturedSolution<dim>>& manufactured_solutions() {
 
 template <int dim>
 const ManufacturedSolution<dim>& manufactured_solution(const std::string& name) {
-  std::vector<std::string> known;
-  for (const auto& solution : manufactured_solutions<dim>()) {
-    if (solution.name == name) return solution;
-    known.push_back(solution.name);
-  }
-  throw InputError("there is no solution '" + name + "' for " + (dim == 2 ? "planar" : "volume") +
-                   " meshes; " + choose_one_of(known) + ", or give an expression");
+  return find_named(dim == 2 ? "planar solution" : "volume solution", name,
+                    manufactured_solutions<dim>(),
+                    [](const ManufacturedSolution<dim>& one) { return one.name; });
 }
 
 template const std::vector<ManufacturedSolution<2>>& manufactured_solutions();

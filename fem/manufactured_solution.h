@@ -9,7 +9,7 @@
 
 namespace smoothfem {
 
-/// u and grad u at one place: their common parts are computed once.
+/// u and grad u at one point: their common parts are computed once.
 template <int dim>
 struct ValueAndGradient {
   double value;

@@ -86,7 +86,7 @@ class SpaceReader {
                                     others_.begin());
   }
 
-  /// The cell's dofs in one of its faces: those whose place is a mean of the face's vertices.
+  /// The cell's dofs in one of its faces: those whose position is a mean of the face's vertices.
   static std::vector<unsigned int> face_dofs(const ReferenceElement& element, const Cell& cell,
                                              unsigned int face) {
     std::vector<bool> in_face(element.n_vertices, false);
@@ -95,10 +95,10 @@ class SpaceReader {
       in_face[reference.face_to_cell_vertices(face, k, 1)] = true;
     std::vector<unsigned int> dofs;
     for (unsigned int i = 0; i < element.n_dofs; ++i) {
-      double share = 0.0;
+      double support = 0.0;  // of the face; the whole is 1
       for (std::size_t v = 0; v < element.n_vertices; ++v)
-        if (in_face[v]) share += element.support[i * element.n_vertices + v];
-      if (share > 1.0 - 1e-12) dofs.push_back(i);
+        if (in_face[v]) support += element.support[i * element.n_vertices + v];
+      if (support > 1.0 - 1e-12) dofs.push_back(i);
     }
     return dofs;
   }

@@ -6,7 +6,7 @@
 namespace smoothfem {
 
 /// Fills what deal.II knows of a space, from its degree and ranks: the numbers of dofs, the cells
-/// with their dofs and nodes (not their places), the nodes, the columns' numbers and the halo.
+/// with their dofs and nodes (not their coordinates), the nodes, the columns' numbers and the halo.
 /// Parameters and errors: see make_finite_element_space. Collective.
 template <int dim>
 void number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,

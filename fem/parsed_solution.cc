@@ -43,7 +43,7 @@ class Expression {
 };
 
 template <int dim>
-std::string place_text(const Point<dim>& p) {
+std::string point_text(const Point<dim>& p) {
   std::string text;
   for (int d = 0; d < dim; ++d) text += (d == 0 ? "(" : ", ") + std::to_string(p[d]);
   return text + ")";
@@ -65,7 +65,7 @@ void check_derivatives(const ManufacturedSolution<dim>& s, std::span<const Point
       laplacian += (ahead + behind - 2 * u) / (h * h);
     }
     const double round_off = 1e-15 * std::abs(u) / (h * h);
-    const std::string at = " at " + place_text(p);
+    const std::string at = " at " + point_text(p);
     if (!((s.value_and_gradient(p).gradient - slope).norm() <= allowed * (slope.norm() + 1.0)))
       throw InputError("the gradient given for the solution is not that of its value" + at +
                        ": correct 'gradient' or 'value'");

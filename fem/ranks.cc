@@ -8,7 +8,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Counts and places are then in items, not in bytes: an int holds them for longer.
+/// Counts and offsets are then in items, not in bytes: an int holds them for longer.
 class ItemType {
  public:
   explicit ItemType(std::size_t size) {
@@ -25,10 +25,10 @@ class ItemType {
 };
 
 /// Where each rank's items begin.
-std::vector<int> places_of(const std::vector<int>& counts) {
-  std::vector<int> places(counts.size());
-  std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
-  return places;
+std::vector<int> offsets_of(const std::vector<int>& counts) {
+  std::vector<int> offsets(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+  return offsets;
 }
 
 }  // namespace
@@ -79,16 +79,16 @@ std::vector<int> Ranks::gather_counts(std::size_t n_values) const {
 void Ranks::gather_items(const void* values, const std::vector<int>& counts, std::size_t item_size,
                          void* all, std::size_t n_values) const {
   const ItemType type(item_size);
-  const auto places = places_of(counts);
-  MPI_Gatherv(values, static_cast<int>(n_values), type.get(), all, counts.data(), places.data(),
+  const auto offsets = offsets_of(counts);
+  MPI_Gatherv(values, static_cast<int>(n_values), type.get(), all, counts.data(), offsets.data(),
               type.get(), 0, communicator_);
 }
 
 void Ranks::scatter_items(const void* all, const std::vector<int>& counts, std::size_t item_size,
                           void* values, std::size_t n_values) const {
   const ItemType type(item_size);
-  const auto places = places_of(counts);
-  MPI_Scatterv(all, counts.data(), places.data(), type.get(), values, static_cast<int>(n_values),
+  const auto offsets = offsets_of(counts);
+  MPI_Scatterv(all, counts.data(), offsets.data(), type.get(), values, static_cast<int>(n_values),
                type.get(), 0, communicator_);
 }
 

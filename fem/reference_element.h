@@ -41,7 +41,7 @@ struct ReferenceElement {
 /// Degree 1 or 2 on triangles (3/6 nodes), quadrilaterals (4/9), tetrahedra (4/10) or hexahedra
 /// (8/27). Simplices: matrices exact; errors by a rule of degree 11 on triangles, of degree 5 (for
 /// elements of degree 1) or 7 (degree 2) on tetrahedra. Other cells: tensor Gauss rule with
-/// n_tensor_points a direction for all; the stiffness of a distorted cell is rational, so no rule
+/// n_tensor_points per direction for all; the stiffness of a distorted cell is rational, so no rule
 /// is exact.
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
 

@@ -47,10 +47,10 @@ SlicedMatrix::SlicedMatrix(const SparseMatrix& matrix, const Ranks& ranks, const
       longest = std::max(longest, starts[rows_[slice + l] + 1] - starts[rows_[slice + l]]);
     for (int k = 0; k < longest; ++k)
       for (std::size_t l = 0; l < n_lanes; ++l) {
-        const int place = starts[rows_[slice + l]] + k;
-        const bool inside = place < starts[rows_[slice + l] + 1];
-        columns_.push_back(inside ? static_cast<std::uint32_t>(columns[place]) : 0);
-        places_.push_back(inside ? static_cast<std::uint32_t>(place) : padding);
+        const int entry = starts[rows_[slice + l]] + k;
+        const bool inside = entry < starts[rows_[slice + l] + 1];
+        columns_.push_back(inside ? static_cast<std::uint32_t>(columns[entry]) : 0);
+        entries_.push_back(inside ? static_cast<std::uint32_t>(entry) : padding);
       }
     offsets_.push_back(columns_.size());
   }
@@ -60,8 +60,8 @@ SlicedMatrix::SlicedMatrix(const SparseMatrix& matrix, const Ranks& ranks, const
 
 void SlicedMatrix::set_values(const SparseMatrix& matrix) {
   const double* values = matrix.valuePtr();
-  for (std::size_t p = 0; p < places_.size(); ++p)
-    values_[p] = places_[p] == padding ? 0.0 : values[places_[p]];
+  for (std::size_t p = 0; p < entries_.size(); ++p)
+    values_[p] = entries_[p] == padding ? 0.0 : values[entries_[p]];
   diagonal_ = matrix.diagonal();
 }
 

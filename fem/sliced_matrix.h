@@ -41,7 +41,7 @@ class SlicedMatrix {
   std::vector<std::uint32_t> rows_;     ///< the rows of each slice; padding repeats the last row
   std::vector<std::size_t> offsets_;    ///< where each slice begins in the arrays below
   std::vector<std::uint32_t> columns_;  ///< lane by lane; padding points at column 0
-  std::vector<std::uint32_t> places_;   ///< of each entry in the matrix' values, or `padding`
+  std::vector<std::uint32_t> entries_;  ///< which of the matrix' values each is, or `padding`
   std::vector<double> values_;          ///< padding is zero
   Eigen::VectorXd diagonal_;
 };

@@ -107,14 +107,14 @@ Vectors generic_vector(const Epetra_CrsMatrix& matrix) {
 /// wanted one any more (another cell has become the worst), so it gets a part of `generic`.
 Teuchos::RCP<Problem> make_problem(const Epetra_CrsMatrix& matrix, const Eigen::VectorXd& start,
                                    const Vectors& generic) {
-  constexpr double generic_share = 1e-2;
+  constexpr double generic_fraction = 1e-2;
   const auto vector = Teuchos::rcp(new Vectors(generic));
   bool given = start.size() > 0;
   double norm = 0.0, generic_norm = 0.0;
   if (given) std::copy(start.begin(), start.end(), (*vector)[0]);
   vector->Norm2(&norm);
   generic.Norm2(&generic_norm);
-  if (given && norm > 0.0) vector->Update(generic_share / generic_norm, generic, 1.0 / norm);
+  if (given && norm > 0.0) vector->Update(generic_fraction / generic_norm, generic, 1.0 / norm);
   const auto problem =
       Teuchos::rcp(new Problem(Teuchos::rcpFromRef<const Operator>(matrix), vector));
   problem->setHermitian(true);

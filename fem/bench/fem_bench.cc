@@ -59,7 +59,7 @@ const VolumeMesh* flange(ElementType type) {
 }
 
 std::vector<Point<3>> coordinates_of(const VolumeMesh* mesh) {
-  return mesh == nullptr ? std::vector<Point<3>>() : mesh->coordinates();
+  return mesh == nullptr ? std::vector<Point<3>>() : mesh->copied_coordinates();
 }
 
 /// As one iteration of smoothing might have been before: each free node a tenth of the way to the

@@ -25,12 +25,12 @@ double seconds_of(const auto& work) {
 }
 
 dealii::AffineConstraints<double> boundary_values(const Oracle<dim>& oracle,
-                                                  const std::vector<Point<dim>>& places,
+                                                  const std::vector<Point<dim>>& positions,
                                                   const ManufacturedSolution<dim>& solution) {
   dealii::AffineConstraints<double> constraints;
   for (const auto dof : dealii::DoFTools::extract_boundary_dofs(oracle.dofs())) {
     constraints.add_line(dof);
-    constraints.set_inhomogeneity(dof, solution.value(places[dof]));
+    constraints.set_inhomogeneity(dof, solution.value(positions[dof]));
   }
   constraints.close();
   return constraints;

@@ -85,10 +85,10 @@ class Oracle {
   bool simplices() const { return simplices_; }
   const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
   std::vector<Point<dim>> dof_points() const {
-    std::vector<dealii::Point<dim>> places(dofs_.n_dofs());
-    dealii::DoFTools::map_dofs_to_support_points(*mapping_, dofs_, places);
+    std::vector<dealii::Point<dim>> positions(dofs_.n_dofs());
+    dealii::DoFTools::map_dofs_to_support_points(*mapping_, dofs_, positions);
     std::vector<Point<dim>> points;
-    for (const auto& p : places) points.push_back(point_from(p));
+    for (const auto& p : positions) points.push_back(point_from(p));
     return points;
   }
 

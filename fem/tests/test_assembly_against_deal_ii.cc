@@ -14,7 +14,7 @@
 namespace smoothfem {
 namespace {
 
-/// The oracle's dof at the same place as each of ours.
+/// The oracle's dof at the same point as each of ours.
 template <int dim>
 std::vector<unsigned int> same_dofs(const Oracle<dim>& oracle,
                                     const std::vector<Point<dim>>& points) {
@@ -100,14 +100,14 @@ TEST_P(AgainstFEValuesTest, LoadByQuadratureAgrees) {
     assemble(*space, mesh.coordinates(), solution, Load::quadrature, system);
 
     const Oracle<dim> oracle(mesh, static_cast<unsigned int>(GetParam().degree));
-    const auto places = oracle.dof_points();
+    const auto positions = oracle.dof_points();
     dealii::Vector<double> load(oracle.dofs().n_dofs());
     oracle.for_each_cell([&](const auto& values, const auto& indices) {
       for (const unsigned int q : values.quadrature_point_indices())
         for (const unsigned int i : values.dof_indices()) {
           double f = 0.0;  // linear, so equal to its interpolant
           for (const unsigned int j : values.dof_indices())
-            f += values.shape_value(j, q) * solution.load(places[indices[j]]);
+            f += values.shape_value(j, q) * solution.load(positions[indices[j]]);
           load[indices[i]] += f * values.shape_value(i, q) * values.JxW(q);
         }
     });

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "fem/lanczos_eigenvalues.h"
-#include "smoothing/tests/planar_meshes.h"
+#include "fem/tests/random_vector.h"
 
 namespace smoothfem {
 namespace {
@@ -42,7 +42,7 @@ TEST(ConjugateGradients, SolvesToTheToleranceInNoMoreIterationsThanUnknowns) {
 
 TEST(ConjugateGradients, StopsOneIterationBeforeItWouldBeTooEarly) {
   const SparseMatrix matrix = scaled_laplacian(60, 3.0);
-  const Eigen::VectorXd b = Eigen::VectorXd::Random(60);
+  const Eigen::VectorXd b = random_vector(60, 1);
   Eigen::VectorXd x;
   const auto full =
       conjugate_gradients(SlicedMatrix(matrix), b, x, {.tolerance = 1e-8, .max_iterations = 1000});
@@ -57,7 +57,7 @@ TEST(ConjugateGradients, StopsOneIterationBeforeItWouldBeTooEarly) {
 TEST(ConjugateGradients, LanczosNumbersHaveTheExtremeEigenvalues) {
   const SparseMatrix matrix = scaled_laplacian(30, 2.0);
   Eigen::VectorXd x;
-  const auto result = conjugate_gradients(SlicedMatrix(matrix), Eigen::VectorXd::Random(30), x,
+  const auto result = conjugate_gradients(SlicedMatrix(matrix), random_vector(30, 1), x,
                                           {.tolerance = 1e-12, .max_iterations = 1000});
   const auto [smallest, largest] = extreme_ritz_values(result.lanczos);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{Eigen::MatrixXd(matrix)};

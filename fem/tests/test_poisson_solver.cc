@@ -276,8 +276,8 @@ TEST(PoissonSolver, CubeOfEightHexahedraByHand) {
   EXPECT_NEAR(record.condition_number, 1.0, 1e-14);
 }
 
-/// Four Gauss points a direction on hexahedra beside eight: what that changes on a badly distorted
-/// box, relatively. The bounds are what was measured, rounded up.
+/// Four Gauss points per direction on hexahedra beside eight: what that changes on a badly
+/// distorted box, relatively. The bounds are what was measured, rounded up.
 TEST(PoissonSolver, FourGaussPointsADirectionAreEnoughOnHexahedra) {
   struct Bounds {
     int degree;

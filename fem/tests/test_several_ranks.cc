@@ -32,7 +32,7 @@ void expect_relative(double value, double expected, double tolerance, const char
   EXPECT_NEAR(value / expected, 1.0, tolerance) << what;
 }
 
-/// Iteration counts hang on rounding.
+/// Iteration counts depend on rounding.
 void expect_close(std::size_t value, std::size_t expected) {
   const double difference = std::abs(static_cast<double>(value) - static_cast<double>(expected));
   EXPECT_LE(difference, std::max(1.0, 0.01 * static_cast<double>(expected)));

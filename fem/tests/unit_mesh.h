@@ -69,7 +69,7 @@ struct Case {
   int degree;
 
   /// Calls body.operator()<dim>(mesh) with the unit mesh of these cells: n_planar or n_volume of
-  /// them a direction.
+  /// them per direction.
   template <class Body>
   void on_mesh(std::size_t n_planar, std::size_t n_volume, double amount, const Body& body) const {
     with_dimension(dimension_of(cells), [&]<int dim>() {

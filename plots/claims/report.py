@@ -45,7 +45,7 @@ def caveats(results):
               "text of the thesis. A dash is a number that is not there."]
     sizes = [f"{entry['name']} ({entry['n_cells']:,} cells)"
              for entry in entries(results.provenance, "meshes") if isinstance(entry.get("n_cells"), int)]
-    scale = results.provenance.get("scale") or ("quick" if results.provenance.get("quick") else "")
+    scale = results.provenance.get("scale") or ""
     if sizes:
         found.append(f"Meshes{f' of the scale `{scale}`' if scale else ''}: {', '.join(sizes)}. Errors, "
                      "condition numbers and times depend on the size.")

@@ -1,37 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Histograms of one mesh: what they show, their kinds of file, both commands, bad arguments."""
+"""Histograms of one mesh: what they show, their kinds of file, bad arguments."""
 
 import contextlib
 import io
-import json
 
 from plots.__main__ import main
 from plots.figures import style
 from plots.figures.quality_histogram import draw_quality_histogram
-from plots.quality_histogram import from_json, main as main_of_json
 from plots.results.cell_types import counted
 from plots.results.quality_histogram import read_quality_histogram
 from plots.results.rows import ResultsError
 from plots.tests.test_read_results import InFolder
 
-NUMBERS = {"title": "beam_$1.vtk", "n_invalid": 1, "q_min": 0.0, "q_mean": 0.625,
-           "histogram": {"prism": [1, 0, 2, 1], "hexahedron": [0, 0, 1, 3], "pyramid": [0, 0, 0, 0]}}
+TITLE = "beam_$1.vtk"
+COUNTS = {"prism": [1, 0, 2, 1], "hexahedron": [0, 0, 1, 3], "pyramid": [0, 0, 0, 0]}
 TYPED = "lower,upper,count,cell_type\n" + "".join(
-    f"{b / 4},{(b + 1) / 4},{count},{name}\n" for name, counts in NUMBERS["histogram"].items()
+    f"{b / 4},{(b + 1) / 4},{count},{name}\n" for name, counts in COUNTS.items()
     for b, count in enumerate(counts))
-OPTIONS = ("--title", NUMBERS["title"], "--q-min", "0", "--q-mean", "0.625", "--n-invalid", "1")
+OPTIONS = ("--title", TITLE, "--q-min", "0", "--q-mean", "0.625", "--n-invalid", "1")
 
 
 class QualityHistogram(InFolder):
-    def write(self, name):
-        """By the JSON that smoothfem writes."""
-        errors = io.StringIO()
-        with contextlib.redirect_stderr(errors):
-            code = main_of_json([str(self.folder / name)], io.StringIO(json.dumps(NUMBERS)))
-        return code, errors.getvalue()
-
     def run_main(self, text, name, *options):
-        """By a CSV file; the text is its content."""
+        """The text is the content of the CSV file."""
         (self.folder / "counts.csv").write_text(text)
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):
@@ -40,7 +31,8 @@ class QualityHistogram(InFolder):
 
     def test_bars_hold_all_cells(self):
         style.apply_style()
-        figure = draw_quality_histogram(from_json(json.dumps(NUMBERS)))
+        (self.folder / "counts.csv").write_text(TYPED)
+        figure = draw_quality_histogram(read_quality_histogram(self.folder / "counts.csv", TITLE, 0, 0.625, 1))
         (axes,) = figure.axes
         self.assertEqual(sum(bar.get_height() for bar in axes.patches), 8)
         self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()],
@@ -55,24 +47,10 @@ class QualityHistogram(InFolder):
         for name, head in (("a.png", b"\x89PNG"), ("a.pdf", b"%PDF"), ("b/a.svg", b"<?xml")):
             contents = []
             for _ in range(2):
-                self.assertEqual(self.write(name), (0, ""))
+                self.assertEqual(self.run_main(TYPED, name, *OPTIONS), (0, ""))
                 contents.append((self.folder / name).read_bytes())
             self.assertTrue(contents[0].startswith(head))
             self.assertEqual(contents[0], contents[1])
-
-    def test_bad_files(self):
-        code, errors = self.write("a.bmp")
-        self.assertEqual((code, errors.count("\n")), (2, 1))
-        (self.folder / "file").write_text("")
-        code, errors = self.write("file/a.png")
-        self.assertEqual(code, 2)
-        self.assertIn("cannot be written", errors)
-
-    def test_both_commands_draw_the_same(self):
-        for suffix in ("png", "pdf", "svg"):
-            self.assertEqual(self.write(f"json.{suffix}"), (0, ""))
-            self.assertEqual(self.run_main(TYPED, f"csv.{suffix}", *OPTIONS), (0, ""))
-            self.assertEqual(*((self.folder / f"{name}.{suffix}").read_bytes() for name in ("json", "csv")))
 
     def test_counts_without_types_in_any_order_of_rows(self):
         self.assertEqual(self.run_main("count,upper,lower\n7,1,0.25\n2,0.25,0\n", "a.svg"), (0, ""))

@@ -9,14 +9,15 @@
 #include "meshes/io/mesh_file.h"
 #include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"
-#include "studies/framework/study_kinds.h"
+#include "studies/framework/definition/find_study.h"
+#include "studies/kinds/study_kinds.h"
 
 namespace smoothfem {
 
 namespace {
 
 struct Arguments {
-  std::filesystem::path studies;
+  std::filesystem::path studies;  ///< empty: those that come with the program
   bool study_keys = false;
 };
 
@@ -48,9 +49,9 @@ void list_methods() {
 }
 
 void list_studies(const std::filesystem::path& folder) {
-  std::printf("\nSTUDIES (study FILE, or ./run study NAME)\n\n");
+  std::printf("\nSTUDIES (study NAME, or FILE for your own)\n\n");
   for (const auto& file : study_files(folder))
-    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_any_study(file).title.c_str(),
+    std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_any_study(file).header.title.c_str(),
                 file.c_str());
 }
 
@@ -77,10 +78,10 @@ void list_the_rest() {
 
 void add_list_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  arguments->studies = "studies";
   auto* command =
       app.add_subcommand("list", "methods with their parameters and sources, studies, formats");
-  command->add_option("--studies", arguments->studies, "folder with study files");
+  command->add_option("--studies", arguments->studies,
+                      "folder with study files (those that come with the program unless given)");
   command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");
   command->callback([arguments] {
     if (arguments->study_keys) {
@@ -90,7 +91,7 @@ void add_list_command(CLI::App& app) {
       return;
     }
     list_methods();
-    list_studies(arguments->studies);
+    list_studies(arguments->studies.empty() ? built_in_studies() : arguments->studies);
     list_the_rest();
   });
 }

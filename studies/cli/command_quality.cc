@@ -6,22 +6,24 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/quality/warpage.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
-#include "studies/cli/histogram_figure.h"
+#include "studies/framework/results/csv_text.h"
 
 namespace smoothfem {
 
 namespace {
 
 constexpr std::size_t n_bins = 10;
+constexpr std::size_t n_csv_bins = 40;  ///< a picture shows more than lines of text
 
 struct Arguments {
-  std::string in, figure;
+  std::string in, histogram;
   bool json = false;
 };
 
@@ -111,6 +113,30 @@ void print_json(const Report& r) {
   std::printf("%s\n", json.dump(2).c_str());
 }
 
+/// Numbers of cells of each type by mean ratio, for `plots histogram`.
+std::string histogram_csv(const Topology& topology, const std::vector<double>& cell_quality) {
+  std::map<std::string, std::vector<double>> by_type;
+  for (CellIndex c = 0; c < topology.n_cells(); ++c)
+    by_type[std::string(name_of(topology.cell_type(c)))].push_back(cell_quality[c]);
+  CsvText csv("lower,upper,count,cell_type");
+  for (const auto& [type, of_type] : by_type) {
+    const auto counts = quality_histogram(of_type, n_csv_bins);
+    for (std::size_t b = 0; b < n_csv_bins; ++b) {
+      csv.number(static_cast<double>(b) / n_csv_bins);
+      csv.number(static_cast<double>(b + 1) / n_csv_bins);
+      csv.integer(counts[b]).field(type).end_line();
+    }
+  }
+  return csv.text();
+}
+
+void require_csv_path(const std::filesystem::path& path) {
+  if (path.extension() != ".csv")
+    throw InputError("the histogram " + path.string() +
+                     " must end with .csv: this program writes numbers; the picture is drawn by "
+                     "'./run quality IN --histogram FILE.png', or by the installed smoothfem");
+}
+
 template <int dim, int spacedim>
 void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
             const std::vector<std::size_t>& cell_lines) {
@@ -125,15 +151,13 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
                                  .geometry = geometry_numbers(mesh),
                                  .histogram = quality_histogram(cell_quality, n_bins)});
   std::fflush(stdout);
-  if (!arguments.figure.empty())
-    write_histogram_figure(arguments.figure,
-                           std::filesystem::path(arguments.in).filename().string(), topology,
-                           cell_quality);
+  if (!arguments.histogram.empty())
+    write_atomically(arguments.histogram, histogram_csv(topology, cell_quality));
   require_valid(mesh, arguments.in, cell_lines);
 }
 
 void report_quality(const Arguments& arguments) {
-  if (!arguments.figure.empty()) require_figure_path(arguments.figure);
+  if (!arguments.histogram.empty()) require_csv_path(arguments.histogram);
   const MeshFile file = read_mesh(arguments.in);
   std::visit([&](const auto& mesh) { report(arguments, mesh, file.cell_lines); }, file.mesh);
 }
@@ -145,8 +169,8 @@ void add_quality_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "quality", "quality numbers of a mesh file; exit code 2 if it has invalid cells");
   command->add_option("in", arguments->in, "mesh to read")->required();
-  command->add_option("--histogram", arguments->figure,
-                      "picture (.png, .pdf or .svg) of the histogram");
+  command->add_option("--histogram", arguments->histogram,
+                      "CSV file with the histogram of each cell type, for 'plots histogram'");
   command->add_flag("--json", arguments->json, "as JSON");
   command->callback([arguments] { report_quality(*arguments); });
 }

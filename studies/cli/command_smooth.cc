@@ -14,7 +14,7 @@
 #include "smoothing/optimization/untangle.h"
 #include "smoothing/surface/sliding_boundary.h"
 #include "studies/cli/commands.h"
-#include "studies/framework/results.h"
+#include "studies/framework/results/results.h"
 
 namespace smoothfem {
 
@@ -97,7 +97,7 @@ class Recorder {
     fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
     series_->add(static_cast<double>(record.record), mesh, fields);
   }
-  bool looks() const { return series_ || !arguments_.log.empty(); }
+  bool records() const { return series_ || !arguments_.log.empty(); }
   void write_log() const {
     if (!arguments_.log.empty()) write_atomically(arguments_.log, iterations_csv("smooth", rows_));
   }
@@ -166,8 +166,9 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const Arguments& argument
                          Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines,
                          Recorder& recorder) {
   make_valid(arguments, method, mesh, cell_lines);
-  Observer<dim, spacedim> observer;  // none where nobody looks: it costs a look at all cells
-  if (recorder.looks())
+  Observer<dim, spacedim>
+      observer;  // none without --log and --series: it costs a pass over all cells
+  if (recorder.records())
     observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
   return {method.info.title, smooth(mesh, method, observer)};
 }
@@ -185,7 +186,7 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
-  // Whoever reads the result knows nothing of a boundary to slide on: its nodes are fixed there.
+  // Files do not say that a boundary is one to slide on: its nodes are fixed there.
   write_mesh(arguments.out,
              arguments.boundary == "slide"
                  ? Mesh<dim, spacedim>(topology_of_file, mesh.copied_coordinates(),
@@ -238,11 +239,11 @@ void add_smooth_command(CLI::App& app) {
       ->check(CLI::IsMember({"fixed", "slide"}));
   command->add_option("--slide-distance", arguments->slide_distance,
                       "facets of a sliding boundary come off the initial one by no more than this "
-                      "share of its mean edge length (0.1 unless given; inf: no bound)");
+                      "fraction of its mean edge length (0.1 unless given; inf: no bound)");
   command->add_flag("--untangle", arguments->untangle, "make a tangled mesh valid first");
   command->add_option("--threads", arguments->n_threads, "threads (all cores unless given)")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--log", arguments->log, "CSV file with one row an iteration");
+  command->add_option("--log", arguments->log, "CSV file with one row per iteration");
   command->add_option("--series", arguments->series, "VTU series (.pvd) with every iteration");
   command->add_flag("--quiet", arguments->quiet, "print nothing");
   command->callback([arguments] { smooth_file(*arguments); });

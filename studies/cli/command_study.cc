@@ -10,8 +10,10 @@
 #include <optional>
 #include <thread>
 
+#include "smoothing/base/input_error.h"
 #include "studies/cli/commands.h"
-#include "studies/framework/study_kinds.h"
+#include "studies/framework/definition/find_study.h"
+#include "studies/kinds/study_kinds.h"
 
 namespace smoothfem {
 
@@ -40,8 +42,8 @@ bool started_by_mpirun() {
   return false;
 }
 
-/// MPI for as long as it lives. A process that nobody has started by mpirun needs it for Trilinos
-/// only, in volume studies.
+/// MPI for as long as it lives. A process not started by mpirun needs it for Trilinos only, in
+/// volume studies.
 class Mpi {
  public:
   Mpi() {
@@ -71,7 +73,7 @@ void run(Arguments& arguments, std::optional<Mpi>& mpi) {
     mpi.emplace();
     options.ranks = Ranks(MPI_COMM_WORLD);
   }
-  if (options.out.empty()) options.out = std::filesystem::path("results") / study.name;
+  if (options.out.empty()) options.out = std::filesystem::path("results") / study.header.name;
   study.run(options);
 }
 
@@ -90,17 +92,17 @@ void run_on_all_ranks(Arguments& arguments) {
   }
 }
 
-/// Processes pay where the finite elements of volume meshes are to be shared.
+/// Processes make a study faster where they divide the finite elements of volume meshes.
 void print_ranks(const Arguments& arguments) {
-  const bool pays = read(arguments).ranks_pay;
-  std::printf("%u\n", pays ? std::max(1U, std::thread::hardware_concurrency()) : 1U);
+  const bool faster = read(arguments).benefits_from_mpi;
+  std::printf("%u\n", faster ? std::max(1U, std::thread::hardware_concurrency()) : 1U);
 }
 
 void list_studies() {
   for (const auto& file : study_files(built_in_studies())) {
     const ReadyStudy study = read_any_study(file);
-    std::printf("%-16s %s\n", study.name.c_str(), study.title.c_str());
-    if (!study.note.empty()) std::printf("%-16s   %s\n", "", study.note.c_str());
+    std::printf("%-16s %s\n", study.header.name.c_str(), study.header.title.c_str());
+    if (!study.header.note.empty()) std::printf("%-16s   %s\n", "", study.header.note.c_str());
   }
 }
 
@@ -131,8 +133,9 @@ void add_study_command(CLI::App& app) {
   command->add_flag("--force", arguments->options.force,
                     "start anew; the folder of an earlier run is kept under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");
-  command->add_flag("--print-ranks", arguments->print_ranks,
-                    "only print how many processes pay for this study on this machine");
+  command->add_flag(
+      "--print-ranks", arguments->print_ranks,
+      "only print the number of processes that this study runs fastest with on this machine");
   command->callback([arguments] {
     if (arguments->list) return list_studies();
     if (arguments->study.empty())

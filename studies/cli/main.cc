@@ -5,7 +5,7 @@
 #include "smoothfem_versions.h"
 #include "smoothing/base/input_error.h"
 #include "studies/cli/commands.h"
-#include "studies/framework/peak_memory.h"
+#include "studies/framework/run/peak_memory.h"
 
 namespace smoothfem {
 

@@ -5,7 +5,7 @@
 
 #include "fem/poisson_solver.h"
 #include "smoothing/loop/smooth.h"
-#include "studies/framework/study.h"
+#include "studies/framework/definition/study.h"
 #include "studies/tests/study_tests.h"
 
 namespace smoothfem {

@@ -166,17 +166,17 @@ TEST_F(BadInput, PresetOrRuleOrGroupThatIsNotThere) {
 /// Hexahedra of which node 13 with its 8 cells is the only free one.
 TEST_F(BadInput, TangledVolumeMesh) {
   const VolumeMesh regular = test::box_mesh(2, 2, 2, test::BoxCells::hexahedra);
-  const auto labelled = [&](const std::vector<Point<3>>& coordinates) {
+  const auto labelled = [&](const std::vector<Point<3>>& points) {
     MeshLabels labels;
     for (CellIndex c = 0; c < regular.n_cells(); ++c) labels.cell_ids.push_back(71 + c);
     for (NodeIndex i = 0; i < regular.n_nodes(); ++i) labels.node_ids.push_back(31 + i);
     return VolumeMesh(std::make_shared<const Topology>(
                           3, regular.n_nodes(), regular.topology().cells(), std::nullopt, labels),
-                      coordinates);
+                      points);
   };
-  auto places = regular.copied_coordinates();
-  places[13] = {1.0, 1.0, 2.5};
-  write_mesh(file("tangled.msh"), labelled(places));
+  auto coordinates = regular.copied_coordinates();
+  coordinates[13] = {1.0, 1.0, 2.5};
+  write_mesh(file("tangled.msh"), labelled(coordinates));
   const std::vector<std::string> words = {"tangled.msh: 4 of 8 cells are invalid",
                                           "cell 75 at (0, 0, 1)",
                                           "cell 76 at (1, 0, 1)",
@@ -188,15 +188,15 @@ TEST_F(BadInput, TangledVolumeMesh) {
                   "--series", "series.pvd"},
                  words);
   // Two corners of the box change places: their cells have only those and other fixed nodes.
-  places = regular.coordinates();
-  std::swap(places[0], places[2]);
-  write_mesh(file("hopeless.msh"), labelled(places));
+  coordinates = regular.copied_coordinates();
+  std::swap(coordinates[0], coordinates[2]);
+  write_mesh(file("hopeless.msh"), labelled(coordinates));
   for (const std::string method : {"getme", "laplace"})
     expect_refused({"smooth", "hopeless.msh", "-m", method, "-o", "out.vtu", "--log", "log.csv",
                     "--series", "series.pvd", "--untangle"},
                    {"hopeless.msh: ",
                     "2 of 2 invalid cells are left after untangling (cells 71, 72)", "--fix"});
-  VolumeMesh flat = labelled(regular.coordinates());
+  VolumeMesh flat = labelled(regular.copied_coordinates());
   flat = with_fixed_nodes(flat, std::vector<bool>(flat.n_nodes(), true));
   flat.coordinates()[13] = {1.0, 1.0, 2.5};
   write_mesh(file("fixed.inp"), flat);

@@ -29,10 +29,11 @@ TEST_F(CommandLine, GeneratesDistortsAndSmoothsASurface) {
       const Outcome smoothed = smoothfem({"smooth", "roof.vtu", "-m", method, "-o", out});
       ASSERT_EQ(smoothed.exit_code, 0) << smoothed.err;
       const SurfaceMesh after = read_surface(file(out));
+      const auto& surface = dynamic_cast<const SurfaceConstraints&>(*before.constraints());
       EXPECT_GT(mesh_quality(after).q_mean, mesh_quality(before).q_mean);
       double farthest = 0.0;
-      for (const auto& place : after.coordinates())
-        farthest = std::max(farthest, before.constraints()->distance(place));
+      for (const auto& point : after.coordinates())
+        farthest = std::max(farthest, surface.distance(point));
       EXPECT_LT(farthest, 1e-12);
       EXPECT_EQ(test::n_moved_fixed_nodes(before, after), 0u);
     }
@@ -111,14 +112,14 @@ TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
     p = {radius * std::sin(angle), radius * std::cos(angle), p.z()};
   }
   write_mesh(file("in.vtu"), bent);
-  const auto distance_and_bound = [&](const std::string& share) {
+  const auto distance_and_bound = [&](const std::string& fraction) {
     const Outcome outcome = smoothfem({"smooth", "in.vtu", "-m", "getme", "-o", "out.vtu",
-                                       "--boundary", "slide", "--slide-distance", share});
+                                       "--boundary", "slide", "--slide-distance", fraction});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto number_after = [&](const std::string& words) {
-      const auto place = outcome.out.find(words);
-      return place == std::string::npos ? -1.0
-                                        : std::stod(outcome.out.substr(place + words.size()));
+      const auto position = outcome.out.find(words);
+      return position == std::string::npos ? -1.0
+                                           : std::stod(outcome.out.substr(position + words.size()));
     };
     return std::pair(number_after("within "), number_after("at most "));
   };

@@ -3,9 +3,9 @@
 #include <limits>
 
 #include "smoothing/polygons/limit_polygons.h"
-#include "studies/framework/study_kinds.h"
-#include "studies/polygons/classification.h"
-#include "studies/polygons/theorem_check.h"
+#include "studies/kinds/polygons/classification.h"
+#include "studies/kinds/polygons/theorem_check.h"
+#include "studies/kinds/study_kinds.h"
 #include "studies/tests/documented_columns.h"
 
 namespace smoothfem {
@@ -150,6 +150,14 @@ TEST_F(PolygonStudies, ScalesChangeSizesOnly) {
   EXPECT_EQ(read(text, "small").theta_points, 3u);
   EXPECT_NE(read(text).theta_points, 3u);
   EXPECT_THROW(read(text, "huge"), InputError);
+  const auto in_force = [&](const std::string& scale) {
+    const auto parameters = read(text, scale).header.parameters;
+    return std::map<std::string, std::string>(parameters.begin(), parameters.end());
+  };
+  auto expected = in_force("");
+  expected["theta points"] = "3";
+  EXPECT_EQ(in_force("small"), expected);
+  EXPECT_EQ(read(text, "small").header.file_parameters, read(text).header.parameters);
 }
 
 TEST_F(PolygonStudies, BadFilesAreRefusedInOneSentence) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "studies/framework/study.h"
+#include "studies/framework/definition/find_study.h"
+#include "studies/framework/definition/study.h"
 #include "studies/tests/study_tests.h"
 
 namespace smoothfem {
@@ -16,10 +17,21 @@ std::vector<std::string> names_of(const std::vector<StudyMethod>& methods) {
   return names;
 }
 
+/// The parameters in force of the second study that are not those of the first, sorted.
+StudyParameters changes(const StudyHeader& from, const StudyHeader& to) {
+  StudyParameters result;
+  EXPECT_EQ(from.parameters.size(), to.parameters.size());
+  for (const auto& entry : to.parameters)
+    if (std::find(from.parameters.begin(), from.parameters.end(), entry) == from.parameters.end())
+      result.push_back(entry);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
 TEST(GearStudy, IsTheExampleOfTheThesis) {
   const Study study = read_study(gear_file);
-  EXPECT_EQ(study.name, "gear");
-  EXPECT_EQ(study.title, "Involute gear");
+  EXPECT_EQ(study.header.name, "gear");
+  EXPECT_EQ(study.header.title, "Involute gear");
   ASSERT_EQ(study.meshes.size(), 2u);
   EXPECT_EQ(study.meshes[0].name, "tri");
   EXPECT_EQ(study.meshes[0].domain, "gear");
@@ -45,17 +57,20 @@ TEST(GearStudy, IsTheExampleOfTheThesis) {
   EXPECT_EQ(study.finite_elements.jacobi_cg, Recorded::always);
   EXPECT_EQ(study.thresholds.reference, "global-optimization");
   EXPECT_EQ(study.thresholds.margin, 0.05);
-  EXPECT_EQ(study.record_every.usually, 1);
+  EXPECT_EQ(study.record_every.default_interval, 1);
   EXPECT_EQ(study.edge_scale, 1.0);
 }
 
 TEST(GearStudy, QuickChangesWhatItsSubsectionSaysAndNothingElse) {
   Study quick = read_study(gear_file, "quick");
-  EXPECT_EQ(quick.record_every.usually, 10);
+  EXPECT_EQ(quick.record_every.default_interval, 10);
   EXPECT_EQ(quick.edge_scale, 2.5);
   const Study full = read_study(gear_file);
-  // The parameters as read hold every key of the file, so they stand for all other fields.
-  EXPECT_EQ(quick.parameters, full.parameters);
+  // The parameters hold every key of the file, so they stand for all other fields.
+  EXPECT_EQ(quick.header.file_parameters, full.header.file_parameters);
+  EXPECT_EQ(full.header.parameters, full.header.file_parameters);
+  EXPECT_EQ(changes(full.header, quick.header),
+            (StudyParameters{{"edge scale", "2.5"}, {"record every", "10"}}));
   EXPECT_EQ(names_of(quick.methods), names_of(full.methods));
   EXPECT_EQ(quick.degrees, full.degrees);
   EXPECT_EQ(quick.timing_runs, full.timing_runs);
@@ -74,12 +89,16 @@ TEST(VolumeStudy, IsThatOfSection63) {
   EXPECT_EQ(study.solution.name, "volume");
   EXPECT_EQ(study.finite_elements.condition_number, ConditionNumberMethod::lanczos);
   EXPECT_EQ(study.finite_elements.multigrid_cg, Recorded::results);
-  EXPECT_EQ(study.record_every.usually, 1);
+  EXPECT_EQ(study.record_every.default_interval, 1);
   EXPECT_EQ(study.record_every.stages.at("sequential"), 10);
   EXPECT_GT(study.edge_scale, 2.0);
   const Study paper = read_study(file, "paper");
-  EXPECT_EQ(paper.scale, "paper");
+  EXPECT_EQ(paper.header.scale, "paper");
   EXPECT_EQ(paper.edge_scale, 1.0);
+  const auto changed = changes(study.header, paper.header);
+  EXPECT_NE(std::find(changed.begin(), changed.end(),
+                      std::pair<std::string, std::string>{"edge scale", "1"}),
+            changed.end());
 }
 
 TEST(SurfaceStudy, IsThatOfSection512) {
@@ -115,8 +134,8 @@ class StudyFile : public FileTest {
   /// error_of, where the line has to be given.
   void expect_error_at(int line, const std::string& content, const std::string& word) const {
     const std::string message = error_of(content);
-    const std::string place = file("own.prm").string() + ":" + std::to_string(line) + ": ";
-    EXPECT_TRUE(message.starts_with(place)) << message;
+    const std::string position = file("own.prm").string() + ":" + std::to_string(line) + ": ";
+    EXPECT_TRUE(message.starts_with(position)) << message;
     EXPECT_NE(message.find(word), std::string::npos) << message;
   }
 
@@ -141,8 +160,8 @@ TEST_F(StudyFile, OfSurfacesHasMethodsForThemAndNoFiniteElements) {
 
 TEST_F(StudyFile, NamesItsMeshFileRelativeToItself) {
   const Study study = read(one_mesh + "set methods = laplace\n");
-  EXPECT_EQ(study.name, "own");
-  EXPECT_EQ(study.title, "own");
+  EXPECT_EQ(study.header.name, "own");
+  EXPECT_EQ(study.header.title, "own");
   EXPECT_EQ(study.meshes.at(0).file, file("a.mesh"));
   EXPECT_TRUE(study.thresholds.reference.empty());
 }
@@ -274,7 +293,8 @@ TEST_F(StudyFile, TheTemplateListsKeysThatAStudyMayHave) {
   const auto scales = text.find("set scales");
   ASSERT_NE(scales, std::string::npos);
   text.replace(text.find('=', scales), 1, "= a");
-  EXPECT_EQ(read(text).parameters, read("set meshes = a\nset scales = a\n").parameters);
+  EXPECT_EQ(read(text).header.parameters,
+            read("set meshes = a\nset scales = a\n").header.parameters);
 }
 
 TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
@@ -286,6 +306,44 @@ TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
   const std::string message = checked(input_error_of([&] { read_study(path, "huge"); }), path);
   EXPECT_NE(message.find("small"), std::string::npos) << message;
   EXPECT_NE(message.find("large"), std::string::npos) << message;
+  const std::string misspelt = input_error_of([&] { read_study(path, "smal"); });
+  EXPECT_NE(misspelt.find("did you mean 'small'?"), std::string::npos) << misspelt;
+}
+
+TEST_F(StudyFile, ParametersInForceAreThoseOfTheScale) {
+  const auto path = file_with(
+      "own.prm",
+      "set meshes = a, b\nset methods = getme\nset scales = small, same, wrong\n"
+      "set edge scale = 2\nset timing runs = 5\n"
+      "subsection scale small\n set edge scale = 3\n set timing runs = 1\n set record every = 7\n"
+      " set record stages every = sequential: 4\n set meshes = b\nend\n"
+      "subsection scale wrong\n set edge scale = 0.5\nend\n");
+  const Study plain = read_study(path), small = read_study(path, "small");
+  EXPECT_EQ(changes(plain.header, small.header),
+            (StudyParameters{{"edge scale", "3"},
+                             {"meshes", "b"},
+                             {"record every", "7"},
+                             {"record stages every", "sequential: 4"},
+                             {"timing runs", "1"}}));
+  EXPECT_EQ(small.timing_runs, 1);
+  EXPECT_EQ(small.record_every.default_interval, 7);
+  EXPECT_EQ(small.record_every.stages.at("sequential"), 4);
+  EXPECT_EQ(small.meshes.size(), 1u);
+  EXPECT_EQ(changes(plain.header, read_study(path, "same").header), StudyParameters{});
+  const std::string message = checked(input_error_of([&] { read_study(path, "wrong"); }), path);
+  EXPECT_NE(message.find("the scale wrong has 'edge scale = 0.5'"), std::string::npos) << message;
+}
+
+TEST(FindStudy, TakesNamesOfBuiltInStudiesAndPaths) {
+  EXPECT_TRUE(std::filesystem::equivalent(find_study("gear"), gear_file));
+  EXPECT_EQ(find_study(gear_file.string()), gear_file);
+  for (const std::string path : {"nowhere/gear", "./gear", "gear.prm"})
+    EXPECT_EQ(find_study(path), path) << "a path, whether the file is there or not";
+  EXPECT_TRUE(
+      input_error_of([&] {
+        find_study("geer");
+      }).starts_with("there is no study 'geer'; did you mean 'gear'? choose one of aorta, "))
+      << input_error_of([&] { find_study("geer"); });
 }
 
 TEST_F(StudyFile, AScaleMayTakeSomeOfTheMeshes) {
@@ -305,7 +363,7 @@ TEST_F(StudyFile, AScaleMayTakeSomeOfTheMeshes) {
 TEST_F(StudyFile, StagesMayBeRecordedOtherwise) {
   const Study study =
       read("set meshes = a\nset record every = 2\nset record stages every = sequential: 30\n");
-  EXPECT_EQ(study.record_every.usually, 2);
+  EXPECT_EQ(study.record_every.default_interval, 2);
   EXPECT_EQ(study.record_every.stages.at("sequential"), 30);
   for (const std::string bad : {"sequential: 0", "often"})
     expect_error_at(5, one_mesh + "set record stages every = " + bad + "\n", bad);

@@ -7,7 +7,7 @@
 #include "smoothing/base/parallel.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/transformations/dual_element.h"
-#include "studies/regularization/regularization_study.h"
+#include "studies/kinds/regularization/regularization_study.h"
 #include "studies/tests/documented_columns.h"
 
 namespace smoothfem {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/framework/results.h"
+#include "studies/framework/results/results.h"
 #include "studies/tests/documented_columns.h"
 
 namespace smoothfem {

@@ -3,7 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "smoothing/quality/mesh_quality.h"
-#include "studies/framework/run_study.h"
+#include "studies/framework/run/run_study.h"
+#include "studies/framework/run/study_meshes.h"
 #include "studies/tests/study_tests.h"
 
 namespace smoothfem {
@@ -247,7 +248,7 @@ TEST_F(RunStudy, ProvenanceSaysWhereEverythingComesFrom) {
   const auto json = nlohmann::json::parse(content_of(out / "provenance.json"));
   EXPECT_EQ(json.at("status"), "complete");
   EXPECT_EQ(json.at("study"), "tiny");
-  EXPECT_EQ(json.at("quick"), false);
+  EXPECT_EQ(json.at("scale"), "default");
   for (const std::string key : {"version", "commit", "compiler", "flags"})
     EXPECT_FALSE(json.at("program").at(key).get<std::string>().empty()) << key;
   EXPECT_TRUE(json.at("program").at("uncommitted_changes").is_boolean());
@@ -274,7 +275,42 @@ TEST_F(RunStudy, ProvenanceSaysWhereEverythingComesFrom) {
   EXPECT_EQ(std::fread(digits, 1, 64, pipe), 64u);
   ::pclose(pipe);
   EXPECT_EQ(mesh.at("sha256"), std::string(digits));
-  EXPECT_EQ(read_planar(initial).mesh.copied_coordinates(), shaken_grid(5, 0.2).copied_coordinates());
+  EXPECT_EQ(read_planar(initial).mesh.copied_coordinates(),
+            shaken_grid(5, 0.2).copied_coordinates());
+}
+
+TEST_F(RunStudy, ProvenanceNamesTheInitialMeshesOfSurfacesToo) {
+  const Study roof = read_study(file_with("roof.prm", R"(
+set surface = true
+set meshes = roof
+set methods = smart-laplace
+set degrees =
+set timing runs = 1
+subsection mesh roof
+  set domain = roof
+  set edge scale = 3
+end
+)"));
+  const fs::path out = run(roof);
+  const auto json = nlohmann::json::parse(content_of(out / "provenance.json"));
+  const auto& mesh = json.at("meshes").at(0);
+  const std::string name = mesh.at("file");
+  ASSERT_TRUE(fs::exists(out / name)) << name;
+  EXPECT_NO_THROW(read_mesh(out / name));
+  EXPECT_EQ(mesh.at("sha256"), sha256_of_file(out / name));
+}
+
+TEST_F(RunStudy, ProvenanceHasTheParametersOfTheScale) {
+  const Study quick =
+      read_study(file_with("tiny.prm",
+                           "set meshes = grid\nset methods = laplace\nset degrees =\n"
+                           "set scales = quick\nset timing runs = 3\n"
+                           "subsection mesh grid\n set file = grid.mesh\nend\n"
+                           "subsection scale quick\n set timing runs = 1\nend\n"),
+                 "quick");
+  const auto json = nlohmann::json::parse(content_of(run(quick) / "provenance.json"));
+  EXPECT_EQ(json.at("scale"), "quick");
+  EXPECT_EQ(json.at("parameters").at("timing runs"), "1");
 }
 
 TEST_F(RunStudy, PublishedMeshesAreTakenAsTheyAre) {

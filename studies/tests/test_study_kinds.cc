@@ -64,9 +64,40 @@ TEST_F(CommandLine, KindsThatDoNotExistAreNamedWithThoseThatDo) {
   file_with("my.prm", "set kind = polygon\n");
   const Outcome outcome = smoothfem({"study", "my.prm"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("no kind of study 'polygon'; choose one of smoothing, polygons"),
+  EXPECT_NE(
+      outcome.err.find(
+          "my.prm: there is no kind of study 'polygon'; did you mean 'polygons'? choose one of "
+          "smoothing, polygons"),
+      std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(CommandLine, StudiesThatDoNotExistAreNamedWithTheNearestOne) {
+  const Outcome outcome = smoothfem({"study", "geer"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("there is no study 'geer'; did you mean 'gear'? choose one of "),
             std::string::npos)
       << outcome.err;
+  const Outcome path = smoothfem({"study", "./geer.prm"});
+  EXPECT_EQ(path.exit_code, 2);
+  EXPECT_NE(path.err.find("./geer.prm: cannot read this study file"), std::string::npos)
+      << path.err;
+}
+
+TEST_F(CommandLine, TheProvenanceOfAScaleHasItsParameters) {
+  file_with("my.prm", polygons +
+                          "set scales = small\nsubsection scale small\n"
+                          " set cases = 1\nend\n");
+  ASSERT_EQ(smoothfem({"study", "my.prm", "--scale", "small", "--quiet"}).exit_code, 0);
+  const auto json = nlohmann::json::parse(content_of(file("results/my/provenance.json")));
+  EXPECT_EQ(json.at("scale"), "small");
+  EXPECT_EQ(json.at("parameters").at("cases"), "1");
+  EXPECT_EQ(json.at("parameters").at("nodes"), "3, 4");
+  // The same scale is the same run, another one is not.
+  EXPECT_EQ(smoothfem({"study", "my.prm", "--scale", "small"}).exit_code, 0);
+  const Outcome other = smoothfem({"study", "my.prm"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("--scale was 'small' and is ''"), std::string::npos) << other.err;
 }
 
 TEST_F(CommandLine, StudyKeysOfEveryKindAreListed) {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "smoothing/tests/planar_meshes.h"
+
+namespace smoothfem {
+
+/// Entries in [-1, 1], the same ones for each seed every time.
+inline Eigen::VectorXd random_vector(Eigen::Index n, std::uint64_t seed) {
+  test::Random random(seed);
+  Eigen::VectorXd vector(n);
+  for (double& entry : vector) entry = random();
+  return vector;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/definition/check_study.h"
+
+#include <algorithm>
+
+#include "meshes/domains/catalogue.h"
+#include "smoothing/base/find_named.h"
+#include "studies/framework/definition/study_file.h"
+
+namespace smoothfem {
+
+namespace {
+
+void check_names(const Study& study) {
+  if (!study.degrees.empty() && study.dimensions.space > study.dimensions.cells)
+    throw InputError(
+        "finite elements are not solved on surface meshes; write 'set degrees =' without any");
+  if (!study.degrees.empty() && study.solution.name != "expression")
+    with_dimension(study.dimensions.cells,
+                   [&]<int dim>() { (void)manufactured_solution<dim>(study.solution.name); });
+  for (const auto& mesh : study.meshes)
+    if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
+}
+
+/// Stages that are recorded in their own way belong to one of the methods.
+void check_stages(const Study& study) {
+  std::vector<std::string> known;
+  with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
+    for (const auto& method : study.methods)
+      for (const auto& stage : method.make<dim, spacedim>().stages)
+        if (std::find(known.begin(), known.end(), stage->name()) == known.end())
+          known.emplace_back(stage->name());
+  });
+  for (const auto& [stage, every] : study.record_every.stages)
+    if (std::find(known.begin(), known.end(), stage) == known.end())
+      throw InputError("'record stages every' names the stage '" + stage +
+                       "', which none of the methods has; " + choose_one_of(known, stage));
+}
+
+void check_thresholds(const Study& study) {
+  const auto& reference = study.thresholds.reference;
+  if (reference.empty()) return;
+  const bool named = std::any_of(study.methods.begin(), study.methods.end(),
+                                 [&](const auto& method) { return method.name == reference; });
+  if (!named)
+    throw InputError("the thresholds' reference '" + reference +
+                     "' is not one of the study's methods");
+}
+
+}  // namespace
+
+void check_labels(std::vector<std::string> labels, const std::string& what,
+                  const std::string& file) {
+  if (labels.empty()) throw InputError(file + ": the study names no " + what);
+  for (const auto& label : labels) check_label(label, what, file);
+  std::sort(labels.begin(), labels.end());
+  const auto twice = std::adjacent_find(labels.begin(), labels.end());
+  if (twice != labels.end())
+    throw InputError(file + ": the " + what + " '" + *twice + "' is named twice");
+}
+
+void check_study(const Study& study) {
+  check_names(study);
+  check_stages(study);
+  check_thresholds(study);
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace smoothfem {
+
+/// The folder of the studies that come with the program. Throws InputError if its data are missing.
+std::filesystem::path built_in_studies();
+
+/// The study files in a folder, sorted by name; none if it is not there.
+std::vector<std::filesystem::path> study_files(const std::filesystem::path& folder);
+
+/// The file of a study: a path, or the name of one of those that come with the program. Throws
+/// InputError for what is neither a file nor looks like the path of one.
+std::filesystem::path find_study(const std::string& path_or_name);
+
+}  // namespace smoothfem

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "smoothing/base/find_named.h"
+#include "studies/framework/definition/check_study.h"
+#include "studies/framework/definition/study.h"
+#include "studies/framework/definition/study_file.h"
+#include "studies/framework/definition/study_keys.h"
+
+namespace smoothfem {
+
+namespace {
+
+using dealii::ParameterHandler;
+
+std::vector<std::string> method_labels(const std::string& list, MeshDimensions dimensions) {
+  if (list != "all") return split_list(list);
+  std::vector<std::string> names;
+  for (const auto& info : method_catalogue())
+    if (with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+          return takes_meshes<dim, spacedim>(info.name);
+        }))
+      names.push_back(info.name);
+  return names;
+}
+
+Recorded recorded(const std::string& text) {
+  return text == "never"     ? Recorded::never
+         : text == "results" ? Recorded::results
+                             : Recorded::always;
+}
+
+ConditionNumberMethod condition_number_method(const std::string& text) {
+  return text == "none"      ? ConditionNumberMethod::none
+         : text == "lanczos" ? ConditionNumberMethod::lanczos
+                             : ConditionNumberMethod::verified;
+}
+
+/// "sequential: 10, ..."; deal.II has checked the numbers.
+std::map<std::string, int> stage_numbers(const std::string& text) {
+  std::map<std::string, int> numbers;
+  for (const auto& item : split_list(text)) {
+    const auto colon = item.find(':');
+    const auto stage = split_list(item.substr(0, colon));
+    if (!stage.empty()) numbers[stage.front()] = std::stoi(item.substr(colon + 1));
+  }
+  return numbers;
+}
+
+StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
+                            const std::filesystem::path& folder) {
+  const Subsection subsection(p, "mesh " + name);
+  StudyMesh mesh{.name = name,
+                 .title = p.get("title"),
+                 .file = p.get("file"),
+                 .domain = p.get("domain"),
+                 .elements = p.get("elements"),
+                 .published_file = p.get("published file"),
+                 .edge_scale = p.get_double("edge scale"),
+                 .distort_to_q_mean = p.get_double("distort to"),
+                 .distort_within = p.get_double("distort within"),
+                 .distortion_candidates = static_cast<int>(p.get_integer("distortion candidates")),
+                 .distortion_sweeps = static_cast<int>(p.get_integer("distortion sweeps")),
+                 .seed = static_cast<std::uint64_t>(p.get_integer("seed"))};
+  if (!mesh.file.empty() && mesh.file.is_relative()) mesh.file = folder / mesh.file;
+  if (mesh.distort_to_q_mean > 0.0 && mesh.distort_within > 0.0)
+    throw InputError("the mesh " + name +
+                     " has both 'distort to' and 'distort within'; choose one of them");
+  return mesh;
+}
+
+StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
+                                const std::string& name) {
+  const Subsection subsection(p, "method " + name);
+  StudyMethod method{.name = name,
+                     .type = p.get("type"),
+                     .title = p.get("title"),
+                     .threads = static_cast<int>(p.get_integer("threads")),
+                     .settings = {}};
+  with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+    auto defaults = make_method<dim, spacedim>(method.type);
+    for (const auto& parameter : defaults.parameters())
+      if (p.get(parameter.name) != value_text(parameter))
+        method.settings.emplace_back(parameter.name, p.get(parameter.name));
+    (void)method.make<dim, spacedim>();  // throws for values out of range
+  });
+  return method;
+}
+
+std::vector<int> read_degrees(const std::string& list, const std::string& file) {
+  std::vector<int> degrees;
+  for (const auto& item : split_list(list)) {
+    if (item != "1" && item != "2")
+      throw InputError(file + ": finite elements of degree '" + item +
+                       "' are not available; choose 1 or 2");
+    degrees.push_back(item == "1" ? 1 : 2);
+  }
+  return degrees;
+}
+
+void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
+  study.degrees = read_degrees(p.get("degrees"), file);
+  study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
+  study.record_warpage = p.get_bool("record warpage");
+  study.write_series = p.get_bool("write series");
+  {
+    const Subsection subsection(p, "solution");
+    study.solution = {p.get("name"), p.get("value"), p.get("gradient"), p.get("load")};
+  }
+  {
+    const Subsection subsection(p, "finite elements");
+    study.finite_elements.galerkin_load = p.get("load") == "quadrature";
+    study.finite_elements.tensor_points = {static_cast<int>(p.get_integer("quadrilateral points")),
+                                           static_cast<int>(p.get_integer("hexahedron points"))};
+    study.finite_elements.cg_tolerance = p.get_double("cg tolerance");
+    study.finite_elements.boundary_in_norm = p.get_bool("boundary in norm");
+    if (p.get_double("cg seconds") > 0.0)
+      study.finite_elements.max_cg_seconds = p.get_double("cg seconds");
+    study.finite_elements.condition_number = condition_number_method(p.get("condition number"));
+    study.finite_elements.jacobi_cg = recorded(p.get("jacobi cg"));
+    study.finite_elements.multigrid_cg = recorded(p.get("multigrid cg"));
+  }
+  {
+    const Subsection subsection(p, "thresholds");
+    study.thresholds = {p.get("reference"), p.get_double("margin")};
+  }
+  study.record_every = {static_cast<int>(p.get_integer("record every")),
+                        stage_numbers(p.get("record stages every"))};
+  study.edge_scale = p.get_double("edge scale");
+}
+
+/// The labels of the meshes to take: all those of the list, or what the scale says.
+std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std::string>& known,
+                                      const std::string& scale, const std::string& file) {
+  const auto taken = split_list(p.get("meshes"));
+  for (const auto& name : taken)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(file + ": the scale " + scale + " takes the mesh '" + name +
+                       "', which is not in the list 'meshes'; " + choose_one_of(known, name));
+  return taken;
+}
+
+/// Which reader a file is for goes without saying; so results from before there were kinds, and
+/// surfaces, go on.
+StudyParameters said_parameters(ParameterHandler& p) {
+  auto parameters = all_parameters(p);
+  std::erase_if(parameters, [](const auto& entry) {
+    return entry.first == "kind" ||
+           entry == std::pair<std::string, std::string>{"surface", "false"};
+  });
+  return parameters;
+}
+
+/// Afterwards p has the values that the scale gives its keys.
+StudyHeader read_header(ParameterHandler& p, const std::filesystem::path& file,
+                        const std::string& scale) {
+  StudyHeader header{.name = file.stem().string(),
+                     .title = p.get("title"),
+                     .note = p.get("note"),
+                     .scale = scale,
+                     .parameters = {},
+                     .file_parameters = said_parameters(p)};
+  check_label(header.name, "study", file.string());
+  if (header.title.empty()) header.title = header.name;
+  apply_scale(p, scale, file.string(), scaled_numbers, scaled_lists);
+  header.parameters = said_parameters(p);
+  return header;
+}
+
+MeshDimensions read_dimensions(ParameterHandler& p) {
+  const int cells = static_cast<int>(p.get_integer("dimension"));
+  if (!p.get_bool("surface")) return {cells, cells};
+  if (cells != 2) throw InputError("surface meshes have 'dimension = 2', not 3; leave it out");
+  return {cells, 3};
+}
+
+}  // namespace
+
+template <int dim, int spacedim>
+Method<dim, spacedim> StudyMethod::make() const {
+  auto method = make_method<dim, spacedim>(type);
+  for (const auto& [parameter, value] : settings) method.set(parameter, value);
+  return method;
+}
+template Method<2> StudyMethod::make() const;
+template Method<3> StudyMethod::make() const;
+template Method<2, 3> StudyMethod::make() const;
+
+Study read_study(const std::filesystem::path& file, const std::string& scale) {
+  const std::string text = read_study_text(file);
+  // Which subsections there are depends on what the file says: first the lists, then the methods'
+  // types, then everything, strictly.
+  ParameterHandler lists;
+  declare_lists(lists);
+  parse_study(lists, text, file, true);
+  const auto meshes = split_list(lists.get("meshes"));
+  const MeshDimensions dimensions = in_file(file, [&] { return read_dimensions(lists); });
+  const auto methods = method_labels(lists.get("methods"), dimensions);
+  const auto scales = split_list(lists.get("scales"));
+  require_scale(scale, scales, file.string());
+  check_labels(meshes, "mesh", file.string());
+  check_labels(methods, "method", file.string());
+
+  ParameterHandler types;
+  for (const auto& method : methods) declare_method(types, dimensions, method, "");
+  parse_study(types, text, file, true);
+
+  ParameterHandler p;
+  declare_lists(p);
+  declare_problem(p);
+  for (const auto& name : scales) declare_scale(p, name);
+  for (const auto& mesh : meshes) declare_mesh(p, dimensions.cells, mesh);
+  for (const auto& method : methods) {
+    std::string type;
+    {
+      const Subsection subsection(types, "method " + method);
+      type = types.get("type");
+    }
+    in_file(file, [&] { declare_method(p, dimensions, method, type, lists.get("preset")); });
+  }
+  parse_study(p, text, file, false);
+
+  Study study;
+  study.header = read_header(p, file, scale);
+  study.dimensions = dimensions;
+  for (const auto& mesh : meshes_taken(p, meshes, scale, file.string()))
+    study.meshes.push_back(
+        in_file(file, [&] { return read_mesh_section(p, mesh, file.parent_path()); }));
+  for (const auto& method : methods)
+    study.methods.push_back(
+        in_file(file, [&] { return read_method_section(p, dimensions, method); }));
+  read_problem(p, file.string(), study);
+  in_file(file, [&] { check_study(study); });
+  return study;
+}
+
+}  // namespace smoothfem

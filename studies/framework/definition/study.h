@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/poisson_solver.h"
+#include "smoothing/loop/catalogue.h"
+#include "studies/framework/definition/study_header.h"
+
+namespace smoothfem {
+
+/// One of a study's meshes: read from a file or generated, and distorted if asked for.
+struct StudyMesh {
+  std::string name;            ///< label in results: letters, digits, '.', '_', '-'
+  std::string title;           ///< in tables and figures
+  std::filesystem::path file;  ///< empty: generate
+  std::string domain;          ///< which domain to generate
+  std::string elements;        ///< of the generated mesh; empty: the domain's default
+  /// File name looked for with --mesh-dir, in place of `file` or `domain`. It is taken as it is,
+  /// not distorted: published meshes are already.
+  std::string published_file;
+  double edge_scale = 1.0;         ///< of a generated mesh, times that of the study
+  double distort_to_q_mean = 0.0;  ///< 0: not distorted
+  double distort_within = 0.0;     ///< relative radius instead of a quality; 0: not distorted by it
+  int distortion_candidates = 10;  ///< see DistortionParameters
+  int distortion_sweeps = 1;
+  std::uint64_t seed = 1;
+};
+
+/// Whether a mesh is changed after it has been read or generated.
+inline bool is_distorted(const StudyMesh& mesh) {
+  return mesh.distort_to_q_mean > 0.0 || mesh.distort_within > 0.0;
+}
+
+struct StudyMethod {
+  std::string name;                                           ///< label in results
+  std::string type;                                           ///< registered method
+  std::string title;                                          ///< in tables and figures
+  int threads = 0;                                            ///< 0: as StudyOptions says
+  std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
+
+  /// The method with its settings.
+  template <int dim, int spacedim = dim>
+  Method<dim, spacedim> make() const;
+};
+
+/// Where the manufactured solution comes from: a name, or expressions.
+struct StudySolution {
+  std::string name;
+  std::string value, gradient, load;
+};
+
+/// When error thresholds count as reached (thesis, Table 6.4).
+struct StudyThresholds {
+  std::string reference;  ///< method whose least errors set the thresholds; empty: no thresholds
+  double margin = 0.05;   ///< thresholds are the least errors increased by this fraction
+};
+
+/// At which iterations finite elements are solved.
+struct RecordEvery {
+  int default_interval = 1;           ///< every k-th iteration of a method
+  std::map<std::string, int> stages;  ///< by name: every k-th iteration of this stage instead
+};
+
+/// A study as data: which meshes, which methods, which problem, what to record.
+struct Study {
+  StudyHeader header;
+  MeshDimensions dimensions;
+  std::vector<StudyMesh> meshes;
+  std::vector<StudyMethod> methods;
+  std::vector<int> degrees;  ///< of the finite elements; empty: smoothing only
+  StudySolution solution;
+  PoissonOptions finite_elements;  ///< its degree is not used
+  StudyThresholds thresholds;
+  RecordEvery record_every;     ///< initial and resulting mesh and the last of each method always
+  int timing_runs = 1;          ///< smoothing times are medians over this many runs
+  double edge_scale = 1.0;      ///< generated meshes: edges this much longer
+  bool record_warpage = false;  ///< of every iteration, not only of initial and resulting meshes
+  bool write_series = false;    ///< a VTU series for each mesh and method
+};
+
+/// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: with the changes
+/// of its subsection `scale NAME`; empty: none. Throws InputError with file and line for unknown
+/// keys and bad values, and for a scale that the study does not have, naming those it has.
+Study read_study(const std::filesystem::path& file, const std::string& scale = {});
+
+/// A commented parameter file with every key and its default, for the methods and meshes named.
+std::string study_template();
+
+}  // namespace smoothfem

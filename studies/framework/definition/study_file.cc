@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/definition/study_file.h"
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "smoothing/base/find_named.h"
+
+namespace smoothfem {
+
+using dealii::ParameterHandler;
+
+namespace {
+
+/// How deal.II calls the study file in its messages; the path itself could hold anything.
+constexpr const char* this_file = "this file";
+
+/// deal.II's messages run over several lines, with its own source line first and ours inside.
+InputError parse_error(const std::filesystem::path& file, const std::string& what) {
+  const std::string mark = "Additional information:";
+  const auto begin = what.find(mark);
+  std::string reason = begin == std::string::npos ? what : what.substr(begin + mark.size());
+  reason = reason.substr(0, reason.find("Stacktrace"));
+  reason = reason.substr(0, reason.find("\n----"));
+  reason = std::regex_replace(reason, std::regex("\\s+"), " ");
+  reason = std::regex_replace(reason, std::regex("^ +|[ .]+$"), "");
+  std::string position = file.string();
+  std::smatch match;
+  if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <([^>:]*)>?: ?(.*)"))) {
+    if (match[2] != this_file) position = match[2];  // a file that the study includes
+    position += ":" + match[1].str();
+    reason = match[3].str();
+  }
+  return InputError(position + ": " + reason +
+                    "; 'smoothfem list --study-keys' shows the keys there are");
+}
+
+}  // namespace
+
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> items;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');) {
+    const auto first = item.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    items.push_back(item.substr(first, item.find_last_not_of(" \t") - first + 1));
+  }
+  return items;
+}
+
+std::string read_study_text(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError(file.string() + ": cannot read this study file; check its path");
+  return text.str() + "\n";
+}
+
+void parse_study(ParameterHandler& p, const std::string& text, const std::filesystem::path& file,
+                 bool skip_undefined) {
+  std::istringstream stream(text);
+  try {
+    p.parse_input(stream, this_file, "", skip_undefined);
+  } catch (const dealii::ExceptionBase& error) {
+    throw parse_error(file, error.what());
+  }
+}
+
+void check_label(const std::string& label, const std::string& what, const std::string& file) {
+  static const std::regex allowed("[A-Za-z0-9._-]+");
+  if (!std::regex_match(label, allowed))
+    throw InputError(file + ": the " + what + " label '" + label +
+                     "' may only have letters, digits, '.', '_' and '-'");
+}
+
+void require_scale(const std::string& scale, const std::vector<std::string>& known,
+                   const std::string& file) {
+  if (scale.empty() || std::find(known.begin(), known.end(), scale) != known.end()) return;
+  throw InputError(file + ": the study has no scale '" + scale + "'; " +
+                   (known.empty() ? "it has one size only: leave --scale out"
+                                  : choose_one_of(known, scale) + ", or leave --scale out"));
+}
+
+StudyParameters all_parameters(ParameterHandler& p) {
+  StudyParameters result;
+  std::ostringstream text;
+  p.print_parameters(text, ParameterHandler::ShortPRM);
+  std::istringstream lines(text.str());
+  std::vector<std::string> prefix;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, std::regex("\\s*subsection (.*)")))
+      prefix.push_back(match[1].str() + "/");
+    else if (std::regex_match(line, std::regex("\\s*end\\s*")))
+      prefix.pop_back();
+    else if (std::regex_match(line, match, std::regex("\\s*set (.*?)\\s*=\\s*(.*)"))) {
+      std::string key;
+      for (const auto& part : prefix) key += part;
+      result.emplace_back(key + match[1].str(), match[2].str());
+    }
+  }
+  return result;
+}
+
+void declare_scales(ParameterHandler& p) {
+  p.declare_entry("scales", "", dealii::Patterns::Anything(),
+                  "Sizes that --scale can choose, separated by commas; each has a subsection "
+                  "'scale NAME'.");
+}
+
+void apply_scale(ParameterHandler& p, const std::string& scale, const std::string& file,
+                 const std::vector<std::string>& numbers, const std::vector<std::string>& lists) {
+  if (scale.empty()) return;
+  StudyParameters changes;
+  {
+    const Subsection subsection(p, "scale " + scale);
+    for (const auto& key : numbers)
+      if (std::stod(p.get(key)) != 0.0) changes.emplace_back(key, p.get(key));
+    for (const auto& key : lists)
+      if (!p.get(key).empty()) changes.emplace_back(key, p.get(key));
+  }
+  for (const auto& [key, value] : changes) try {
+      p.set(key, value);
+    } catch (const dealii::ExceptionBase&) {
+      throw InputError(file + ": the scale " + scale + " has '" + key + " = " + value +
+                       "', which is out of range; 'smoothfem list --study-keys' shows the range");
+    }
+}
+
+std::string commented_keys(ParameterHandler& p) {
+  std::ostringstream text;
+  p.print_parameters(text, ParameterHandler::PRM);
+  return text.str();
+}
+
+void declare_table_study(ParameterHandler& p, const std::string& kind) {
+  namespace Patterns = dealii::Patterns;
+  p.declare_entry("kind", kind, Patterns::Selection(kind),
+                  "What the study does; other kinds have other keys.");
+  p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
+  declare_scales(p);
+}
+
+void declare_table_scale(ParameterHandler& p, const std::string& scale,
+                         const std::vector<std::string>& numbers) {
+  const Subsection subsection(p, "scale " + scale);
+  for (const auto& key : numbers)
+    p.declare_entry(key, "0", dealii::Patterns::Integer(0),
+                    "In place of the value above; 0: as it is.");
+}
+
+StudyHeader read_table_study(ParameterHandler& p, const std::filesystem::path& file,
+                             const std::string& scale, const std::vector<std::string>& numbers) {
+  const std::string text = read_study_text(file);
+  ParameterHandler lists;  // which subsections there are depends on what the file says
+  declare_scales(lists);
+  parse_study(lists, text, file, true);
+  const auto scales = split_list(lists.get("scales"));
+  require_scale(scale, scales, file.string());
+  for (const auto& name : scales) declare_table_scale(p, name, numbers);
+  parse_study(p, text, file, false);
+
+  StudyHeader header;
+  header.name = file.stem().string();
+  header.title = p.get("title").empty() ? header.name : p.get("title");
+  header.scale = scale;
+  header.file_parameters = all_parameters(p);
+  check_label(header.name, "study", file.string());
+  apply_scale(p, scale, file.string(), numbers);
+  header.parameters = all_parameters(p);
+  return header;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/definition/study_keys.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "meshes/distortion/distort.h"
+#include "meshes/domains/catalogue.h"
+#include "smoothing/loop/preset.h"
+#include "studies/framework/definition/study.h"
+
+namespace smoothfem {
+
+namespace {
+
+using dealii::ParameterHandler;
+namespace Patterns = dealii::Patterns;
+
+/// "a|b|c", as deal.II writes a choice.
+std::string one_of(const std::vector<std::string>& names) {
+  std::string choice;
+  for (const auto& name : names) choice += (choice.empty() ? "" : "|") + name;
+  return choice;
+}
+
+/// The range of a parameter as deal.II checks it, which knows the line of a bad value.
+std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
+  if (const auto* choice = std::get_if<Choice>(&parameter.value))
+    return std::make_unique<Patterns::Selection>(one_of(choice->names));
+  if (std::holds_alternative<std::vector<double>*>(parameter.value))
+    return std::make_unique<Patterns::List>(Patterns::Double(parameter.lower, parameter.upper), 1);
+  if (!std::holds_alternative<int*>(parameter.value))
+    return std::make_unique<Patterns::Double>(parameter.lower, parameter.upper);
+  constexpr double most = std::numeric_limits<int>::max();
+  return std::make_unique<Patterns::Integer>(static_cast<int>(std::max(parameter.lower, -most)),
+                                             static_cast<int>(std::min(parameter.upper, most)));
+}
+
+/// "STAGE: k, STAGE: k".
+Patterns::Map stage_numbers() {
+  return {Patterns::Anything(), Patterns::Integer(1)};
+}
+
+}  // namespace
+
+void declare_lists(ParameterHandler& p) {
+  p.declare_entry("kind", "smoothing", Patterns::Selection("smoothing"),
+                  "What the study does; other kinds have other keys.");
+  p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("note", "", Patterns::Anything(),
+                  "What can be compared with the literature, in one sentence.");
+  p.declare_entry("preset", "", Patterns::Anything(),
+                  "Parameters of the methods (see 'list'); empty: their defaults.");
+  p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
+  p.declare_entry("surface", "false", Patterns::Bool(),
+                  "Whether the meshes, of dimension 2, are surfaces in space; without degrees.");
+  declare_scales(p);
+  p.declare_entry("meshes", "", Patterns::Anything(),
+                  "Labels of the meshes, separated by commas; each has a subsection 'mesh LABEL'.");
+  p.declare_entry(
+      "methods", "all", Patterns::Anything(),
+      "Methods, separated by commas, or 'all'. A label with a subsection 'method LABEL' "
+      "may be any registered method with other parameters.");
+}
+
+void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
+  const Subsection subsection(p, "mesh " + name);
+  p.declare_entry("title", name, Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("file", "", Patterns::Anything(),
+                  "Mesh file, relative to this file; empty: generate.");
+  p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
+  p.declare_entry("elements", "", Patterns::Selection("|" + one_of(element_names())),
+                  "Elements of a generated mesh; empty: the domain's default.");
+  p.declare_entry("edge scale", "1", Patterns::Double(1.0),
+                  "Edges of a generated mesh longer by this factor, besides the study's own.");
+  p.declare_entry("published file", "", Patterns::Anything(),
+                  "File that --mesh-dir looks for in place of the above; not distorted.");
+  p.declare_entry("distort to", "0", Patterns::Double(0.0, 1.0),
+                  "Mean quality to distort the mesh to; 0: as it is.");
+  p.declare_entry("distort within", "0", Patterns::Double(0.0),
+                  "Instead: radius to distort the mesh within, in mean lengths of a node's edges. "
+                  "Large meshes: the radius for a quality takes many trials.");
+  p.declare_entry("distortion candidates", std::to_string(usual_candidates(dimension)),
+                  Patterns::Integer(1), "Random positions that a node chooses the worst from.");
+  p.declare_entry("distortion sweeps", "1", Patterns::Integer(1), "Times all nodes are moved.");
+  p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
+}
+
+/// The parameters of a method are those it registers, with the defaults of a preset, if given, or
+/// its own.
+void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
+                    const std::string& type, const std::string& preset) {
+  const Subsection subsection(p, "method " + name);
+  p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
+  if (type.empty()) return;
+  with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+    auto method = make_method<dim, spacedim>(type);
+    p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
+                    "Title in tables and figures.");
+    p.declare_entry("threads", "0", Patterns::Integer(0, 1024),
+                    "Of smoothing; 0: as --smoothing-threads says.");
+    if (!preset.empty() && has_parameters_for(find_preset(preset), method))
+      apply_preset(find_preset(preset), method);
+    for (const auto& parameter : method.parameters())
+      p.declare_entry(parameter.name, value_text(parameter), *range_of(parameter),
+                      parameter.description);
+  });
+}
+
+void declare_problem(ParameterHandler& p) {
+  p.declare_entry("degrees", "1, 2", Patterns::Anything(),
+                  "Degrees of the finite elements; empty: smoothing only.");
+  p.declare_entry("record every", "1", Patterns::Integer(1),
+                  "Solve at every k-th iteration; the initial, the resulting and the last mesh "
+                  "always.");
+  p.declare_entry("record stages every", "", stage_numbers(),
+                  "The same for stages that are recorded otherwise: 'STAGE: k, ...'.");
+  p.declare_entry("timing runs", "3", Patterns::Integer(1),
+                  "Smoothing times are medians over this many runs.");
+  p.declare_entry("edge scale", "1", Patterns::Double(1.0),
+                  "Generated meshes: edges longer by this factor.");
+  p.declare_entry("record warpage", "false", Patterns::Bool(),
+                  "Warpage of volume meshes after every iteration, not only at the end.");
+  p.declare_entry("write series", "false", Patterns::Bool(),
+                  "Write each method's meshes as a VTU series (.pvd).");
+  {
+    const Subsection subsection(p, "solution");
+    p.declare_entry("name", "gear", Patterns::Anything(),
+                    "Solution (see 'list'), or 'expression' for the three below.");
+    p.declare_entry("value", "", Patterns::Anything(), "u as an expression in x and y (and z).");
+    p.declare_entry("gradient", "", Patterns::Anything(),
+                    "Its gradient: 'u_x ; u_y' (and '; u_z').");
+    p.declare_entry("load", "", Patterns::Anything(), "f = -laplace(u).");
+  }
+  {
+    const Subsection subsection(p, "finite elements");
+    p.declare_entry("load", "nodal", Patterns::Selection("nodal|quadrature"),
+                    "nodal: f interpolated (thesis); quadrature: Galerkin load.");
+    p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
+                    "Gauss points per direction on quadrilaterals.");
+    p.declare_entry("hexahedron points", "4", Patterns::Integer(1, 20),
+                    "Gauss points per direction on hexahedra.");
+    p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "On |r| / |b|.");
+    p.declare_entry("boundary in norm", "true", Patterns::Bool(),
+                    "Take the boundary values into |b| (the thesis' counts do).");
+    p.declare_entry("cg seconds", "0", Patterns::Double(0.0),
+                    "Longest time of each run of CG; 0: none. A run that is cut says so.");
+    p.declare_entry("condition number", "verified", Patterns::Selection("none|lanczos|verified"),
+                    "Of every record; initial and resulting meshes have verified ones if any.");
+    p.declare_entry("jacobi cg", "always", Patterns::Selection("never|results|always"),
+                    "For which meshes to run CG with Jacobi too; results: initial and resulting.");
+    p.declare_entry("multigrid cg", "never", Patterns::Selection("never|results|always"),
+                    "For which meshes to run CG with algebraic multigrid too.");
+  }
+  const Subsection subsection(p, "thresholds");
+  p.declare_entry("reference", "", Patterns::Anything(),
+                  "Method whose least errors set the thresholds; empty: none.");
+  p.declare_entry("margin", "0.05", Patterns::Double(0.0), "Fraction added to the least errors.");
+}
+
+void declare_scale(ParameterHandler& p, const std::string& name) {
+  const Subsection subsection(p, "scale " + name);
+  p.declare_entry("record every", "0", Patterns::Integer(0),
+                  "In place of the value above; 0: as it is.");
+  p.declare_entry("record stages every", "", stage_numbers(),
+                  "In place of the value above; empty: as it is.");
+  p.declare_entry("edge scale", "0", Patterns::Double(0.0),
+                  "In place of the value above; 0: as it is.");
+  p.declare_entry("timing runs", "0", Patterns::Integer(0),
+                  "In place of the value above; 0: as it is.");
+  p.declare_entry("meshes", "", Patterns::Anything(),
+                  "Those of the list above to take; empty: all.");
+}
+
+std::string study_template() {
+  ParameterHandler p;
+  declare_lists(p);
+  declare_problem(p);
+  declare_scale(p, "NAME");
+  declare_mesh(p, 2, "LABEL");
+  return commented_keys(p);
+}
+
+}  // namespace smoothfem

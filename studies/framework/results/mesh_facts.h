@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "smoothing/quality/mesh_quality.h"
+#include "studies/framework/definition/study.h"
+
+namespace smoothfem {
+
+/// What results say about one of a study's meshes.
+struct MeshFacts {
+  StudyMesh description;
+  std::size_t n_nodes = 0, n_cells = 0;
+  MeshQuality quality;
+  std::string origin;      ///< file path, or the domain and its distortion
+  std::string file{};      ///< with the mesh that smoothing starts from, in the folder of results
+  bool published = false;  ///< read by --mesh-dir: comparable with printed values digit for digit
+  std::string source_sha256;  ///< of the file it was read from; empty if it was generated
+  std::string sha256;         ///< of its text form in the results; empty until that is written
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/results/provenance.h"
+
+#include <sys/utsname.h>
+
+#include <Spectra/Util/Version.h>
+#include <Eigen/Core>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "smoothfem_commit.h"
+#include "smoothfem_versions.h"
+
+namespace smoothfem {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_model() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+Json describe_program() {
+  Json libraries;
+  for (const auto& [name, version] : library_versions()) libraries[name] = version;
+  return {{"name", "smoothfem"},
+          {"version", SMOOTHFEM_VERSION},
+          {"commit", SMOOTHFEM_COMMIT},
+          {"uncommitted_changes", SMOOTHFEM_DIRTY},
+          {"compiler", SMOOTHFEM_COMPILER},
+          {"flags", SMOOTHFEM_FLAGS},
+          {"libraries", libraries}};
+}
+
+Json describe_machine(const RunFacts& facts) {
+  utsname system{};
+  uname(&system);
+  return {{"cpu", cpu_model()},
+          {"system", std::string(system.sysname) + " " + system.release},
+          {"smoothing_threads", facts.processors.smoothing_threads},
+          {"finite_element_threads", facts.processors.finite_element_threads},
+          {"ranks", facts.processors.n_ranks}};
+}
+
+Json describe_meshes(const RunFacts& facts) {
+  Json meshes = Json::array();
+  for (const auto& mesh : facts.meshes) {
+    meshes.push_back({{"name", mesh.description.name},
+                      {"title", mesh.description.title},
+                      {"dimension", facts.dimensions.cells},
+                      {"origin", mesh.origin},
+                      {"source_sha256", mesh.source_sha256},
+                      {"published", mesh.published},
+                      {"seed", mesh.description.seed},
+                      {"n_nodes", mesh.n_nodes},
+                      {"n_cells", mesh.n_cells},
+                      {"q_min", mesh.quality.q_min},
+                      {"q_mean", mesh.quality.q_mean},
+                      {"file", mesh.file},
+                      {"sha256", mesh.sha256}});
+  }
+  return meshes;
+}
+
+/// Numbers as numbers, everything else as its text.
+Json json_value(const Parameter& parameter) {
+  if (const auto* number = std::get_if<double*>(&parameter.value)) return **number;
+  if (const auto* number = std::get_if<int*>(&parameter.value)) return **number;
+  return value_text(parameter);
+}
+
+Json describe_methods(const RunFacts& facts) {
+  Json methods = Json::array();
+  with_dimensions(facts.dimensions, [&]<int dim, int spacedim>() {
+    for (const auto& entry : facts.methods) {
+      auto method = entry.make<dim, spacedim>();
+      Json parameters;
+      for (const auto& parameter : method.parameters())
+        parameters[parameter.name] = json_value(parameter);
+      methods.push_back({{"name", entry.name},
+                         {"title", entry.title},
+                         {"type", entry.type},
+                         {"threads", entry.threads},
+                         {"citation", method.info.source},
+                         {"parameters", parameters}});
+    }
+  });
+  return methods;
+}
+
+/// The sessions before, and this one.
+Json describe_sessions(const RunFacts& facts) {
+  Json sessions =
+      facts.earlier_sessions.empty() ? Json::array() : Json::parse(facts.earlier_sessions);
+  Json seconds = Json::object();
+  for (const auto& [phase, value] : facts.seconds) seconds[phase] = value;
+  sessions.push_back({{"started", facts.started},
+                      {"commit", SMOOTHFEM_COMMIT},
+                      {"uncommitted_changes", SMOOTHFEM_DIRTY},
+                      {"machine", describe_machine(facts)},
+                      {"seconds", seconds}});
+  return sessions;
+}
+
+Json seconds_of(const Json& sessions) {
+  std::map<std::string, double> sums;
+  for (const auto& session : sessions)
+    for (const auto& [phase, value] : session.at("seconds").items())
+      sums[phase] += value.get<double>();
+  return sums;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> library_versions() {
+  return {
+      {"deal.II", SMOOTHFEM_DEAL_II_VERSION},
+      {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                    "." + std::to_string(EIGEN_MINOR_VERSION)},
+      {"Gmsh", SMOOTHFEM_GMSH_VERSION},
+      {"Spectra", std::to_string(SPECTRA_MAJOR_VERSION) + "." +
+                      std::to_string(SPECTRA_MINOR_VERSION) + "." +
+                      std::to_string(SPECTRA_PATCH_VERSION)},
+      {"Trilinos", SMOOTHFEM_TRILINOS_VERSION},
+      {"VTK", SMOOTHFEM_VTK_VERSION}};
+}
+
+std::string provenance_json(const RunFacts& facts) {
+  Json json;
+  json["study"] = facts.study.name;
+  json["study_title"] = facts.study.title;
+  json["note"] = facts.study.note;
+  json["status"] = facts.status;
+  json["written"] = now_utc();
+  json["scale"] = facts.study.scale.empty() ? "default" : facts.study.scale;
+  json["program"] = describe_program();
+  json["machine"] = describe_machine(facts);
+  json["meshes"] = describe_meshes(facts);
+  json["methods"] = describe_methods(facts);
+  Json parameters;
+  for (const auto& [key, value] : facts.study.parameters) parameters[key] = value;
+  json["parameters"] = parameters;
+  json["settings"] = settings_of(facts.study, facts.meshes);
+  json["sessions"] = describe_sessions(facts);
+  json["seconds"] = seconds_of(json["sessions"]);
+  return json.dump(2) + "\n";
+}
+
+EarlierRun read_provenance(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  if (!stream) return {};
+  try {
+    const Json json = Json::parse(stream);
+    EarlierRun run{.status = json.at("status"),
+                   .commit = json.at("program").at("commit"),
+                   .sessions = json.at("sessions").dump(),
+                   .settings = json.at("settings"),
+                   .meshes = {}};
+    for (const auto& mesh : json.at("meshes")) run.meshes[mesh.at("name")] = mesh.at("sha256");
+    return run;
+  } catch (const Json::exception&) {
+    throw InputError(
+        path.string() +
+        " is not what this program writes, so it is not known what the results beside "
+        "it are; start anew with --force, which keeps them under another name, or take "
+        "another --out");
+  }
+}
+
+std::map<std::string, std::string> settings_of(const StudyHeader& study,
+                                               const std::vector<MeshFacts>& meshes) {
+  std::map<std::string, std::string> settings(study.file_parameters.begin(),
+                                              study.file_parameters.end());
+  settings["--scale"] = study.scale;
+  for (const auto& mesh : meshes) {
+    settings["source of mesh " + mesh.description.name] = mesh.origin;
+    if (!mesh.source_sha256.empty())
+      settings["content of mesh " + mesh.description.name] = mesh.source_sha256;
+  }
+  return settings;
+}
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+std::string program_commit() {
+  return SMOOTHFEM_COMMIT;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/results/results.h"
+
+#include <array>
+#include <map>
+#include <tuple>
+
+#include "studies/framework/results/csv_text.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr const char* solution_columns =
+    "degree,n_dofs,n_free,condition_number,condition_method,lambda_min,lambda_max,"
+    "condition_residual,cg_iterations,cg_seconds,cg_converged,jacobi_cg_iterations,"
+    "jacobi_cg_seconds,amg_cg_iterations,amg_setup_seconds,amg_cg_seconds,e_max,e_mean,e_l2,e_h1,"
+    "l2_error,h1_error,status";
+constexpr int n_solution_numbers = 21;  ///< between degree and status
+
+void add_quality(CsvText& csv, const MeshQuality& quality) {
+  csv.number(quality.q_min).number(quality.q_star_min).number(quality.q_mean);
+  csv.integer(quality.n_invalid);
+}
+
+/// Empty where there are no quadrilateral faces.
+void add_warpage(CsvText& csv, const std::optional<MeshWarpage>& warpage) {
+  const bool known = warpage && warpage->n_faces > 0;
+  csv.number(known ? std::optional(warpage->max) : std::nullopt);
+  csv.number(known ? std::optional(warpage->mean) : std::nullopt);
+}
+
+void add_solution(CsvText& csv, int degree, const std::optional<SolutionRecord>& solved,
+                  const std::string& status) {
+  csv.field(degree > 0 ? std::to_string(degree) : "");
+  if (!solved) {
+    for (int i = 0; i < n_solution_numbers; ++i) csv.field("");
+    csv.field(status);
+    return;
+  }
+  const SolutionRecord& s = *solved;
+  const auto if_known = [](double value) {
+    return value > 0.0 ? std::optional<double>(value) : std::nullopt;
+  };
+  csv.integer(s.n_dofs).integer(s.n_free).number(if_known(s.condition_number));
+  csv.field(s.condition_method).number(if_known(s.lambda_min)).number(if_known(s.lambda_max));
+  csv.number(s.condition_number > 0.0 ? std::optional(s.condition_residual) : std::nullopt);
+  csv.integer(s.cg_iterations).number(s.cg_seconds).field(s.cg_converged ? "true" : "false");
+  if (s.jacobi_cg_iterations > 0)
+    csv.integer(s.jacobi_cg_iterations).number(s.jacobi_cg_seconds);
+  else
+    csv.field("").field("");
+  if (s.amg_cg_iterations > 0)
+    csv.integer(s.amg_cg_iterations).number(s.amg_setup_seconds).number(s.amg_cg_seconds);
+  else
+    csv.field("").field("").field("");
+  csv.number(s.e_max).number(s.e_mean).number(s.e_l2).number(s.e_h1);
+  csv.number(s.l2_error).number(s.h1_error).field(status);
+}
+
+struct NamedError {
+  const char* name;
+  double SolutionRecord::*value;
+};
+constexpr std::array<NamedError, 4> threshold_errors{{{"e_max", &SolutionRecord::e_max},
+                                                      {"e_mean", &SolutionRecord::e_mean},
+                                                      {"e_l2", &SolutionRecord::e_l2},
+                                                      {"e_h1", &SolutionRecord::e_h1}}};
+
+using Curve = std::vector<const IterationRow*>;  ///< one method's solved rows, in time
+
+std::optional<double> first_time_below(const Curve& curve, const NamedError& error,
+                                       double threshold) {
+  for (const auto* row : curve)
+    if ((*row->solved).*error.value <= threshold) return row->iteration.smoothing_seconds;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
+                                           const std::string& reference, double margin) {
+  // In the order of the rows: meshes, then degrees, then methods.
+  std::vector<std::pair<std::string, int>> groups;
+  std::map<std::pair<std::string, int>, std::vector<std::pair<std::string, Curve>>> curves;
+  for (const auto& row : rows) {
+    if (!row.solved) continue;
+    const std::pair key(row.mesh, row.degree);
+    auto& methods = curves[key];
+    if (methods.empty()) groups.push_back(key);
+    auto found = methods.begin();
+    while (found != methods.end() && found->first != row.method) ++found;
+    if (found == methods.end()) found = methods.insert(methods.end(), {row.method, {}});
+    found->second.push_back(&row);
+  }
+  std::vector<ThresholdRow> result;
+  for (const auto& group : groups) {
+    const auto& methods = curves[group];
+    for (const auto& error : threshold_errors) {
+      for (const auto& [reference_name, reference_curve] : methods) {
+        if (reference_name != reference) continue;
+        double least = (*reference_curve.front()->solved).*error.value;
+        for (const auto* row : reference_curve)
+          least = std::min(least, (*row->solved).*error.value);
+        const double threshold = (1.0 + margin) * least;
+        for (const auto& [method, curve] : methods)
+          if (method != reference)
+            result.push_back({group.first, group.second, error.name, threshold, reference,
+                              first_time_below(reference_curve, error, threshold), method,
+                              first_time_below(curve, error, threshold)});
+      }
+    }
+  }
+  return result;
+}
+
+std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows) {
+  CsvText csv(std::string("study,mesh,method,stage,iteration,smoothing_seconds,q_min,q_star_min,"
+                          "q_mean,n_invalid,n_reset,w_max,w_mean,") +
+              solution_columns);
+  for (const auto& row : rows) {
+    csv.field(study).field(row.mesh).field(row.method).field(row.iteration.stage);
+    csv.integer(row.iteration.iteration).number(row.iteration.smoothing_seconds);
+    add_quality(csv, row.iteration.quality);
+    csv.integer(row.iteration.n_reset);
+    add_warpage(csv, row.warpage);
+    add_solution(csv, row.degree, row.solved, row.status);
+    csv.end_line();
+  }
+  return csv.text();
+}
+
+std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows) {
+  CsvText csv(std::string("study,mesh,method,iterations,smoothing_seconds,q_min,q_star_min,q_mean,"
+                          "n_invalid,w_max,w_mean,peak_memory_gib,") +
+              solution_columns);
+  for (const auto& row : rows) {
+    csv.field(study).field(row.mesh).field(row.method).field(row.iterations);
+    csv.number(row.iterations.empty() ? std::nullopt : std::optional(row.smoothing_seconds));
+    add_quality(csv, row.quality);
+    add_warpage(csv, row.warpage);
+    csv.number(row.peak_memory_gib);
+    add_solution(csv, row.degree, row.solved, row.status);
+    csv.end_line();
+  }
+  return csv.text();
+}
+
+std::string thresholds_csv(const std::string& study, const std::vector<ThresholdRow>& rows) {
+  CsvText csv(
+      "study,mesh,degree,error,threshold,reference_method,reference_seconds,method,"
+      "method_seconds,speedup");
+  for (const auto& row : rows) {
+    std::optional<double> speedup;
+    if (row.reference_seconds && row.method_seconds && *row.method_seconds > 0.0)
+      speedup = *row.reference_seconds / *row.method_seconds;
+    csv.field(study).field(row.mesh).field(std::to_string(row.degree)).field(row.error);
+    csv.number(row.threshold).field(row.reference_method).number(row.reference_seconds);
+    csv.field(row.method).number(row.method_seconds).number(speedup);
+    csv.end_line();
+  }
+  return csv.text();
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "studies/framework/results/provenance.h"
+
+namespace smoothfem {
+
+/// Before hours of work, and without leaving a trace: can files be written below this folder?
+/// Throws InputError.
+void require_writable(const std::filesystem::path& folder);
+
+/// --mesh-dir must not be taken for something that it does not do. Throws InputError.
+void require_published_files(const Study& study, const std::filesystem::path& mesh_dir);
+
+/// Renames the folder, if it holds anything, to the first of NAME_1, NAME_2, ... that is not there.
+void rename_existing(const std::filesystem::path& folder);
+
+/// Throws InputError that says what differs if the run in a folder was one with other settings.
+/// meshes: empty as long as nothing is known of them.
+void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
+                           const std::vector<MeshFacts>& meshes,
+                           const std::filesystem::path& folder);
+
+}  // namespace smoothfem

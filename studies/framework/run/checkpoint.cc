@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/checkpoint.h"
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "meshes/io/atomic_file.h"
+
+namespace smoothfem {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshQuality, q_min, q_star_min, q_mean, n_invalid)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshWarpage, max, mean, n_faces)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(IterationRecord, record, stage, iteration, smoothing_seconds,
+                                   quality, n_reset)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record, iterations_text,
+                                   smoothing_seconds, quality, warpage, warpage_of_records,
+                                   peak_memory_gib)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, condition_number,
+                                   lambda_min, lambda_max, condition_method, condition_residual,
+                                   cg_iterations, jacobi_cg_iterations, amg_cg_iterations,
+                                   cg_seconds, jacobi_cg_seconds, amg_setup_seconds, amg_cg_seconds,
+                                   cg_converged, e_max, e_mean, e_l2, e_h1, l2_error, h1_error,
+                                   status)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, eigenvectors)
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::optional<std::string> content_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+[[noreturn]] void fail(const fs::path& path) {
+  throw InputError(path.string() +
+                   " is damaged: it is not what an earlier run has written; start the study anew "
+                   "with --force");
+}
+
+/// CBOR keeps every bit of a double, and is short.
+template <class T>
+void save_as_cbor(const fs::path& path, const T& value) {
+  const auto bytes = Json::to_cbor(Json(value));
+  write_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+template <class T>
+std::optional<T> load_cbor(const fs::path& path) {
+  const auto content = content_of(path);
+  if (!content) return std::nullopt;
+  try {
+    return Json::from_cbor(*content).get<T>();
+  } catch (const Json::exception&) {
+    fail(path);
+  }
+}
+
+}  // namespace
+
+std::string Checkpoint::name(const std::string& mesh, const std::string& method, int degree) {
+  return mesh + "_" + method + (degree > 0 ? "_d" + std::to_string(degree) : "");
+}
+
+fs::path Checkpoint::numbers_path(const std::string& name, std::size_t record) const {
+  return folder_ / name / (std::to_string(record) + ".numbers");
+}
+
+void Checkpoint::save_numbers(const std::string& name, std::size_t record,
+                              const std::vector<double>& numbers) const {
+  write_atomically(numbers_path(name, record), {reinterpret_cast<const char*>(numbers.data()),
+                                                numbers.size() * sizeof(double)});
+}
+
+std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_t record) const {
+  const fs::path path = numbers_path(name, record);
+  const auto content = content_of(path);
+  if (!content || content->size() % sizeof(double) != 0) fail(path);
+  std::vector<double> numbers(content->size() / sizeof(double));
+  std::memcpy(numbers.data(), content->data(), content->size());
+  return numbers;
+}
+
+void Checkpoint::save(const std::string& name, const Trajectory& trajectory) const {
+  if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the numbers it refers to
+  save_as_cbor(folder_ / (name + ".trajectory"), trajectory);
+}
+
+std::optional<Trajectory> Checkpoint::load_trajectory(const std::string& name) const {
+  return load_cbor<Trajectory>(folder_ / (name + ".trajectory"));
+}
+
+void Checkpoint::save(const std::string& name, const SolvedRecords& solved) const {
+  save_as_cbor(folder_ / (name + ".solved"), solved);
+}
+
+std::optional<SolvedRecords> Checkpoint::load_solved(const std::string& name) const {
+  return load_cbor<SolvedRecords>(folder_ / (name + ".solved"));
+}
+
+void Checkpoint::remove() const {
+  std::error_code ignored;  // leftovers are harmless
+  fs::remove_all(folder_, ignored);
+}
+
+template <int dim>
+std::vector<double> numbers_of(std::span<const Point<dim>> points) {
+  std::vector<double> numbers;
+  numbers.reserve(dim * points.size());
+  for (const auto& p : points) numbers.insert(numbers.end(), p.begin(), p.end());
+  return numbers;
+}
+template std::vector<double> numbers_of(std::span<const Point<2>>);
+template std::vector<double> numbers_of(std::span<const Point<3>>);
+
+template <int dim>
+std::vector<Point<dim>> points_of(const std::vector<double>& numbers) {
+  std::vector<Point<dim>> points(numbers.size() / dim);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = Eigen::Map<const Point<dim>>(&numbers[dim * i]);
+  return points;
+}
+template std::vector<Point<2>> points_of(const std::vector<double>&);
+template std::vector<Point<3>> points_of(const std::vector<double>&);
+
+}  // namespace smoothfem

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+
+namespace smoothfem {
+
+/// How many seconds the phases of a run have taken.
+class PhaseTimes {
+ public:
+  template <class Work>
+  void measure(const std::string& phase, const Work& work) {
+    phase_ = phase;
+    started_ = Clock::now();
+    work();
+    seconds_ = seconds();
+    phase_.clear();
+  }
+
+  /// By phase; up to now for the one under way.
+  std::map<std::string, double> seconds() const {
+    auto result = seconds_;
+    if (!phase_.empty())
+      result[phase_] = std::chrono::duration<double>(Clock::now() - started_).count();
+    return result;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::map<std::string, double> seconds_;
+  std::string phase_;  ///< under way; empty: none
+  Clock::time_point started_;
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/run_study.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+#include "meshes/io/atomic_file.h"
+#include "smoothing/base/parallel.h"
+#include "studies/framework/results/provenance.h"
+#include "studies/framework/results/results_folder.h"
+#include "studies/framework/run/phase_times.h"
+#include "studies/framework/run/progress.h"
+#include "studies/framework/run/solve_workers.h"
+#include "studies/framework/run/study_data.h"
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+template <int dim, int spacedim>
+class StudyRun {
+ public:
+  StudyRun(const Study& study, const StudyOptions& options)
+      : study_(study),
+        options_(options),
+        team_(options.ranks),
+        n_threads_(options.n_threads > 0 ? options.n_threads
+                                         : std::max(1U, std::thread::hardware_concurrency())),
+        progress_(options.quiet),
+        data_{study, Checkpoint(options.out / "checkpoint")} {}
+
+  void run() {
+    // Everything the user gave is checked before the first file is written.
+    require_writable(options_.out);
+    require_published_files(study_, options_.mesh_dir);
+    if (options_.force) rename_existing(options_.out);
+    earlier_ = read_provenance(options_.out / "provenance.json");
+    require_same_settings(earlier_, study_.header, {}, options_.out);
+    times_.measure("meshes", [&] {
+      prepare_meshes();
+      require_same_settings(earlier_, study_.header, mesh_facts(), options_.out);
+      if (!study_.degrees.empty()) data_.solution = make_solution();
+    });
+    if (earlier_.status == "complete") return report_complete();
+    begin_writing();
+    times_.measure("smoothing", [&] { smooth_meshes(); });
+    make_tasks(data_);
+    if (!study_.degrees.empty()) times_.measure("finite_elements", [&] { solve(); });
+    times_.measure("writing", [&] { write_results(); });
+    write_provenance("complete");
+    data_.checkpoint.remove();
+  }
+
+ private:
+  void report_complete() {
+    std::string text = "The results in " + options_.out.string() + " are complete";
+    if (earlier_.commit != program_commit())
+      text += " (by the program at commit " + earlier_.commit + ")";
+    progress_.say(text + ": nothing to do. --force starts anew and keeps them under another name.");
+  }
+
+  std::vector<MeshFacts> mesh_facts() const { return {data_.meshes.begin(), data_.meshes.end()}; }
+
+  void prepare_meshes() {
+    progress_.begin("Meshes", study_.meshes.size());
+    for (const auto& description : study_.meshes) {
+      progress_.update(data_.meshes.size(), description.name);
+      data_.meshes.push_back(
+          prepare_mesh<dim, spacedim>(description, study_, options_.mesh_dir,
+                                      earlier_.status.empty() ? fs::path() : options_.out));
+      stop_if_interrupted();
+    }
+    progress_.end();
+  }
+
+  /// Expressions are checked at nodes of the first mesh.
+  ManufacturedSolution<spacedim> make_solution() const {
+    const auto& points = data_.meshes.front().mesh.coordinates();
+    std::vector<Point<spacedim>> sample;
+    for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
+      sample.push_back(points[i]);
+    return study_solution<spacedim>(study_.solution, sample);
+  }
+
+  /// The provenance first: results of an earlier run are then not taken for those of this one.
+  void begin_writing() {
+    writing_ = true;
+    if (earlier_.status.empty()) {
+      data_.checkpoint.remove();  // of a run whose provenance is gone
+      write_provenance("running");
+      for (auto& prepared : data_.meshes) write_initial_mesh(prepared, options_.out);
+    } else {
+      for (auto& prepared : data_.meshes) require_same_mesh(prepared, earlier_, options_.out);
+      progress_.say("Going on where the run in " + options_.out.string() + " was.");
+    }
+    write_provenance("running");  // now with the checksums
+  }
+
+  void smooth_meshes() {
+    progress_.begin("Smoothing", data_.meshes.size() * study_.methods.size());
+    std::size_t done = 0;
+    for (const auto& prepared : data_.meshes) {
+      auto& of_mesh = data_.trajectories.emplace_back();
+      for (const auto& method : study_.methods) {
+        const std::string what = prepared.description.name + ", " + method.title;
+        of_mesh.push_back(trajectory_of(prepared, method, [&](const IterationRecord& record) {
+          stop_if_interrupted();
+          progress_.update(done, what + ": " + iteration_text(record));
+        }));
+        ++done;
+        stop_if_interrupted();
+      }
+    }
+    progress_.end();
+  }
+
+  /// "simultaneous 120, q_mean 0.7312"
+  static std::string iteration_text(const IterationRecord& record) {
+    char q_mean[16];
+    std::snprintf(q_mean, sizeof(q_mean), "%.4f", record.quality.q_mean);
+    return record.stage + " " + std::to_string(record.iteration) + ", q_mean " + q_mean;
+  }
+
+  Trajectory trajectory_of(const PreparedMesh<dim, spacedim>& prepared, const StudyMethod& method,
+                           const WatchIteration& watch) {
+    const std::string name = Checkpoint::name(prepared.description.name, method.name);
+    if (auto known = data_.checkpoint.load_trajectory(name)) return *std::move(known);
+    set_n_threads(method.threads > 0 ? method.threads
+                                     : static_cast<int>(options_.smoothing_threads));
+    const Trajectory trajectory = record_trajectory(
+        prepared.mesh, method, study_,
+        [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
+          data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
+        },
+        watch);
+    data_.checkpoint.save(name, trajectory);
+    return trajectory;
+  }
+
+  void solve() {
+    std::vector<SolveTask*> open;
+    for (auto& task : data_.tasks)
+      if (!task.done) open.push_back(&task);
+    progress_.begin("Finite elements", data_.tasks.size());
+    run_tasks(open);
+    progress_.end();
+  }
+
+  std::vector<SolveQueue::Worker> workers(const std::vector<SolveTask*>& open) {
+    if constexpr (spacedim > dim)
+      return {};
+    else if constexpr (dim == 2)
+      return solve_workers(data_, open, n_threads_);
+    else
+      return solve_workers(data_, open, team_);
+  }
+
+  /// Waits for the queue; writes the rows there are every few seconds.
+  void run_tasks(const std::vector<SolveTask*>& open) {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto look = std::chrono::milliseconds(50);
+    constexpr auto between_writes = std::chrono::seconds(5);
+    const std::size_t n_known = data_.tasks.size() - open.size();
+    SolveQueue queue(open.size(), workers(open));
+    auto last_write = Clock::now() - between_writes;
+    while (!queue.finished()) {
+      std::this_thread::sleep_for(look);
+      stop_if_interrupted();
+      const std::size_t n_done = n_known + queue.n_done();
+      progress_.update(
+          n_done, std::to_string(n_done) + " of " + std::to_string(data_.tasks.size()) + " solved");
+      if (Clock::now() - last_write < between_writes) continue;
+      write_iterations();
+      write_provenance("running");
+      last_write = Clock::now();
+    }
+    queue.rethrow();
+  }
+
+  /// Tasks may be under way on other threads, for a long time: the process ends without them. What
+  /// is done is in the checkpoint.
+  void stop_if_interrupted() {
+    if (options_.interrupted == nullptr || !*options_.interrupted) return;
+    if (!writing_) {
+      progress_.say("Interrupted before the first result.");
+      std::_Exit(130);
+    }
+    const auto rows = write_iterations();
+    write_provenance("interrupted");
+    progress_.say("Interrupted: the " + std::to_string(rows) + " rows finished so far are in " +
+                  (options_.out / "iterations.csv").string() +
+                  "; the same command goes on from here.");
+    std::_Exit(130);
+  }
+
+  std::size_t write_iterations() const {
+    const auto rows = finished_rows(data_);
+    write_atomically(options_.out / "iterations.csv", iterations_csv(study_.header.name, rows));
+    return rows.size();
+  }
+
+  void write_results() {
+    progress_.begin("Results", 0);
+    write_iterations();
+    write_atomically(options_.out / "summary.csv",
+                     summary_csv(study_.header.name, summary_rows(data_)));
+    const auto thresholds =
+        study_.thresholds.reference.empty()
+            ? std::vector<ThresholdRow>()
+            : reach_thresholds(finished_rows(data_), study_.thresholds.reference,
+                               study_.thresholds.margin);
+    write_atomically(options_.out / "thresholds.csv",
+                     thresholds_csv(study_.header.name, thresholds));
+    write_meshes(data_, options_.out);
+    progress_.end();
+  }
+
+  void write_provenance(const std::string& status) {
+    write_atomically(
+        options_.out / "provenance.json",
+        provenance_json({.study = study_.header,
+                         .processors = {options_.smoothing_threads, dim == 2 ? n_threads_ : 1U,
+                                        options_.ranks.size()},
+                         .status = status,
+                         .started = started_,
+                         .seconds = times_.seconds(),
+                         .earlier_sessions = earlier_.sessions,
+                         .dimensions = study_.dimensions,
+                         .meshes = mesh_facts(),
+                         .methods = study_.methods}));
+  }
+
+  const Study& study_;
+  const StudyOptions& options_;
+  SolverTeam team_;  ///< the other ranks wait for its orders from the beginning
+  unsigned int n_threads_;
+  mutable Progress progress_;
+  StudyData<dim, spacedim> data_;
+  EarlierRun earlier_;
+  bool writing_ = false;  ///< the folder of the results holds files of this run
+  const std::string started_ = now_utc();
+  PhaseTimes times_;
+};
+
+}  // namespace
+
+void run_study(const Study& study, const StudyOptions& options) {
+  if (study.dimensions.cells == 2 && options.ranks.size() > 1)
+    throw InputError("the study " + study.header.name +
+                     " has planar meshes, whose records are shared among threads, not processes: "
+                     "start it without mpirun");
+  if (!options.ranks.is_root()) return serve_solves(study, options.ranks);
+  with_dimensions(study.dimensions,
+                  [&]<int dim, int spacedim>() { StudyRun<dim, spacedim>(study, options).run(); });
+}
+
+}  // namespace smoothfem

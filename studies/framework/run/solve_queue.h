@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace smoothfem {
+
+/// Runs tasks, numbered in order, on several threads. Each thread has a worker of its own; one
+/// thread takes them in their order.
+class SolveQueue {
+ public:
+  using Worker = std::function<void(std::size_t task)>;
+
+  SolveQueue(std::size_t n_tasks, std::vector<Worker> workers);
+  /// Lets tasks under way finish, starts no other.
+  ~SolveQueue();
+  SolveQueue(const SolveQueue&) = delete;
+
+  std::size_t n_done() const { return n_done_; }
+  bool finished() const { return n_done_ == n_tasks_ || failed_; }
+  /// Throws what a task has thrown, if one has.
+  void rethrow() const;
+
+ private:
+  void run_tasks(const Worker& worker);
+
+  std::size_t n_tasks_;
+  std::vector<Worker> workers_;
+  std::atomic<std::size_t> next_{0}, n_done_{0};
+  std::mutex mutex_;                 ///< of those that write failure_
+  std::exception_ptr failure_;       ///< the first one; written once, before failed_ is set
+  std::atomic<bool> failed_{false};  ///< then failure_ may be read without the mutex
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace smoothfem

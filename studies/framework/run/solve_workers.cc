@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/solve_workers.h"
+
+#include <mutex>
+
+namespace smoothfem {
+
+namespace {
+
+template <int dim>
+PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
+  PoissonOptions options = data.study.finite_elements;
+  options.degree = data.study.degrees[job.degree];
+  return options;
+}
+
+/// Results and series show nodal errors.
+bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
+  return task.is_result || study.write_series;
+}
+
+/// The solvers of planar meshes and degrees, made when first needed. Threads take copies, which
+/// share what depends on the topology.
+class PlanarSolvers {
+ public:
+  explicit PlanarSolvers(const StudyData<2>& data) : data_(data) {}
+
+  std::unique_ptr<PoissonSolver<2>> copy(const SolveJob& job) {
+    const std::lock_guard guard(mutex_);
+    auto& solver = solvers_[{job.mesh, job.degree}];
+    if (!solver)
+      solver =
+          std::make_unique<PoissonSolver<2>>(&data_.meshes[job.mesh].mesh, options_of(data_, job));
+    return std::make_unique<PoissonSolver<2>>(*solver);
+  }
+
+ private:
+  const StudyData<2>& data_;
+  std::mutex mutex_;
+  std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PoissonSolver<2>>> solvers_;
+};
+
+/// One thread's work on planar meshes.
+class PlanarWorker {
+ public:
+  PlanarWorker(StudyData<2>& data, std::shared_ptr<PlanarSolvers> solvers)
+      : data_(data), solvers_(std::move(solvers)) {}
+
+  void work(SolveTask& task) {
+    const SolveJob& job = task.job;
+    if (!solver_ || mesh_ != job.mesh || degree_ != job.degree) {
+      solver_ = solvers_->copy(job);
+      mesh_ = job.mesh;
+      degree_ = job.degree;
+    }
+    SolutionRecord solution =
+        solver_->solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+    if (keeps_nodal_errors(data_.study, task))
+      data_.checkpoint.save_numbers(job.name, task.record, solver_->nodal_errors());
+    finish_task(task, std::move(solution), {}, data_.checkpoint);
+  }
+
+ private:
+  StudyData<2>& data_;
+  std::shared_ptr<PlanarSolvers> solvers_;
+  std::unique_ptr<PoissonSolver<2>> solver_;
+  std::size_t mesh_ = 0, degree_ = 0;  ///< of the solver
+};
+
+/// The root's work on volume meshes. Eigenvectors go from record to record of a job, from job to
+/// job they do not: then it does not matter where a run was interrupted.
+class TeamWorker {
+ public:
+  TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team) {}
+
+  void work(SolveTask& task) {
+    const SolveJob& job = task.job;
+    const bool other_solver =
+        job_ == nullptr || job_->mesh != job.mesh || job_->degree != job.degree;
+    if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
+    if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
+    job_ = &job;
+    SolutionRecord solution =
+        team_.solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+    if (keeps_nodal_errors(data_.study, task))
+      data_.checkpoint.save_numbers(job.name, task.record, team_.nodal_errors());
+    finish_task(task, std::move(solution), team_.eigenvectors(), data_.checkpoint);
+  }
+
+ private:
+  StudyData<3>& data_;
+  SolverTeam& team_;
+  const SolveJob* job_ = nullptr;  ///< last worked on
+};
+
+}  // namespace
+
+template <int dim>
+ManufacturedSolution<dim> study_solution(const StudySolution& solution,
+                                         std::span<const Point<dim>> sample) {
+  if (solution.name != "expression") return manufactured_solution<dim>(solution.name);
+  return parsed_solution<dim>(solution.value, solution.gradient, solution.load, sample);
+}
+template ManufacturedSolution<2> study_solution(const StudySolution&, std::span<const Point<2>>);
+template ManufacturedSolution<3> study_solution(const StudySolution&, std::span<const Point<3>>);
+
+std::vector<SolveQueue::Worker> solve_workers(StudyData<2>& data,
+                                              const std::vector<SolveTask*>& tasks,
+                                              unsigned int n_threads) {
+  const auto solvers = std::make_shared<PlanarSolvers>(data);
+  std::vector<SolveQueue::Worker> workers;
+  for (unsigned int i = 0; i < n_threads; ++i)
+    workers.push_back([&tasks, worker = std::make_shared<PlanarWorker>(data, solvers)](
+                          std::size_t task) { worker->work(*tasks[task]); });
+  return workers;
+}
+
+std::vector<SolveQueue::Worker> solve_workers(StudyData<3>& data,
+                                              const std::vector<SolveTask*>& tasks,
+                                              SolverTeam& team) {
+  return {[&tasks, worker = std::make_shared<TeamWorker>(data, team)](std::size_t task) {
+    worker->work(*tasks[task]);
+  }};
+}
+
+void serve_solves(const Study& study, const Ranks& ranks) {
+  SolverTeam::serve(ranks, study.finite_elements, study_solution<3>(study.solution, {}));
+}
+
+}  // namespace smoothfem

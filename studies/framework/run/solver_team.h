@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fem/poisson_solver.h"
+
+namespace smoothfem {
+
+/// Finite elements on several processes: the root says what is to be done, and the others do their
+/// part of it. While the root does something else, such as smoothing, they sleep. For volume
+/// meshes; with one process it is a solver like any other.
+class SolverTeam {
+ public:
+  /// On the root.
+  explicit SolverTeam(const Ranks& ranks) : ranks_(ranks) {}
+  /// Releases the workers: `serve` returns on the other ranks.
+  ~SolverTeam();
+  SolverTeam(const SolverTeam&) = delete;
+
+  /// On all ranks but the root: takes part until the root's team ends. options: the degree is the
+  /// root's.
+  static void serve(const Ranks& ranks, const PoissonOptions& options,
+                    const ManufacturedSolution<3>& solution);
+
+  /// The functions of PoissonSolver, on the root. The solver before is given up first. solution:
+  /// the one that the others have.
+  void make_solver(const Mesh<3>& mesh, const PoissonOptions& options);
+  SolutionRecord solve(std::span<const Point<3>> coordinates,
+                       const ManufacturedSolution<3>& solution, bool is_result);
+  std::vector<double> nodal_errors();
+  std::vector<double> eigenvectors();
+  void set_eigenvectors(const std::vector<double>& eigenvectors);
+
+ private:
+  const Ranks ranks_;
+  std::unique_ptr<PoissonSolver<3>> solver_;
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/study_data.h"
+
+#include "meshes/io/mesh_file.h"
+#include "meshes/io/vtu_series.h"
+
+namespace smoothfem {
+
+namespace {
+
+using Tasks = std::vector<SolveTask*>;
+
+/// What a row says about finite elements: one entry per degree whose task is done, or the reason
+/// why there are no numbers.
+struct Outcome {
+  int degree = 0;
+  std::optional<SolutionRecord> solved{};
+  std::string status{};
+};
+
+std::vector<Outcome> outcomes(const Study& study, const Tasks& tasks, bool invalid) {
+  if (study.degrees.empty()) return {{.status = invalid ? "invalid mesh" : "not solved"}};
+  std::vector<Outcome> result;
+  for (std::size_t d = 0; d < study.degrees.size(); ++d) {
+    const int degree = study.degrees[d];
+    if (invalid)
+      result.push_back({.degree = degree, .status = "invalid mesh"});
+    else if (tasks[d]->done)
+      result.push_back({degree, tasks[d]->solution, tasks[d]->solution.status});
+  }
+  return result;
+}
+
+template <int dim, int spacedim>
+void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::size_t method,
+                 std::size_t record, const Tasks& tasks, std::vector<IterationRow>& rows) {
+  const Trajectory& trajectory = data.trajectories[mesh][method];
+  const IterationRecord& iteration = trajectory.records[record];
+  const auto warpage = record < trajectory.warpage_of_records.size()
+                           ? std::optional(trajectory.warpage_of_records[record])
+                           : std::nullopt;
+  for (auto& outcome : outcomes(data.study, tasks, iteration.quality.n_invalid > 0))
+    rows.push_back({data.meshes[mesh].description.name, data.study.methods[method].name, iteration,
+                    warpage, outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
+}
+
+void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
+                    std::vector<SummaryRow>& rows) {
+  for (auto& outcome : outcomes(study, tasks, row.quality.n_invalid > 0)) {
+    row.degree = outcome.degree;
+    row.solved = std::move(outcome.solved);
+    row.status = std::move(outcome.status);
+    rows.push_back(row);
+  }
+}
+
+/// The tasks of a method's resulting mesh: those of the initial mesh if it improved nothing.
+template <int dim, int spacedim>
+const Tasks& result_tasks(const StudyData<dim, spacedim>& data, std::size_t mesh,
+                          std::size_t method) {
+  const auto& trajectory = data.trajectories[mesh][method];
+  for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s)
+    if (trajectory.snapshots[s] == trajectory.result_record)
+      return data.mesh_tasks[mesh].methods[method][s];
+  return data.mesh_tasks[mesh].initial;
+}
+
+/// A mesh of a trajectory: record 0 is the initial one.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> mesh_of(const StudyData<dim, spacedim>& data, std::size_t m, std::size_t k,
+                            std::size_t record) {
+  const auto& mesh = data.meshes[m].mesh;
+  if (record == 0) return mesh;
+  const auto name = Checkpoint::name(data.meshes[m].description.name, data.study.methods[k].name);
+  return {mesh.shared_topology(), points_of<spacedim>(data.checkpoint.load_numbers(name, record)),
+          mesh.shared_constraints()};
+}
+
+template <int dim, int spacedim>
+MeshFields fields_of(const StudyData<dim, spacedim>& data, const Mesh<dim, spacedim>& mesh,
+                     const Tasks& tasks) {
+  MeshFields fields;
+  fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
+  if (!data.solution) return fields;
+  auto& exact = fields.point["exact_solution"];
+  for (const auto& p : mesh.coordinates()) exact.push_back(data.solution->value(p));
+  for (std::size_t d = 0; d < tasks.size(); ++d)
+    fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
+        data.checkpoint.load_numbers(tasks[d]->job.name, tasks[d]->record);
+  return fields;
+}
+
+template <int dim, int spacedim>
+void write_series(const StudyData<dim, spacedim>& data, std::size_t m, std::size_t k,
+                  const std::filesystem::path& out) {
+  const PreparedMesh<dim, spacedim>& prepared = data.meshes[m];
+  VtuSeries series(mesh_path(out, prepared.description.name, data.study.methods[k].name, ".pvd"));
+  series.add(0.0, prepared.mesh, fields_of(data, prepared.mesh, data.mesh_tasks[m].initial));
+  const auto& snapshots = data.trajectories[m][k].snapshots;
+  for (std::size_t s = 0; s < snapshots.size(); ++s) {
+    const Mesh<dim, spacedim> mesh = mesh_of(data, m, k, snapshots[s]);
+    series.add(static_cast<double>(snapshots[s]), mesh,
+               fields_of(data, mesh, data.mesh_tasks[m].methods[k][s]));
+  }
+}
+
+/// Jobs and their tasks come into being side by side; rows look tasks up by snapshot.
+template <int dim, int spacedim>
+class TaskMaker {
+ public:
+  explicit TaskMaker(StudyData<dim, spacedim>& data) : data_(data) {}
+
+  void make() {
+    for (std::size_t m = 0; m < data_.meshes.size(); ++m) {
+      auto& of_mesh = data_.mesh_tasks.emplace_back();
+      for (const auto& trajectory : data_.trajectories[m])
+        of_mesh.methods.emplace_back(trajectory.snapshots.size());
+      for (std::size_t d = 0; d < data_.study.degrees.size(); ++d) make_degree(m, d, of_mesh);
+    }
+  }
+
+ private:
+  void make_degree(std::size_t m, std::size_t d, MeshTasks& of_mesh) {
+    const std::string& mesh = data_.meshes[m].description.name;
+    const int degree = data_.study.degrees[d];
+    of_mesh.initial.push_back(
+        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d), 0, true));
+    for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
+      const std::string& method = data_.study.methods[k].name;
+      SolveJob& job =
+          add_job(Checkpoint::name(mesh, method, degree), Checkpoint::name(mesh, method), m, d);
+      const Trajectory& trajectory = data_.trajectories[m][k];
+      for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s) {
+        const std::size_t record = trajectory.snapshots[s];
+        if (trajectory.records[record].quality.n_invalid > 0) continue;
+        of_mesh.methods[k][s].push_back(add_task(job, record, record == trajectory.result_record));
+      }
+    }
+  }
+
+  SolveJob& add_job(std::string name, std::string trajectory, std::size_t mesh,
+                    std::size_t degree) {
+    SolveJob& job = data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree);
+    if (auto solved = data_.checkpoint.load_solved(job.name)) job.solved = std::move(*solved);
+    return job;
+  }
+
+  SolveTask* add_task(SolveJob& job, std::size_t record, bool is_result) {
+    SolveTask& task = data_.tasks.emplace_back(job, record, is_result);
+    ++job.n_tasks;
+    const auto found = job.solved.records.find(record);
+    if (found != job.solved.records.end()) {
+      task.solution = found->second;
+      task.done = true;
+    }
+    return &task;
+  }
+
+  StudyData<dim, spacedim>& data_;
+};
+
+}  // namespace
+
+template <int dim, int spacedim>
+std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const SolveTask& task) const {
+  if (task.job.trajectory.empty()) return meshes[task.job.mesh].mesh.copied_coordinates();
+  return points_of<spacedim>(checkpoint.load_numbers(task.job.trajectory, task.record));
+}
+
+template <int dim, int spacedim>
+void make_tasks(StudyData<dim, spacedim>& data) {
+  TaskMaker<dim, spacedim>(data).make();
+}
+
+void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> eigenvectors,
+                 const Checkpoint& checkpoint) {
+  constexpr auto between_saves = std::chrono::seconds(1);
+  SolveJob& job = task.job;
+  const std::lock_guard guard(job.mutex);
+  task.solution = solution;
+  job.solved.records[task.record] = std::move(solution);
+  job.solved.eigenvectors = std::move(eigenvectors);
+  const auto now = std::chrono::steady_clock::now();
+  if (job.solved.records.size() == job.n_tasks || now - job.saved > between_saves) {
+    checkpoint.save(job.name, job.solved);
+    job.saved = now;
+  }
+  task.done = true;
+}
+
+template <int dim, int spacedim>
+std::vector<IterationRow> finished_rows(const StudyData<dim, spacedim>& data) {
+  std::vector<IterationRow> rows;
+  for (std::size_t m = 0; m < data.mesh_tasks.size(); ++m)
+    for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
+      append_rows(data, m, k, 0, data.mesh_tasks[m].initial, rows);
+      const auto& snapshots = data.trajectories[m][k].snapshots;
+      for (std::size_t s = 0; s < snapshots.size(); ++s)
+        append_rows(data, m, k, snapshots[s], data.mesh_tasks[m].methods[k][s], rows);
+    }
+  return rows;
+}
+
+template <int dim, int spacedim>
+std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
+  std::vector<SummaryRow> rows;
+  for (std::size_t m = 0; m < data.meshes.size(); ++m) {
+    const std::string& name = data.meshes[m].description.name;
+    append_summary(data.study,
+                   {.mesh = name,
+                    .method = "initial",
+                    .quality = data.meshes[m].quality,
+                    .warpage = warpage_of(data.meshes[m].mesh)},
+                   data.mesh_tasks[m].initial, rows);
+    for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
+      const auto& trajectory = data.trajectories[m][k];
+      append_summary(data.study,
+                     {.mesh = name,
+                      .method = data.study.methods[k].name,
+                      .iterations = trajectory.iterations_text,
+                      .smoothing_seconds = trajectory.smoothing_seconds,
+                      .quality = trajectory.quality,
+                      .warpage = trajectory.warpage,
+                      .peak_memory_gib = trajectory.peak_memory_gib},
+                     result_tasks(data, m, k), rows);
+    }
+  }
+  return rows;
+}
+
+std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,
+                                const std::string& method, const std::string& extension) {
+  return out / "meshes" / (mesh + "_" + method + extension);
+}
+
+template <int dim, int spacedim>
+void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::path& out) {
+  for (std::size_t m = 0; m < data.meshes.size(); ++m) {
+    const PreparedMesh<dim, spacedim>& prepared = data.meshes[m];
+    const std::string& name = prepared.description.name;
+    write_mesh(mesh_path(out, name, "initial", ".vtu"), prepared.mesh,
+               fields_of(data, prepared.mesh, data.mesh_tasks[m].initial));
+    for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
+      const Mesh<dim, spacedim> result = mesh_of(data, m, k, data.trajectories[m][k].result_record);
+      write_mesh(mesh_path(out, name, data.study.methods[k].name, ".vtu"), result,
+                 fields_of(data, result, result_tasks(data, m, k)));
+      if (data.study.write_series) write_series(data, m, k, out);
+    }
+  }
+}
+
+#define SMOOTHFEM_INSTANTIATE(...)                                                 \
+  template struct StudyData<__VA_ARGS__>;                                          \
+  template void make_tasks(StudyData<__VA_ARGS__>&);                               \
+  template std::vector<IterationRow> finished_rows(const StudyData<__VA_ARGS__>&); \
+  template std::vector<SummaryRow> summary_rows(const StudyData<__VA_ARGS__>&);    \
+  template void write_meshes(const StudyData<__VA_ARGS__>&, const std::filesystem::path&);
+SMOOTHFEM_INSTANTIATE(2, 2)
+SMOOTHFEM_INSTANTIATE(3, 3)
+SMOOTHFEM_INSTANTIATE(2, 3)
+#undef SMOOTHFEM_INSTANTIATE
+
+}  // namespace smoothfem

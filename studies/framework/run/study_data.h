@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <list>
+#include <mutex>
+#include <vector>
+
+#include "studies/framework/results/results.h"
+#include "studies/framework/run/checkpoint.h"
+#include "studies/framework/run/study_meshes.h"
+#include "studies/framework/run/trajectory.h"
+
+namespace smoothfem {
+
+/// The finite element records of one mesh, method (or the initial mesh) and degree: what is
+/// checkpointed together.
+struct SolveJob {
+  std::string name;          ///< in the checkpoint
+  std::string trajectory;    ///< name of the trajectory; empty: the initial mesh
+  std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
+  std::size_t n_tasks = 0;
+  SolvedRecords solved{};
+  std::chrono::steady_clock::time_point saved{};
+  std::mutex mutex{};  ///< for `solved` and `saved`
+};
+
+/// A finite element record to be made.
+struct SolveTask {
+  SolveJob& job;
+  std::size_t record;  ///< of the trajectory
+  bool is_result;      ///< an initial or resulting mesh
+  SolutionRecord solution{};
+  std::atomic<bool> done{false};  ///< set last: then `solution` may be read by other threads
+};
+
+/// The finite element tasks of one mesh: those of the initial mesh, shared by all methods, and
+/// those of each method's snapshots; one per degree in each list, none where the mesh is invalid.
+struct MeshTasks {
+  std::vector<SolveTask*> initial;
+  std::vector<std::vector<std::vector<SolveTask*>>> methods;  ///< [method][snapshot][degree]
+};
+
+/// What a study has computed so far.
+template <int dim, int spacedim = dim>
+struct StudyData {
+  const Study& study;
+  Checkpoint checkpoint;
+  std::vector<PreparedMesh<dim, spacedim>> meshes{};
+  std::optional<ManufacturedSolution<spacedim>> solution{};
+  std::vector<std::vector<Trajectory>> trajectories{};  ///< [mesh][method]
+  std::list<SolveJob> jobs{};                           ///< both stay where they are
+  std::list<SolveTask> tasks{};                         ///< by mesh, degree, job, record
+  std::vector<MeshTasks> mesh_tasks{};
+
+  std::vector<Point<spacedim>> coordinates_of(const SolveTask& task) const;
+};
+
+/// Makes the jobs and tasks of all trajectories; those that the checkpoint knows are done.
+template <int dim, int spacedim>
+void make_tasks(StudyData<dim, spacedim>& data);
+
+/// Notes a task's outcome. The checkpoint follows at the end of a job and about every second.
+void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> eigenvectors,
+                 const Checkpoint& checkpoint);
+
+/// Rows for iterations.csv of all records that are done, in the order of meshes, methods, records
+/// and degrees. Safe while tasks are under way.
+template <int dim, int spacedim>
+std::vector<IterationRow> finished_rows(const StudyData<dim, spacedim>& data);
+
+/// Rows for summary.csv; all tasks must be done.
+template <int dim, int spacedim>
+std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data);
+
+/// Where a method's mesh, or the mesh called `initial`, is written.
+std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,
+                                const std::string& method, const std::string& extension);
+
+/// Initial and resulting meshes with their fields, and the series if the study asks for them; all
+/// tasks must be done. Throws InputError.
+template <int dim, int spacedim>
+void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::path& out);
+
+}  // namespace smoothfem

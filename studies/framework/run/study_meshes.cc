@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/study_meshes.h"
+
+#include <openssl/evp.h>
+
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "meshes/distortion/distort.h"
+#include "meshes/domains/catalogue.h"
+#include "meshes/io/mesh_file.h"
+
+namespace smoothfem {
+
+namespace {
+
+template <int dim, int spacedim>
+Mesh<dim, spacedim> of_kind(AnyMesh&& mesh, const std::string& name) {
+  if (auto* wanted = std::get_if<Mesh<dim, spacedim>>(&mesh)) return std::move(*wanted);
+  if (std::holds_alternative<SurfaceMesh>(mesh) || spacedim > dim)
+    throw InputError(name + " is a " + kind_name(mesh) + " mesh, but the study is about " +
+                     mesh_kind_name(dim, spacedim) +
+                     " meshes; set its keys 'dimension' and 'surface' accordingly");
+  throw InputError(name + " is a " + kind_name(mesh) + " mesh, but the study has 'dimension = " +
+                   std::to_string(dim) + "'; set it to " + std::to_string(5 - dim));
+}
+
+template <int dim, int spacedim>
+Mesh<dim, spacedim> read_valid_mesh(const std::filesystem::path& path) {
+  MeshFile file = read_mesh(path);
+  const auto mesh = of_kind<dim, spacedim>(std::move(file.mesh), path.string());
+  require_valid(mesh, path.string(), file.cell_lines);
+  return mesh;
+}
+
+/// Where a mesh comes from.
+struct Source {
+  std::filesystem::path file;  ///< empty: generated
+  bool published = false;
+  std::string origin;
+};
+
+Source source_of(const StudyMesh& description, const std::filesystem::path& mesh_dir) {
+  if (!mesh_dir.empty() && !description.published_file.empty())
+    return {mesh_dir / description.published_file, true,
+            (mesh_dir / description.published_file).string()};
+  std::ostringstream origin;
+  if (!description.file.empty())
+    origin << description.file.string();
+  else if (!description.domain.empty())
+    origin << "generated " << description.domain << " of "
+           << find_domain(description.domain).elements_named(description.elements);
+  else
+    throw InputError("mesh " + description.name +
+                     " has neither a file nor a domain; set one of them in its subsection");
+  if (description.distort_to_q_mean > 0.0)
+    origin << ", distorted to q_mean " << description.distort_to_q_mean;
+  if (description.distort_within > 0.0)
+    origin << ", distorted within radius " << description.distort_within;
+  if (is_distorted(description)) origin << " with seed " << description.seed;
+  return {description.file, false, origin.str()};
+}
+
+template <int dim, int spacedim>
+Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source,
+                              double edge_scale) {
+  Mesh<dim, spacedim> mesh =
+      source.file.empty() ? of_kind<dim, spacedim>(find_domain(description.domain)
+                                                       .generate({.elements = description.elements,
+                                                                  .edge_scale = edge_scale,
+                                                                  .seed = description.seed}),
+                                                   "the domain " + description.domain)
+                          : read_valid_mesh<dim, spacedim>(source.file);
+  if (source.published || !is_distorted(description)) return mesh;
+  DistortionParameters parameters;
+  parameters.n_candidates = description.distortion_candidates;
+  parameters.n_sweeps = description.distortion_sweeps;
+  parameters.seed = description.seed;
+  if (description.distort_within > 0.0) {
+    distort_within(mesh, description.distort_within, parameters);
+  } else {
+    parameters.target_q_mean = description.distort_to_q_mean;
+    distort(mesh, parameters);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+template <int dim, int spacedim>
+PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Study& study,
+                                         const std::filesystem::path& mesh_dir,
+                                         const std::filesystem::path& earlier) {
+  const Source source = source_of(description, mesh_dir);
+  // The text format of planar and volume meshes knows no surfaces.
+  const std::string initial =
+      "meshes/" + description.name + "_initial" + (dim == spacedim ? ".mesh" : ".vtk");
+  const bool as_read = !source.file.empty() && (source.published || !is_distorted(description));
+  Mesh<dim, spacedim> mesh =
+      dim == spacedim && !as_read && !earlier.empty() && std::filesystem::exists(earlier / initial)
+          ? read_valid_mesh<dim, spacedim>(earlier / initial)
+          : make_mesh<dim, spacedim>(description, source,
+                                     study.edge_scale * description.edge_scale);
+  if (!study.degrees.empty()) require_finite_elements<dim>(mesh.topology());
+  MeshFacts facts{.description = description,
+                  .n_nodes = mesh.n_nodes(),
+                  .n_cells = mesh.n_cells(),
+                  .quality = mesh_quality(mesh),
+                  .origin = source.origin,
+                  .file = initial,
+                  .published = source.published,
+                  .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file),
+                  .sha256 = {}};
+  return {std::move(facts), std::move(mesh)};
+}
+
+template <int dim, int spacedim>
+void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesystem::path& out) {
+  write_mesh(out / prepared.file, prepared.mesh);
+  prepared.sha256 = sha256_of_file(out / prepared.file);
+}
+
+template <int dim, int spacedim>
+void require_same_mesh(PreparedMesh<dim, spacedim>& prepared, const EarlierRun& run,
+                       const std::filesystem::path& out) {
+  const auto noted = run.meshes.find(prepared.description.name);
+  if (noted == run.meshes.end() || noted->second.empty()) return write_initial_mesh(prepared, out);
+  const std::filesystem::path path = out / prepared.file;
+  prepared.sha256 = sha256_of_file(path);
+  if (prepared.sha256 != noted->second)
+    throw InputError(path.string() +
+                     " has been changed since the run began; start anew with --force, which keeps "
+                     "the folder under another name");
+}
+
+#define SMOOTHFEM_INSTANTIATE(...)                                                                 \
+  template PreparedMesh<__VA_ARGS__> prepare_mesh(                                                 \
+      const StudyMesh&, const Study&, const std::filesystem::path&, const std::filesystem::path&); \
+  template void write_initial_mesh(PreparedMesh<__VA_ARGS__>&, const std::filesystem::path&);      \
+  template void require_same_mesh(PreparedMesh<__VA_ARGS__>&, const EarlierRun&,                   \
+                                  const std::filesystem::path&);
+SMOOTHFEM_INSTANTIATE(2, 2)
+SMOOTHFEM_INSTANTIATE(3, 3)
+SMOOTHFEM_INSTANTIATE(2, 3)
+#undef SMOOTHFEM_INSTANTIATE
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return "";
+  std::ostringstream content;
+  content << stream.rdbuf();
+  const std::string bytes = content.str();
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr);
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    constexpr const char* digits = "0123456789abcdef";
+    text += {digits[digest[i] >> 4], digits[digest[i] & 15]};
+  }
+  return text;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+
+#include "fem/ranks.h"
+
+namespace smoothfem {
+
+/// How a study is run, whatever its kind.
+struct StudyOptions {
+  std::filesystem::path out;       ///< folder of the results; made if it is not there
+  std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
+  bool force = false;              ///< start anew; the folder of an earlier run is renamed
+  bool quiet = false;
+  unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
+  unsigned int smoothing_threads = 1;
+  Ranks ranks{};  ///< that share the finite elements of volume meshes
+  /// Set from outside to stop: the rows finished so far are written and the process ends with 130.
+  const std::atomic<bool>* interrupted = nullptr;
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/table_study.h"
+
+#include <cstdlib>
+
+#include "meshes/io/atomic_file.h"
+#include "studies/framework/results/provenance.h"
+#include "studies/framework/results/results_folder.h"
+#include "studies/framework/run/phase_times.h"
+#include "studies/framework/run/progress.h"
+
+namespace smoothfem {
+
+void run_table_study(const StudyHeader& study, const StudyOptions& options,
+                     const std::vector<StudyTable>& tables) {
+  if (options.ranks.size() > 1)
+    throw InputError("the study " + study.name +
+                     " has no work for several processes: start it without mpirun");
+  require_writable(options.out);
+  if (!options.mesh_dir.empty())
+    throw InputError("--mesh-dir is given, but the study " + study.name +
+                     " has no meshes; leave it out");
+  if (options.force) rename_existing(options.out);
+  const EarlierRun earlier = read_provenance(options.out / "provenance.json");
+  require_same_settings(earlier, study, {}, options.out);
+
+  Progress progress(options.quiet);
+  if (earlier.status == "complete") {
+    progress.say("The results in " + options.out.string() +
+                 " are complete: nothing to do. --force starts anew and keeps them under another "
+                 "name.");
+    return;
+  }
+  PhaseTimes times;
+  const std::string started = now_utc();
+  const auto write_provenance = [&](const std::string& status) {
+    write_atomically(options.out / "provenance.json",
+                     provenance_json({.study = study,
+                                      .processors = {options.smoothing_threads, 1, 1},
+                                      .status = status,
+                                      .started = started,
+                                      .seconds = times.seconds(),
+                                      .earlier_sessions = earlier.sessions}));
+  };
+  write_provenance("running");
+  for (const auto& table : tables) {
+    progress.begin(table.file, 0);
+    times.measure(table.file, [&] { write_atomically(options.out / table.file, table.compute()); });
+    progress.end();
+    if (options.interrupted != nullptr && *options.interrupted) {
+      write_provenance("interrupted");
+      progress.say("Interrupted; the same command starts anew.");
+      std::_Exit(130);
+    }
+  }
+  write_provenance("complete");
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/trajectory.h"
+
+#include <algorithm>
+
+#include "studies/framework/run/peak_memory.h"
+
+namespace smoothfem {
+
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// Tells for record after record whether it is to be kept: every k-th of all, or of its stage if
+/// that has a number of its own.
+class Schedule {
+ public:
+  explicit Schedule(const RecordEvery& every) : every_(every) {}
+
+  bool is_due(const IterationRecord& record) {
+    if (record.stage != stage_) n_in_stage_ = 0;
+    stage_ = record.stage;
+    ++n_in_stage_;
+    const auto own = every_.stages.find(stage_);
+    return own == every_.stages.end()
+               ? record.record % static_cast<std::size_t>(every_.default_interval) == 0
+               : n_in_stage_ % static_cast<std::size_t>(own->second) == 0;
+  }
+
+ private:
+  const RecordEvery& every_;
+  std::string stage_;
+  std::size_t n_in_stage_ = 0;
+};
+
+}  // namespace
+
+template <int dim, int spacedim>
+MeshWarpage warpage_of(const Mesh<dim, spacedim>& mesh) {
+  if constexpr (dim == 3)
+    return mesh_warpage(mesh);
+  else
+    return {};
+}
+template MeshWarpage warpage_of(const Mesh<2>&);
+template MeshWarpage warpage_of(const Mesh<3>&);
+template MeshWarpage warpage_of(const Mesh<2, 3>&);
+
+template <int dim, int spacedim>
+Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
+                             const Study& study,
+                             const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
+                             const WatchIteration& watch) {
+  Trajectory trajectory;
+  std::vector<std::vector<double>> times;
+  std::vector<double> totals;
+  Schedule schedule(study.record_every);
+  const bool keeps_all = !study.degrees.empty() || study.write_series;
+  std::vector<Point<spacedim>> last;
+  const auto record_all = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
+    watch(record);
+    trajectory.records.push_back(record);
+    times.push_back({record.smoothing_seconds});
+    if (study.record_warpage) trajectory.warpage_of_records.push_back(warpage_of(now));
+    if (record.record == 0) return;
+    if (schedule.is_due(record)) {
+      trajectory.snapshots.push_back(record.record);
+      if (keeps_all) keep(record.record, now.coordinates());
+    }
+    if (keeps_all) last = now.copied_coordinates();
+  };
+  const PeakMemory memory;
+  Mesh<dim, spacedim> smoothed = mesh;
+  auto first = method.make<dim, spacedim>();
+  const SmoothingResult result = smooth(smoothed, first, record_all);
+  totals.push_back(result.smoothing_seconds);
+  trajectory.iterations_text = result.iterations_text();
+  trajectory.quality = result.quality;
+  trajectory.warpage = warpage_of(smoothed);
+  trajectory.peak_memory_gib = memory.gib();
+  trajectory.result_record = result.result_record;
+  const auto also = [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
+    auto& snapshots = trajectory.snapshots;
+    const auto position = std::lower_bound(snapshots.begin(), snapshots.end(), record);
+    if (record == 0 || (position != snapshots.end() && *position == record)) return;
+    snapshots.insert(position, record);
+    if (keeps_all) keep(record, coordinates);
+  };
+  also(trajectory.result_record, smoothed.coordinates());
+  also(trajectory.records.size() - 1, last);
+  if (!keeps_all && trajectory.result_record > 0)
+    keep(trajectory.result_record, smoothed.coordinates());
+
+  for (int run = 1; run < study.timing_runs; ++run) {
+    Mesh<dim, spacedim> again = mesh;
+    auto made = method.make<dim, spacedim>();
+    totals.push_back(smooth(again, made, [&](const IterationRecord& record, const auto&) {
+                       watch(record);
+                       times[record.record].push_back(record.smoothing_seconds);
+                     }).smoothing_seconds);
+  }
+  trajectory.smoothing_seconds = median(totals);
+  for (std::size_t r = 0; r < trajectory.records.size(); ++r)
+    trajectory.records[r].smoothing_seconds = median(times[r]);
+  return trajectory;
+}
+
+template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&,
+                                      const KeepSnapshot<2>&, const WatchIteration&);
+template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&,
+                                      const KeepSnapshot<3>&, const WatchIteration&);
+template Trajectory record_trajectory(const Mesh<2, 3>&, const StudyMethod&, const Study&,
+                                      const KeepSnapshot<3>&, const WatchIteration&);
+
+}  // namespace smoothfem

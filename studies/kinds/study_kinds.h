@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "studies/framework/definition/study_header.h"
+#include "studies/framework/run/study_options.h"
+
+namespace smoothfem {
+
+/// A study of any kind, read and checked, ready to be run.
+struct ReadyStudy {
+  StudyHeader header;
+  bool on_ranks = false;           ///< divides its work among processes: MPI has to be there
+  bool benefits_from_mpi = false;  ///< more than one process makes it faster
+  std::function<void(const StudyOptions&)> run;
+};
+
+/// What the key `kind` of a study file chooses from. Each kind has its own keys and files of
+/// results.
+struct StudyKind {
+  std::string name;
+  ReadyStudy (*read)(const std::filesystem::path& file, const std::string& scale);
+  std::string (*keys)();  ///< a commented study file with every key and its default
+};
+const std::vector<StudyKind>& study_kinds();
+
+/// Reads a study file of any kind; throws InputError as read_study does.
+ReadyStudy read_any_study(const std::filesystem::path& file, const std::string& scale = {});
+
+}  // namespace smoothfem
