@@ -61,7 +61,7 @@ TEST_P(AgainstFEValuesTest, MatrixAndLoadAgree) {
     const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
     const auto& solution = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
     PoissonSystem system = make_system(*space);
-    assemble(*space, mesh.coordinates(), solution, Load::nodal, system);
+    assemble(*space, mesh.copied_coordinates(), solution, Load::nodal, system);
 
     const Oracle<dim> oracle(mesh, static_cast<unsigned int>(GetParam().degree));
     const auto [stiffness, mass] = matrices_of(oracle);
@@ -97,7 +97,7 @@ TEST_P(AgainstFEValuesTest, LoadByQuadratureAgrees) {
         .value_and_gradient = {},
         .load = [](const Point<dim>& p) { return 1.0 + p.x() - 2.0 * p[dim - 1]; }};
     PoissonSystem system = make_system(*space);
-    assemble(*space, mesh.coordinates(), solution, Load::quadrature, system);
+    assemble(*space, mesh.copied_coordinates(), solution, Load::quadrature, system);
 
     const Oracle<dim> oracle(mesh, static_cast<unsigned int>(GetParam().degree));
     const auto positions = oracle.dof_points();
@@ -129,7 +129,7 @@ TEST_P(AgainstFEValuesTest, NormsAgreeWithIntegrateDifference) {
       exact[i] = solution.value(points[static_cast<std::size_t>(i)]);
       discrete[i] = exact[i] + 0.1 * std::cos(7.0 * static_cast<double>(i));
     }
-    const auto norms = error_norms(*space, mesh.coordinates(), solution, exact, discrete);
+    const auto norms = error_norms(*space, mesh.copied_coordinates(), solution, exact, discrete);
 
     const Oracle<dim> oracle(mesh, static_cast<unsigned int>(GetParam().degree));
     const auto same = same_dofs(oracle, points);

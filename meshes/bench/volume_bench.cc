@@ -58,14 +58,14 @@ double bytes_of_iteration(const VolumeMesh& mesh) {
 
 /// Seconds of one iteration of a method's first stage, a median.
 double iteration_seconds(const VolumeMesh& mesh, const std::string& method, int n) {
-  const Reordering<3> reordering(mesh.topology());
+  const Reordering<3> reordering(mesh.shared_topology());
   SmoothingState<3> state{reordering.apply(mesh), {}};
   compute_cell_mean_ratios(state.mesh, state.cell_quality);
   const auto stages = stages_of<3>(method);
   stages[0]->initialize(state);
   return median_seconds(n, [&] {
     stages[0]->step(state);
-    if (stages[0]->rule().quality_use == QualityUse::loop)
+    if (stages[0]->traits().quality_use == QualityUse::loop)
       compute_cell_mean_ratios(state.mesh, state.cell_quality);
   });
 }
@@ -108,7 +108,7 @@ void sequential_step(benchmark::State& state, const std::string& name) {
   VolumeMesh mesh = mesh_named(name);
   auto simultaneous = make_method<3>("getme-simultaneous");
   smooth(mesh, simultaneous);
-  const Reordering<3> reordering(mesh.topology());
+  const Reordering<3> reordering(mesh.shared_topology());
   SmoothingState<3> smoothing{reordering.apply(mesh), {}};
   compute_cell_mean_ratios(smoothing.mesh, smoothing.cell_quality);
   const auto stages = stages_of<3>("getme-sequential");

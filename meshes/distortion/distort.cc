@@ -103,11 +103,11 @@ class Distortion {
       double low = 0.0, high = 1.0;
       for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
-        x = allowed_place<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
+        x = allowed_position<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
         const double quality = quality_around(node);
         (quality > 0.0 && degree * (before - quality) < excess ? low : high) = middle;
       }
-      x = allowed_place<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
+      x = allowed_position<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
       return true;
     }
     return false;
@@ -149,7 +149,7 @@ class Distortion {
     SplitMix64 random = counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
     const int n_tries = tries_per_candidate * parameters_.n_candidates;
     for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
-      x = allowed_place<dim, spacedim>(
+      x = allowed_position<dim, spacedim>(
           mesh_, node,
           original_[node] + radius * edge_length_[node] * point_in_unit_ball<spacedim>(random));
       const double quality = quality_around(node);

@@ -18,7 +18,7 @@ const VolumeMesh& distorted_mesh(std::int64_t kind) {
   static const auto make = [](std::uint32_t n, test::BoxCells cells, double radius, int n_sweeps) {
     auto mesh = test::box_mesh(n, n, n, cells);
     bench::distort_strongly(mesh, radius, n_sweeps, 1);
-    return Reordering<3>(mesh.topology()).apply(mesh);
+    return Reordering<3>(mesh.shared_topology()).apply(mesh);
   };
   if (kind == 0) {
     static const VolumeMesh mesh = make(46, test::BoxCells::tetrahedra, 0.65, 2);

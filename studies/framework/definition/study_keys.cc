@@ -81,7 +81,7 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("distort within", "0", Patterns::Double(0.0),
                   "Instead: radius to distort the mesh within, in mean lengths of a node's edges. "
                   "Large meshes: the radius for a quality takes many trials.");
-  p.declare_entry("distortion candidates", std::to_string(usual_candidates(dimension)),
+  p.declare_entry("distortion candidates", std::to_string(default_candidates(dimension)),
                   Patterns::Integer(1), "Random positions that a node chooses the worst from.");
   p.declare_entry("distortion sweeps", "1", Patterns::Integer(1), "Times all nodes are moved.");
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
