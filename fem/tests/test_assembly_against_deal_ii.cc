@@ -61,11 +61,11 @@ TEST_P(AgainstFEValuesTest, MatrixAndLoadAgree) {
     const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
     const auto& solution = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
     PoissonSystem system = make_system(*space);
-    assemble(*space, mesh.coordinates(), solution, Load::nodal, system);
+    assemble(*space, mesh.copied_coordinates(), solution, Load::nodal, system);
 
     const Oracle<dim> oracle(mesh, static_cast<unsigned int>(GetParam().degree));
     const auto [stiffness, mass] = matrices_of(oracle);
-    const auto points = space->dof_points(mesh.coordinates());
+    const auto points = space->dof_points(mesh.copied_coordinates());
     const auto same = same_dofs(oracle, points);
     ASSERT_EQ(space->n_own, space->n_free);
     for (std::size_t i = 0; i < space->n_free; ++i) {
@@ -97,7 +97,7 @@ TEST_P(AgainstFEValuesTest, LoadByQuadratureAgrees) {
         .value_and_gradient = {},
         .load = [](const Point<dim>& p) { return 1.0 + p.x() - 2.0 * p[dim - 1]; }};
     PoissonSystem system = make_system(*space);
-    assemble(*space, mesh.coordinates(), solution, Load::quadrature, system);
+    assemble(*space, mesh.copied_coordinates(), solution, Load::quadrature, system);
 
     const Oracle<dim> oracle(mesh, static_cast<unsigned int>(GetParam().degree));
     const auto positions = oracle.dof_points();
@@ -111,7 +111,7 @@ TEST_P(AgainstFEValuesTest, LoadByQuadratureAgrees) {
           load[indices[i]] += f * values.shape_value(i, q) * values.JxW(q);
         }
     });
-    const auto same = same_dofs(oracle, space->dof_points(mesh.coordinates()));
+    const auto same = same_dofs(oracle, space->dof_points(mesh.copied_coordinates()));
     for (std::size_t i = 0; i < space->n_free; ++i)
       EXPECT_NEAR(system.right_hand_side[static_cast<Eigen::Index>(i)], load[same[i]], 1e-14);
   };
@@ -122,14 +122,14 @@ TEST_P(AgainstFEValuesTest, NormsAgreeWithIntegrateDifference) {
   const auto check = [&]<int dim>(const Mesh<dim>& mesh) {
     const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
     const auto& solution = manufactured_solution<dim>("sine");
-    const auto points = space->dof_points(mesh.coordinates());
+    const auto points = space->dof_points(mesh.copied_coordinates());
     const auto n = static_cast<Eigen::Index>(points.size());
     Eigen::VectorXd exact(n), discrete(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       exact[i] = solution.value(points[static_cast<std::size_t>(i)]);
       discrete[i] = exact[i] + 0.1 * std::cos(7.0 * static_cast<double>(i));
     }
-    const auto norms = error_norms(*space, mesh.coordinates(), solution, exact, discrete);
+    const auto norms = error_norms(*space, mesh.copied_coordinates(), solution, exact, discrete);
 
     const Oracle<dim> oracle(mesh, static_cast<unsigned int>(GetParam().degree));
     const auto same = same_dofs(oracle, points);

@@ -24,8 +24,8 @@ struct Problem {
       : space(make_finite_element_space(&mesh, degree, TensorPoints{})),
         system(make_system(*space)),
         trilinos(*space) {
-    assemble(*space, mesh.coordinates(), manufactured_solution<dim>(dim == 2 ? "gear" : "volume"),
-             Load::nodal, system);
+    assemble(*space, mesh.copied_coordinates(),
+             manufactured_solution<dim>(dim == 2 ? "gear" : "volume"), Load::nodal, system);
     trilinos.set_values(system.matrix);
     trilinos.set_up_multigrid();
   }
