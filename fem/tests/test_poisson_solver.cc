@@ -135,7 +135,8 @@ TEST_P(PoissonSolverTest, PreconditionersLeadToTheSameSolutionInFewerIterations)
   GetParam().on_mesh(20, 16, 0.15, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
     PoissonSystem system = make_system(*space);
-    assemble(*space, mesh.copied_coordinates(), manufactured_solution<dim>("sine"), Load::nodal, system);
+    assemble(*space, mesh.copied_coordinates(), manufactured_solution<dim>("sine"), Load::nodal,
+             system);
     const SlicedMatrix sliced(system.matrix);
     TrilinosMatrix trilinos(*space);
     trilinos.set_values(system.matrix);
@@ -198,8 +199,9 @@ TEST_P(PoissonSolverTest, NormsOfTheConstantOneAreThoseOfTheArea) {
   GetParam().on_mesh(4, 3, 0.3, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
     const auto n = static_cast<Eigen::Index>(space->n_dofs);
-    const auto norms = error_norms(*space, mesh.copied_coordinates(), manufactured_solution<dim>("linear"),
-                                   Eigen::VectorXd::Constant(n, 1.0), Eigen::VectorXd::Zero(n));
+    const auto norms =
+        error_norms(*space, mesh.copied_coordinates(), manufactured_solution<dim>("linear"),
+                    Eigen::VectorXd::Constant(n, 1.0), Eigen::VectorXd::Zero(n));
     EXPECT_NEAR(norms.e_l2, 1.0, 1e-14);
     EXPECT_NEAR(norms.e_h1, 1.0, 1e-12);
     // u = 1 + 2x - 3y (+ z/2): over the unit square (cube) its mean is 1/2 (3/4), its variance a

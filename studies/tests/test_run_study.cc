@@ -394,6 +394,19 @@ TEST_F(RunStudy, ACompleteRunIsLeftAsItIs) {
   EXPECT_EQ(fs::last_write_time(out / "iterations.csv"), written);
 }
 
+TEST_F(RunStudy, WhatAKilledRunWasWritingIsRemoved) {
+  const fs::path out = run(study("set degrees =\n"));
+  const auto files = files_in(out);
+  std::string provenance = content_of(out / "provenance.json");
+  const std::string complete = R"("status": "complete")";
+  provenance.replace(provenance.find(complete), complete.size(), R"("status": "running")");
+  file_with("out/provenance.json", provenance);
+  for (const std::string name : {".provenance.4711.12.json", "meshes/.grid_getme.4711.13.vtu"})
+    file_with("out/" + name, "half");
+  run(study("set degrees =\n"));
+  EXPECT_EQ(files_in(out), files);
+}
+
 TEST_F(RunStudy, OtherSettingsAreRefusedWithWhatDiffers) {
   const fs::path out = run(study());
   const std::string before = content_of(out / "iterations.csv");

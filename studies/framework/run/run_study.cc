@@ -44,7 +44,10 @@ class StudyRun {
       require_same_settings(earlier_, study_.header, mesh_facts(), options_.out);
       if (!study_.degrees.empty()) data_.solution = make_solution();
     });
-    if (earlier_.status == "complete") return report_complete();
+    if (earlier_.status == "complete") {
+      data_.checkpoint.remove();  // of a run that was killed after its last word
+      return report_complete();
+    }
     begin_writing();
     times_.measure("smoothing", [&] { smooth_meshes(); });
     make_tasks(data_);
@@ -93,6 +96,7 @@ class StudyRun {
       write_provenance("running");
       for (auto& prepared : data_.meshes) write_initial_mesh(prepared, options_.out);
     } else {
+      remove_unfinished_files(options_.out);
       for (auto& prepared : data_.meshes) require_same_mesh(prepared, earlier_, options_.out);
       progress_.say("Going on where the run in " + options_.out.string() + " was.");
     }
