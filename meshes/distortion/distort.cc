@@ -35,7 +35,8 @@ Point<dim> point_in_unit_ball(SplitMix64& random) {
   while (true) {
     Point<dim> point;
     for (int d = dim - 1; d >= 0; --d) point[d] = 2.0 * random.uniform() - 1.0;
-    if (point.squaredNorm() <= 1.0) return point;
+    // Here and below Eigen would sum in an order that depends on how it is compiled.
+    if (squared_length(vector_of(point)) <= 1.0) return point;
   }
 }
 
@@ -58,7 +59,7 @@ class Distortion {
     edge_length_.resize(mesh.n_nodes(), 0.0);
     for (const NodeIndex i : topology.free_nodes()) {
       for (const NodeIndex j : topology.node_neighbours(i))
-        edge_length_[i] += (original_[j] - original_[i]).norm();
+        edge_length_[i] += length(vector_of(Point<spacedim>(original_[j] - original_[i])));
       edge_length_[i] /= static_cast<double>(topology.node_neighbours(i).size());
     }
     levels_ = dependency_levels(topology);

@@ -8,6 +8,7 @@
 #include "smoothing/geometry/cell_size.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/tools/gmsh_tetrahedra.h"
+#include "meshes/tools/unit_vector.h"
 #include "smoothing/surface/surface_features.h"
 
 namespace smoothfem {
@@ -53,7 +54,7 @@ std::vector<Point<3>> node_normals(const VolumeCells& mesh,
     for (const NodeIndex node : triangles[t]) normals[node] += normal;
   }
   for (auto& normal : normals)
-    if (normal.squaredNorm() > 0.0) normal.normalize();
+    if (normal.squaredNorm() > 0.0) normal = unit_vector(normal);
   return normals;
 }
 

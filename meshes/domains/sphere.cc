@@ -6,6 +6,7 @@
 #include "meshes/distortion/counter_random.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/tools/delaunay.h"
+#include "meshes/tools/unit_vector.h"
 
 namespace smoothfem {
 namespace {
@@ -29,7 +30,7 @@ std::vector<Point<3>> sphere_nodes() {
     const auto middle = [&](NodeIndex a, NodeIndex b) {
       const auto [known, is_new] =
           middles.emplace(std::minmax(a, b), static_cast<NodeIndex>(nodes.size()));
-      if (is_new) nodes.push_back((nodes[a] + nodes[b]).normalized());
+      if (is_new) nodes.push_back(unit_vector(nodes[a] + nodes[b]));
       return known->second;
     };
     std::vector<Triangle> finer;

@@ -12,10 +12,7 @@
 
 namespace smoothfem {
 
-namespace {
-
-/// Foreign bytes in a message could garble the terminal, and a binary file has no short words.
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t longest = 40;
   std::string text = "'";
   for (const char c : word.substr(0, longest))
@@ -23,8 +20,6 @@ std::string quoted(std::string_view word) {
   if (word.size() > longest) text += "...";
   return text + "'";
 }
-
-}  // namespace
 
 std::string read_whole_file(const std::filesystem::path& path) {
   std::error_code error;
@@ -100,12 +95,12 @@ double LineReader::number(std::string_view what) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error == std::errc::invalid_argument || end != found.data() + found.size())
-    fail(std::string(what) + " is " + quoted(as_written) + ", which is not a number");
+    fail(std::string(what) + " is " + in_quotes(as_written) + ", which is not a number");
   // Numbers too small for a double are zero for every purpose here.
   if (error == std::errc::result_out_of_range)
     value = std::strtod(std::string(found).c_str(), nullptr);
   if (!std::isfinite(value))
-    fail(std::string(what) + " is " + quoted(as_written) + ", which is not finite");
+    fail(std::string(what) + " is " + in_quotes(as_written) + ", which is not finite");
   return value;
 }
 
@@ -115,7 +110,7 @@ std::uint64_t LineReader::integer(std::string_view what, std::uint64_t limit) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error != std::errc() || end != found.data() + found.size())
-    fail(std::string(what) + " is " + quoted(found) + ", which is not an integer from 0 on");
+    fail(std::string(what) + " is " + in_quotes(found) + ", which is not an integer from 0 on");
   if (value >= limit)
     fail(std::string(what) + " is " + std::to_string(value) + ", but must be below " +
          std::to_string(limit));
@@ -124,7 +119,7 @@ std::uint64_t LineReader::integer(std::string_view what, std::uint64_t limit) {
 
 void LineReader::require_end_of_line() {
   const std::string_view found = word();
-  if (!found.empty()) fail("unexpected " + quoted(found) + " at the end of the line; remove it");
+  if (!found.empty()) fail("unexpected " + in_quotes(found) + " at the end of the line; remove it");
 }
 
 void LineReader::fail_at(std::size_t line, const std::string& message) const {

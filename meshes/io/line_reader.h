@@ -13,6 +13,10 @@ namespace smoothfem {
 /// read, and an empty one.
 std::string read_whole_file(const std::filesystem::path& path);
 
+/// A word in quotation marks for error messages: its first 40 bytes, "..." if there are more, and
+/// '?' for control characters, which could garble the terminal.
+std::string in_quotes(std::string_view word);
+
 /// Reads a text line by line and each line word by word, and knows where it is for error messages.
 /// The content must outlive the reader.
 class LineReader {

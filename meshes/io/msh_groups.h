@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "meshes/io/line_reader.h"
+
 namespace smoothfem {
 
 /// The number in a line of a .msh file that is text in both encodings. Input: one of msh_input.h.
@@ -22,8 +24,7 @@ std::uint64_t msh_count_in_text(Input& in, const char* what) {
   const auto [end, error] = std::from_chars(line.data(), last, n);
   const std::string_view rest(end, static_cast<std::size_t>(last - end));
   if (error != std::errc() || rest.find_first_not_of(" \t\r") != rest.npos)
-    in.fail(std::string(what) + " is '" + std::string(line.substr(0, 40)) +
-            "', which is not an integer from 0 on");
+    in.fail(std::string(what) + " is " + in_quotes(line) + ", which is not an integer from 0 on");
   return n;
 }
 

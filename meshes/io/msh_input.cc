@@ -55,12 +55,14 @@ std::int64_t MshTextInput::signed_integer(const char* of, std::int64_t least, st
   const std::string_view word = reader_.word();
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool is_integer = error != std::errc::invalid_argument && end == word.data() + word.size();
+  if (is_integer && error == std::errc() && value >= least && value <= most) return value;
   const std::string line = std::string("the ") + of + "'s line ";
   if (word.empty()) fail(line + "ends before its last number");
-  if (error != std::errc() || end != word.data() + word.size() || value < least || value > most)
-    fail(line + "holds '" + std::string(word.substr(0, 40)) + "', which is not an integer" +
-         (error == std::errc() && end == word.data() + word.size() ? " of 32 bits" : ""));
-  return value;
+  fail(line + "holds " + in_quotes(word) + ", which is not an integer" +
+       (!is_integer         ? ""
+        : most == INT32_MAX ? " of 32 bits"
+                            : " of 64 bits"));
 }
 
 // --- Binary --------------------------------------------------------------------------------------
@@ -102,7 +104,7 @@ std::string MshBinaryInput::next_section() {
 
 void MshBinaryInput::skip_section(const std::string& section) {
   const std::size_t end = content_.find(end_of(section), at_);
-  if (end == std::string_view::npos) fail("the section " + section.substr(0, 40) + " has no end");
+  if (end == std::string_view::npos) fail("the section " + in_quotes(section) + " has no end");
   at_ = end;
   require_end(section);
 }

@@ -186,7 +186,7 @@ MeshFile read_msh(const std::filesystem::path& path) {
   const std::string word(reader.word());
   const bool is_4_1 = word == "4.1";
   if (!is_4_1 && word != "2.2" && word != "2.1" && word != "2" && word != "2.0")
-    reader.fail("the file has version '" + word.substr(0, 40) + "'; save it as version 4.1 or 2.2");
+    reader.fail("the file has version " + in_quotes(word) + "; save it as version 4.1 or 2.2");
   const MshVersion version = is_4_1 ? MshVersion::v4_1 : MshVersion::v2_2;
   const bool is_binary = reader.integer("the file type", 2) == 1;
   const std::uint64_t size = reader.integer("the size of numbers");

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "meshes/tools/gmsh_tetrahedra.h"
+#include "meshes/tools/unit_vector.h"
 
 namespace smoothfem {
 
@@ -19,9 +20,9 @@ CompressedRows<NodeIndex> append_pyramids(VolumeCells& mesh, const CompressedRow
     double edge_length = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
       centre += 0.25 * at(k);
-      edge_length += 0.25 * (at(k + 1) - at(k)).norm();
+      edge_length += 0.25 * length(vector_of(Point<3>(at(k + 1) - at(k))));
     }
-    const Point<3> normal = (at(2) - at(0)).cross(at(3) - at(1)).normalized();
+    const Point<3> normal = unit_vector((at(2) - at(0)).cross(at(3) - at(1)));
     const auto apex = static_cast<NodeIndex>(mesh.coordinates.size());
     mesh.coordinates.push_back(centre + height * edge_length * normal);
     mesh.cells.append(std::array<NodeIndex, 5>{base[0], base[1], base[2], base[3], apex});
