@@ -48,7 +48,7 @@ inline double signed_cell_size(const VolumeMesh& mesh, CellIndex cell) {
   for (const LocalFace& face : volume_element(nodes.size()).faces) {
     std::array<Point<3>, 4> p;
     for (std::size_t k = 0; k < face.size; ++k) p[k] = x[nodes[face.nodes[k]]] - origin;
-    const auto triangle = [&](int a, int b, int c) { return p[a].dot(p[b].cross(p[c])); };
+    const auto triangle = [&](int a, int b, int c) { return dot<3>(p[a], p[b].cross(p[c])); };
     six_volumes +=
         face.size == 3
             ? triangle(0, 1, 2)

@@ -30,7 +30,7 @@ StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movemen
     if (mesh.coordinates()[i] != old && !keeps_facet_bound(mesh, {&i, 1}))
       mesh.coordinates()[i] = old;
     if (mesh.constraints()) move = mesh.coordinates()[i] - old;
-    longest = std::max(longest, move.squaredNorm());
+    longest = std::max(longest, squared_length<spacedim>(move));
   }
   return {.max_displacement = std::sqrt(longest)};
 }

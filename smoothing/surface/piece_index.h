@@ -43,7 +43,7 @@ class PieceIndex {
         const Piece& piece = pieces_[entry.second];
         if (part && piece.part != *part) return;
         const Point<3> point = piece.nearest(p);
-        const double square = (point - p).squaredNorm();
+        const double square = squared_length<3>(point - p);
         const bool tie = square == best_square && entry.second < best_piece;
         if (!(square < best_square || tie)) return;
         best = point;
