@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Finds the Gmsh SDK (Debian: libgmsh-dev, which ships no CMake files). Defines Gmsh::Gmsh.
 find_path(Gmsh_INCLUDE_DIR gmsh.h)
 find_library(Gmsh_LIBRARY gmsh)

@@ -66,7 +66,7 @@ def main(source, options):
                        f"-DCMAKE_CXX_COMPILER_LAUNCHER={sys.executable};{launcher}", *options)
     rows.append(("fresh clone to the program (configure and build)",
                  configured + timed("cmake", "--build", build, "--target", "smoothfem")))
-    rows.append(("the tests, after that", timed("cmake", "--build", build)))
+    rows.append(("the tests, after that", timed("cmake", "--build", build, "--target", "smoothfem_tests")))
     all_units = units(log)
     mean_ratio = source / "smoothing" / "quality" / "mean_ratio.h"
     rows.append(("a new smoother to the program",

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Writes OUTPUT with the commit that SOURCE_DIR is at and whether it has uncommitted changes; leaves the
 # file alone if it says so already, so that nothing is compiled again without need.
 execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse HEAD

@@ -27,7 +27,14 @@ struct ManufacturedSolution {
   std::function<double(const Point<dim>&)> load;  ///< f = -laplace(u)
 };
 
-/// The solutions that studies of meshes of this dimension can name.
+/// Registers a solution when its file is loaded: one namespace-scope object a dimension at the end
+/// of each file in fem/solutions/. A name that is taken is an InputError at the first look-up.
+template <int dim>
+struct RegisteredSolution {
+  explicit RegisteredSolution(ManufacturedSolution<dim> solution);
+};
+
+/// The solutions that studies of meshes of this dimension can name, sorted by name.
 template <int dim>
 const std::vector<ManufacturedSolution<dim>>& manufactured_solutions();
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <numbers>
 
-#include "smoothing/geometry/cell_size.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/tools/gmsh_tetrahedra.h"
 #include "meshes/tools/unit_vector.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/surface/surface_features.h"
 
 namespace smoothfem {

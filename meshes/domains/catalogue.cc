@@ -2,39 +2,31 @@
 #include "meshes/domains/catalogue.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
-#include "smoothing/base/find_named.h"
+#include "smoothing/base/registry.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// Sorted by name, so that listings do not depend on the order in which files are linked or loaded.
-std::vector<Domain>& registered_domains() {
-  static std::vector<Domain> all;
-  return all;
+Registry<Domain>& registry() {
+  static Registry<Domain> domains("domain");
+  return domains;
 }
 
 }  // namespace
 
 RegisteredDomain::RegisteredDomain(Domain domain) {
-  std::vector<Domain>& all = registered_domains();
-  const auto next =
-      std::lower_bound(all.begin(), all.end(), domain,
-                       [](const Domain& a, const Domain& b) { return a.name < b.name; });
-  if (next != all.end() && next->name == domain.name)
-    throw std::logic_error("two domains are registered as '" + domain.name + "'");
-  all.insert(next, std::move(domain));
+  registry().add(std::move(domain));
 }
 
 const std::vector<Domain>& domains() {
-  return registered_domains();
+  return registry().all();
 }
 
 const Domain& find_domain(const std::string& name) {
-  return find_named("domain", name, domains(), [](const Domain& domain) { return domain.name; });
+  return registry().find(name);
 }
 
 const std::string& Domain::elements_named(const std::string& wanted) const {

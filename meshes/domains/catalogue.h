@@ -37,7 +37,7 @@ struct Domain {
 };
 
 /// Registers a domain when its file is loaded: one namespace-scope object at the end of each file
-/// in meshes/domains/. Throws std::logic_error if the name is taken.
+/// in meshes/domains/. A name that is taken is an InputError at the first look-up.
 struct RegisteredDomain {
   explicit RegisteredDomain(Domain domain);
 };

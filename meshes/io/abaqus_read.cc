@@ -279,4 +279,19 @@ MeshFile read_abaqus(const std::filesystem::path& path) {
   return assemble_mesh(path, AbaqusReader(path, content).parts());
 }
 
+namespace {
+
+const RegisteredFormat registered({.name = "abaqus",
+                                   .extension = ".inp",
+                                   .description = "Abaqus and CalculiX input",
+                                   .holds_planar_meshes = true,
+                                   .holds_volume_meshes = true,
+                                   .holds_fixed_nodes = true,
+                                   .holds_physical_names = true,
+                                   .holds_numbers = true,
+                                   .read = read_abaqus,
+                                   .write = write_abaqus});
+
+}  // namespace
+
 }  // namespace smoothfem

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 #include <string>
 #include <system_error>
 
@@ -128,6 +129,16 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 
 void write_atomically(const fs::path& path, std::string_view content) {
   write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, content); });
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  static const std::regex temporary(R"(\..+\.[0-9]+\.[0-9]+(\.[^.]*)?)");  // temporary_beside
+  std::vector<fs::path> unfinished;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (std::regex_match(entry.path().filename().string(), temporary))
+      unfinished.push_back(entry.path());
+  std::error_code ignored;  // leftovers are harmless
+  for (const auto& path : unfinished) fs::remove(path, ignored);
 }
 
 void flush_file_system(const fs::path& folder) {

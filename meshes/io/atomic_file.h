@@ -20,6 +20,10 @@ void write_atomically(const std::filesystem::path& path,
 /// The same with the content at hand; short writes are errors.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Removes the hidden files .NAME.PROCESS.NUMBER.EXTENSION that are left in a folder and those
+/// below it where a process was killed while it wrote.
+void remove_unfinished_files(const std::filesystem::path& folder);
+
 /// Flushes to the disk whatever has been written to the file system of a folder, at once.
 void flush_file_system(const std::filesystem::path& folder);
 

@@ -220,4 +220,16 @@ void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, c
   write_atomically(path, text);
 }
 
+namespace {
+
+const RegisteredFormat registered({.name = "medit",
+                                   .extension = ".mesh",
+                                   .description = "Medit, text; written for volume meshes",
+                                   .holds_volume_meshes = true,
+                                   .recognizes = is_medit_text,
+                                   .read = read_medit_text,
+                                   .write = write_medit_text});
+
+}  // namespace
+
 }  // namespace smoothfem

@@ -5,82 +5,26 @@
 #include <cctype>
 #include <exception>
 
-#include "meshes/io/abaqus_file.h"
 #include "meshes/io/line_reader.h"
-#include "meshes/io/medit_text.h"
-#include "meshes/io/msh_file.h"
-#include "meshes/io/polygonal_text.h"
-#include "meshes/io/vtk_files.h"
-#include "smoothing/base/input_error.h"
+#include "smoothing/base/registry.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// Two formats share this extension.
-MeshFile read_dot_mesh(const std::filesystem::path& path) {
-  const bool medit = is_medit_text(read_whole_file(path));
-  return medit ? read_medit_text(path) : read_polygonal_text(path);
-}
-
-MeshFormat vtk_format(const std::string& name, const std::string& description,
-                      decltype(MeshFormat::read) read, decltype(MeshFormat::write) write) {
-  return {.name = name,
-          .extension = "." + name,
-          .description = description,
-          .holds_planar_meshes = true,
-          .holds_volume_meshes = true,
-          .holds_surface_meshes = true,
-          .holds_polygons = true,
-          .holds_fixed_nodes = true,
-          .holds_physical_names = true,
-          .holds_numbers = true,
-          .read = read,
-          .write = write};
+Registry<MeshFormat>& registry() {
+  static Registry<MeshFormat> formats("mesh format");
+  return formats;
 }
 
 }  // namespace
 
+RegisteredFormat::RegisteredFormat(MeshFormat format) {
+  registry().add(std::move(format));
+}
+
 const std::vector<MeshFormat>& mesh_formats() {
-  static const std::vector<MeshFormat> formats = {
-      {.name = "polygonal",
-       .extension = ".mesh",
-       .description = "planar polygonal mesh, text",
-       .holds_planar_meshes = true,
-       .holds_polygons = true,
-       .holds_fixed_nodes = true,
-       .read = read_dot_mesh,
-       .write = write_polygonal_text},
-      {.name = "medit",
-       .extension = ".mesh",
-       .description = "Medit, text; written for volume meshes",
-       .holds_volume_meshes = true,
-       .read = read_dot_mesh,
-       .write = write_medit_text},
-      {.name = "gmsh",
-       .extension = ".msh",
-       .description = "Gmsh 4.1 and 2.2, text or binary",
-       .holds_planar_meshes = true,
-       .holds_volume_meshes = true,
-       .holds_surface_meshes = true,
-       .holds_physical_names = true,
-       .holds_numbers = true,
-       .read = read_msh,
-       .write = write_msh},
-      vtk_format("vtk", "legacy VTK, text or binary", read_legacy_vtk, write_legacy_vtk),
-      vtk_format("vtu", "VTK XML unstructured grid", read_vtu, write_vtu),
-      {.name = "abaqus",
-       .extension = ".inp",
-       .description = "Abaqus and CalculiX input",
-       .holds_planar_meshes = true,
-       .holds_volume_meshes = true,
-       .holds_fixed_nodes = true,
-       .holds_physical_names = true,
-       .holds_numbers = true,
-       .read = read_abaqus,
-       .write = write_abaqus},
-  };
-  return formats;
+  return registry().all();
 }
 
 namespace {
@@ -101,7 +45,7 @@ std::vector<const MeshFormat*> formats_of(const std::filesystem::path& path,
     throw InputError(prefix + ": " +
                      (extension.empty() ? "the file name has no extension"
                                         : "the extension " + extension + " is not known") +
-                     "; use one of " + joined(known));
+                     "; " + choose_one_of(known, extension));
   return found;
 }
 
@@ -114,11 +58,27 @@ void require_sizes(const std::string& path, const std::string& kind,
                        std::to_string(n));
 }
 
+/// Of formats that share an extension the one that knows its own content, otherwise the one that
+/// does not say.
+const MeshFormat& format_of_content(const std::filesystem::path& path) {
+  const auto formats = formats_of(path, path.string());
+  if (formats.size() == 1) return *formats.front();
+  const std::string content = read_whole_file(path);
+  const MeshFormat* other = formats.front();
+  for (const MeshFormat* format : formats) {
+    if (!format->recognizes)
+      other = format;
+    else if (format->recognizes(content))
+      return *format;
+  }
+  return *other;
+}
+
 }  // namespace
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   try {
-    return formats_of(path, path.string()).front()->read(path);
+    return format_of_content(path).read(path);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {  // a damaged count can ask for more memory than there is

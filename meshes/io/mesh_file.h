@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "meshes/io/mesh_view.h"
@@ -60,11 +61,21 @@ struct MeshFormat {
   bool holds_physical_names = false;  ///< labelled facets, and names of tags (all but polygonal
                                       ///< text hold the cells' tags)
   bool holds_numbers = false;         ///< numbers of nodes and cells
+  /// Of formats with the same extension: whether content is of this one. One of them may leave the
+  /// rest to itself, by null.
+  bool (*recognizes)(std::string_view content) = nullptr;
   MeshFile (*read)(const std::filesystem::path&);
   void (*write)(const std::filesystem::path&, const MeshView&, const MeshFields&,
                 const MeshWriteOptions&);
 };
 
+/// Registers a format when its file is loaded: a namespace-scope object at the end of a file in
+/// meshes/io/. A name that is taken is an InputError at the first look-up.
+struct RegisteredFormat {
+  explicit RegisteredFormat(MeshFormat format);
+};
+
+/// All registered formats, sorted by name.
 const std::vector<MeshFormat>& mesh_formats();
 
 }  // namespace smoothfem

@@ -204,4 +204,19 @@ MeshFile read_msh(const std::filesystem::path& path) {
   return assemble_mesh(path, std::move(parts));
 }
 
+namespace {
+
+const RegisteredFormat registered({.name = "gmsh",
+                                   .extension = ".msh",
+                                   .description = "Gmsh 4.1 and 2.2, text or binary",
+                                   .holds_planar_meshes = true,
+                                   .holds_volume_meshes = true,
+                                   .holds_surface_meshes = true,
+                                   .holds_physical_names = true,
+                                   .holds_numbers = true,
+                                   .read = read_msh,
+                                   .write = write_msh});
+
+}  // namespace
+
 }  // namespace smoothfem

@@ -30,7 +30,7 @@ inline std::uint64_t first_number(std::uint64_t state) {
 inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radius,
                                              std::uint64_t seed, int n_candidates, int n_sweeps) {
   const Topology& topology = mesh.topology();
-  const std::vector<Point<2>> original = coordinates_of(mesh);
+  const std::vector<Point<2>> original = mesh.copied_coordinates();
   std::vector<Point<2>> x = original;
   const auto length = [&](NodeIndex a, NodeIndex b) {
     return std::sqrt((original[b] - original[a]).squaredNorm());

@@ -122,16 +122,22 @@ inline VolumeMesh read_volume(const std::filesystem::path& path) {
   return std::get<VolumeMesh>(read_mesh(path).mesh);
 }
 
-template <int dim, int spacedim>
-std::vector<Point<spacedim>> coordinates_of(const Mesh<dim, spacedim>& mesh) {
-  return {mesh.coordinates().begin(), mesh.coordinates().end()};
-}
-
 template <int dim>
 void expect_same_mesh(const Mesh<dim>& a, const Mesh<dim>& b) {
-  EXPECT_EQ(coordinates_of(a), coordinates_of(b));  // bit by bit
+  EXPECT_EQ(a.copied_coordinates(), b.copied_coordinates());  // bit by bit
   EXPECT_EQ(a.topology().cells(), b.topology().cells());
   EXPECT_EQ(a.topology().free_nodes(), b.topology().free_nodes());
+}
+
+/// Tags of all cells and two facets of mixed_mesh, and names of some.
+inline MeshLabels labels_of_mixed_mesh() {
+  MeshLabels labels;
+  labels.cell_tags = {7, 7, 3, 3, 7, 3};
+  labels.facets.append(std::vector<NodeIndex>{1, 2});
+  labels.facets.append(std::vector<NodeIndex>{0, 1});
+  labels.facet_tags = {5, 4};
+  labels.names = {{{2, 7}, "steel"}, {{2, 3}, "air gap"}, {{1, 5}, "inlet"}};
+  return labels;
 }
 
 }  // namespace smoothfem

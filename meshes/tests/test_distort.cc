@@ -149,7 +149,7 @@ TEST(DistortOnAnyMachine, GivesTheBitsOfASecondImplementation) {
     for (const int n_sweeps : {1, 3}) {
       PlanarMesh mesh = original;
       distort_within(mesh, 0.8, {.seed = seed, .n_candidates = 7, .n_sweeps = n_sweeps});
-      EXPECT_EQ(coordinates_of(mesh), distorted_again(original, 0.8, seed, 7, n_sweeps));
+      EXPECT_EQ(mesh.copied_coordinates(), distorted_again(original, 0.8, seed, 7, n_sweeps));
     }
 }
 
@@ -158,7 +158,7 @@ TEST(DistortOnAnyMachine, GivesTheseBits) {
   const PlanarMesh original = grid(3, true);
   PlanarMesh mesh = original;
   distort_within(mesh, 0.5, {.seed = 42, .n_candidates = 4});
-  EXPECT_EQ(coordinates_of(mesh), distorted_again(original, 0.5, 42, 4, 1));
+  EXPECT_EQ(mesh.copied_coordinates(), distorted_again(original, 0.5, 42, 4, 1));
   std::vector<Point<2>> free;
   for (const NodeIndex node : mesh.topology().free_nodes())
     free.push_back(mesh.copied_coordinates()[node]);
@@ -191,7 +191,7 @@ TEST(DistortErrors, SayWhatCanBeReached) {
   PlanarMesh mesh = original;
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 0.01}); }),
               HasSubstr("cannot reach the mean quality 0.010000; on this mesh it reaches values"));
-  EXPECT_EQ(coordinates_of(mesh), coordinates_of(original));
+  EXPECT_EQ(mesh.copied_coordinates(), original.copied_coordinates());
   mesh = grid(6, true);
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 0.95}); }),
               HasSubstr("because the mesh itself has 0.866025"));

@@ -34,15 +34,6 @@ TEST(Domains, SayWhatTheyAre) {
   }
 }
 
-TEST(Domains, WithATakenNameAreRefused) {
-  EXPECT_THROW(RegisteredDomain({.name = "gear",
-                                 .description = "another one",
-                                 .dimension = 2,
-                                 .elements = {"triangles"},
-                                 .make = nullptr}),
-               std::logic_error);
-}
-
 TEST(Domains, ThatAreNotThereAreRefusedWithTheNearestName) {
   EXPECT_THAT(
       input_error_of([] { find_domain("gaer"); }),

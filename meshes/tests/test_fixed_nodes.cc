@@ -21,7 +21,7 @@ VolumeMesh box() {
   fixed[13] = true;
   return {
       std::make_shared<const Topology>(3, mesh.n_nodes(), mesh.topology().cells(), fixed, labels),
-      coordinates_of(mesh)};
+      mesh.copied_coordinates()};
 }
 
 std::vector<NodeIndex> fixed_by(const std::string& rule) {

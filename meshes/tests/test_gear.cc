@@ -154,7 +154,7 @@ TEST(TriangulationEdits, FlipsKeepCountsValidityAndDegrees) {
   const PlanarMesh plain = generate_gear(parameters);
   PlanarCells cells = cells_of(plain);
   EXPECT_EQ(flip_edges(cells, 1000, 1), 1000u);
-  EXPECT_EQ(cells.coordinates, coordinates_of(plain));
+  EXPECT_EQ(cells.coordinates, plain.copied_coordinates());
   const PlanarMesh flipped(
       std::make_shared<const Topology>(2, cells.coordinates.size(), cells.cells),
       cells.coordinates);

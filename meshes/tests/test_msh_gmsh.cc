@@ -230,13 +230,7 @@ class MshForGmsh : public FileTest, public ::testing::WithParamInterface<Variant
 };
 
 TEST_P(MshForGmsh, PlanarMeshes) {
-  MeshLabels labels;
-  labels.cell_tags = {7, 7, 3, 3, 7, 3};
-  labels.facets.append(std::vector<NodeIndex>{1, 2});
-  labels.facets.append(std::vector<NodeIndex>{0, 1});
-  labels.facet_tags = {5, 4};
-  labels.names = {{{2, 7}, "steel"}, {{2, 3}, "air gap"}, {{1, 5}, "inlet"}};
-  expect_read_by_gmsh(mixed_mesh(false, labels));
+  expect_read_by_gmsh(mixed_mesh(false, labels_of_mixed_mesh()));
   expect_read_by_gmsh(mixed_mesh(false));
 }
 

@@ -5,6 +5,7 @@
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/tests/methods.h"
+#include "smoothing/tests/shared_mesh.h"
 
 namespace smoothfem {
 namespace {
@@ -38,11 +39,9 @@ std::vector<Run> all_runs() {
 
 class RealMeshes : public testing::TestWithParam<Run> {
  protected:
-  static std::filesystem::path path() {
-    return std::filesystem::path(SMOOTHFEM_SHARED_MESHES) / GetParam().file;
-  }
+  static std::filesystem::path path() { return test::shared_mesh(GetParam().file); }
   void SetUp() override {
-    if (!std::filesystem::exists(path())) GTEST_SKIP() << "there is no " << path();
+    if (path().empty()) GTEST_SKIP() << test::how_to_get(GetParam().file);
   }
 
   template <int dim, int spacedim>

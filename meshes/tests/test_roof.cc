@@ -85,7 +85,7 @@ TEST(Roof, CanBeCoarserAndIsTheSameEveryTime) {
     EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
     EXPECT_LT(mesh.n_cells(), n_cells_before);
     n_cells_before = mesh.n_cells();
-    EXPECT_EQ(coordinates_of(roof(scale)), coordinates_of(mesh));
+    EXPECT_EQ(roof(scale).copied_coordinates(), mesh.copied_coordinates());
   }
   expect_edge_scales("roof", 3);
 }

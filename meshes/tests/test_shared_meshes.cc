@@ -6,6 +6,7 @@
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/tests/shared_mesh.h"
 
 namespace smoothfem {
 namespace {
@@ -13,13 +14,14 @@ namespace {
 /// Meshes of other people lie beside the repository, if at all.
 class SharedMeshes : public FileTest {
  protected:
-  static std::filesystem::path shared(const std::string& name) {
-    return std::filesystem::path(SMOOTHFEM_SHARED_MESHES) / name;
-  }
+  static std::filesystem::path shared(const std::string& name) { return test::shared_mesh(name); }
 
   void SetUp() override {
-    if (!std::filesystem::is_directory(SMOOTHFEM_SHARED_MESHES))
-      GTEST_SKIP() << "no folder " << SMOOTHFEM_SHARED_MESHES;
+    for (const std::string name :
+         {"gear_quad_initial.mesh", "gear_tri_initial.mesh", "hex_rockerarm_10600.mesh",
+          "mixed2d_overture_tri382_quad4831.vtk", "mixed_hex_tet_pri_pyr_1622.vtk",
+          "simple_mixed_planar_polygonal.mesh", "tet_sphere_24013.mesh"})
+      if (shared(name).empty()) GTEST_SKIP() << test::how_to_get(name);
   }
 };
 
@@ -111,7 +113,7 @@ TEST_F(SharedMeshes, VolumeMeshesHaveTheirCountsAndAreValid) {
       write_mesh(file("copy" + format.extension), mesh);
       const MeshFile again = read_mesh(file("copy" + format.extension));
       const auto& copy = std::get<VolumeMesh>(again.mesh);
-      EXPECT_EQ(coordinates_of(copy), coordinates_of(mesh)) << name << format.name;
+      EXPECT_EQ(copy.copied_coordinates(), mesh.copied_coordinates()) << name << format.name;
       EXPECT_EQ(mesh_quality(copy).q_min, mesh_quality(mesh).q_min) << name << format.name;
     }
   }

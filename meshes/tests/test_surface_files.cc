@@ -45,12 +45,13 @@ TEST_F(SurfaceFiles, KeepEveryBitAndTheFeatures) {
     const MeshFile read = read_mesh(file(name));
     const auto* same = std::get_if<SurfaceMesh>(&read.mesh);
     ASSERT_NE(same, nullptr);
-    EXPECT_EQ(coordinates_of(*same), coordinates_of(mesh));
+    EXPECT_EQ(same->copied_coordinates(), mesh.copied_coordinates());
     EXPECT_EQ(same->topology().cells(), mesh.topology().cells());
     EXPECT_EQ(same->topology().free_nodes(), mesh.topology().free_nodes());
     EXPECT_EQ(same->topology().labels().facet_tags, mesh.topology().labels().facet_tags);
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      EXPECT_EQ(same->constraints()->classifications()[i].kind, mesh.constraints()->classifications()[i].kind);
+      EXPECT_EQ(same->constraints()->classifications()[i].kind,
+                mesh.constraints()->classifications()[i].kind);
   }
 }
 
@@ -88,7 +89,7 @@ TEST(DistortedSurface, HasTheMeanQualityAskedForAndNeverLeavesTheSurface) {
   }
   EXPECT_GT(n_moved, mesh.n_nodes() * 8 / 10);
   distort(again, parameters);
-  EXPECT_EQ(coordinates_of(again), coordinates_of(distorted));
+  EXPECT_EQ(again.copied_coordinates(), distorted.copied_coordinates());
 }
 
 }  // namespace

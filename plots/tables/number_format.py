@@ -12,43 +12,48 @@ SMALLEST_FIXED = 1e-3
 FACTOR_FROM = 10
 
 
+def formatted(values, specification):
+    """Numbers as a format specification says; not-a-number as a dash."""
+    return [MISSING if math.isnan(v) else format(v, specification) for v in values]
+
+
 def format_integer(values):
     """Whole numbers."""
-    return [MISSING if math.isnan(v) else f"{v:.0f}" for v in values]
+    return formatted(values, ".0f")
 
 
 def format_scientific(values):
     """Three digits and an exponent, as the thesis prints condition numbers."""
-    return [MISSING if math.isnan(v) else f"{v:.2e}" for v in values]
+    return formatted(values, ".2e")
 
 
 def format_quality(values):
     """Four decimals, as the thesis prints mean ratio numbers."""
-    return [MISSING if math.isnan(v) else f"{v:.4f}" for v in values]
+    return formatted(values, ".4f")
 
 
 def format_seconds(values):
     """Milliseconds resolved, and as many decimals more as the shortest time needs for two digits."""
     shortest = min((v for v in values if v > 0), default=1.0)
     decimals = min(max(3, 1 - math.floor(math.log10(shortest))), 6)
-    return [MISSING if math.isnan(v) else f"{v:.{decimals}f}" for v in values]
+    return formatted(values, f".{decimals}f")
 
 
 def format_factor(values):
     """One decimal, as the thesis prints speedups."""
-    return [MISSING if math.isnan(v) else f"{v:.1f}" for v in values]
+    return formatted(values, ".1f")
 
 
 def format_memory(values):
     """Two decimals: one more than the thesis prints, since its meshes are larger than most of ours."""
-    return [MISSING if math.isnan(v) else f"{v:.2f}" for v in values]
+    return formatted(values, ".2f")
 
 
 def format_error(values):
     """Four decimals as in the thesis; with an exponent for the whole column if these are too few."""
     sizes = [abs(v) for v in values if not math.isnan(v) and v != 0]
     fixed = not sizes or (min(sizes) >= SMALLEST_FIXED and max(sizes) < 1e5)
-    return [MISSING if math.isnan(v) else f"{v:.4f}" if fixed else f"{v:.4e}" for v in values]
+    return formatted(values, ".4f" if fixed else ".4e")
 
 
 def grouped(text):

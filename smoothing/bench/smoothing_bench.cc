@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Times of the smoothers: whole runs and single kernels, by element and as multiples of a plain
 /// Laplace sweep over the same mesh (the cheapest thing a smoother can do). Meshes: a generated
-/// distorted grid, and the published gears where the folder SMOOTHFEM_BENCH_MESHES (environment;
-/// default: shared/meshes beside the repository) has them.
+/// distorted grid, and the published gears where they are at hand (shared_mesh.h).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -12,11 +11,10 @@
 #include <iostream>
 #include <memory>
 
+#include "meshes/io/mesh_file.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/tests/planar_meshes.h"
-#ifdef SMOOTHFEM_BENCH_READS_FILES
-#include "meshes/io/mesh_file.h"
-#endif
+#include "smoothing/tests/shared_mesh.h"
 
 namespace smoothfem {
 namespace {
@@ -49,19 +47,13 @@ std::vector<NamedMesh> meshes() {
   all.push_back({"grid_triangles", test::grid_mesh(80, test::GridCells::triangles)});
   all.push_back({"grid_quadrilaterals", test::grid_mesh(80, test::GridCells::quadrilaterals)});
   for (auto& [name, mesh, seconds] : all) test::distort(mesh, 0.9, 1);
-#ifdef SMOOTHFEM_BENCH_READS_FILES
-  const char* set = std::getenv("SMOOTHFEM_BENCH_MESHES");
-  const std::filesystem::path folder = set ? set : SMOOTHFEM_SHARED_MESHES;
   for (const std::string name : {"gear_tri_initial", "gear_quad_initial"}) {
-    const auto path = folder / (name + ".mesh");
-    if (std::filesystem::exists(path))
-      all.push_back({name, planar_mesh(read_mesh(path), path)});
+    const auto path = test::shared_mesh(name + ".mesh");
+    if (path.empty())
+      std::cerr << test::how_to_get(name + ".mesh") << '\n';
     else
-      std::cerr << "skipping " << name << ": there is no " << path << '\n';
+      all.push_back({name, planar_mesh(read_mesh(path), path)});
   }
-#else
-  std::cerr << "skipping the published meshes: built without the meshes library\n";
-#endif
   for (auto& named : all) named.laplace_sweep_seconds = laplace_sweep_seconds(named.mesh);
   return all;
 }

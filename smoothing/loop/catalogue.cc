@@ -2,55 +2,37 @@
 #include "smoothing/loop/catalogue.h"
 
 #include <algorithm>
-#include <map>
 
-#include "smoothing/base/find_named.h"
+#include "smoothing/base/registry.h"
 
 namespace smoothfem {
 
 namespace {
 
 struct Entry {
+  std::string name;
   MethodInfo info;
   StageFactories factories;
 };
 
-/// Ordered by name, so listings do not depend on the order in which files are linked or loaded.
-using Entries = std::map<std::string, Entry>;
-Entries& registered_entries() {
-  static Entries catalogue;
-  return catalogue;
-}
-/// What is wrong with them: nothing can be thrown while a library is loaded.
-std::string& registration_error() {
-  static std::string error;
-  return error;
-}
-
-const Entries& entries() {
-  if (!registration_error().empty()) throw InputError(registration_error());
-  return registered_entries();
+Registry<Entry>& registry() {
+  static Registry<Entry> methods("method");
+  return methods;
 }
 
 const Entry& entry(const std::string& name) {
-  return find_named("method", name, entries(), [](const auto& entry) { return entry.first; }).second;
+  return registry().find(name);
 }
 
 }  // namespace
 
 RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
-  const std::string name = info.name, title = info.title;
-  const auto [found, is_new] =
-      registered_entries().emplace(name, Entry{std::move(info), std::move(factories)});
-  if (!is_new)
-    registration_error() = "two methods are registered as '" + name + "', '" +
-                           found->second.info.title + "' and '" + title +
-                           "'; give one of them another name";
+  registry().add({info.name, info, std::move(factories)});
 }
 
 std::vector<MethodInfo> method_catalogue() {
   std::vector<MethodInfo> infos;
-  for (const auto& [name, entry] : entries()) infos.push_back(entry.info);
+  for (const auto& entry : registry().all()) infos.push_back(entry.info);
   return infos;
 }
 
@@ -84,8 +66,8 @@ bool takes_meshes(const std::string& method, bool with_constraints) {
 template <int dim, int spacedim>
 std::vector<std::string> methods_that_take(bool with_constraints) {
   std::vector<std::string> names;
-  for (const auto& [name, unused] : entries())
-    if (takes_meshes<dim, spacedim>(name, with_constraints)) names.push_back(name);
+  for (const auto& entry : registry().all())
+    if (takes_meshes<dim, spacedim>(entry.name, with_constraints)) names.push_back(entry.name);
   return names;
 }
 

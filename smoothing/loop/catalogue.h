@@ -35,8 +35,8 @@ struct Method {
 /// How to make the stages of a method for planar, volume and surface meshes; empty where it takes
 /// none of these.
 struct StageFactories {
-  std::function<Stages<2>()> planar;
-  std::function<Stages<3>()> volume;
+  std::function<Stages<2>()> planar = {};
+  std::function<Stages<3>()> volume = {};
   std::function<Stages<2, 3>()> surface = {};
 };
 

@@ -114,7 +114,8 @@ TEST_P(EveryMethod, ImprovesDistortedMeshesOfEveryTypeAndMovesOnlyFreeNodes) {
       smooth(result, made);
       for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
         if (mesh.topology().is_fixed(i)) {
-          EXPECT_EQ(result.copied_coordinates()[i], mesh.copied_coordinates()[i]) << name << " node " << i;
+          EXPECT_EQ(result.copied_coordinates()[i], mesh.copied_coordinates()[i])
+              << name << " node " << i;
         }
       EXPECT_EQ(&result.topology(), &mesh.topology()) << name;
       EXPECT_GT(mesh_quality(result).q_star_min, mesh_quality(mesh).q_star_min) << name;
@@ -165,7 +166,8 @@ TEST_P(EveryMethod, GivesTheSameBitsTwice) {
       for (auto* before : {&made, &reused}) {
         Mesh<dim> again = mesh;
         smooth(again, *before);
-        EXPECT_EQ(first.copied_coordinates(), again.copied_coordinates()) << name << ": the method keeps a state";
+        EXPECT_EQ(first.copied_coordinates(), again.copied_coordinates())
+            << name << ": the method keeps a state";
       }
     }
   });
@@ -294,7 +296,8 @@ TEST_P(EveryMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
       results.push_back(mesh);
       auto made = short_method<dim>("3");
       smooth(results.back(), made);
-      EXPECT_EQ(results.back().copied_coordinates(), results.front().copied_coordinates()) << threads;
+      EXPECT_EQ(results.back().copied_coordinates(), results.front().copied_coordinates())
+          << threads;
     }
     EXPECT_NE(results.front().copied_coordinates(), mesh.copied_coordinates());
   });

@@ -25,14 +25,14 @@ std::vector<PlanarMesh> distorted_meshes(double radius) {
 
 TEST(ShapeObjective, CountsRegularElements) {
   const auto squares = grid_mesh(4, GridCells::quadrilaterals);
-  EXPECT_NEAR(ShapeObjective<2>(squares.shared_topology()).value(squares.copied_coordinates()), 16.0,
-              1e-13);
+  EXPECT_NEAR(ShapeObjective<2>(squares.shared_topology()).value(squares.copied_coordinates()),
+              16.0, 1e-13);
   const auto triangles = grid_mesh(3, GridCells::triangles, true);
-  EXPECT_NEAR(ShapeObjective<2>(triangles.shared_topology()).value(triangles.copied_coordinates()), 18.0,
-              1e-13);
+  EXPECT_NEAR(ShapeObjective<2>(triangles.shared_topology()).value(triangles.copied_coordinates()),
+              18.0, 1e-13);
   const auto hexagons = test::honeycomb_mesh();
-  EXPECT_NEAR(ShapeObjective<2>(hexagons.shared_topology()).value(hexagons.copied_coordinates()), 37.0,
-              1e-12);
+  EXPECT_NEAR(ShapeObjective<2>(hexagons.shared_topology()).value(hexagons.copied_coordinates()),
+              37.0, 1e-12);
 }
 
 TEST(ShapeObjective, OfARightTriangleAndARectangle) {

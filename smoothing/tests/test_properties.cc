@@ -338,7 +338,8 @@ void check_untangling(const RandomMesh<dim>& random, bool fixed_in_place, Untang
   RC_ASSERT(result.valid == (result.n_invalid_after == 0u));
   RC_ASSERT(test::n_moved_fixed_nodes(tangled, mesh) == 0u);
   if (result.valid) RC_ASSERT(mesh_quality(mesh).n_invalid == 0u);
-  if (!result.valid || n_invalid == 0) RC_ASSERT((mesh.copied_coordinates() == tangled.copied_coordinates()));
+  if (!result.valid || n_invalid == 0)
+    RC_ASSERT((mesh.copied_coordinates() == tangled.copied_coordinates()));
   if (n_invalid > 0) ++(result.valid ? counts.mended : counts.given_up);
 }
 

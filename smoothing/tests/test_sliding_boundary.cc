@@ -128,7 +128,8 @@ TEST_P(SlidingBoundary, GivesTheSameBitsWithEveryNumberOfThreads) {
       results.push_back(mesh);
       auto made = test::short_method<3>(GetParam(), "3");
       smooth(results.back(), made);
-      EXPECT_EQ(results.back().copied_coordinates(), results.front().copied_coordinates()) << threads;
+      EXPECT_EQ(results.back().copied_coordinates(), results.front().copied_coordinates())
+          << threads;
     }
   }
   set_n_threads(usual);

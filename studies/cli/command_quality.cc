@@ -133,8 +133,7 @@ std::string histogram_csv(const Topology& topology, const std::vector<double>& c
 void require_csv_path(const std::filesystem::path& path) {
   if (path.extension() != ".csv")
     throw InputError("the histogram " + path.string() +
-                     " must end with .csv: this program writes numbers; the picture is drawn by "
-                     "'./run quality IN --histogram FILE.png', or by the installed smoothfem");
+                     " must end with .csv (numbers), or .png, .pdf or .svg (drawn)");
 }
 
 template <int dim, int spacedim>
@@ -169,8 +168,9 @@ void add_quality_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "quality", "quality numbers of a mesh file; exit code 2 if it has invalid cells");
   command->add_option("in", arguments->in, "mesh to read")->required();
-  command->add_option("--histogram", arguments->histogram,
-                      "CSV file with the histogram of each cell type, for 'plots histogram'");
+  command->add_option(
+      "--histogram", arguments->histogram,
+      "numbers of cells by mean ratio and type: .csv, or drawn as .png, .pdf or .svg");
   command->add_flag("--json", arguments->json, "as JSON");
   command->callback([arguments] { report_quality(*arguments); });
 }

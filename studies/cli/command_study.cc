@@ -25,6 +25,7 @@ struct Arguments {
   bool quick = false;
   bool list = false;
   bool print_ranks = false;
+  bool published = false;
   StudyOptions options;
 };
 
@@ -119,6 +120,8 @@ void add_study_command(CLI::App& app) {
                       "folder for the results (results/NAME unless given)");
   command->add_option("--mesh-dir", arguments->options.mesh_dir,
                       "folder with the published meshes that the study names");
+  command->add_flag("--published", arguments->published,
+                    "fetch the published meshes that the study names, once, and run on them");
   command
       ->add_option("--threads", arguments->options.n_threads,
                    "threads for the finite elements of planar meshes (all cores unless given)")
@@ -140,6 +143,11 @@ void add_study_command(CLI::App& app) {
     if (arguments->list) return list_studies();
     if (arguments->study.empty())
       throw InputError("which study? 'smoothfem study --list' shows those there are");
+    // The launcher fetches, and passes on the folder.
+    if (arguments->published)
+      throw InputError(
+          "--published is for the command smoothfem by itself, not under mpirun; run it "
+          "once without, or name the folder of the meshes by --mesh-dir");
     if (arguments->print_ranks)
       print_ranks(*arguments);
     else

@@ -4,6 +4,7 @@
 
 #include "smoothfem_versions.h"
 #include "smoothing/base/input_error.h"
+#include "smoothing/simd/registers.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/run/peak_memory.h"
 
@@ -14,8 +15,10 @@ namespace {
 constexpr int exit_bad_input = 2;
 
 int run(int argc, char** argv) {
-  CLI::App app("smoothfem: what mesh smoothing does to a finite element solution");
-  app.set_version_flag("--version", SMOOTHFEM_VERSION);
+  CLI::App app("smoothfem: what mesh smoothing does to a finite element solution", "smoothfem");
+  app.set_version_flag("--version", "smoothfem " SMOOTHFEM_VERSION " (vector registers: " +
+                                        std::string(registers()) + ")");
+  app.footer("smoothfem plot FOLDER draws the tables and figures of a results folder anew.");
   app.require_subcommand(1);
   app.option_defaults()->always_capture_default();
   add_study_command(app);

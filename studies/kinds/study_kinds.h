@@ -8,6 +8,7 @@
 
 #include "studies/framework/definition/study_header.h"
 #include "studies/framework/run/study_options.h"
+#include "studies/framework/run/table_study.h"
 
 namespace smoothfem {
 
@@ -26,7 +27,19 @@ struct StudyKind {
   ReadyStudy (*read)(const std::filesystem::path& file, const std::string& scale);
   std::string (*keys)();  ///< a commented study file with every key and its default
 };
+inline constexpr const char* default_study_kind = "smoothing";
+
+/// Registers a kind when its file is loaded: a namespace-scope object at the end of a file in a
+/// folder of studies/kinds/. A name that is taken is an InputError at the first look-up.
+struct RegisteredStudyKind {
+  explicit RegisteredStudyKind(StudyKind kind);
+};
+
+/// All registered kinds, sorted by name.
 const std::vector<StudyKind>& study_kinds();
+
+/// A study of a kind whose results are tables only.
+ReadyStudy table_study(const StudyHeader& header, std::vector<StudyTable> tables);
 
 /// Reads a study file of any kind; throws InputError as read_study does.
 ReadyStudy read_any_study(const std::filesystem::path& file, const std::string& scale = {});

@@ -5,6 +5,7 @@
 
 #include "fem/poisson_solver.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/tests/shared_mesh.h"
 #include "studies/framework/definition/study.h"
 #include "studies/tests/study_tests.h"
 
@@ -21,14 +22,15 @@ class PrintedTables : public ::testing::Test {
   };
 
   void SetUp() override {
-    if (!std::filesystem::is_directory(SMOOTHFEM_SHARED_MESHES))
-      GTEST_SKIP() << "the published meshes are not in " << SMOOTHFEM_SHARED_MESHES;
+    for (const std::string mesh : {"tri", "quad"})
+      if (test::shared_mesh(file_name(mesh)).empty())
+        GTEST_SKIP() << test::how_to_get(file_name(mesh));
   }
 
+  static std::string file_name(const std::string& mesh) { return "gear_" + mesh + "_initial.mesh"; }
+
   static PlanarMesh published(const std::string& mesh) {
-    return read_planar(std::filesystem::path(SMOOTHFEM_SHARED_MESHES) /
-                       ("gear_" + mesh + "_initial.mesh"))
-        .mesh;
+    return read_planar(test::shared_mesh(file_name(mesh))).mesh;
   }
 
   /// As the study `gear` does it.

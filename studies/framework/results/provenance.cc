@@ -12,6 +12,7 @@
 
 #include "smoothfem_commit.h"
 #include "smoothfem_versions.h"
+#include "smoothing/simd/registers.h"
 
 namespace smoothfem {
 
@@ -42,6 +43,7 @@ Json describe_machine(const RunFacts& facts) {
   utsname system{};
   uname(&system);
   return {{"cpu", cpu_model()},
+          {"registers", registers()},
           {"system", std::string(system.sysname) + " " + system.release},
           {"smoothing_threads", facts.processors.smoothing_threads},
           {"finite_element_threads", facts.processors.finite_element_threads},

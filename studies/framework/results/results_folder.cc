@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <regex>
 
 namespace smoothfem {
 
@@ -43,16 +42,6 @@ void rename_existing(const fs::path& folder) {
   if (error)
     throw InputError("cannot rename " + plain.string() + " to " + other.string() + ": " +
                      error.message());
-}
-
-void remove_unfinished_files(const fs::path& folder) {
-  static const std::regex temporary(R"(\..+\.[0-9]+\.[0-9]+(\.[^.]*)?)");
-  std::vector<fs::path> unfinished;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (std::regex_match(entry.path().filename().string(), temporary))
-      unfinished.push_back(entry.path());
-  std::error_code ignored;  // leftovers are harmless
-  for (const auto& path : unfinished) fs::remove(path, ignored);
 }
 
 void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,

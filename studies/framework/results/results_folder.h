@@ -17,10 +17,6 @@ void require_published_files(const Study& study, const std::filesystem::path& me
 /// Renames the folder, if it holds anything, to the first of NAME_1, NAME_2, ... that is not there.
 void rename_existing(const std::filesystem::path& folder);
 
-/// Removes the hidden files NAME.PROCESS.NUMBER.EXTENSION that write_atomically leaves where a
-/// process is killed while it writes.
-void remove_unfinished_files(const std::filesystem::path& folder);
-
 /// Throws InputError that says what differs if the run in a folder was one with other settings.
 /// meshes: empty as long as nothing is known of them.
 void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,

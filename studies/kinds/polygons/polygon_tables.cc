@@ -4,6 +4,7 @@
 #include "studies/kinds/polygons/classification.h"
 #include "studies/kinds/polygons/pictures.h"
 #include "studies/kinds/polygons/theorem_check.h"
+#include "studies/kinds/study_kinds.h"
 
 namespace smoothfem {
 
@@ -67,5 +68,16 @@ std::vector<StudyTable> polygon_tables(const PolygonStudy& study) {
           table("theorems.csv", theorems_csv),
           table("classification.csv", classification_csv)};
 }
+
+namespace {
+
+ReadyStudy read(const std::filesystem::path& file, const std::string& scale) {
+  const PolygonStudy study = read_polygon_study(file, scale);
+  return table_study(study.header, polygon_tables(study));
+}
+
+const RegisteredStudyKind registered({"polygons", read, polygon_study_template});
+
+}  // namespace
 
 }  // namespace smoothfem

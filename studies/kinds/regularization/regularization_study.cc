@@ -3,6 +3,7 @@
 
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/results/csv_text.h"
+#include "studies/kinds/study_kinds.h"
 
 namespace smoothfem {
 
@@ -117,5 +118,16 @@ std::vector<StudyTable> regularization_tables(const RegularizationStudy& study) 
   return {{"regularization.csv", [study] { return regularization_csv(study); }},
           {"validity.csv", [study] { return validity_csv(study); }}};
 }
+
+namespace {
+
+ReadyStudy read(const std::filesystem::path& file, const std::string& scale) {
+  const RegularizationStudy study = read_regularization_study(file, scale);
+  return table_study(study.header, regularization_tables(study));
+}
+
+const RegisteredStudyKind registered({"regularization", read, regularization_study_template});
+
+}  // namespace
 
 }  // namespace smoothfem

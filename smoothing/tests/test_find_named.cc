@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// smoothing/base/find_named.h: how every name that a user gives is looked up.
+// How every name that a user gives is looked up: smoothing/base/find_named.h and registry.h.
 #include <gmock/gmock.h>
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "smoothing/base/find_named.h"
+#include "smoothing/base/registry.h"
 
 namespace smoothfem {
 namespace {
@@ -86,6 +86,34 @@ TEST(FindNamed, AsksForNoNameThatIsFar) {
 TEST(FindNamed, SaysThatThereIsNone) {
   EXPECT_EQ(refusal("gear", {}), "there is no domain 'gear'; there is none to choose");
   EXPECT_EQ(nearest_name("gear", {}), "");
+}
+
+std::string refusal_of(const Registry<Named>& registry, const std::string& wanted) {
+  try {
+    registry.find(wanted);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+TEST(Registry, ListsByNameWhateverTheOrderOfRegistration) {
+  Registry<Named> registry("animal");
+  for (const auto& entry : {Named{"dog", 2}, {"ant", 0}, {"cat", 1}}) registry.add(entry);
+  ASSERT_EQ(registry.all().size(), 3U);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(registry.all()[i].value, i);
+  EXPECT_EQ(registry.find("cat").value, 1);
+  EXPECT_EQ(refusal_of(registry, "cta"),
+            "there is no animal 'cta'; did you mean 'cat'? choose one of ant, cat, dog");
+}
+
+TEST(Registry, RefusesATakenNameAtTheFirstLookUp) {
+  Registry<Named> registry("animal");
+  registry.add({"dog", 1});
+  registry.add({"dog", 2});
+  EXPECT_EQ(refusal_of(registry, "dog"),
+            "two of the kind animal are registered as 'dog'; give one of them another name");
+  EXPECT_THROW(registry.all(), InputError);
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What is installed, for users (component program) and for programs that call the libraries (component
+# development), and the Debian packages of both.
+include(CMakePackageConfigHelpers)
+
+set(libraries smoothfem_smoothing smoothfem_meshes smoothfem_fem)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/smoothfem)
+install(TARGETS ${libraries} EXPORT smoothfem
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_COMPONENT development)
+install(TARGETS smoothfem_studies
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_SKIP)
+foreach(arch IN LISTS SMOOTHFEM_OTHER_ARCHS)
+  install(TARGETS smoothfem_smoothing-${arch}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/${arch} COMPONENT program NAMELINK_SKIP)
+endforeach()
+file(RELATIVE_PATH libexec_to_lib /${CMAKE_INSTALL_LIBEXECDIR}/smoothfem /${CMAKE_INSTALL_LIBDIR})
+set_target_properties(smoothfem PROPERTIES INSTALL_RPATH $ORIGIN/${libexec_to_lib})
+install(TARGETS smoothfem RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
+
+# Scripts and data.
+install(PROGRAMS launcher/smoothfem DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(PROGRAMS launcher/find_python launcher/fetch_published
+  DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
+install(FILES launcher/smoothfem.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES launcher/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  RENAME smoothfem COMPONENT program)
+install(FILES README.md CITATION.cff CHANGELOG.md results/README.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/studies COMPONENT program
+  FILES_MATCHING PATTERN "*.prm" PATTERN "*.json" PATTERN "*.csv"
+  PATTERN tests EXCLUDE PATTERN cli EXCLUDE PATTERN framework EXCLUDE PATTERN kinds EXCLUDE)
+install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem COMPONENT program
+  FILES_MATCHING PATTERN "*.py" PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)
+
+# Headers: all that a smoother of one's own may want to include, and what reads, generates and solves.
+foreach(folder base geometry getme laplacian loop mesh optimization polygons quality simd surface transformations)
+  file(GLOB headers CONFIGURE_DEPENDS smoothing/${folder}/*.h)
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/smoothing/${folder}
+    COMPONENT development)
+endforeach()
+foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/mesh_file.h
+        meshes/io/mesh_view.h meshes/io/vtu_series.h fem/finite_element_space.h fem/manufactured_solution.h
+        fem/poisson_solver.h fem/ranks.h fem/reference_element.h)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)
+endforeach()
+install(EXPORT smoothfem NAMESPACE smoothfem:: DESTINATION ${package_folder} COMPONENT development)
+configure_package_config_file(cmake/smoothfemConfig.cmake.in ${PROJECT_BINARY_DIR}/smoothfemConfig.cmake
+  INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/smoothfemConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/smoothfemConfig.cmake ${PROJECT_BINARY_DIR}/smoothfemConfigVersion.cmake
+  DESTINATION ${package_folder} COMPONENT development)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME smoothfem)
+set(CPACK_PACKAGE_CONTACT "smoothfem developers <noreply@example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "What mesh smoothing does to a finite element solution")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME smoothfem)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
+  "openmpi-bin, python3, python3-numpy, python3-matplotlib, python3-vtk9, python3-pyvirtualdisplay, xvfb")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+  "Smooths meshes by GETMe, Laplacian variants and global optimization, and solves a Poisson problem after every iteration.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsmoothfem-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "smoothfem (= ${PROJECT_VERSION}), libeigen3-dev, libopenmpi-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and CMake package of smoothfem's libraries.")
+include(CPack)

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# How libraries, tests and benchmarks of this project are made.
+
+# Built as it will be installed: below one folder, with the data beside the programs.
+include(GNUInstallDirs)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(SMOOTHFEM_LIBEXEC ${PROJECT_BINARY_DIR}/libexec/smoothfem)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/bin ${SMOOTHFEM_LIBEXEC} ${PROJECT_BINARY_DIR}/share)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/share/smoothfem SYMBOLIC)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/launcher/smoothfem ${PROJECT_BINARY_DIR}/bin/smoothfem SYMBOLIC)
+foreach(script find_python fetch_published)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/launcher/${script} ${SMOOTHFEM_LIBEXEC}/${script} SYMBOLIC)
+endforeach()
+
+# Headers that most files include, compiled once per library.
+function(smoothfem_precompile target)
+  target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath>
+    <functional> <map> <memory> <optional> <span> <string> <variant> <vector> ${ARGN})
+endfunction()
+
+# smoothfem_add_library(NAME source...): smoothfem::NAME. Shared, not static: an archive would drop the
+# files that only register themselves.
+function(smoothfem_add_library name)
+  set(target smoothfem_${name})
+  add_library(${target} SHARED ${ARGN})
+  add_library(smoothfem::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    INSTALL_RPATH $ORIGIN)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} INTERFACE
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/smoothfem>)
+  target_link_libraries(${target} PRIVATE smoothfem_options)
+endfunction()
+
+# The same library once more, in a folder of its own, compiled for another processor.
+function(smoothfem_add_copy_for_arch target arch folder)
+  set(copy ${target}-${arch})
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(libraries ${target} LINK_LIBRARIES)
+  add_library(${copy} SHARED ${sources})
+  target_link_libraries(${copy} PRIVATE ${libraries})
+  get_target_property(version ${target} VERSION)
+  get_target_property(soversion ${target} SOVERSION)
+  set_target_properties(${copy} PROPERTIES
+    SMOOTHFEM_ARCH_OF_COPY ${arch}
+    OUTPUT_NAME ${target}
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/${folder}
+    VERSION ${version} SOVERSION ${soversion})
+  smoothfem_precompile(${copy})
+endfunction()
+
+# What `./run test` builds besides the program.
+add_custom_target(smoothfem_tests)
+if(SMOOTHFEM_BUILD_TESTS)
+  enable_testing()
+  include(GoogleTest)
+  # Their own lines need not be fast, but compiled quickly; the libraries they call are.
+  set(test_compile_options $<$<CONFIG:Release>:-O1>)
+  # The headers of the tests, compiled once for all of them.
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cc CONTENT "int main() {}\n")
+  add_executable(smoothfem_test_headers EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/test_headers.cc)
+  target_link_libraries(smoothfem_test_headers PRIVATE smoothfem_options Eigen3::Eigen
+    OpenMP::OpenMP_CXX GTest::gtest GTest::gmock)
+  target_compile_options(smoothfem_test_headers PRIVATE ${test_compile_options})
+  smoothfem_precompile(smoothfem_test_headers <gtest/gtest.h> <gmock/gmock.h>)
+endif()
+
+# smoothfem_add_test(NAME label SOURCES source... LIBRARIES library...): a GoogleTest executable whose
+# tests carry the ctest label unit, integration or long. Tests find the repository and the meshes that
+# are not part of it.
+function(smoothfem_add_test name label)
+  if(NOT SMOOTHFEM_BUILD_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;DEFINITIONS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE smoothfem_options ${ARG_LIBRARIES} GTest::gtest GTest::gmock
+                                        GTest::gtest_main)
+  target_compile_options(${name} PRIVATE ${test_compile_options})
+  target_precompile_headers(${name} REUSE_FROM smoothfem_test_headers)
+  target_compile_definitions(${name} PRIVATE
+    SMOOTHFEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    SMOOTHFEM_SHARED_MESHES="${PROJECT_SOURCE_DIR}/../shared/meshes"
+    ${ARG_DEFINITIONS})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  add_dependencies(smoothfem_tests ${name})
+  gtest_discover_tests(${name} PROPERTIES LABELS ${label} DISCOVERY_MODE PRE_TEST
+                       DISCOVERY_TIMEOUT 120)  # the first time, libraries come from the disk
+endfunction()
+
+# smoothfem_add_bench(NAME SOURCES source... LIBRARIES library...): a program with Google Benchmark.
+function(smoothfem_add_bench name)
+  if(NOT SMOOTHFEM_BUILD_BENCHMARKS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE smoothfem_options ${ARG_LIBRARIES} benchmark::benchmark)
+  target_compile_definitions(${name} PRIVATE
+    SMOOTHFEM_SHARED_MESHES="${PROJECT_SOURCE_DIR}/../shared/meshes")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bench)
+endfunction()

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the tests find what was built: SMOOTHFEM_BUILD, which ctest sets."""
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("SMOOTHFEM_BUILD", SOURCE / "build" / "release"))
+SMOOTHFEM = BUILD / "bin" / "smoothfem"
+COMMANDS = ("study", "smooth", "quality", "generate", "list")
+
+
+def environment(**more):
+    """This process' environment as a user would have it, and more; None takes a variable away."""
+    merged = {**os.environ, **more}
+    for name in ("SMOOTHFEM_DATA", "SMOOTHFEM_PUBLISHED_URL", "CI", "MAKEFLAGS"):
+        if name not in more:
+            merged.pop(name, None)
+    return {name: str(value) for name, value in merged.items() if value is not None}
+
+
+def run(*command, folder=None, check=True, timeout=600, **more):
+    """What a command prints; raises AssertionError with its messages if it fails."""
+    outcome = subprocess.run([str(word) for word in command], cwd=folder, env=environment(**more), text=True,
+                             stdin=subprocess.DEVNULL, capture_output=True, check=False, timeout=timeout)
+    if check and outcome.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))}: exit code {outcome.returncode}\n"
+                             f"{outcome.stdout[-2000:]}\n{outcome.stderr[-2000:]}")
+    return outcome
+
+
+def method_names():
+    """Names of all methods."""
+    text = run(SMOOTHFEM, "list").stdout
+    return re.findall(r"^  (\S+): ", text[:text.index("\nPRESETS")], re.MULTILINE)

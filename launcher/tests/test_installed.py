@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An installation in an empty folder: runs, draws, completes names, and is built against."""
+
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from .build_folder import BUILD, SOURCE, run
+
+PROGRAM = Path(__file__).with_name("installed_program")
+STUDY = """set title   = Small
+set meshes  = square
+set methods = laplace, getme
+set degrees = 1
+subsection mesh square
+  set domain     = gear
+  set elements   = triangles
+  set edge scale = 6
+  set distort to = 0.5
+end
+subsection solution
+  set name = gear
+end
+"""
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.prefix = Path(cls.temporary.name) / "usr"
+        cls.folder = Path(cls.temporary.name) / "work"
+        cls.folder.mkdir()
+        run("cmake", "--install", BUILD, "--prefix", cls.prefix)
+        cls.smoothfem = cls.prefix / "bin" / "smoothfem"
+
+    def smoothfem_run(self, *words, **more):
+        """Runs the installed program in an empty folder."""
+        return run(self.smoothfem, *words, folder=self.folder, **more)
+
+    def test_names_no_folder_of_the_build(self):
+        """Neither libraries nor scripts know where the sources are."""
+        for path in self.prefix.rglob("*"):
+            if path.is_file():
+                self.assertNotIn(str(SOURCE).encode(), path.read_bytes(), path)
+
+    def test_smooths_and_draws(self):
+        self.assertRegex(self.smoothfem_run("--version").stdout, r"^smoothfem \d+\.\d+\.\d+ \(vector registers: \w+\)$")
+        self.smoothfem_run("generate", "gear", "-o", "in.msh", "--edge-scale", "4", "--distort-to", "0.45")
+        self.smoothfem_run("smooth", "in.msh", "-m", "getme", "--preset", "thesis-6.3", "-o", "out.vtu")
+        self.smoothfem_run("quality", "out.vtu", "--histogram", "out.png")
+        self.assertEqual((self.folder / "out.png").read_bytes()[:4], b"\x89PNG")
+
+    def test_runs_a_study_here(self):
+        (self.folder / "small.prm").write_text(STUDY)
+        link = self.folder / "linked"
+        link.symlink_to(self.smoothfem)
+        run(link, "study", "small.prm", "--quiet", folder=self.folder)
+        results = self.folder / "results" / "small"
+        for name in ("iterations.csv", "provenance.json"):
+            self.assertTrue((results / name).is_file(), name)
+        self.assertTrue(list((results / "tables").glob("*.md")))
+        self.assertTrue(list((results / "figures").glob("*.pdf")))
+        self.assertEqual(list(self.prefix.rglob("__pycache__")), [])
+        before = sorted(path.name for path in (results / "figures").iterdir())
+        self.smoothfem_run("plot", "results/small", "--quiet")
+        self.assertEqual(sorted(path.name for path in (results / "figures").iterdir()), before)
+
+    def test_completion(self):
+        script = self.prefix / "share" / "bash-completion" / "completions" / "smoothfem"
+
+        def complete(*words):
+            quoted = " ".join(f"'{word}'" for word in (self.smoothfem, *words))
+            return run("bash", "-c", f"source '{script}'; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; "
+                       "_smoothfem; printf '%s\\n' \"${COMPREPLY[@]}\"").stdout.split()
+
+        self.assertEqual(complete("gen"), ["generate"])
+        self.assertIn("plot", complete(""))
+        self.assertIn("getme-adaptive", complete("smooth", "in.vtu", "-m", "getme"))
+        self.assertNotIn("laplace", complete("smooth", "in.vtu", "-m", "getme"))
+        self.assertEqual(complete("smooth", "in.vtu", "--preset", "thesis-6"), ["thesis-6.3"])
+        self.assertEqual(complete("study", "nonu"), ["nonuniform-grid"])
+        self.assertEqual(complete("generate", "fl"), ["flange"])
+        self.assertEqual(complete("smooth", "--untan"), ["--untangle"])
+
+    def test_headers_are_complete(self):
+        include = self.prefix / "include" / "smoothfem"
+        headers = list(include.rglob("*.h"))
+        self.assertGreater(len(headers), 50)
+        for header in headers:
+            for name in re.findall(r'#include "(.*)"', header.read_text(encoding="utf-8")):
+                self.assertTrue((include / name).is_file(), f"{header} includes {name}")
+
+    def test_program_of_somebody_else(self):
+        build = self.folder / "build"
+        run("cmake", "-S", PROGRAM, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
+        run("cmake", "--build", build)
+        self.smoothfem_run("generate", "gear", "-o", "gear.msh", "--edge-scale", "4", "--distort-to", "0.45")
+        told = run(build / "quarter_laplace", "gear.msh", "getme", "mine.mesh", folder=self.folder).stdout
+        before, after = map(float, re.search(r"error (\S+) -> (\S+)", told).groups())
+        self.assertLess(after, before)
+        self.smoothfem_run("smooth", "gear.msh", "-m", "getme", "-o", "theirs.mesh")
+        self.assertEqual((self.folder / "mine.mesh").read_bytes(), (self.folder / "theirs.mesh").read_bytes())
+
+    def test_missing_python_is_told(self):
+        # No interpreter starts with this home.
+        outcome = subprocess.run([self.prefix / "libexec" / "smoothfem" / "find_python"], text=True,
+                                 capture_output=True, check=False, stdin=subprocess.DEVNULL,
+                                 env={"PATH": os.environ["PATH"], "PYTHONHOME": "/nonexistent"})
+        self.assertEqual(outcome.returncode, 2)
+        self.assertIn("python3-matplotlib", outcome.stderr)
+        self.assertEqual(len(outcome.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

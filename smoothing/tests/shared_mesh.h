@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace smoothfem::test {
+
+/// A mesh of other people, which is not part of the repository: in the folder that the environment
+/// variable SMOOTHFEM_MESHES names, in ../shared/meshes, or (published ones) in the user's cache,
+/// where `./run study gear --published` puts it. Empty if it is nowhere: the test is then skipped
+/// with how_to_get as its reason.
+inline std::filesystem::path shared_mesh(const std::string& name) {
+  const auto variable = [](const char* variable_name) -> std::filesystem::path {
+    const char* value = std::getenv(variable_name);
+    return value ? value : "";
+  };
+  const auto cache =
+      variable("XDG_CACHE_HOME").empty() ? variable("HOME") / ".cache" : variable("XDG_CACHE_HOME");
+  const std::vector<std::filesystem::path> folders{
+      variable("SMOOTHFEM_MESHES"), SMOOTHFEM_SHARED_MESHES, cache / "smoothfem" / "published"};
+  for (const auto& folder : folders)
+    if (!folder.empty() && std::filesystem::is_regular_file(folder / name)) return folder / name;
+  return {};
+}
+
+/// Why a test is skipped, and what to do.
+inline std::string how_to_get(const std::string& name) {
+  return "SKIPPED: the mesh " + name +
+         " is not part of the repository and not at hand; name its folder by SMOOTHFEM_MESHES, or "
+         "fetch the published gears by ./run study gear --published";
+}
+
+}  // namespace smoothfem::test

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/run_study.h"
+#include "studies/kinds/study_kinds.h"
+
+namespace smoothfem {
+
+namespace {
+
+ReadyStudy read_smoothing_study(const std::filesystem::path& file, const std::string& scale) {
+  const Study study = read_study(file, scale);
+  const bool solves_in_space = study.dimensions.cells == 3 && !study.degrees.empty();
+  return {.header = study.header,
+          .on_ranks = solves_in_space,
+          .benefits_from_mpi = solves_in_space,
+          .run = [study](const StudyOptions& options) { run_study(study, options); }};
+}
+
+const RegisteredStudyKind registered({default_study_kind, read_smoothing_study, study_template});
+
+}  // namespace
+
+}  // namespace smoothfem
