@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "meshes/distortion/counter_random.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/parallel.h"
+#include "smoothing/geometry/unit_normal.h"
 #include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -165,8 +168,8 @@ class Distortion {
     return worst;
   }
 
-  /// Finite elements are solved on distorted meshes, so hexahedra have to be more than valid at
-  /// their corners.
+  /// Cells have to be more than valid at their corners: finite elements are solved on distorted
+  /// hexahedra, and distorted surfaces are written to files.
   bool is_folded(CellIndex cell) const {
     if constexpr (dim == 3) {
       const auto nodes = mesh_.topology().cell_nodes(cell);
@@ -174,6 +177,13 @@ class Distortion {
       std::array<Point<3>, 8> corners;
       for (std::size_t k = 0; k < 8; ++k) corners[k] = mesh_.coordinates()[nodes[k]];
       return !has_positive_mapping(corners);
+    } else if constexpr (spacedim > dim) {
+      // Valid also by its own mean normal: a file of the mesh tells no other.
+      std::vector<Vector3<double>> corners;
+      for (const NodeIndex node : mesh_.topology().cell_nodes(cell))
+        corners.push_back(vector_of(mesh_.coordinates()[node]));
+      const std::span<const Vector3<double>> polygon = corners;
+      return !(mean_ratio(unit_normal(polygon), polygon) > 0.0);
     }
     return false;
   }

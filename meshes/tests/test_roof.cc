@@ -3,6 +3,7 @@
 #include "meshes/tests/domain_tests.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/quality/mean_ratio.h"
 #include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
@@ -75,6 +76,19 @@ TEST(Roof, SmoothsToABetterMeanQualityTheSameWhetherDistortedOrNot) {
   }
   EXPECT_NEAR(q_mean[0], q_mean[1], 0.001);
   EXPECT_GT(q_mean[0], initial + 0.001);
+}
+
+TEST(Roof, DistortedIsASurfaceByItself) {
+  SurfaceMesh mesh = roof();
+  distort(mesh, {.target_q_mean = 0.7});
+  // As after reading a file: the distorted mesh is the surface.
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    std::vector<Vector3<double>> corners;
+    for (const NodeIndex node : mesh.topology().cell_nodes(c))
+      corners.push_back(vector_of(mesh.coordinates()[node]));
+    const std::span<const Vector3<double>> polygon = corners;
+    EXPECT_GT(mean_ratio(unit_normal(polygon), polygon), 0.0) << c;
+  }
 }
 
 TEST(Roof, CanBeCoarserAndIsTheSameEveryTime) {
