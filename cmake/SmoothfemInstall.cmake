@@ -24,8 +24,8 @@ install(PROGRAMS launcher/find_python launcher/fetch_published
 install(FILES launcher/smoothfem.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES launcher/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME smoothfem COMPONENT program)
-install(FILES README.md CITATION.cff CHANGELOG.md results/README.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES README.md CITATION.cff CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES results/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME results.md COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/studies COMPONENT program
   FILES_MATCHING PATTERN "*.prm" PATTERN "*.json" PATTERN "*.csv"
@@ -65,6 +65,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME smoothfem)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
   "openmpi-bin, python3, python3-numpy, python3-matplotlib, python3-vtk9, python3-pyvirtualdisplay, xvfb")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION

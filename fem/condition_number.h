@@ -31,7 +31,7 @@ struct ConditionNumber {
 constexpr double verified_residual = 1e-6;
 
 /// From the extreme Ritz values of a CG run without preconditioner, which lie inside the spectrum:
-/// the condition number is low, as a rule by less than 1e-3 once CG has converged to 1e-8. The
+/// the condition number is low, usually by less than 1e-3 once CG has converged to 1e-8. The
 /// residuals are those of the Ritz vectors as far as the Lanczos process is exact.
 ConditionNumber lanczos_condition_number(const LanczosMatrix& matrix);
 

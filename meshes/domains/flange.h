@@ -29,7 +29,7 @@ struct FlangeParameters {
 };
 
 /// Meshes the flange: tetrahedra by Gmsh's Delaunay mesher, hexahedra by sweeping quadrilaterals
-/// along z. The count of cells is met within 2 % as a rule, always within 10 %; where edges are
+/// along z. The count of cells is met within 2 % usually, always within 10 %; where edges are
 /// longer than a hole's gap to the rims (edge_scale above 2.5), hexahedra get flat. Boundary nodes
 /// are fixed and lie on the planes and cylinders, cells are valid and all of one type. There is no
 /// randomness besides Gmsh's fixed seed, and Gmsh uses one thread: the same parameters give the

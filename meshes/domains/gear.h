@@ -38,7 +38,7 @@ struct GearParameters {
   ElementType element_type = ElementType::triangle;  ///< triangle or quadrilateral
   std::size_t n_boundary_edges = 982;                ///< met exactly; even for quadrilaterals
   /// Met within 1 % (5 % on coarse meshes, where the boundary leaves little choice), by triangles
-  /// as a rule exactly.
+  /// usually exactly.
   std::size_t n_cells = 14346;
 
   /// Random edge flips per triangle. Gmsh's triangles are too good: they can be smoothed to a

@@ -51,7 +51,7 @@ std::vector<LatticeCell> octant(int n_levels) {
 }
 
 /// All octants. Mirroring an odd number of times turns cells inside out; so do their two faces
-/// when they change places.
+/// when they are swapped.
 VolumeCells mirrored(const std::vector<LatticeCell>& cells, double unit) {
   VolumeCells cube;
   std::map<LatticePoint, NodeIndex> numbers;

@@ -7,7 +7,7 @@
 
 namespace smoothfem {
 
-/// Replaces a file in one step, so that whoever reads `path` sees the old content or the whole
+/// Replaces a file in one step, so that readers of `path` see the old content or the whole
 /// new one, never a part. Creates missing parent folders, calls `write` with a path in the same
 /// folder that has the same extension and does not exist yet, flushes that file to the disk, so
 /// that it survives power failures, and renames it. If `write` throws, leaves no file, or anything

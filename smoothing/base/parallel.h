@@ -16,7 +16,7 @@ inline int n_threads() {
   return omp_get_max_threads();
 }
 
-/// Calls work(i) for i = 0 .. n-1, several at a time. Each call has to write to places of its own,
+/// Calls work(i) for i = 0 .. n-1, several at a time. Each call has to write to memory of its own,
 /// and must not throw.
 template <class Work>
 void parallel_for(std::size_t n, const Work& work) {

@@ -5,8 +5,8 @@
 
 namespace smoothfem::bench {
 
-/// Moves each free node to the worst of `n_candidates` random places in the ball of radius
-/// `radius` round its original place: the one with the lowest mean quality of its cells among those
+/// Moves each free node to the worst of `n_candidates` random positions in the ball of radius
+/// `radius` around its original position: the one with the lowest mean quality of its cells among those
 /// that keep them valid.
 inline void distort_strongly(VolumeMesh& mesh, double radius, int n_sweeps, std::uint64_t seed,
                              int n_candidates = 15) {

@@ -83,7 +83,7 @@ class Topology {
   const MeshLabels& labels() const { return labels_; }
 
   /// The same mesh in another order: node i and cell c of the result are the nodes node_order[i]
-  /// and the cell cell_order[c] of this one. Nodes keep their place in their cell. Without labels.
+  /// and the cell cell_order[c] of this one. Nodes keep their order in their cell. Without labels.
   std::shared_ptr<const Topology> reordered(const std::vector<NodeIndex>& node_order,
                                             const std::vector<CellIndex>& cell_order) const;
 

@@ -10,7 +10,7 @@
 #include "smoothing/mesh/element_type.h"
 
 /// The four volume elements: node order, edges, faces, node simplices and duals, after Section 3.1
-/// and Fig. 3.5 of the thesis, counted from 0. This is the only place with such tables.
+/// and Fig. 3.5 of the thesis, counted from 0. No other file has such tables.
 ///
 ///   tetrahedron          pyramid            prism           hexahedron
 ///

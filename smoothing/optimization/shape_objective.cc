@@ -61,7 +61,7 @@ template <int dim>
 struct OtherBlockSums {
   static constexpr HessianBlocks blocks = HessianBlocks::all;
   const std::vector<std::uint32_t>& unknown;
-  const std::array<std::uint32_t, 2>* places;  ///< in the matrix, of the next cell's pairs
+  const std::array<std::uint32_t, 2>* positions;  ///< in the matrix, of the next cell's pairs
   BlockMatrix<dim>& hessian;
 
   template <class Cells, class Real, std::size_t extent>
@@ -73,7 +73,7 @@ struct OtherBlockSums {
         const double* const factor = hessian.inverse_factor(unknown[nodes_of(cells, l)[p]]).data();
         for (std::size_t i = 0; i < dim * dim; ++i) set_lane(factors[p].entries[i], l, factor[i]);
       });
-    const auto* pair = places;
+    const auto* pair = positions;
     for (std::size_t p = 0; p < n; ++p)
       for (std::size_t q = p + 1; q < n; ++q, ++pair) {
         const auto blocks_of_cells = added_blocks<typename BlockMatrix<dim>::Number>(
@@ -85,7 +85,7 @@ struct OtherBlockSums {
           blocks_of_cells[l].transpose().add_to(hessian.scaled_block(left));
         });
       }
-    cells.for_each_lane([&](std::size_t) { places += n_pairs; });
+    cells.for_each_lane([&](std::size_t) { positions += n_pairs; });
   }
 };
 
@@ -166,19 +166,19 @@ template <int dim>
 BlockMatrix<dim> ShapeObjective<dim>::make_hessian() {
   BlockMatrix<dim> matrix(coupled_unknowns(*topology_, unknown_));
   const auto fixed = static_cast<std::uint32_t>(n_unknown_nodes());
-  places_.resize(topology_->blocks().size());
-  parallel_for(places_.size(), [&](std::size_t b) {
+  positions_.resize(topology_->blocks().size());
+  parallel_for(positions_.size(), [&](std::size_t b) {
     const CellBlock& block = topology_->blocks()[b];
-    places_[b].clear();
+    positions_[b].clear();
     for (CellIndex c = block.first; c < block.last; ++c) {
       const auto nodes = topology_->cell_nodes(c);
       for (std::size_t p = 0; p < nodes.size(); ++p)
         for (std::size_t q = p + 1; q < nodes.size(); ++q) {
           const std::uint32_t i = unknown_[nodes[p]], j = unknown_[nodes[q]];
           if (i == fixed || j == fixed)
-            places_[b].push_back({nowhere, nowhere});
+            positions_[b].push_back({nowhere, nowhere});
           else
-            places_[b].push_back({matrix.position(i, j), matrix.position(j, i)});
+            positions_[b].push_back({matrix.position(i, j), matrix.position(j, i)});
         }
     }
   });
@@ -208,7 +208,7 @@ void ShapeObjective<dim>::derivatives(std::span<const Point<dim>> coordinates, H
   hessian.factor_diagonal(std::move(diagonal));
   for_disjoint_blocks([&](std::size_t b) {
     add_block_derivatives<dim>(*topology_, coordinates.data(), topology_->blocks()[b], model,
-                               OtherBlockSums<dim>{unknown_, places_[b].data(), hessian});
+                               OtherBlockSums<dim>{unknown_, positions_[b].data(), hessian});
   });
 }
 

@@ -8,7 +8,7 @@ namespace smoothfem {
 /// Gradient and Hessian of one volume cell. With S = D W^-1 of a corner, its inverse mean ratio is
 /// f = |S|^2 / (3 det(S)^(2/3)): a convex function of S and det(S), so that all of f's Hessian is
 /// convex but the part with the second derivative of det(S). That part couples different nodes only
-/// (a determinant is linear in the place of each node) and says little of the shape: added up over
+/// (a determinant is linear in the coordinates of each node) and says little of the shape: added up over
 /// equally large elements it vanishes. The convex model leaves it out, but for a bound: f / 6 times
 /// |dS S^-1|^2, the strain of the element as it is, which keeps steps to lengths where determinants
 /// behave as their first derivatives say. Without it Newton steps are all but lost where elements
@@ -46,17 +46,17 @@ class CellDerivatives<3, Real, n> {
     const Real value = scale * corner.value;
     const Real unit = 2.0 * value * corner.inverse_squared_norm, mixed = (-2.0 / 3.0) * unit;
     const Real slope = (-2.0 / 3.0) * value, square = (10.0 / 9.0) * value;
-    constexpr LocalSimplex places = VolumeElement<n>::corners[k];
+    constexpr LocalSimplex local_nodes = VolumeElement<n>::corners[k];
     std::array<Vector3<Real>, 4> a, b;
     for (std::size_t i = 0; i < 4; ++i) {
       a[i] = mixed * u[i];
       b[i] = a[i] + square * c[i];
-      gradient[places[i]] = gradient[places[i]] + (unit * u[i] + slope * c[i]);
+      gradient[local_nodes[i]] = gradient[local_nodes[i]] + (unit * u[i] + slope * c[i]);
     }
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) {
-        if (places[i] > places[j] || (i != j && blocks == HessianBlocks::diagonal)) continue;
-        auto& block = hessian[node_pair(n, places[i], places[j])];
+        if (local_nodes[i] > local_nodes[j] || (i != j && blocks == HessianBlocks::diagonal)) continue;
+        auto& block = hessian[node_pair(n, local_nodes[i], local_nodes[j])];
         block.add_product(a[i], c[j]);
         block.add_product(c[i], b[j]);
         if (corner_gram<n>[i][j] != 0.0) block.add_unit(corner_gram<n>[i][j] * unit);

@@ -70,10 +70,10 @@ inline PlanarMesh honeycomb_mesh() {
   constexpr double s = 0.5 * std::numbers::sqrt3;
   std::vector<Point<2>> x;
   Cells cells;
-  const auto node_at = [&x](const Point<2>& place) {
+  const auto node_at = [&x](const Point<2>& position) {
     for (NodeIndex i = 0; i < x.size(); ++i)
-      if ((x[i] - place).norm() < 1e-6) return i;
-    x.push_back(place);
+      if ((x[i] - position).norm() < 1e-6) return i;
+    x.push_back(position);
     return static_cast<NodeIndex>(x.size() - 1);
   };
   for (int j = -3; j <= 3; ++j)

@@ -280,7 +280,7 @@ TEST_P(EveryMethod, TakesMeshesWithNothingToMove) {
 
 /// Large enough for several blocks of cells and another order inside.
 TEST_P(EveryMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
-  const int usual = n_threads();
+  const int default_threads = n_threads();
   in_every_dimension([]<int dim>() {
     auto mesh = [] {
       if constexpr (dim == 2)
@@ -301,7 +301,7 @@ TEST_P(EveryMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
     }
     EXPECT_NE(results.front().copied_coordinates(), mesh.copied_coordinates());
   });
-  set_n_threads(usual);
+  set_n_threads(default_threads);
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMethod, testing::ValuesIn(test::method_names()),

@@ -58,14 +58,14 @@ TEST(ShapeObjective, DerivativesAgreeWithCentralDifferences) {
     const auto n = exact.gradient.size();
     for (Eigen::Index j = 0; j < n; ++j) {
       double& here = mesh.coordinates()[mesh.topology().free_nodes()[j / 2]][j % 2];
-      const double place = here;
-      here = place + h;
+      const double position = here;
+      here = position + h;
       const double above = objective.value(mesh.coordinates());
       const auto gradient_above = dense_derivatives(objective, mesh, HessianModel::exact).gradient;
-      here = place - h;
+      here = position - h;
       const double below = objective.value(mesh.coordinates());
       const auto gradient_below = dense_derivatives(objective, mesh, HessianModel::exact).gradient;
-      here = place;
+      here = position;
       const double scale = exact.hessian.norm();
       EXPECT_NEAR(exact.gradient[j], (above - below) / (2.0 * h), 1e-7 * scale);
       EXPECT_LT((exact.hessian.col(j) - (gradient_above - gradient_below) / (2.0 * h)).norm(),
@@ -129,11 +129,11 @@ TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
       const auto nodes = mesh.topology().cell_nodes(c);
       const auto n = nodes.size();
       const auto determinant = [&](std::size_t k, double s) {
-        const auto place = [&](std::size_t l) -> Point<2> {
+        const auto position = [&](std::size_t l) -> Point<2> {
           const NodeIndex i = nodes[l % n];
           return (1.0 - s) * mesh.coordinates()[i] + s * to[i];
         };
-        return cross(Point<2>(place(k + 1) - place(k)), Point<2>(place(k + n - 1) - place(k)));
+        return cross(Point<2>(position(k + 1) - position(k)), Point<2>(position(k + n - 1) - position(k)));
       };
       double least = 1e300;
       for (std::size_t k = 0; k < n; ++k)

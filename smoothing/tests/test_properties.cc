@@ -73,7 +73,7 @@ Mesh<dim> stretched(Mesh<dim> mesh, const std::vector<int>& factors) {
   return mesh;
 }
 
-/// The mesh with this share of its free nodes fixed where they are.
+/// The mesh with this fraction of its free nodes fixed where they are.
 template <int dim>
 Mesh<dim> with_more_fixed_nodes(Mesh<dim> mesh, int tenths, std::uint64_t seed) {
   test::Random random(seed);
@@ -270,12 +270,12 @@ TEST_P(MethodProperties, NeverLowersTheQualityByWhichItKeepsMeshes) {
 INSTANTIATE_TEST_SUITE_P(Catalogue, MethodProperties, testing::ValuesIn(test::method_names()),
                          test::test_name);
 
-/// Runs call() with each number of threads and puts the usual number back, also after a failure.
+/// Runs call() with each number of threads and restores the default number, also after a failure.
 template <class Call>
 void with_each_number_of_threads(const Call& call) {
   const struct Restore {
-    int usual = n_threads();
-    ~Restore() { set_n_threads(usual); }
+    int default_threads = n_threads();
+    ~Restore() { set_n_threads(default_threads); }
   } restore;
   for (const int threads : {1, 2, 3, 8}) {
     set_n_threads(threads);

@@ -119,7 +119,7 @@ TEST_P(SlidingBoundary, KeepsFacetsWithinTheirBound) {
 }
 
 TEST_P(SlidingBoundary, GivesTheSameBitsWithEveryNumberOfThreads) {
-  const int usual = n_threads();
+  const int default_threads = n_threads();
   for (const VolumeMesh& mesh :
        {disturbed_box(BoxCells::mixed, 8), with_sliding_boundary(tube(8, 0.6), {}, 0.02)}) {
     std::vector<VolumeMesh> results;
@@ -132,7 +132,7 @@ TEST_P(SlidingBoundary, GivesTheSameBitsWithEveryNumberOfThreads) {
           << threads;
     }
   }
-  set_n_threads(usual);
+  set_n_threads(default_threads);
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, SlidingBoundary, testing::ValuesIn(methods_that_take<3>(true)),

@@ -340,7 +340,7 @@ TEST_P(SurfaceMethod, CommutesWithRotations) {
 }
 
 TEST_P(SurfaceMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
-  const int usual = n_threads();
+  const int default_threads = n_threads();
   auto mesh = sphere_patch(60, GridCells::mixed);
   disturb(mesh, 0.6 * edge_length(mesh), 8);
   std::vector<SurfaceMesh> results;
@@ -352,7 +352,7 @@ TEST_P(SurfaceMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
     EXPECT_EQ(results.back().copied_coordinates(), results.front().copied_coordinates()) << threads;
   }
   EXPECT_NE(results.front().copied_coordinates(), mesh.copied_coordinates());
-  set_n_threads(usual);
+  set_n_threads(default_threads);
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, SurfaceMethod, testing::ValuesIn(methods_that_take<2, 3>()),

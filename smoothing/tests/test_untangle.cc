@@ -92,7 +92,7 @@ TEST(Untangle, NamesCellsThatNothingCanMend) {
 }
 
 TEST(Untangle, SaysWhatIsLeftAndKeepsTheMeshWhereItFails) {
-  // The boundary itself is folded: no place of the inner node makes all triangles positive.
+  // The boundary itself is folded: no position of the inner node makes all triangles positive.
   auto mesh = test::make_mesh({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 0.4}},
                               {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
   const auto before = mesh.copied_coordinates();
