@@ -50,7 +50,7 @@ class ShapeObjective {
   DisjointGroups groups_;               ///< of topology_->blocks() that share no nodes
   std::vector<std::uint32_t> unknown_;  ///< number of each free node; n_unknown_nodes for fixed
   /// Where the blocks of each cell's pairs of nodes p < q go, and their transposes.
-  std::vector<std::vector<std::array<std::uint32_t, 2>>> places_;
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> positions_;
 };
 
 }  // namespace smoothfem

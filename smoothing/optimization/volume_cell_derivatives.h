@@ -8,13 +8,13 @@ namespace smoothfem {
 /// Gradient and Hessian of one volume cell. With S = D W^-1 of a corner, its inverse mean ratio is
 /// f = |S|^2 / (3 det(S)^(2/3)): a convex function of S and det(S), so that all of f's Hessian is
 /// convex but the part with the second derivative of det(S). That part couples different nodes only
-/// (a determinant is linear in the coordinates of each node) and says little of the shape: added up over
-/// equally large elements it vanishes. The convex model leaves it out, but for a bound: f / 6 times
-/// |dS S^-1|^2, the strain of the element as it is, which keeps steps to lengths where determinants
-/// behave as their first derivatives say. Without it Newton steps are all but lost where elements
-/// have almost collapsed. It also leaves out 5/9 of grad(m) grad(m)', m the mean of the f's, to
-/// be bolder there: what all of this can spare and stay positive semidefinite (as 5/18 of
-/// grad(f) grad(f)' / f at each corner can).
+/// (a determinant is linear in the coordinates of each node) and says little of the shape: added up
+/// over equally large elements it vanishes. The convex model leaves it out, but for a bound: f / 6
+/// times |dS S^-1|^2, the strain of the element as it is, which keeps steps to lengths where
+/// determinants behave as their first derivatives say. Without it Newton steps are all but lost
+/// where elements have almost collapsed. It also leaves out 5/9 of grad(m) grad(m)', m the mean of
+/// the f's, to be bolder there: what all of this can spare and stay positive semidefinite (as 5/18
+/// of grad(f) grad(f)' / f at each corner can).
 template <class Real, std::size_t n>
 class CellDerivatives<3, Real, n> {
  public:
@@ -55,7 +55,8 @@ class CellDerivatives<3, Real, n> {
     }
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) {
-        if (local_nodes[i] > local_nodes[j] || (i != j && blocks == HessianBlocks::diagonal)) continue;
+        if (local_nodes[i] > local_nodes[j] || (i != j && blocks == HessianBlocks::diagonal))
+          continue;
         auto& block = hessian[node_pair(n, local_nodes[i], local_nodes[j])];
         block.add_product(a[i], c[j]);
         block.add_product(c[i], b[j]);

@@ -133,7 +133,8 @@ TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
           const NodeIndex i = nodes[l % n];
           return (1.0 - s) * mesh.coordinates()[i] + s * to[i];
         };
-        return cross(Point<2>(position(k + 1) - position(k)), Point<2>(position(k + n - 1) - position(k)));
+        return cross(Point<2>(position(k + 1) - position(k)),
+                     Point<2>(position(k + n - 1) - position(k)));
       };
       double least = 1e300;
       for (std::size_t k = 0; k < n; ++k)

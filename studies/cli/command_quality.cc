@@ -132,9 +132,10 @@ std::string histogram_csv(const Topology& topology, const std::vector<double>& c
 
 void require_csv_path(const std::filesystem::path& path) {
   if (path.extension() != ".csv")
-    throw InputError("the histogram " + path.string() +
-                     " must end with .csv, or, for a picture by './run quality' or the installed smoothfem, "
-                     "with .png, .pdf or .svg");
+    throw InputError(
+        "the histogram " + path.string() +
+        " must end with .csv, or, for a picture by './run quality' or the installed smoothfem, "
+        "with .png, .pdf or .svg");
 }
 
 template <int dim, int spacedim>
