@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .build_folder import BUILD, SMOOTHFEM, method_names, run
 
-OTHER = BUILD / "lib" / "registers" / "x86-64"
+OTHER = BUILD / "lib" / "registers"
 MESHES = {  # one of each kind of mesh and element
     "triangles": ("gear", "--elements", "triangles", "--edge-scale", "3", "--distort-to", "0.4"),
     "quadrilaterals": ("gear", "--elements", "quadrilaterals", "--edge-scale", "3", "--distort-to", "0.45"),

@@ -2,6 +2,7 @@
 #include "smoothing/loop/catalogue.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "smoothing/base/registry.h"
 
@@ -27,7 +28,8 @@ const Entry& entry(const std::string& name) {
 }  // namespace
 
 RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
-  registry().add({info.name, info, std::move(factories)});
+  std::string name = info.name;
+  registry().add({std::move(name), std::move(info), std::move(factories)});
 }
 
 std::vector<MethodInfo> method_catalogue() {
