@@ -12,8 +12,9 @@ namespace smoothfem {
 
 /// This rank's rows of a square sparse matrix laid out for fast products: n_lanes rows of similar
 /// length at a time (sliced ELLPACK). Rows of finite element matrices are so short that a product
-/// row by row waits for its own sums; this one is about twice as fast, and adds up each row in the
-/// order of its columns.
+/// row by row waits for its own sums; on one core this one is 1.2 (degree 2, hexahedra) to 1.8
+/// times (degree 1, tetrahedra) as fast (fem_bench, product). It adds up each row in the order of
+/// its columns.
 class SlicedMatrix {
  public:
   /// Takes pattern and values. matrix: rows of this rank, with the columns of `halo`.
