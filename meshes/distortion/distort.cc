@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -179,11 +179,11 @@ class Distortion {
       return !has_positive_mapping(corners);
     } else if constexpr (spacedim > dim) {
       // Valid also by its own mean normal: a file of the mesh tells no other.
-      std::vector<Vector3<double>> corners;
-      for (const NodeIndex node : mesh_.topology().cell_nodes(cell))
-        corners.push_back(vector_of(mesh_.coordinates()[node]));
-      const std::span<const Vector3<double>> polygon = corners;
-      return !(mean_ratio(unit_normal(polygon), polygon) > 0.0);
+      bool valid = false;
+      with_corners<dim>(
+          mesh_.topology().cell_nodes(cell), mesh_.coordinates().data(),
+          [&](auto corners) { valid = mean_ratio(unit_normal(corners), corners) > 0.0; });
+      return !valid;
     }
     return false;
   }
