@@ -4,6 +4,7 @@
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/quality/mean_ratio.h"
+#include "smoothing/simd/cells.h"
 #include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
@@ -83,11 +84,9 @@ TEST(Roof, DistortedIsASurfaceByItself) {
   distort(mesh, {.target_q_mean = 0.7});
   // As after reading a file: the distorted mesh is the surface.
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
-    std::vector<Vector3<double>> corners;
-    for (const NodeIndex node : mesh.topology().cell_nodes(c))
-      corners.push_back(vector_of(mesh.coordinates()[node]));
-    const std::span<const Vector3<double>> polygon = corners;
-    EXPECT_GT(mean_ratio(unit_normal(polygon), polygon), 0.0) << c;
+    with_corners<2>(mesh.topology().cell_nodes(c), mesh.coordinates().data(), [&](auto corners) {
+      EXPECT_GT(mean_ratio(unit_normal(corners), corners), 0.0) << c;
+    });
   }
 }
 
