@@ -2,8 +2,10 @@
 #include <deal.II/base/function_parser.h>
 
 #include <cmath>
+#include <iostream>
 #include <memory>
 #include <mutex>
+#include <sstream>
 
 #include "fem/manufactured_solution.h"
 
@@ -11,22 +13,55 @@ namespace smoothfem {
 
 namespace {
 
+/// What deal.II's parser writes to std::cerr while this lives: it says there, and only there, what
+/// it could not read.
+class CapturedParserMessages {
+ public:
+  CapturedParserMessages() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
+  ~CapturedParserMessages() { std::cerr.rdbuf(before_); }
+  CapturedParserMessages(const CapturedParserMessages&) = delete;
+  CapturedParserMessages& operator=(const CapturedParserMessages&) = delete;
+
+  /// "Unexpected token ...", or nothing.
+  std::string reason() const {
+    const std::string text = text_.str(), mark = "Message:  <";
+    const auto begin = text.find(mark);
+    const auto end = text.find(">\n", begin);
+    if (begin == std::string::npos || end == std::string::npos) return "";
+    return text.substr(begin + mark.size(), end - begin - mark.size());
+  }
+
+ private:
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
+
 /// One expression (or several, separated by semicolons) in x and y, in space also in z. The parser
 /// keeps state while it evaluates, so one evaluation at a time.
 template <int dim>
 class Expression {
  public:
-  Expression(const std::string& text, unsigned int n_components)
+  /// key: of the study file, for messages.
+  Expression(const std::string& key, const std::string& text, unsigned int n_components)
       : parser_(std::make_shared<dealii::FunctionParser<dim>>(n_components)),
         lock_(std::make_shared<std::mutex>()) {
+    const std::string needed =
+        (n_components == 1 ? "one formula" : std::to_string(n_components) + " formulas") +
+        std::string(dim == 2 ? " in x and y" : " in x, y and z") +
+        (n_components == 1 ? "" : ", separated by ';'") + ", such as " +
+        (n_components == 1 ? "sin(pi*x)*y^2"
+         : dim == 2        ? "pi*cos(pi*x)*y^2 ; 2*y*sin(pi*x)"
+                           : "2*x ; 2*y ; 2*z");
+    if (text.find_first_not_of(" \t") == std::string::npos)
+      throw InputError("the solution's '" + key + "' is empty: it needs " + needed);
+    const CapturedParserMessages messages;
     try {
       parser_->initialize(dim == 2 ? "x,y" : "x,y,z", text, {{"pi", dealii::numbers::PI}});
       (void)component(Point<dim>::Constant(0.25), 0);  // deal.II parses at the first evaluation
     } catch (const std::exception&) {
-      throw InputError("the solution's expression '" + text + "' cannot be read: it needs " +
-                       std::to_string(n_components) + " formula(s) in x" +
-                       (dim == 2 ? " and y" : ", y and z") +
-                       ", separated by ';', such as sin(pi*x)*y^2");
+      const std::string reason = messages.reason();
+      throw InputError("the solution's '" + key + "', '" + text + "', cannot be read" +
+                       (reason.empty() ? "" : " (" + reason + ")") + ": it needs " + needed);
     }
   }
 
@@ -47,6 +82,21 @@ std::string point_text(const Point<dim>& p) {
   std::string text;
   for (int d = 0; d < dim; ++d) text += (d == 0 ? "(" : ", ") + std::to_string(p[d]);
   return text + ")";
+}
+
+/// Outside of a formula's domain its derivatives say nothing.
+template <int dim>
+void check_finite(const ManufacturedSolution<dim>& s, std::span<const Point<dim>> sample) {
+  for (const auto& p : sample) {
+    const auto [value, gradient] = s.value_and_gradient(p);
+    const char* key = !std::isfinite(value)       ? "value"
+                      : !gradient.allFinite()     ? "gradient"
+                      : !std::isfinite(s.load(p)) ? "load"
+                                                  : nullptr;
+    if (key != nullptr)
+      throw InputError("the solution's '" + std::string(key) + "' is not a finite number at " +
+                       point_text(p) + ", a node of the mesh: take a formula that is");
+  }
 }
 
 /// Central differences of u against the given derivatives. Their error at this step is some 1e-6 of
@@ -81,7 +131,7 @@ template <int dim>
 ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::string& gradient,
                                           const std::string& load,
                                           std::span<const Point<dim>> sample) {
-  const Expression<dim> u(value, 1), grad(gradient, dim), f(load, 1);
+  const Expression<dim> u("value", value, 1), grad("gradient", gradient, dim), f("load", load, 1);
   ManufacturedSolution<dim> solution{
       .name = "expression",
       .formula = value,
@@ -93,6 +143,7 @@ ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::s
         return {u.component(p, 0), slope};
       },
       .load = [f](const Point<dim>& p) { return f.component(p, 0); }};
+  check_finite(solution, sample);
   check_derivatives(solution, sample);
   return solution;
 }

@@ -116,6 +116,18 @@ TEST(ParsedSolution, SaysWhatIsWrong) {
               ThrowsMessage<InputError>(HasSubstr("-laplace")));
   EXPECT_THAT([] { parsed_solution<2>("x*x", "2*x", "-2", sample); },
               ThrowsMessage<InputError>(HasSubstr("2*x")));
+  EXPECT_THAT([] { parsed_solution<2>("x*x", "", "-2", sample); },
+              ThrowsMessage<InputError>(HasSubstr("'gradient' is empty")));
+  EXPECT_THAT([] { parsed_solution<2>("log(x-5)", "1/(x-5) ; 0", "1/(x-5)^2", sample); },
+              ThrowsMessage<InputError>(HasSubstr("'value' is not a finite number at (")));
+}
+
+TEST(ParsedSolution, SaysInOneSentenceWhatTheParserCouldNotRead) {
+  testing::internal::CaptureStderr();
+  EXPECT_THAT([] { parsed_solution<2>("exq(y)", "0 ; 0", "0", sample); },
+              ThrowsMessage<InputError>(
+                  AllOf(HasSubstr("'value', 'exq(y)'"), HasSubstr("Unexpected token \"exq\""))));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace

@@ -131,6 +131,16 @@ void write_atomically(const fs::path& path, std::string_view content) {
   write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, content); });
 }
 
+void require_writable_file(const fs::path& path) {
+  require_replaceable(path);
+  fs::path existing = fs::absolute(path).parent_path();
+  std::error_code error;
+  while (!fs::exists(existing, error) && existing.has_relative_path())
+    existing = existing.parent_path();
+  if (!fs::is_directory(existing, error)) fail(path, existing.string() + " is not a folder");
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) fail(path, std::strerror(errno));
+}
+
 void remove_unfinished_files(const fs::path& folder) {
   static const std::regex temporary(R"(\..+\.[0-9]+\.[0-9]+(\.[^.]*)?)");  // temporary_beside
   std::vector<fs::path> unfinished;

@@ -20,6 +20,10 @@ void write_atomically(const std::filesystem::path& path,
 /// The same with the content at hand; short writes are errors.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Before long work, and without leaving a trace: throws InputError if `path` is a folder or a
+/// device, or lies where no file can be written.
+void require_writable_file(const std::filesystem::path& path);
+
 /// Removes the hidden files .NAME.PROCESS.NUMBER.EXTENSION that are left in a folder and those
 /// below it where a process was killed while it wrote.
 void remove_unfinished_files(const std::filesystem::path& folder);

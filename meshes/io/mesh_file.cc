@@ -5,6 +5,7 @@
 #include <cctype>
 #include <exception>
 
+#include "meshes/io/atomic_file.h"
 #include "meshes/io/line_reader.h"
 #include "smoothing/base/registry.h"
 
@@ -105,6 +106,11 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const M
   throw InputError(prefix + ": the format holds no " +
                    mesh_kind_name(mesh.dimension(), mesh.planar() ? 2 : 3) +
                    " meshes; use .vtu or another extension");
+}
+
+void require_mesh_path(const std::filesystem::path& path) {
+  (void)formats_of(path, "cannot write " + path.string());
+  require_writable_file(path);
 }
 
 }  // namespace smoothfem

@@ -50,6 +50,9 @@ struct MeshWriteOptions {
 void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
                 const MeshFields& fields = {}, const MeshWriteOptions& options = {});
 
+/// Before long work: throws InputError if write_mesh could not write a file of this name there.
+void require_mesh_path(const std::filesystem::path& path);
+
 /// What `smoothfem list` says about a format, and how it is read and written.
 struct MeshFormat {
   std::string name;

@@ -20,8 +20,10 @@ template VolumeMesh mesh_of(VolumeCells, const std::string&);
 
 void require_edge_scale(const std::string& domain, double edge_scale, int most) {
   if (!(edge_scale >= 1.0 && edge_scale <= most))
-    throw InputError("the " + domain + "'s edge scale must lie between 1 and " +
-                     std::to_string(most) + ", not " + std::to_string(edge_scale));
+    throw InputError("the " + domain + "'s edge scale must " +
+                     (most > 1 ? "lie between 1 and " + std::to_string(most)
+                               : std::string("be 1, as it has one size only")) +
+                     ", not " + std::to_string(edge_scale));
 }
 
 }  // namespace smoothfem

@@ -10,13 +10,15 @@
 
 namespace smoothfem {
 
-/// Area of a planar cell; negative if its nodes run clockwise.
+/// Area of a planar cell; negative if its nodes run clockwise. From the first node, as products of
+/// the coordinates themselves would cancel far from the origin.
 inline double signed_cell_size(const PlanarMesh& mesh, CellIndex cell) {
   const auto nodes = mesh.topology().cell_nodes(cell);
   const auto x = mesh.coordinates();
+  const Point<2> origin = x[nodes[0]];
   double twice_area = 0.0;
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    twice_area += cross(x[nodes[k]], x[nodes[k + 1 < nodes.size() ? k + 1 : 0]]);
+  for (std::size_t k = 2; k < nodes.size(); ++k)
+    twice_area += cross(Point<2>(x[nodes[k - 1]] - origin), Point<2>(x[nodes[k]] - origin));
   return 0.5 * twice_area;
 }
 
@@ -30,12 +32,22 @@ inline Point<3> area_vector(std::span<const NodeIndex> nodes,
   return sum;
 }
 
+/// Unit vector along the mean normal of a polygon in space, also where the squares of its area
+/// leave the range of numbers. Zero for a polygon without area.
+inline Point<3> facet_normal(std::span<const NodeIndex> nodes,
+                             std::span<const Point<3>> coordinates) {
+  constexpr double least = 0x1p-500, largest = 0x1p500;
+  const Point<3> area = area_vector(nodes, coordinates);
+  const double size = area.norm();
+  return size > least && size < largest ? area.normalized() : area.stableNormalized();
+}
+
 /// Area of the cell of a surface mesh, projected along its mean normal; negative if it is turned
 /// over.
 inline double signed_cell_size(const SurfaceMesh& mesh, CellIndex cell) {
   const Point<3> area = area_vector(mesh.topology().cell_nodes(cell), mesh.coordinates());
   return 0.5 * std::copysign(1.0, area.dot(mesh.constraints()->facet_normals()[cell])) *
-         area.norm();
+         area.stableNorm();
 }
 
 /// Volume of a volume cell whose quadrilateral faces are bilinear (each holds as much as the mean

@@ -14,7 +14,7 @@ inline Vector3<double> unit_normal(std::span<const Vector3<double>, extent> corn
   Vector3<double> area{};
   for (std::size_t k = 2; k < corners.size(); ++k)
     area = area + cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
-  const double size = length(area);
+  const double size = length_of_any_size(area);
   return (size > 0.0 ? 1.0 / size : 0.0) * area;
 }
 

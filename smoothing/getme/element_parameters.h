@@ -19,13 +19,12 @@ struct ElementParameters<2> {
   double rho;            ///< relaxation, in (0, 1]
 
   Parameters parameters() {
-    constexpr double above_zero = 1e-9;
-    return {{"lambda", "subdivision ratio of the polygon sides, in (0, 1) (Section 2.3)", &lambda,
-             above_zero, 1.0 - above_zero},
-            {"theta", "base angle of the similar triangles in degrees, in (0, 90) (Section 2.3)",
-             &theta_degrees, above_zero, 90.0 - above_zero},
-            {"rho", "relaxation, in (0, 1]; 1 takes the transformed element as it is (Eq. 3.12)",
-             &rho, above_zero, 1.0}};
+    return {{"lambda", "subdivision ratio of the polygon sides (Section 2.3)", &lambda, 0.0, 1.0,
+             true, true},
+            {"theta", "base angle of the similar triangles in degrees (Section 2.3)",
+             &theta_degrees, 0.0, 90.0, true, true},
+            {"rho", "relaxation; 1 takes the transformed element as it is (Eq. 3.12)", &rho, 0.0,
+             1.0, true}};
   }
 };
 
@@ -63,10 +62,8 @@ struct ElementParameters<3> {
     add_sigma("pyramid", pyramid);
     add_sigma("prism", prism);
     add_sigma("hexahedron", hexahedron);
-    all.push_back({"rho",
-                   "relaxation, in (0, 1]; 1 takes the transformed element as it is (Eq. "
-                   "3.12)",
-                   &rho, 1e-9, 1.0});
+    all.push_back({"rho", "relaxation; 1 takes the transformed element as it is (Eq. 3.12)", &rho,
+                   0.0, 1.0, true});
     all.push_back({"tetrahedron_transformation",
                    "how tetrahedra are transformed (Sections 3.2, 3.3)",
                    Choice{&tetrahedron_transformation, {"opposite-face-normals", "dual-element"}}});

@@ -41,6 +41,20 @@ std::string value_text(const Parameter& parameter) {
   return number_text(*std::get<double*>(parameter.value));
 }
 
+std::string range_text(const Parameter& parameter) {
+  if (const auto* choice = std::get_if<Choice>(&parameter.value)) {
+    std::string text;
+    for (std::size_t i = 0; i < choice->names.size(); ++i)
+      text += (i == 0 ? "" : i + 1 < choice->names.size() ? ", " : " or ") + choice->names[i];
+    return text;
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (parameter.lower == -infinity && parameter.upper == infinity) return "";
+  return (parameter.excludes_lower || parameter.lower == -infinity ? "(" : "[") +
+         number_text(parameter.lower) + ", " + number_text(parameter.upper) +
+         (parameter.excludes_upper || parameter.upper == infinity ? ")" : "]");
+}
+
 namespace {
 
 template <class Value>
@@ -51,9 +65,10 @@ Value number_in_range(const Parameter& parameter, const std::string& text,
     throw InputError(what + " needs " +
                      (std::is_same_v<Value, int> ? "a whole number" : "a number") +
                      ", but is given as '" + text + "'");
-  if (!(value >= parameter.lower && value <= parameter.upper))
-    throw InputError(what + " = " + text + " is outside its range [" +
-                     number_text(parameter.lower) + ", " + number_text(parameter.upper) + "]");
+  const bool above = parameter.excludes_lower ? value > parameter.lower : value >= parameter.lower;
+  const bool below = parameter.excludes_upper ? value < parameter.upper : value <= parameter.upper;
+  if (!(above && below))
+    throw InputError(what + " = " + text + " is outside its range " + range_text(parameter));
   return value;
 }
 

@@ -23,12 +23,18 @@ struct Parameter {
   std::variant<double*, int*, Choice, std::vector<double>*> value;
   double lower = -std::numeric_limits<double>::infinity();  ///< smallest number allowed
   double upper = std::numeric_limits<double>::infinity();   ///< largest number allowed
+  bool excludes_lower = false;  ///< only larger numbers than `lower` are allowed
+  bool excludes_upper = false;
 };
 
 using Parameters = std::vector<Parameter>;
 
 /// Shortest text that reads back as the same value.
 std::string value_text(const Parameter& parameter);
+
+/// What a parameter may be set to: "a, b or c" of names; "(0, 1]" of numbers, or nothing where all
+/// are allowed.
+std::string range_text(const Parameter& parameter);
 
 /// Sets a parameter from text. Throws InputError with `owner` in its sentence if the text is no
 /// number (or no integer where one is needed, or none of the names) or outside the range.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "smoothing/base/scoped_timer.h"
+#include "smoothing/geometry/extreme_size.h"
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/mesh/reordering.h"
@@ -65,6 +67,16 @@ class BestMesh {
   bool all_moved_ = false;
 };
 
+std::string number_text(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+std::string iterations_text(int n) {
+  return n == 1 ? "an iteration" : std::to_string(n) + " iterations";
+}
+
 /// What a stopping rule asks about the iterations of a stage so far.
 class StageHistory {
  public:
@@ -85,23 +97,34 @@ class StageHistory {
     present_ = quality;
   }
 
-  bool stops(const StoppingRule& rule, const StepReport& report, double initial_q_star_min,
-             double mean_edge_length) const {
+  /// Why the stage ends after this iteration, or nothing if it goes on.
+  std::optional<std::string> why_stop(const StoppingRule& rule, const StepReport& report,
+                                      double initial_q_star_min, double mean_edge_length) const {
     using enum StoppingRule::Criterion;
     switch (rule.criterion) {
       case q_mean_gain:
-        return !(q_mean_gain_ > rule.tolerance);
+        if (q_mean_gain_ > rule.tolerance) return std::nullopt;
+        return "q_mean rose by no more than the tolerance " + number_text(rule.tolerance);
       case q_mean_change:
-        return std::abs(q_mean_gain_) <= rule.tolerance || n_without_gain_ >= rule.patience;
+        if (std::abs(q_mean_gain_) <= rule.tolerance)
+          return "q_mean changed by no more than the tolerance " + number_text(rule.tolerance);
+        if (n_without_gain_ < rule.patience) return std::nullopt;
+        return "neither q_min nor q_mean was better than ever before in " +
+               iterations_text(rule.patience);
       case max_displacement:
-        return report.max_displacement < rule.tolerance * mean_edge_length;
-      case result_stall:
-        return report.converged ||
-               n_without_best_ >= rule.patience_at(q_star_min_, initial_q_star_min);
+        if (!(report.max_displacement < rule.tolerance * mean_edge_length)) return std::nullopt;
+        return "no node moved farther than " + number_text(rule.tolerance) + " mean edge lengths";
+      case result_stall: {
+        const int patience = rule.patience_at(q_star_min_, initial_q_star_min);
+        if (n_without_best_ >= patience)
+          return "there was no better mesh in " + iterations_text(patience);
+        [[fallthrough]];
+      }
       case step_says_so:
-        return report.converged;
+        if (!report.converged) return std::nullopt;
+        return "it converged";
     }
-    return true;
+    return std::nullopt;
   }
 
  private:
@@ -174,7 +197,8 @@ class SmoothingRun {
     const SmootherTraits traits = smoother.traits();
     const StoppingRule stopping = smoother.stopping();
     if (traits.needs_valid_mesh && quality_.n_invalid > 0) require_valid(users_view());
-    StageResult result{std::string(smoother.name()), 0};
+    StageResult result{.name = std::string(smoother.name()),
+                       .why_stopped = "it reached its largest number of iterations"};
     std::optional<BestMesh<spacedim>> best;
     {
       const ScopedTimer timer(seconds_);
@@ -195,8 +219,12 @@ class SmoothingRun {
       result.iterations += report.n_counted;
       observe(result.name, result.iterations, report.n_reset);
       history.add(quality_, is_best);
-      if (history.stops(stopping, report, state_.initial_quality.q_star_min, mean_edge_length_))
+      result.n_last_reset = report.n_reset;
+      if (auto why = history.why_stop(stopping, report, state_.initial_quality.q_star_min,
+                                      mean_edge_length_)) {
+        result.why_stopped = *std::move(why);
         break;
+      }
     }
     {
       const ScopedTimer timer(seconds_);
@@ -300,6 +328,32 @@ void require_constraints_kept(const Mesh<dim, spacedim>& mesh,
                      joined(methods_that_take<dim, spacedim>(true)));
 }
 
+template <int dim, int spacedim>
+SmoothingResult smooth_at_its_size(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                                   const Observer<dim, spacedim>& observer) {
+  SmoothingRun<dim, spacedim> run(mesh, observer);
+  run.start(method);
+  std::vector<StageResult> stages;
+  for (auto& stage : method.stages) stages.push_back(run.run_stage(*stage));
+  return run.result(std::move(stages));
+}
+
+/// A mesh that has another size as long as this lives.
+template <int dim, int spacedim>
+class ScaledMesh {
+ public:
+  ScaledMesh(Mesh<dim, spacedim>& mesh, int exponent) : mesh_(mesh), exponent_(exponent) {
+    scale_by_power_of_two(mesh_.coordinates(), exponent_);
+  }
+  ~ScaledMesh() { scale_by_power_of_two(mesh_.coordinates(), -exponent_); }
+  ScaledMesh(const ScaledMesh&) = delete;
+  ScaledMesh& operator=(const ScaledMesh&) = delete;
+
+ private:
+  Mesh<dim, spacedim>& mesh_;
+  int exponent_;
+};
+
 }  // namespace
 
 std::string SmoothingResult::iterations_text() const {
@@ -315,11 +369,17 @@ template <int dim, int spacedim>
 SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer) {
   require_constraints_kept(mesh, method);
-  SmoothingRun<dim, spacedim> run(mesh, observer);
-  run.start(method);
-  std::vector<StageResult> stages;
-  for (auto& stage : method.stages) stages.push_back(run.run_stage(*stage));
-  return run.result(std::move(stages));
+  const int exponent = mesh.constraints() ? 0 : extreme_exponent(std::as_const(mesh).coordinates());
+  if (exponent == 0) return smooth_at_its_size(mesh, method, observer);
+  const ScaledMesh scaled(mesh, -exponent);
+  Observer<dim, spacedim> sees_its_size;
+  if (observer)
+    sees_its_size = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
+      Mesh<dim, spacedim> at_its_size = now;
+      scale_by_power_of_two(at_its_size.coordinates(), exponent);
+      observer(record, at_its_size);
+    };
+  return smooth_at_its_size(mesh, method, sees_its_size);
 }
 
 template SmoothingResult smooth(Mesh<2>&, Method<2>&, const Observer<2>&);

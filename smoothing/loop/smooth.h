@@ -30,7 +30,9 @@ using Observer = std::function<void(const IterationRecord&, const Mesh<dim, spac
 
 struct StageResult {
   std::string name;
-  std::size_t iterations = 0;  ///< in the method's own count
+  std::size_t iterations = 0;    ///< in the method's own count
+  std::string why_stopped;       ///< a clause without a full stop
+  std::size_t n_last_reset = 0;  ///< nodes (or elements) put back in the last iteration
 };
 
 struct SmoothingResult {

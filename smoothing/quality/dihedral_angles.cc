@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "smoothing/base/parallel.h"
+#include "smoothing/geometry/extreme_size.h"
 #include "smoothing/mesh/volume_elements.h"
 #include "smoothing/quality/warpage.h"
 
@@ -105,7 +106,8 @@ AngleRange angle_range(const PlanarMesh& mesh) {
 }
 
 AngleRange angle_range(const VolumeMesh& mesh) {
-  const auto& x = mesh.coordinates();
+  std::vector<Point<3>> scaled;
+  const auto x = at_ordinary_size(mesh.coordinates(), scaled);
   return range_over_cells(
       mesh.topology(), [&](std::span<const NodeIndex> nodes, Extremes& extremes) {
         const auto& faces = volume_element(nodes.size()).faces;
@@ -121,7 +123,8 @@ AngleRange angle_range(const VolumeMesh& mesh) {
 }
 
 MeshWarpage mesh_warpage(const VolumeMesh& mesh) {
-  const auto& x = mesh.coordinates();
+  std::vector<Point<3>> scaled;
+  const auto x = at_ordinary_size(mesh.coordinates(), scaled);
   double sum = 0.0;
   std::size_t n = 0;
   MeshWarpage result;

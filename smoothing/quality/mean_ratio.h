@@ -38,6 +38,12 @@ inline Real corner_mean_ratio(Edge next, Edge previous, Real determinant, Regula
           2.0 * regular.cosine * dot(next, previous));
 }
 
+/// A quality that is none, as sizes near the limits of numbers give, is that of an invalid cell.
+template <class Real>
+inline Real zero_unless_finite(Real quality) {
+  return quality < 2.0 ? quality : Real{};
+}
+
 /// Mean of the corner mean ratios of a polygon, 0 if one of them is not positive. determinant(next,
 /// previous): the signed area of two edges.
 template <class Corner, std::size_t extent, class Determinant>
@@ -49,7 +55,8 @@ inline auto polygon_mean_ratio(std::span<const Corner, extent> corners,
   if (n == 3) {  // the three corners have the same mean ratio
     const auto next = corners[1] - corners[0], previous = corners[2] - corners[0];
     const Real area = determinant(next, previous);
-    return area > 0.0 ? corner_mean_ratio(next, previous, area, regular) : Real{};
+    return area > 0.0 ? zero_unless_finite(corner_mean_ratio(next, previous, area, regular))
+                      : Real{};
   }
   Real sum{}, all_positive = Real{} + 1.0;
   for (std::size_t k = 0; k < n; ++k) {
@@ -59,7 +66,7 @@ inline auto polygon_mean_ratio(std::span<const Corner, extent> corners,
     all_positive = area > 0.0 ? all_positive : Real{};
     sum += corner_mean_ratio(next, previous, area, regular);
   }
-  return all_positive > 0.0 ? sum / static_cast<double>(n) : Real{};
+  return all_positive > 0.0 ? zero_unless_finite(sum / static_cast<double>(n)) : Real{};
 }
 
 /// Mean ratio quality number of a planar polygon with counterclockwise corners (thesis,
@@ -93,7 +100,7 @@ template <std::size_t extent>
 inline double mean_ratio(Vector3<double> upper, std::span<const Vector3<double>, extent> corners) {
   return polygon_mean_ratio(corners, [&](Vector3<double> next, Vector3<double> previous) {
     const Vector3<double> area = cross(next, previous);
-    return dot(area, upper) > 0.0 ? length(area) : -length(area);
+    return std::copysign(length_of_any_size(area), dot(area, upper) > 0.0 ? 1.0 : -1.0);
   });
 }
 
@@ -147,7 +154,8 @@ inline Real mean_ratio(const CellEdges<Real, n>& edges) {
     all_positive = shape.determinant > 0.0 ? all_positive : Real{};
     sum += shape.determinant * inverse_root<3>(shape.determinant) / shape.squared_norm;
   });
-  return all_positive > 0.0 ? sum * (3.0 / static_cast<double>(n_corners)) : Real{};
+  return all_positive > 0.0 ? zero_unless_finite(sum * (3.0 / static_cast<double>(n_corners)))
+                            : Real{};
 }
 template <class Real, std::size_t n>
 inline Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {

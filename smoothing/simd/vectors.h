@@ -68,6 +68,14 @@ inline Real length(V<Real> a) {
   return square_root(squared_length(a));
 }
 
+/// The same where the square may leave the range of numbers.
+inline double length_of_any_size(Vector3<double> a) {
+  constexpr double least = 0x1p-1000, largest = 0x1p1000;
+  const double square = squared_length(a);
+  if (square > least && square < largest) return square_root(square);
+  return Eigen::Vector3d(a.x, a.y, a.z).stableNorm();
+}
+
 inline Vector2<double> vector_of(const Point<2>& p) {
   return {p.x(), p.y()};
 }

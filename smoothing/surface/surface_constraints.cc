@@ -70,7 +70,7 @@ SurfaceConstraints::SurfaceConstraints(const SurfaceFacets& facets,
           std::make_unique<PieceIndex>(triangles_of(facets, coordinates, features_.facet_patches))),
       segments_(std::make_unique<PieceIndex>(segments_of(features_, coordinates))) {
   for (std::size_t f = 0; f < facets.nodes.size(); ++f)
-    facet_normals_.push_back(area_vector(facets.nodes[f], coordinates).normalized());
+    facet_normals_.push_back(facet_normal(facets.nodes[f], coordinates));
 }
 SurfaceConstraints::~SurfaceConstraints() = default;
 

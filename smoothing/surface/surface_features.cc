@@ -78,7 +78,7 @@ class FeatureSearch {
         x_(coordinates),
         cosine_(std::cos(angle_degrees * std::numbers::pi / 180.0)) {
     for (std::uint32_t f = 0; f < facets.nodes.size(); ++f)
-      normals_.push_back(area_vector(facets.nodes[f], coordinates).normalized());
+      normals_.push_back(facet_normal(facets.nodes[f], coordinates));
   }
 
   SurfaceFeatures find() {

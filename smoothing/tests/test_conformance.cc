@@ -139,7 +139,7 @@ TEST_P(EveryMethod, CommutesWithSimilarities) {
   in_every_dimension([]<int dim>() {
     const Eigen::Matrix<double, dim, dim> turned = rotation<dim>();
     const Point<dim> shift = Point<dim>::LinSpaced(30.0, -70.0);
-    for (const double scale : {1e-9, 1e-3, 25.0, 1e9})
+    for (const double scale : {1e-100, 1e-9, 1e-3, 25.0, 1e9, 1e100})
       for (const auto& [name, mesh] : distorted_meshes<dim>()) {
         const auto similar = [&](Mesh<dim> m) {
           for (auto& p : m.coordinates()) p = scale * (turned * p + shift);
@@ -151,6 +151,24 @@ TEST_P(EveryMethod, CommutesWithSimilarities) {
         EXPECT_EQ(a.iterations_text(), b.iterations_text()) << name << ' ' << scale;
         EXPECT_LT(farthest(similar(here), there), 1e-8 * scale) << name << ' ' << scale;
       }
+  });
+}
+
+/// Sizes of cells are 1; coordinates keep nine digits of them.
+TEST_P(EveryMethod, DoesTheSameFarFromTheOrigin) {
+  in_every_dimension([]<int dim>() {
+    const Point<dim> far = Point<dim>::LinSpaced(1e7, -2e7);
+    for (const auto& [name, mesh] : distorted_meshes<dim>()) {
+      const auto moved = [&](Mesh<dim> m) {
+        for (auto& p : m.coordinates()) p += far;
+        return m;
+      };
+      Mesh<dim> here = mesh, there = moved(mesh);
+      auto first = short_method<dim>(), second = short_method<dim>();
+      const auto a = smooth(here, first), b = smooth(there, second);
+      EXPECT_EQ(a.iterations_text(), b.iterations_text()) << name;
+      EXPECT_LT(farthest(moved(here), there), 1e-6) << name;
+    }
   });
 }
 

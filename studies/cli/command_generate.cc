@@ -36,6 +36,7 @@ void generate(Arguments arguments) {
   if (!(arguments.distort_to >= 0.0 && arguments.distort_to < 1.0))
     throw InputError("--distort-to is " + std::to_string(arguments.distort_to) +
                      ", but a mean quality lies between 0 (not distorted) and 1");
+  require_mesh_path(arguments.out);
   const Domain& domain = find_domain(arguments.domain);
   arguments.elements = domain.elements_named(arguments.elements);
   AnyMesh mesh = domain.generate(

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <set>
+#include <optional>
 
 #include "fem/manufactured_solution.h"
 #include "meshes/domains/catalogue.h"
@@ -21,15 +22,33 @@ struct Arguments {
   bool study_keys = false;
 };
 
-/// Parameters of a method for meshes of one dimension, without those in `known`.
+/// A parameter with its range, and the kind of meshes that alone has it.
+void list_parameter(const Parameter& parameter, const char* only_for) {
+  const std::string range = range_text(parameter);
+  std::printf("      %-40s %-8s %s%s%s\n", parameter.name.c_str(), value_text(parameter).c_str(),
+              parameter.description.c_str(), range.empty() ? "" : ("; " + range).c_str(), only_for);
+}
+
 template <int dim>
-void list_parameters(const std::string& method, std::set<std::string>& known) {
-  if (!takes_meshes<dim>(method)) return;
-  Method<dim> made = make_method<dim>(method);
-  for (const auto& parameter : made.parameters())
-    if (known.insert(parameter.name).second)
-      std::printf("      %-40s %-8s %s%s\n", parameter.name.c_str(), value_text(parameter).c_str(),
-                  parameter.description.c_str(), dim == 3 ? " [volume meshes]" : "");
+Parameters parameters_of(std::optional<Method<dim>>& made, const std::string& method) {
+  if (!takes_meshes<dim>(method)) return {};
+  made.emplace(make_method<dim>(method));
+  return made->parameters();
+}
+
+/// Those of planar and of volume meshes, each once.
+void list_parameters(const std::string& method) {
+  std::optional<Method<2>> planar;
+  std::optional<Method<3>> volume;
+  const auto of_planar = parameters_of(planar, method), of_volume = parameters_of(volume, method);
+  const auto has = [](const Parameters& all, const std::string& name) {
+    return std::any_of(all.begin(), all.end(), [&](const auto& p) { return p.name == name; });
+  };
+  for (const auto& parameter : of_planar)
+    list_parameter(parameter, volume && !has(of_volume, parameter.name) ? " [planar meshes]" : "");
+  for (const auto& parameter : of_volume)
+    if (!has(of_planar, parameter.name))
+      list_parameter(parameter, planar ? " [volume meshes]" : "");
 }
 
 void list_methods() {
@@ -38,9 +57,7 @@ void list_methods() {
     std::printf("\n  %s: %s\n      %s. Source: %s.\n      Meshes: %s.\n", info.name.c_str(),
                 info.title.c_str(), info.description.c_str(), info.source.c_str(),
                 joined(mesh_kinds(info.name)).c_str());
-    std::set<std::string> known;
-    list_parameters<2>(info.name, known);
-    list_parameters<3>(info.name, known);
+    list_parameters(info.name);
   }
   std::printf("\nPRESETS (smooth --preset NAME)\n\n");
   for (const auto& preset : presets())

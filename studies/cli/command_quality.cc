@@ -23,7 +23,8 @@ constexpr std::size_t n_bins = 10;
 constexpr std::size_t n_csv_bins = 40;  ///< a picture shows more than lines of text
 
 struct Arguments {
-  std::string in, histogram;
+  std::string in, histogram, mark;
+  double below = 0.0;
   bool json = false;
 };
 
@@ -130,6 +131,46 @@ std::string histogram_csv(const Topology& topology, const std::vector<double>& c
   return csv.text();
 }
 
+/// Cells that are invalid or whose mean ratio is below the bound, the worst first.
+std::vector<CellIndex> bad_cells(const std::vector<double>& cell_quality, double below) {
+  std::vector<CellIndex> cells;
+  for (CellIndex c = 0; c < cell_quality.size(); ++c)
+    if (!(cell_quality[c] > 0.0) || cell_quality[c] < below) cells.push_back(c);
+  std::stable_sort(cells.begin(), cells.end(),
+                   [&](CellIndex a, CellIndex b) { return cell_quality[a] < cell_quality[b]; });
+  return cells;
+}
+
+/// Writes the mesh with its bad cells marked, and lists the worst of them.
+template <int dim, int spacedim>
+void mark_bad_cells(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
+                    const std::vector<double>& cell_quality) {
+  constexpr std::size_t n_listed = 10;
+  const auto bad = bad_cells(cell_quality, arguments.below);
+  MeshFields fields;
+  fields.cell["mean_ratio"] = cell_quality;
+  auto& marks = fields.cell["bad"];
+  marks.assign(mesh.n_cells(), 0.0);
+  for (const CellIndex c : bad) marks[c] = 1.0;
+  write_mesh(arguments.mark, mesh, fields);
+  if (arguments.json) return;
+  std::printf("%zu cells are invalid or below %g; marked by the cell field 'bad' in %s\n",
+              bad.size(), arguments.below, arguments.mark.c_str());
+  const auto& ids = mesh.topology().labels().cell_ids;
+  for (std::size_t i = 0; i < std::min(n_listed, bad.size()); ++i) {
+    const CellIndex c = bad[i];
+    std::printf("  cell %zu  mean ratio %.4g  at",
+                static_cast<std::size_t>(ids.empty() ? c : ids[c]), cell_quality[c]);
+    const auto nodes = mesh.topology().cell_nodes(c);
+    Point<spacedim> centre = Point<spacedim>::Zero();
+    for (const NodeIndex node : nodes)
+      centre += mesh.coordinates()[node] / static_cast<double>(nodes.size());
+    for (const double coordinate : centre) std::printf(" %.6g", coordinate);
+    std::printf("\n");
+  }
+  if (bad.size() > n_listed) std::printf("  ...\n");
+}
+
 void require_csv_path(const std::filesystem::path& path) {
   if (path.extension() != ".csv")
     throw InputError(
@@ -151,6 +192,7 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
                                  .quality = mesh_quality(topology, cell_quality),
                                  .geometry = geometry_numbers(mesh),
                                  .histogram = quality_histogram(cell_quality, n_bins)});
+  if (!arguments.mark.empty()) mark_bad_cells(arguments, mesh, cell_quality);
   std::fflush(stdout);
   if (!arguments.histogram.empty())
     write_atomically(arguments.histogram, histogram_csv(topology, cell_quality));
@@ -159,6 +201,12 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
 
 void report_quality(const Arguments& arguments) {
   if (!arguments.histogram.empty()) require_csv_path(arguments.histogram);
+  if (!(arguments.below >= 0.0 && arguments.below <= 1.0))
+    throw InputError("--below is " + std::to_string(arguments.below) +
+                     ", but a mean ratio lies between 0 and 1");
+  if (arguments.mark.empty() && arguments.below > 0.0)
+    throw InputError("--below says which cells --mark marks; name a file with --mark");
+  if (!arguments.mark.empty()) require_mesh_path(arguments.mark);
   const MeshFile file = read_mesh(arguments.in);
   std::visit([&](const auto& mesh) { report(arguments, mesh, file.cell_lines); }, file.mesh);
 }
@@ -173,6 +221,12 @@ void add_quality_command(CLI::App& app) {
   command->add_option(
       "--histogram", arguments->histogram,
       "numbers of cells by mean ratio and type: .csv, or drawn as .png, .pdf or .svg");
+  command->add_option("--mark", arguments->mark,
+                      "write the mesh to this file with its bad cells marked (cell field 'bad'), "
+                      "and list the worst");
+  command->add_option("--below", arguments->below,
+                      "bad are invalid cells (unless given), and those of lower mean ratio than "
+                      "this");
   command->add_flag("--json", arguments->json, "as JSON");
   command->callback([arguments] { report_quality(*arguments); });
 }

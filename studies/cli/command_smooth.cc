@@ -25,7 +25,7 @@ struct Arguments {
   std::vector<std::string> settings;
   std::optional<double> feature_angle, slide_distance;
   int n_threads = 0;  ///< 0: as OpenMP finds them
-  bool untangle = false, quiet = false;
+  bool untangle = false, fail_if_invalid = false, quiet = false;
 };
 
 template <int dim, int spacedim>
@@ -160,6 +160,58 @@ struct Outcome {
   SmoothingResult smoothing;
 };
 
+/// Why each stage ended, and what a user should know of its last iteration.
+void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
+  for (const auto& stage : result.stages) {
+    std::printf("%s stopped after %zu: %s\n", stage.name.c_str(), stage.iterations,
+                stage.why_stopped.c_str());
+    const bool many = 20 * stage.n_last_reset > n_free_nodes;
+    if (many)
+      std::printf(
+          "  in its last iteration %zu of %zu free nodes were put back, as cells around "
+          "them became invalid\n",
+          stage.n_last_reset, n_free_nodes);
+  }
+  if (result.result_record == 0)
+    std::printf("the result is the initial mesh: no iteration has made a better one\n");
+}
+
+/// Methods without quality control may leave invalid cells.
+template <int dim, int spacedim>
+void look_at_invalid_cells(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
+                           const MeshQuality& quality) {
+  if (quality.n_invalid == 0) return;
+  const std::string what = std::to_string(quality.n_invalid) + " of " +
+                           std::to_string(mesh.n_cells()) +
+                           " cells of the smoothed mesh are invalid";
+  const std::string method = "take a method that keeps cells valid, such as smart-laplace or getme";
+  if (arguments.fail_if_invalid)
+    throw InputError(what + ", so " + arguments.out + " is not written; " + method);
+  std::fprintf(stderr, "smoothfem: warning: %s; %s, and --fail-if-invalid to make it an error\n",
+               what.c_str(), method.c_str());
+}
+
+/// What the command writes must not take the place of its meshes.
+void require_different_files(const Arguments& arguments) {
+  namespace fs = std::filesystem;
+  const auto is_same = [](const fs::path& a, const fs::path& b) {
+    std::error_code ignored;  // of paths that lead nowhere, which are the same by name only
+    return fs::equivalent(a, b, ignored) ||
+           fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  };
+  const std::pair<const char*, const fs::path> others[] = {{"--log", arguments.log},
+                                                           {"--series", arguments.series}};
+  for (const auto& [option, path] : others) {
+    if (path.empty()) continue;
+    if (is_same(path, arguments.in) || is_same(path, arguments.out))
+      throw InputError(std::string(option) + " names " + path.string() +
+                       ", which is a mesh of this command; give another file name");
+  }
+  if (!arguments.log.empty() && is_same(arguments.log, arguments.series))
+    throw InputError("--log and --series name the same file " + arguments.log +
+                     "; give two file names");
+}
+
 /// The method and its tables are gone afterwards: writing needs memory, too.
 template <int dim, int spacedim>
 Outcome smooth_by_method(Method<dim, spacedim> method, const Arguments& arguments,
@@ -184,6 +236,7 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
   Recorder recorder(arguments);
   const Outcome outcome =
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
+  look_at_invalid_cells(arguments, mesh, outcome.smoothing.quality);
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Files do not say that a boundary is one to slide on: its nodes are fixed there.
@@ -201,6 +254,7 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
   std::printf("%s: %s iterations in %.4g s on %d threads; written to %s\n",
               outcome.method_title.c_str(), outcome.smoothing.iterations_text().c_str(),
               outcome.smoothing.smoothing_seconds, n_threads(), arguments.out.c_str());
+  print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
   if constexpr (dim == 3)
     if (const auto* constraints = mesh.constraints())
       std::printf("the boundary lies within %.3g of the initial one (at most %.3g)\n",
@@ -209,6 +263,9 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
 
 void smooth_file(const Arguments& arguments) {
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
+  require_different_files(arguments);
+  require_mesh_path(arguments.out);
+  if (!arguments.log.empty()) require_writable_file(arguments.log);
   MeshFile file = read_mesh(arguments.in);
   std::visit([&](auto& mesh) { smooth_mesh(arguments, std::move(mesh), file.cell_lines); },
              file.mesh);
@@ -245,7 +302,9 @@ void add_smooth_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   command->add_option("--log", arguments->log, "CSV file with one row per iteration");
   command->add_option("--series", arguments->series, "VTU series (.pvd) with every iteration");
-  command->add_flag("--quiet", arguments->quiet, "print nothing");
+  command->add_flag("--fail-if-invalid", arguments->fail_if_invalid,
+                    "write nothing and exit with 2 if the smoothed mesh has invalid cells");
+  command->add_flag("--quiet", arguments->quiet, "print nothing but warnings");
   command->callback([arguments] { smooth_file(*arguments); });
 }
 

@@ -130,9 +130,9 @@ void add_study_command(CLI::App& app) {
       ->add_option("--smoothing-threads", arguments->options.smoothing_threads,
                    "threads for smoothing; one gives times that compare with the thesis'")
       ->check(CLI::Range(1, 1024));
-  auto* scale = command->add_option("--scale", arguments->scale,
-                                    "one of the study's scales: other sizes, other records");
-  command->add_flag("--quick", arguments->quick, "the same as --scale quick")->excludes(scale);
+  command->add_option("--scale", arguments->scale,
+                      "one of the study's scales: other sizes, other records");
+  command->add_flag("--quick", arguments->quick, "the same as --scale quick");
   command->add_flag("--force", arguments->options.force,
                     "start anew; the folder of an earlier run is kept under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");
@@ -141,6 +141,9 @@ void add_study_command(CLI::App& app) {
       "only print the number of processes that this study runs fastest with on this machine");
   command->callback([arguments] {
     if (arguments->list) return list_studies();
+    if (arguments->quick && !arguments->scale.empty() && arguments->scale != "quick")
+      throw InputError("--quick asks for the scale quick, --scale for " + arguments->scale +
+                       "; give one of them");
     if (arguments->study.empty())
       throw InputError("which study? 'smoothfem study --list' shows those there are");
     // The launcher fetches, and passes on the folder.

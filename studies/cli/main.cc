@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include "smoothfem_versions.h"
-#include "smoothing/base/input_error.h"
+#include "smoothing/base/find_named.h"
 #include "smoothing/simd/registers.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/run/peak_memory.h"
@@ -13,6 +15,31 @@ namespace smoothfem {
 namespace {
 
 constexpr int exit_bad_input = 2;
+
+/// What the parser says, with the nearest name where a command or an option is not known.
+std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc,
+                          char** argv) {
+  std::vector<std::string> names;
+  const auto given = app.get_subcommands();
+  if (given.empty() && argc > 1 && argv[1][0] != '-') {
+    for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name());
+    names.push_back("plot");  // the launcher's
+    return no_such_name("command", argv[1], names);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || given.empty())
+    return std::string(error.what()) + "; 'smoothfem --help' shows the commands";
+  for (const auto* option : given.front()->get_options())
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  const auto extras = given.front()->remaining();
+  const std::string wanted =
+      extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
+  const std::string command = "'smoothfem " + given.front()->get_name();
+  if (!wanted.starts_with("-"))
+    return command + "' takes no further word, but is given '" + wanted + "'; " + command +
+           " --help' shows what it takes";
+  return no_such_name("option", wanted, names) + " of " + command + "'";
+}
 
 int run(int argc, char** argv) {
   CLI::App app("smoothfem: what mesh smoothing does to a finite element solution", "smoothfem");
@@ -31,13 +58,16 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
-    const std::string what =
-        unknown ? "there is no command '" + std::string(argv[1]) + "'" : error.what();
-    std::fprintf(stderr, "smoothfem: %s; 'smoothfem --help' shows the commands\n", what.c_str());
+    std::fprintf(stderr, "smoothfem: %s\n", parse_message(app, error, argc, argv).c_str());
     return exit_bad_input;
   }
   return 0;
+}
+
+/// A full disk behind standard output shows here at the latest.
+void require_all_printed() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));
 }
 
 }  // namespace
@@ -46,7 +76,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   smoothfem::return_freed_memory();
   try {
-    return smoothfem::run(argc, argv);
+    const int exit_code = smoothfem::run(argc, argv);
+    smoothfem::require_all_printed();
+    return exit_code;
   } catch (const smoothfem::InputError& error) {
     std::fprintf(stderr, "smoothfem: %s\n", error.what());
     return smoothfem::exit_bad_input;

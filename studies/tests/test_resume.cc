@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "smoothing/tests/volume_meshes.h"
+#include "studies/framework/results/folder_lock.h"
 #include "studies/tests/command_line.h"
 
 namespace smoothfem {
@@ -148,6 +149,45 @@ TEST_F(Resume, RowsAreThoseOfOneProcessOnTwoAndThree) {
           expect_near(column, value, several[i].at(column));
     }
   }
+}
+
+TEST_F(Resume, DamagedCheckpointsAreRefused) {
+  for (const std::string name : {"planar.prm", "volume.prm"}) {
+    const std::string out = fs::path(name).stem();
+    kill_half_done(name, out);
+    ASSERT_TRUE(is_half_done(out));
+    for (const std::string extension : {".numbers", ".trajectory", ".solved"}) {
+      fs::remove_all(file("damaged"));
+      fs::copy(file(out), file("damaged"), fs::copy_options::recursive);
+      int n_damaged = 0;
+      for (const auto& entry : fs::recursive_directory_iterator(file("damaged") / "checkpoint"))
+        if (entry.path().extension() == extension) {
+          fs::resize_file(entry.path(), n_damaged++ % 2 == 0 ? 0 : entry.file_size() / 2);
+        }
+      ASSERT_GT(n_damaged, 0) << extension;
+      const Outcome outcome = smoothfem({"study", name, "--out", "damaged", "--quiet"});
+      EXPECT_EQ(outcome.exit_code, 2) << extension;
+      EXPECT_THAT(outcome.err, ::testing::HasSubstr(extension + " is damaged: "));
+      EXPECT_TRUE(fs::exists(file("damaged") / "checkpoint"));
+    }
+  }
+}
+
+TEST_F(Resume, OneRunAtATimeWritesIntoAFolder) {
+  fs::create_directory(file("out"));
+  {
+    const FolderLock lock(file("out"));
+    for (const std::string more : {"--quiet", "--force"}) {
+      const Outcome outcome = smoothfem({"study", "planar.prm", "--out", "out", more});
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_THAT(outcome.err, ::testing::HasSubstr("process " + std::to_string(::getpid()) +
+                                                    " is writing its results into out;"));
+      EXPECT_TRUE(fs::is_empty(file("out")));
+    }
+  }
+  // The system lets go of the lock of a process that is killed.
+  kill_half_done("planar.prm", "out");
+  EXPECT_EQ(run(command("planar.prm", "out")), 0);
 }
 
 TEST_F(Resume, PlanarStudiesAreNotForSeveralProcesses) {

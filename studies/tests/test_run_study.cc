@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "smoothing/quality/mesh_quality.h"
+#include "studies/framework/results/sha256.h"
 #include "studies/framework/run/run_study.h"
 #include "studies/framework/run/study_meshes.h"
 #include "studies/tests/study_tests.h"

@@ -7,37 +7,11 @@
 #include <sstream>
 
 #include "smoothing/base/find_named.h"
+#include "studies/framework/definition/parse_messages.h"
 
 namespace smoothfem {
 
 using dealii::ParameterHandler;
-
-namespace {
-
-/// How deal.II calls the study file in its messages; the path itself could hold anything.
-constexpr const char* this_file = "this file";
-
-/// deal.II's messages run over several lines, with its own source line first and ours inside.
-InputError parse_error(const std::filesystem::path& file, const std::string& what) {
-  const std::string mark = "Additional information:";
-  const auto begin = what.find(mark);
-  std::string reason = begin == std::string::npos ? what : what.substr(begin + mark.size());
-  reason = reason.substr(0, reason.find("Stacktrace"));
-  reason = reason.substr(0, reason.find("\n----"));
-  reason = std::regex_replace(reason, std::regex("\\s+"), " ");
-  reason = std::regex_replace(reason, std::regex("^ +|[ .]+$"), "");
-  std::string position = file.string();
-  std::smatch match;
-  if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <([^>:]*)>?: ?(.*)"))) {
-    if (match[2] != this_file) position = match[2];  // a file that the study includes
-    position += ":" + match[1].str();
-    reason = match[3].str();
-  }
-  return InputError(position + ": " + reason +
-                    "; 'smoothfem list --study-keys' shows the keys there are");
-}
-
-}  // namespace
 
 std::vector<std::string> split_list(const std::string& text) {
   std::vector<std::string> items;
@@ -63,9 +37,11 @@ void parse_study(ParameterHandler& p, const std::string& text, const std::filesy
                  bool skip_undefined) {
   std::istringstream stream(text);
   try {
-    p.parse_input(stream, this_file, "", skip_undefined);
+    p.parse_input(stream, study_file_in_messages, "", skip_undefined);
   } catch (const dealii::ExceptionBase& error) {
-    throw parse_error(file, error.what());
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : all_parameters(p)) keys.push_back(key);
+    throw parse_error(file, error.what(), keys);
   }
 }
 

@@ -87,6 +87,14 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
 }
 
+/// What every method has besides its type and its own parameters.
+void declare_method_header(ParameterHandler& p, const std::string& title) {
+  p.declare_entry("title", title, Patterns::Anything(), "Title in tables and figures.");
+  p.declare_entry("threads", "0", Patterns::Integer(0, 1024),
+                  "Of smoothing; 0: as --smoothing-threads says. The other keys are the "
+                  "parameters of the method (see 'list').");
+}
+
 /// The parameters of a method are those it registers, with the defaults of a preset, if given, or
 /// its own.
 void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
@@ -96,10 +104,7 @@ void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::s
   if (type.empty()) return;
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
     auto method = make_method<dim, spacedim>(type);
-    p.declare_entry("title", name == type ? method.info.title : name, Patterns::Anything(),
-                    "Title in tables and figures.");
-    p.declare_entry("threads", "0", Patterns::Integer(0, 1024),
-                    "Of smoothing; 0: as --smoothing-threads says.");
+    declare_method_header(p, name == type ? method.info.title : name);
     if (!preset.empty() && has_parameters_for(find_preset(preset), method))
       apply_preset(find_preset(preset), method);
     for (const auto& parameter : method.parameters())
@@ -179,6 +184,11 @@ std::string study_template() {
   declare_problem(p);
   declare_scale(p, "NAME");
   declare_mesh(p, 2, "LABEL");
+  {
+    const Subsection subsection(p, "method LABEL");
+    p.declare_entry("type", "LABEL", Patterns::Anything(), "Registered method (see 'list').");
+    declare_method_header(p, "LABEL");
+  }
   return commented_keys(p);
 }
 

@@ -14,6 +14,7 @@ struct MeshFacts {
   std::size_t n_nodes = 0, n_cells = 0;
   MeshQuality quality;
   std::string origin;      ///< file path, or the domain and its distortion
+  std::string setting{};   ///< the same without the file's folder, which may be named in many ways
   std::string file{};      ///< with the mesh that smoothing starts from, in the folder of results
   bool published = false;  ///< read by --mesh-dir: comparable with printed values digit for digit
   std::string source_sha256;  ///< of the file it was read from; empty if it was generated

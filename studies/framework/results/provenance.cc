@@ -181,7 +181,7 @@ std::map<std::string, std::string> settings_of(const StudyHeader& study,
                                               study.file_parameters.end());
   settings["--scale"] = study.scale;
   for (const auto& mesh : meshes) {
-    settings["source of mesh " + mesh.description.name] = mesh.origin;
+    settings["source of mesh " + mesh.description.name] = mesh.setting;
     if (!mesh.source_sha256.empty())
       settings["content of mesh " + mesh.description.name] = mesh.source_sha256;
   }

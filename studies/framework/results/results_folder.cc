@@ -44,6 +44,17 @@ void rename_existing(const fs::path& folder) {
                      error.message());
 }
 
+void make_results_folder(const fs::path& folder, std::optional<FolderLock>& lock) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
+  lock.reset();  // a process cannot take over its own lock
+  lock.emplace(folder);
+  if (!read_provenance(folder / "provenance.json").status.empty())
+    throw InputError("another run has begun to write its results into " + folder.string() +
+                     " in the meantime; start this one again, or take another --out");
+}
+
 void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
                            const std::vector<MeshFacts>& meshes, const fs::path& folder) {
   if (earlier.status.empty()) return;

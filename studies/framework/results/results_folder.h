@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "studies/framework/results/folder_lock.h"
 #include "studies/framework/results/provenance.h"
 
 namespace smoothfem {
@@ -16,6 +18,10 @@ void require_published_files(const Study& study, const std::filesystem::path& me
 
 /// Renames the folder, if it holds anything, to the first of NAME_1, NAME_2, ... that is not there.
 void rename_existing(const std::filesystem::path& folder);
+
+/// Makes the folder of a run that has no results yet, and locks it: until then the lock was that of
+/// no folder, or of one that has another name now. Throws InputError if another run was faster.
+void make_results_folder(const std::filesystem::path& folder, std::optional<FolderLock>& lock);
 
 /// Throws InputError that says what differs if the run in a folder was one with other settings.
 /// meshes: empty as long as nothing is known of them.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/checkpoint.h"
 
+#include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "meshes/io/atomic_file.h"
+#include "studies/framework/run/sealed_file.h"
 
 namespace smoothfem {
 
@@ -23,41 +23,37 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, condi
                                    cg_seconds, jacobi_cg_seconds, amg_setup_seconds, amg_cg_seconds,
                                    cg_converged, e_max, e_mean, e_l2, e_h1, l2_error, h1_error,
                                    status)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, eigenvectors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, seconds, eigenvectors)
 
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::optional<std::string> content_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
-
-[[noreturn]] void fail(const fs::path& path) {
-  throw InputError(path.string() +
-                   " is damaged: it is not what an earlier run has written; start the study anew "
-                   "with --force");
-}
-
 /// CBOR keeps every bit of a double, and is short.
 template <class T>
-void save_as_cbor(const fs::path& path, const T& value) {
+void save_as_cbor(const fs::path& folder, const std::string& name, const T& value) {
   const auto bytes = Json::to_cbor(Json(value));
-  write_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  write_sealed(folder, name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 template <class T>
-std::optional<T> load_cbor(const fs::path& path) {
-  const auto content = content_of(path);
+std::optional<T> load_cbor(const fs::path& folder, const std::string& name) {
+  const auto content = read_sealed(folder, name);
   if (!content) return std::nullopt;
   try {
     return Json::from_cbor(*content).get<T>();
-  } catch (const Json::exception&) {
-    fail(path);
+  } catch (const Json::exception&) {  // of another version of the program
+    refuse_damaged(folder / name);
   }
+}
+
+/// Whether its indices are those of records that it has.
+bool is_consistent(const Trajectory& t) {
+  const std::size_t n_records = t.records.size();
+  return t.result_record < n_records && std::is_sorted(t.snapshots.begin(), t.snapshots.end()) &&
+         (t.snapshots.empty() || t.snapshots.back() < n_records) &&
+         (t.warpage_of_records.empty() || t.warpage_of_records.size() == n_records);
 }
 
 }  // namespace
@@ -66,40 +62,43 @@ std::string Checkpoint::name(const std::string& mesh, const std::string& method,
   return mesh + "_" + method + (degree > 0 ? "_d" + std::to_string(degree) : "");
 }
 
-fs::path Checkpoint::numbers_path(const std::string& name, std::size_t record) const {
-  return folder_ / name / (std::to_string(record) + ".numbers");
+std::string Checkpoint::numbers_name(const std::string& name, std::size_t record) {
+  return name + "/" + std::to_string(record) + ".numbers";
 }
 
 void Checkpoint::save_numbers(const std::string& name, std::size_t record,
                               const std::vector<double>& numbers) const {
-  write_atomically(numbers_path(name, record), {reinterpret_cast<const char*>(numbers.data()),
-                                                numbers.size() * sizeof(double)});
+  write_sealed(folder_, numbers_name(name, record),
+               {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)});
 }
 
-std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_t record) const {
-  const fs::path path = numbers_path(name, record);
-  const auto content = content_of(path);
-  if (!content || content->size() % sizeof(double) != 0) fail(path);
-  std::vector<double> numbers(content->size() / sizeof(double));
+std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_t record,
+                                             std::size_t size) const {
+  const auto content = read_sealed(folder_, numbers_name(name, record));
+  if (!content || content->size() != size * sizeof(double))
+    refuse_damaged(folder_ / numbers_name(name, record));
+  std::vector<double> numbers(size);
   std::memcpy(numbers.data(), content->data(), content->size());
   return numbers;
 }
 
 void Checkpoint::save(const std::string& name, const Trajectory& trajectory) const {
   if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the numbers it refers to
-  save_as_cbor(folder_ / (name + ".trajectory"), trajectory);
+  save_as_cbor(folder_, name + ".trajectory", trajectory);
 }
 
 std::optional<Trajectory> Checkpoint::load_trajectory(const std::string& name) const {
-  return load_cbor<Trajectory>(folder_ / (name + ".trajectory"));
+  auto trajectory = load_cbor<Trajectory>(folder_, name + ".trajectory");
+  if (trajectory && !is_consistent(*trajectory)) refuse_damaged(folder_ / (name + ".trajectory"));
+  return trajectory;
 }
 
 void Checkpoint::save(const std::string& name, const SolvedRecords& solved) const {
-  save_as_cbor(folder_ / (name + ".solved"), solved);
+  save_as_cbor(folder_, name + ".solved", solved);
 }
 
 std::optional<SolvedRecords> Checkpoint::load_solved(const std::string& name) const {
-  return load_cbor<SolvedRecords>(folder_ / (name + ".solved"));
+  return load_cbor<SolvedRecords>(folder_, name + ".solved");
 }
 
 void Checkpoint::remove() const {

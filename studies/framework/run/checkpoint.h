@@ -15,13 +15,14 @@ namespace smoothfem {
 /// The finite element records of one mesh, method and degree.
 struct SolvedRecords {
   std::map<std::size_t, SolutionRecord> records;  ///< by the record of the trajectory
+  std::map<std::size_t, double> seconds;          ///< that each took
   std::vector<double> eigenvectors;               ///< what the next record starts from
 };
 
 /// What a study has done so far, in a folder: a run that is killed at any moment goes on from here,
 /// and after a power failure from what was noted last. Every file appears in one piece; numbers
-/// come back with the same bits. The files are for the program that wrote them alone. Errors are
-/// InputError.
+/// come back with the same bits, and a file that is not what was written is refused
+/// (sealed_file.h). The files are for the program that wrote them alone. Errors are InputError.
 class Checkpoint {
  public:
   explicit Checkpoint(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -32,7 +33,9 @@ class Checkpoint {
   /// One array of numbers per record: coordinates (without degree), nodal errors (with degree).
   void save_numbers(const std::string& name, std::size_t record,
                     const std::vector<double>& numbers) const;
-  std::vector<double> load_numbers(const std::string& name, std::size_t record) const;
+  /// size: how many there have to be.
+  std::vector<double> load_numbers(const std::string& name, std::size_t record,
+                                   std::size_t size) const;
 
   /// Saved when all its snapshots have been.
   void save(const std::string& name, const Trajectory& trajectory) const;
@@ -45,7 +48,7 @@ class Checkpoint {
   void remove() const;
 
  private:
-  std::filesystem::path numbers_path(const std::string& name, std::size_t record) const;
+  static std::string numbers_name(const std::string& name, std::size_t record);
 
   std::filesystem::path folder_;
 };

@@ -12,6 +12,8 @@ namespace {
 constexpr double seconds_between_bars = 0.1;
 constexpr double seconds_between_lines = 15.0;
 
+}  // namespace
+
 std::string duration_text(double seconds) {
   char text[32];
   if (seconds < 60.0)
@@ -21,8 +23,6 @@ std::string duration_text(double seconds) {
                   static_cast<int>(seconds) % 60);
   return text;
 }
-
-}  // namespace
 
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
@@ -46,16 +46,17 @@ void Progress::begin(const std::string& phase, std::size_t n_steps) {
   if (!terminal_) say(phase);
 }
 
-void Progress::update(std::size_t done, const std::string& what) {
+void Progress::update(std::size_t done, const std::string& what,
+                      std::optional<double> seconds_left) {
   if (quiet_ || n_steps_ == 0) return;
   const auto now = Clock::now();
   const double since = std::chrono::duration<double>(now - last_shown_).count();
   if (since < (terminal_ ? seconds_between_bars : seconds_between_lines)) return;
   last_shown_ = now;
-  const double fraction = static_cast<double>(done) / static_cast<double>(n_steps_);
+  const double fraction = seconds_left ? seconds() / (seconds() + *seconds_left)
+                                       : static_cast<double>(done) / static_cast<double>(n_steps_);
   const int percent = static_cast<int>(100.0 * fraction);
-  const std::string left =
-      done > 0 ? ", about " + duration_text(seconds() * (1.0 - fraction) / fraction) + " left" : "";
+  const std::string left = seconds_left ? ", about " + duration_text(*seconds_left) + " left" : "";
   if (!terminal_) {
     std::fprintf(stderr, "  %3d %%%s (%s)\n", percent, left.c_str(), what.c_str());
     return;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/run_study.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/parallel.h"
+#include "studies/framework/results/folder_lock.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
 #include "studies/framework/run/phase_times.h"
@@ -36,6 +38,7 @@ class StudyRun {
     // Everything the user gave is checked before the first file is written.
     require_writable(options_.out);
     require_published_files(study_, options_.mesh_dir);
+    lock_.emplace(options_.out);
     if (options_.force) rename_existing(options_.out);
     earlier_ = read_provenance(options_.out / "provenance.json");
     require_same_settings(earlier_, study_.header, {}, options_.out);
@@ -92,6 +95,7 @@ class StudyRun {
   void begin_writing() {
     writing_ = true;
     if (earlier_.status.empty()) {
+      make_results_folder(options_.out, lock_);
       data_.checkpoint.remove();  // of a run whose provenance is gone
       write_provenance("running");
       for (auto& prepared : data_.meshes) write_initial_mesh(prepared, options_.out);
@@ -147,10 +151,40 @@ class StudyRun {
   void solve() {
     std::vector<SolveTask*> open;
     for (auto& task : data_.tasks)
-      if (!task.done) open.push_back(&task);
+      if (!task.done)
+        open.push_back(&task);
+      else
+        costs_.add(data_.kind_of(task), task.seconds);
+    // Threads take tasks in any order: with the initial meshes first, soon it is known what each
+    // size costs. Several processes would have to make their solver twice.
+    if (dim == 2)
+      std::stable_partition(open.begin(), open.end(),
+                            [](const SolveTask* task) { return task->job.method == 0; });
+    announce(open);
     progress_.begin("Finite elements", data_.tasks.size());
     run_tasks(open);
     progress_.end();
+  }
+
+  /// What is to come, before the first of it.
+  void announce(const std::vector<SolveTask*>& open) {
+    constexpr double long_time = 60.0;
+    const double seconds = seconds_left(open);
+    std::string text = std::to_string(open.size()) + " finite element solves are to come, some " +
+                       duration_text(seconds);
+    if (seconds > long_time)
+      text += " by a rough estimate; 'set record every = " +
+              std::to_string(10 * study_.record_every.default_interval) +
+              "' or '--scale quick' takes fewer";
+    if (!open.empty()) progress_.say(text + ".");
+  }
+
+  /// Until the tasks that are not done are: those under way count as not begun.
+  double seconds_left(const std::vector<SolveTask*>& open) const {
+    double seconds = 0.0;
+    for (const auto* task : open)
+      if (!task->done) seconds += costs_.expected(data_.kind_of(*task));
+    return seconds / (dim == 2 ? n_threads_ : 1U);
   }
 
   std::vector<SolveQueue::Worker> workers(const std::vector<SolveTask*>& open) {
@@ -170,12 +204,19 @@ class StudyRun {
     const std::size_t n_known = data_.tasks.size() - open.size();
     SolveQueue queue(open.size(), workers(open));
     auto last_write = Clock::now() - between_writes;
+    std::vector<SolveTask*> not_counted = open;
     while (!queue.finished()) {
       std::this_thread::sleep_for(look);
       stop_if_interrupted();
+      std::erase_if(not_counted, [&](const SolveTask* task) {
+        if (!task->done) return false;
+        costs_.add(data_.kind_of(*task), task->seconds);
+        return true;
+      });
       const std::size_t n_done = n_known + queue.n_done();
       progress_.update(
-          n_done, std::to_string(n_done) + " of " + std::to_string(data_.tasks.size()) + " solved");
+          n_done, std::to_string(n_done) + " of " + std::to_string(data_.tasks.size()) + " solved",
+          seconds_left(not_counted));
       if (Clock::now() - last_write < between_writes) continue;
       write_iterations();
       write_provenance("running");
@@ -243,7 +284,9 @@ class StudyRun {
   unsigned int n_threads_;
   mutable Progress progress_;
   StudyData<dim, spacedim> data_;
+  SolveCosts costs_;
   EarlierRun earlier_;
+  std::optional<FolderLock> lock_;
   bool writing_ = false;  ///< the folder of the results holds files of this run
   const std::string started_ = now_utc();
   PhaseTimes times_;

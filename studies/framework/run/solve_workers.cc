@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/solve_workers.h"
 
+#include <chrono>
 #include <mutex>
 
 namespace smoothfem {
@@ -18,6 +19,16 @@ PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
 bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
   return task.is_result || study.write_series;
 }
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 /// The solvers of planar meshes and degrees, made when first needed. Threads take copies, which
 /// share what depends on the topology.
@@ -47,6 +58,7 @@ class PlanarWorker {
       : data_(data), solvers_(std::move(solvers)) {}
 
   void work(SolveTask& task) {
+    const Stopwatch stopwatch;
     const SolveJob& job = task.job;
     if (!solver_ || mesh_ != job.mesh || degree_ != job.degree) {
       solver_ = solvers_->copy(job);
@@ -57,7 +69,7 @@ class PlanarWorker {
         solver_->solve(data_.coordinates_of(task), *data_.solution, task.is_result);
     if (keeps_nodal_errors(data_.study, task))
       data_.checkpoint.save_numbers(job.name, task.record, solver_->nodal_errors());
-    finish_task(task, std::move(solution), {}, data_.checkpoint);
+    finish_task(task, std::move(solution), stopwatch.seconds(), {}, data_.checkpoint);
   }
 
  private:
@@ -74,6 +86,7 @@ class TeamWorker {
   TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team) {}
 
   void work(SolveTask& task) {
+    const Stopwatch stopwatch;
     const SolveJob& job = task.job;
     const bool other_solver =
         job_ == nullptr || job_->mesh != job.mesh || job_->degree != job.degree;
@@ -84,7 +97,8 @@ class TeamWorker {
         team_.solve(data_.coordinates_of(task), *data_.solution, task.is_result);
     if (keeps_nodal_errors(data_.study, task))
       data_.checkpoint.save_numbers(job.name, task.record, team_.nodal_errors());
-    finish_task(task, std::move(solution), team_.eigenvectors(), data_.checkpoint);
+    finish_task(task, std::move(solution), stopwatch.seconds(), team_.eigenvectors(),
+                data_.checkpoint);
   }
 
  private:

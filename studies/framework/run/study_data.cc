@@ -72,7 +72,9 @@ Mesh<dim, spacedim> mesh_of(const StudyData<dim, spacedim>& data, std::size_t m,
   const auto& mesh = data.meshes[m].mesh;
   if (record == 0) return mesh;
   const auto name = Checkpoint::name(data.meshes[m].description.name, data.study.methods[k].name);
-  return {mesh.shared_topology(), points_of<spacedim>(data.checkpoint.load_numbers(name, record)),
+  return {mesh.shared_topology(),
+          points_of<spacedim>(data.checkpoint.load_numbers(
+              name, record, static_cast<std::size_t>(spacedim) * mesh.n_nodes())),
           mesh.shared_constraints()};
 }
 
@@ -86,7 +88,7 @@ MeshFields fields_of(const StudyData<dim, spacedim>& data, const Mesh<dim, space
   for (const auto& p : mesh.coordinates()) exact.push_back(data.solution->value(p));
   for (std::size_t d = 0; d < tasks.size(); ++d)
     fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
-        data.checkpoint.load_numbers(tasks[d]->job.name, tasks[d]->record);
+        data.checkpoint.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
   return fields;
 }
 
@@ -124,11 +126,11 @@ class TaskMaker {
     const std::string& mesh = data_.meshes[m].description.name;
     const int degree = data_.study.degrees[d];
     of_mesh.initial.push_back(
-        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d), 0, true));
+        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d, 0), 0, true));
     for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
       const std::string& method = data_.study.methods[k].name;
-      SolveJob& job =
-          add_job(Checkpoint::name(mesh, method, degree), Checkpoint::name(mesh, method), m, d);
+      SolveJob& job = add_job(Checkpoint::name(mesh, method, degree),
+                              Checkpoint::name(mesh, method), m, d, k + 1);
       const Trajectory& trajectory = data_.trajectories[m][k];
       for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s) {
         const std::size_t record = trajectory.snapshots[s];
@@ -138,9 +140,10 @@ class TaskMaker {
     }
   }
 
-  SolveJob& add_job(std::string name, std::string trajectory, std::size_t mesh,
-                    std::size_t degree) {
-    SolveJob& job = data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree);
+  SolveJob& add_job(std::string name, std::string trajectory, std::size_t mesh, std::size_t degree,
+                    std::size_t method) {
+    SolveJob& job =
+        data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree, method);
     if (auto solved = data_.checkpoint.load_solved(job.name)) job.solved = std::move(*solved);
     return job;
   }
@@ -151,6 +154,7 @@ class TaskMaker {
     const auto found = job.solved.records.find(record);
     if (found != job.solved.records.end()) {
       task.solution = found->second;
+      task.seconds = job.solved.seconds[record];
       task.done = true;
     }
     return &task;
@@ -163,8 +167,22 @@ class TaskMaker {
 
 template <int dim, int spacedim>
 std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const SolveTask& task) const {
-  if (task.job.trajectory.empty()) return meshes[task.job.mesh].mesh.copied_coordinates();
-  return points_of<spacedim>(checkpoint.load_numbers(task.job.trajectory, task.record));
+  const auto& mesh = meshes[task.job.mesh].mesh;
+  if (task.job.trajectory.empty()) return mesh.copied_coordinates();
+  return points_of<spacedim>(checkpoint.load_numbers(
+      task.job.trajectory, task.record, static_cast<std::size_t>(spacedim) * mesh.n_nodes()));
+}
+
+template <int dim, int spacedim>
+SolveKind StudyData<dim, spacedim>::kind_of(const SolveTask& task) const {
+  const SolveJob& job = task.job;
+  return {.mesh = job.mesh,
+          .method = job.method,
+          .degree = job.degree,
+          .is_result = task.is_result,
+          .n_nodes = static_cast<double>(meshes[job.mesh].mesh.n_nodes()),
+          .dimension = dim,
+          .polynomial_degree = study.degrees[job.degree]};
 }
 
 template <int dim, int spacedim>
@@ -172,12 +190,14 @@ void make_tasks(StudyData<dim, spacedim>& data) {
   TaskMaker<dim, spacedim>(data).make();
 }
 
-void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> eigenvectors,
-                 const Checkpoint& checkpoint) {
+void finish_task(SolveTask& task, SolutionRecord solution, double seconds,
+                 std::vector<double> eigenvectors, const Checkpoint& checkpoint) {
   constexpr auto between_saves = std::chrono::seconds(1);
   SolveJob& job = task.job;
   const std::lock_guard guard(job.mutex);
   task.solution = solution;
+  task.seconds = seconds;
+  job.solved.seconds[task.record] = seconds;
   job.solved.records[task.record] = std::move(solution);
   job.solved.eigenvectors = std::move(eigenvectors);
   const auto now = std::chrono::steady_clock::now();

@@ -10,6 +10,7 @@
 
 #include "studies/framework/results/results.h"
 #include "studies/framework/run/checkpoint.h"
+#include "studies/framework/run/solve_costs.h"
 #include "studies/framework/run/study_meshes.h"
 #include "studies/framework/run/trajectory.h"
 
@@ -21,6 +22,7 @@ struct SolveJob {
   std::string name;          ///< in the checkpoint
   std::string trajectory;    ///< name of the trajectory; empty: the initial mesh
   std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
+  std::size_t method;        ///< index into the study's methods plus one; 0: the initial mesh
   std::size_t n_tasks = 0;
   SolvedRecords solved{};
   std::chrono::steady_clock::time_point saved{};
@@ -33,7 +35,8 @@ struct SolveTask {
   std::size_t record;  ///< of the trajectory
   bool is_result;      ///< an initial or resulting mesh
   SolutionRecord solution{};
-  std::atomic<bool> done{false};  ///< set last: then `solution` may be read by other threads
+  double seconds = 0.0;           ///< that it took
+  std::atomic<bool> done{false};  ///< set last: then the others may be read by other threads
 };
 
 /// The finite element tasks of one mesh: those of the initial mesh, shared by all methods, and
@@ -56,15 +59,17 @@ struct StudyData {
   std::vector<MeshTasks> mesh_tasks{};
 
   std::vector<Point<spacedim>> coordinates_of(const SolveTask& task) const;
+  SolveKind kind_of(const SolveTask& task) const;
 };
 
 /// Makes the jobs and tasks of all trajectories; those that the checkpoint knows are done.
 template <int dim, int spacedim>
 void make_tasks(StudyData<dim, spacedim>& data);
 
-/// Notes a task's outcome. The checkpoint follows at the end of a job and about every second.
-void finish_task(SolveTask& task, SolutionRecord solution, std::vector<double> eigenvectors,
-                 const Checkpoint& checkpoint);
+/// Notes a task's outcome, and how many seconds it has taken. The checkpoint follows at the end of
+/// a job and about every second.
+void finish_task(SolveTask& task, SolutionRecord solution, double seconds,
+                 std::vector<double> eigenvectors, const Checkpoint& checkpoint);
 
 /// Rows for iterations.csv of all records that are done, in the order of meshes, methods, records
 /// and degrees. Safe while tasks are under way.

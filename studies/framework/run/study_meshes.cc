@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/study_meshes.h"
 
-#include <openssl/evp.h>
-
-#include <fstream>
-#include <optional>
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
+#include "smoothing/geometry/extreme_size.h"
+#include "studies/framework/results/sha256.h"
 
 namespace smoothfem {
 
@@ -38,28 +36,37 @@ Mesh<dim, spacedim> read_valid_mesh(const std::filesystem::path& path) {
 struct Source {
   std::filesystem::path file;  ///< empty: generated
   bool published = false;
-  std::string origin;
+  std::string generated{};   ///< the domain and its elements
+  std::string distortion{};  ///< empty: as it is
+
+  std::string origin() const { return (file.empty() ? generated : file.string()) + distortion; }
+  std::string setting() const {
+    return (file.empty() ? generated : file.filename().string()) + distortion;
+  }
 };
+
+std::string distortion_text(const StudyMesh& description) {
+  std::ostringstream text;
+  if (description.distort_to_q_mean > 0.0)
+    text << ", distorted to q_mean " << description.distort_to_q_mean;
+  if (description.distort_within > 0.0)
+    text << ", distorted within radius " << description.distort_within;
+  if (is_distorted(description)) text << " with seed " << description.seed;
+  return text.str();
+}
 
 Source source_of(const StudyMesh& description, const std::filesystem::path& mesh_dir) {
   if (!mesh_dir.empty() && !description.published_file.empty())
-    return {mesh_dir / description.published_file, true,
-            (mesh_dir / description.published_file).string()};
-  std::ostringstream origin;
+    return {.file = mesh_dir / description.published_file, .published = true};
   if (!description.file.empty())
-    origin << description.file.string();
-  else if (!description.domain.empty())
-    origin << "generated " << description.domain << " of "
-           << find_domain(description.domain).elements_named(description.elements);
-  else
+    return {.file = description.file, .distortion = distortion_text(description)};
+  if (description.domain.empty())
     throw InputError("mesh " + description.name +
                      " has neither a file nor a domain; set one of them in its subsection");
-  if (description.distort_to_q_mean > 0.0)
-    origin << ", distorted to q_mean " << description.distort_to_q_mean;
-  if (description.distort_within > 0.0)
-    origin << ", distorted within radius " << description.distort_within;
-  if (is_distorted(description)) origin << " with seed " << description.seed;
-  return {description.file, false, origin.str()};
+  return {.file = {},
+          .generated = "generated " + description.domain + " of " +
+                       find_domain(description.domain).elements_named(description.elements),
+          .distortion = distortion_text(description)};
 }
 
 template <int dim, int spacedim>
@@ -102,12 +109,19 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
           ? read_valid_mesh<dim, spacedim>(earlier / initial)
           : make_mesh<dim, spacedim>(description, source,
                                      study.edge_scale * description.edge_scale);
-  if (!study.degrees.empty()) require_finite_elements<dim>(mesh.topology());
+  if (!study.degrees.empty()) {
+    require_finite_elements<dim>(mesh.topology());
+    if (const int exponent = extreme_exponent(std::as_const(mesh).coordinates()); exponent != 0)
+      throw InputError("mesh " + description.name + " is about 2^" + std::to_string(exponent) +
+                       " wide, where finite elements leave the range of numbers; scale it to an "
+                       "ordinary size");
+  }
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),
                   .n_cells = mesh.n_cells(),
                   .quality = mesh_quality(mesh),
-                  .origin = source.origin,
+                  .origin = source.origin(),
+                  .setting = source.setting(),
                   .file = initial,
                   .published = source.published,
                   .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file),
@@ -144,22 +158,5 @@ SMOOTHFEM_INSTANTIATE(2, 2)
 SMOOTHFEM_INSTANTIATE(3, 3)
 SMOOTHFEM_INSTANTIATE(2, 3)
 #undef SMOOTHFEM_INSTANTIATE
-
-std::string sha256_of_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return "";
-  std::ostringstream content;
-  content << stream.rdbuf();
-  const std::string bytes = content.str();
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned int length = 0;
-  EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr);
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    constexpr const char* digits = "0123456789abcdef";
-    text += {digits[digest[i] >> 4], digits[digest[i] & 15]};
-  }
-  return text;
-}
 
 }  // namespace smoothfem

@@ -36,7 +36,4 @@ template <int dim, int spacedim>
 void require_same_mesh(PreparedMesh<dim, spacedim>& prepared, const EarlierRun& run,
                        const std::filesystem::path& out);
 
-/// Of a file's content, as hexadecimal digits; empty if it cannot be read.
-std::string sha256_of_file(const std::filesystem::path& path);
-
 }  // namespace smoothfem

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "meshes/io/atomic_file.h"
+#include "studies/framework/results/folder_lock.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
 #include "studies/framework/run/phase_times.h"
@@ -20,6 +21,7 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
   if (!options.mesh_dir.empty())
     throw InputError("--mesh-dir is given, but the study " + study.name +
                      " has no meshes; leave it out");
+  std::optional<FolderLock> lock(options.out);
   if (options.force) rename_existing(options.out);
   const EarlierRun earlier = read_provenance(options.out / "provenance.json");
   require_same_settings(earlier, study, {}, options.out);
@@ -31,6 +33,7 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
                  "name.");
     return;
   }
+  if (earlier.status.empty()) make_results_folder(options.out, lock);
   PhaseTimes times;
   const std::string started = now_utc();
   const auto write_provenance = [&](const std::string& status) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "smoothing/mesh/point.h"
+
+namespace smoothfem {
+
+/// The binary exponent of the points' extent where it is so large or small, beyond 2^100 or below
+/// 2^-100, that products of several lengths leave the range of numbers; 0 for all others. Scaled by
+/// the power of two with the negative exponent, the points have an extent near 1 and the same bits.
+template <class PointType>
+int extreme_exponent(std::span<const PointType> points) {
+  constexpr int ordinary = 100;
+  double extent = 0.0;
+  for (const PointType& p : points)
+    extent = std::max(extent, (p - points.front()).cwiseAbs().maxCoeff());
+  if (!(extent > 0.0) || !std::isfinite(extent)) return 0;
+  const int exponent = std::ilogb(extent);
+  return std::abs(exponent) > ordinary ? exponent : 0;
+}
+
+template <class PointType>
+void scale_by_power_of_two(std::span<PointType> points, int exponent) {
+  for (PointType& p : points)
+    for (double& coordinate : p) coordinate = std::ldexp(coordinate, exponent);
+}
+
+/// The points themselves, or where their extent is extreme, copies in `storage` with one near 1.
+template <class PointType>
+std::span<const PointType> at_ordinary_size(std::span<const PointType> points,
+                                            std::vector<PointType>& storage) {
+  const int exponent = extreme_exponent(points);
+  if (exponent == 0) return points;
+  storage.assign(points.begin(), points.end());
+  scale_by_power_of_two(std::span(storage), -exponent);
+  return storage;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/framework/run/solve_costs.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace smoothfem {
+
+void SolveCosts::add(const SolveKind& kind, double seconds) {
+  auto& known = known_.try_emplace(kind.key(), Known{kind}).first->second;
+  ++known.n;
+  known.seconds += seconds;
+  fitted_ = false;
+}
+
+/// Logarithm of the seconds that a system of this size takes on a common machine.
+double SolveCosts::base(const SolveKind& kind) {
+  constexpr double exponent = 1.25;  // of work by the number of unknowns: CG, sparse factorization
+  const double n_dofs = kind.n_nodes * std::pow(kind.polynomial_degree, kind.dimension);
+  const double seconds_at_1000_dofs = kind.dimension == 2 ? 4e-3 : 1.2e-2;
+  return std::log(seconds_at_1000_dofs) + exponent * std::log(n_dofs / 1000.0);
+}
+
+std::array<SolveCosts::Effect, 5> SolveCosts::effects_of(const SolveKind& kind) {
+  return {{{0, 0}, {1, kind.mesh}, {2, kind.method}, {3, kind.degree}, {4, kind.is_result}}};
+}
+
+void SolveCosts::fit() const {
+  if (fitted_) return;
+  fitted_ = true;
+  std::map<Effect, Eigen::Index> columns;
+  for (const auto& [key, known] : known_)
+    for (const Effect& effect : effects_of(known.kind))
+      columns.try_emplace(effect, static_cast<Eigen::Index>(columns.size()));
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+  // In units of the scatter of one task: a factor of 1.2. Effects are expected within 2, that of
+  // the machine within 5.
+  constexpr double scatter = 0.2, effect_scatter = 0.7, machine_scatter = 1.6;
+  for (const auto& [effect, column] : columns) {
+    const double expected = effect.first == 0 ? machine_scatter : effect_scatter;
+    normal(column, column) = std::pow(scatter / expected, 2);
+  }
+  for (const auto& [key, known] : known_) {
+    const double count = static_cast<double>(known.n);
+    const double excess = std::log(std::max(known.seconds / count, 1e-9)) - base(known.kind);
+    const auto effects = effects_of(known.kind);
+    for (const Effect& a : effects) {
+      right(columns.at(a)) += count * excess;
+      for (const Effect& b : effects) normal(columns.at(a), columns.at(b)) += count;
+    }
+  }
+  const Eigen::VectorXd solution = normal.ldlt().solve(right);
+  effects_.clear();
+  for (const auto& [effect, column] : columns) effects_[effect] = solution(column);
+}
+
+double SolveCosts::expected(const SolveKind& kind) const {
+  const auto known = known_.find(kind.key());
+  if (known != known_.end()) return known->second.seconds / static_cast<double>(known->second.n);
+  fit();
+  double logarithm = base(kind);
+  for (const Effect& effect : effects_of(kind)) {
+    const auto found = effects_.find(effect);
+    if (found != effects_.end()) logarithm += found->second;
+  }
+  return std::exp(logarithm);
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace smoothfem {
+
+/// Tasks that cost about the same.
+struct SolveKind {
+  std::size_t mesh, method, degree;  ///< any numbers that tell them apart
+  bool is_result;
+  double n_nodes;
+  int dimension;
+  int polynomial_degree;
+
+  auto key() const { return std::tuple(mesh, method, degree, is_result); }
+};
+
+/// How long finite element tasks take, learned from those that are done. The logarithm of the
+/// seconds is taken for a sum: of a part that follows from the size of the system, and of what each
+/// mesh, method and degree, and being a result, adds to it; these are zero as long as nothing is
+/// known, and fitted by least squares, in which a zero weighs as much as a few tasks.
+class SolveCosts {
+ public:
+  void add(const SolveKind& kind, double seconds);
+
+  /// Expected seconds of one task. Before the first one is known: right within a factor of ten or
+  /// so.
+  double expected(const SolveKind& kind) const;
+
+ private:
+  struct Known {
+    SolveKind kind;
+    std::size_t n = 0;
+    double seconds = 0.0;
+  };
+  using Effect = std::pair<int, std::size_t>;  ///< what of: 0 all, 1 mesh, 2 method, ...; which
+
+  static double base(const SolveKind& kind);
+  static std::array<Effect, 5> effects_of(const SolveKind& kind);
+  void fit() const;
+
+  std::map<decltype(SolveKind{}.key()), Known> known_;
+  mutable std::map<Effect, double> effects_;  ///< as last fitted
+  mutable bool fitted_ = true;
+};
+
+}  // namespace smoothfem
