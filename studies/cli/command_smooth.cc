@@ -196,8 +196,8 @@ void require_different_files(const Arguments& arguments) {
   namespace fs = std::filesystem;
   const auto is_same = [](const fs::path& a, const fs::path& b) {
     std::error_code ignored;  // of paths that lead nowhere, which are the same by name only
-    return fs::equivalent(a, b, ignored) ||
-           fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+    return fs::equivalent(a, b, ignored) || fs::weakly_canonical(fs::absolute(a), ignored) ==
+                                                fs::weakly_canonical(fs::absolute(b), ignored);
   };
   const std::pair<const char*, const fs::path> others[] = {{"--log", arguments.log},
                                                            {"--series", arguments.series}};

@@ -218,6 +218,31 @@ TEST_F(BadInput, OptionOrCommandThatIsNotThere) {
   expect_refused({"smooth", "good.mesh", "-m", "laplace"}, {"--out"});
 }
 
+TEST_F(BadInput, FilesThatWouldTakeThePlaceOfMeshes) {
+  const std::vector<std::string> smooth = {"smooth", "good.mesh", "-m", "laplace", "-o", "out.vtu"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), smooth.begin(), smooth.end());
+    return more;
+  };
+  expect_refused(with({"--log", "good.mesh"}), {"--log names good.mesh"});
+  expect_refused(with({"--log", "./out.vtu"}), {"--log names ./out.vtu"});
+  fs::create_hard_link(file("good.mesh"), file("linked.csv"));
+  expect_refused(with({"--log", "linked.csv"}), {"--log names linked.csv"});
+  expect_refused(with({"--log", "same", "--series", "same"}), {"--log and --series"});
+}
+
+TEST_F(BadInput, OptionsAreAnsweredWithTheNearestOne) {
+  expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "o.vtu", "--quit"},
+                 {"there is no option '--quit'", "did you mean '--quiet'?"});
+  expect_refused({"qualty", "good.mesh"},
+                 {"there is no command 'qualty'", "did you mean 'quality'?"});
+  expect_refused({"quality", "good.mesh", "another.mesh"}, {"no further word", "'another.mesh'"});
+  expect_refused({"study", "gear", "--quick", "--scale", "paper"}, {"--quick", "paper"});
+  EXPECT_EQ(
+      smoothfem({"study", "polygons", "--quick", "--scale", "quick", "--print-ranks"}).exit_code,
+      0);
+}
+
 TEST_F(BadInput, FolderThatCannotBeMade) {
   file_with("regular", "content");
   expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "regular/out.mesh"},
