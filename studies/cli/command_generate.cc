@@ -7,15 +7,17 @@
 #include "meshes/io/mesh_file.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/standard_streams.h"
 
 namespace smoothfem {
 
 namespace {
 
 struct Arguments {
-  std::string domain, out, elements;
+  std::string domain, out, to, elements;
   double edge_scale = 1.0, distort_to = 0.0;
   std::uint64_t seed = 1;
+  bool quiet = false;
 };
 
 template <int dim, int spacedim>
@@ -28,6 +30,7 @@ void distort_and_write(Mesh<dim, spacedim>& mesh, const Arguments& arguments) {
     distort(mesh, parameters);
   }
   write_mesh(arguments.out, mesh);
+  if (arguments.quiet) return;
   std::printf("%s: %zu nodes, %zu cells (%s), q_mean %.4f\n", arguments.out.c_str(), mesh.n_nodes(),
               mesh.n_cells(), arguments.elements.c_str(), mesh_quality(mesh).q_mean);
 }
@@ -36,12 +39,18 @@ void generate(Arguments arguments) {
   if (!(arguments.distort_to >= 0.0 && arguments.distort_to < 1.0))
     throw InputError("--distort-to is " + std::to_string(arguments.distort_to) +
                      ", but a mean quality lies between 0 (not distorted) and 1");
+  const auto output = file_for_standard_output(arguments.out, arguments.to);
+  if (output) {
+    arguments.out = output->path();
+    arguments.quiet = true;  // standard output is the mesh
+  }
   require_mesh_path(arguments.out);
   const Domain& domain = find_domain(arguments.domain);
   arguments.elements = domain.elements_named(arguments.elements);
   AnyMesh mesh = domain.generate(
       {.elements = arguments.elements, .edge_scale = arguments.edge_scale, .seed = arguments.seed});
   std::visit([&](auto& of_its_kind) { distort_and_write(of_its_kind, arguments); }, mesh);
+  if (output) print_content(output->path());
 }
 
 }  // namespace
@@ -50,7 +59,9 @@ void add_generate_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("generate", "generate and distort the mesh of a domain");
   command->add_option("domain", arguments->domain, "domain (see 'list')")->required();
-  command->add_option("-o,--out", arguments->out, "mesh to write")->required();
+  command->add_option("-o,--out", arguments->out, "mesh to write; - for standard output")
+      ->required();
+  command->add_option("--to", arguments->to, "format of standard output: msh, vtu, ...");
   command->add_option("--elements", arguments->elements,
                       joined(element_names()) + "; default: the domain's first (see list)");
   command->add_option("--edge-scale", arguments->edge_scale, "edges longer by this factor");

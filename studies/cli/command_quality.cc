@@ -13,6 +13,7 @@
 #include "smoothing/quality/warpage.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/standard_streams.h"
 #include "studies/framework/results/csv_text.h"
 
 namespace smoothfem {
@@ -23,7 +24,7 @@ constexpr std::size_t n_bins = 10;
 constexpr std::size_t n_csv_bins = 40;  ///< a picture shows more than lines of text
 
 struct Arguments {
-  std::string in, histogram, mark;
+  std::string in, from, histogram, mark;
   double below = 0.0;
   bool json = false;
 };
@@ -199,7 +200,7 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
   require_valid(mesh, arguments.in, cell_lines);
 }
 
-void report_quality(const Arguments& arguments) {
+void report_quality(Arguments arguments) {
   if (!arguments.histogram.empty()) require_csv_path(arguments.histogram);
   if (!(arguments.below >= 0.0 && arguments.below <= 1.0))
     throw InputError("--below is " + std::to_string(arguments.below) +
@@ -207,6 +208,8 @@ void report_quality(const Arguments& arguments) {
   if (arguments.mark.empty() && arguments.below > 0.0)
     throw InputError("--below says which cells --mark marks; name a file with --mark");
   if (!arguments.mark.empty()) require_mesh_path(arguments.mark);
+  const auto input = copy_of_standard_input(arguments.in, arguments.from);
+  if (input) arguments.in = input->path();
   const MeshFile file = read_mesh(arguments.in);
   std::visit([&](const auto& mesh) { report(arguments, mesh, file.cell_lines); }, file.mesh);
 }
@@ -217,7 +220,8 @@ void add_quality_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = app.add_subcommand(
       "quality", "quality numbers of a mesh file; exit code 2 if it has invalid cells");
-  command->add_option("in", arguments->in, "mesh to read")->required();
+  command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
+  command->add_option("--from", arguments->from, "format of standard input: msh, vtu, ...");
   command->add_option(
       "--histogram", arguments->histogram,
       "numbers of cells by mean ratio and type: .csv, or drawn as .png, .pdf or .svg");

@@ -14,6 +14,7 @@
 #include "smoothing/optimization/untangle.h"
 #include "smoothing/surface/sliding_boundary.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/standard_streams.h"
 #include "studies/framework/results/results.h"
 
 namespace smoothfem {
@@ -21,7 +22,7 @@ namespace smoothfem {
 namespace {
 
 struct Arguments {
-  std::string in, out, method, preset, boundary, fix, log, series;
+  std::string in, out, from, to, method, preset, boundary, fix, log, series;
   std::vector<std::string> settings;
   std::optional<double> feature_angle, slide_distance;
   int n_threads = 0;  ///< 0: as OpenMP finds them
@@ -261,14 +262,22 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
 }
 
-void smooth_file(const Arguments& arguments) {
+void smooth_file(Arguments arguments) {
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
+  const auto input = copy_of_standard_input(arguments.in, arguments.from);
+  const auto output = file_for_standard_output(arguments.out, arguments.to);
+  if (input) arguments.in = input->path();
+  if (output) {
+    arguments.out = output->path();
+    arguments.quiet = true;  // standard output is the mesh
+  }
   require_different_files(arguments);
   require_mesh_path(arguments.out);
   if (!arguments.log.empty()) require_writable_file(arguments.log);
   MeshFile file = read_mesh(arguments.in);
   std::visit([&](auto& mesh) { smooth_mesh(arguments, std::move(mesh), file.cell_lines); },
              file.mesh);
+  if (output) print_content(output->path());
 }
 
 }  // namespace
@@ -276,9 +285,12 @@ void smooth_file(const Arguments& arguments) {
 void add_smooth_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("smooth", "smooth a mesh file");
-  command->add_option("in", arguments->in, "mesh to read")->required();
+  command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
   command->add_option("-m,--method", arguments->method, "method (see 'list')")->required();
-  command->add_option("-o,--out", arguments->out, "mesh to write")->required();
+  command->add_option("-o,--out", arguments->out, "mesh to write; - for standard output")
+      ->required();
+  command->add_option("--from", arguments->from, "format of standard input: msh, vtu, ...");
+  command->add_option("--to", arguments->to, "format of standard output: msh, vtu, ...");
   command->add_option("--preset", arguments->preset,
                       "parameters of an experiment (see 'list'); --set comes after it");
   command->add_option("--set", arguments->settings, "parameter of the method: key=value")

@@ -110,6 +110,30 @@ TEST_F(Results, AFullDeviceBehindStandardOutputIsAnError) {
   }
 }
 
+TEST_F(Results, MeshesGoThroughPipes) {
+  const auto shell = [&](const std::string& command) {
+    const std::string program = quoted(SMOOTHFEM_PROGRAM);
+    std::string text = "cd " + quoted(file("").string()) + " && ";
+    for (const char c : command) text += c == '@' ? program : std::string(1, c);
+    return WEXITSTATUS(std::system((text + " 2> err").c_str()));
+  };
+  ASSERT_EQ(shell("@ smooth good.mesh -m laplace -o direct.vtu > /dev/null"), 0);
+  EXPECT_EQ(shell("cat good.mesh | @ smooth - --from mesh -m laplace -o - --to .vtu > piped.vtu"),
+            0);
+  EXPECT_EQ(content_of(file("piped.vtu")), content_of(file("direct.vtu")));
+  EXPECT_EQ(shell("@ quality --json direct.vtu > a; @ quality --json - --from vtu < piped.vtu > b"),
+            0);
+  EXPECT_EQ(content_of(file("a")), content_of(file("b")));
+  EXPECT_EQ(shell("@ generate gear --edge-scale 4 -o - --to msh > g.msh && @ quality g.msh > c"),
+            0);
+  EXPECT_EQ(shell("@ quality - < good.mesh"), 2);
+  EXPECT_THAT(content_of(file("err")), HasSubstr("--from"));
+  EXPECT_EQ(shell("@ quality - --from msh < /dev/null"), 2);
+  EXPECT_THAT(content_of(file("err")), HasSubstr("standard-input.msh"));
+  EXPECT_EQ(shell("@ quality good.mesh --from msh"), 2);
+  EXPECT_EQ(shell("@ smooth good.mesh -m laplace -o - --to vtu > /dev/full"), 2);
+}
+
 TEST_F(Results, ListShowsRangesAndWhichMeshesAParameterIsFor) {
   const std::string list = smoothfem({"list"}).out;
   EXPECT_THAT(list, AllOf(HasSubstr("subdivision ratio of the polygon sides (Section 2.3); (0, 1) "

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/cli/standard_streams.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <vector>
+
+#include "smoothing/base/input_error.h"
+
+namespace smoothfem {
+
+namespace fs = std::filesystem;
+
+TemporaryFile::TemporaryFile(const std::string& name) {
+  std::error_code error;
+  std::string folder = (fs::temp_directory_path(error) / "smoothfem-XXXXXX").string();
+  if (error || ::mkdtemp(folder.data()) == nullptr)
+    throw InputError("cannot make a temporary folder " + folder + ": " +
+                     (error ? error.message() : std::strerror(errno)) +
+                     "; name one that can be written to in TMPDIR");
+  path_ = fs::path(folder) / name;
+}
+
+TemporaryFile::~TemporaryFile() {
+  std::error_code ignored;  // a leftover is harmless
+  fs::remove_all(path_.parent_path(), ignored);
+}
+
+namespace {
+
+/// "standard-input.msh" for "msh" and ".msh".
+std::unique_ptr<TemporaryFile> temporary_for(const std::string& stream, const std::string& format,
+                                             const std::string& option) {
+  if (format.empty() || format.find('/') != std::string::npos)
+    throw InputError("'-' is standard " + stream + ", whose format no name tells; say " + option +
+                     " msh, vtu or another one of 'smoothfem list'");
+  return std::make_unique<TemporaryFile>("standard-" + stream +
+                                         (format.starts_with(".") ? format : "." + format));
+}
+
+}  // namespace
+
+std::unique_ptr<TemporaryFile> copy_of_standard_input(const std::string& name,
+                                                      const std::string& format) {
+  if (name != "-") {
+    if (!format.empty()) throw InputError("--from is for standard input, '-'; leave it out");
+    return nullptr;
+  }
+  auto file = temporary_for("input", format, "--from");
+  std::ofstream stream(file->path(), std::ios::binary);
+  // An empty input sets the stream's failbit, too, but is a matter of the reader.
+  if (std::cin.peek() != std::istream::traits_type::eof()) stream << std::cin.rdbuf();
+  stream.close();
+  if (!stream)
+    throw InputError("cannot copy standard input to " + file->path().string() + ": " +
+                     std::strerror(errno) + "; name a folder with more room in TMPDIR");
+  return file;
+}
+
+std::unique_ptr<TemporaryFile> file_for_standard_output(const std::string& name,
+                                                        const std::string& format) {
+  if (name == "-") return temporary_for("output", format, "--to");
+  if (!format.empty()) throw InputError("--to is for standard output, '-'; leave it out");
+  return nullptr;
+}
+
+void print_content(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<char> buffer(1 << 16);
+  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) ||
+         stream.gcount() > 0)
+    std::fwrite(buffer.data(), 1, static_cast<std::size_t>(stream.gcount()), stdout);
+}
+
+}  // namespace smoothfem
