@@ -29,6 +29,8 @@ std::string read_whole_file(const std::filesystem::path& path) {
     throw InputError(path.string() + ": there is no such file; check the path");
   if (std::filesystem::is_directory(status))
     throw InputError(path.string() + ": this is a folder; give the name of a file in it");
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    throw InputError(path.string() + ": this is a device, which may have no end; give a file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string content;

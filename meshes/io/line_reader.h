@@ -10,8 +10,8 @@
 
 namespace smoothfem {
 
-/// The whole file as bytes. Throws InputError for a missing file, a folder, a file that cannot be
-/// read, and an empty one.
+/// The whole file as bytes. Throws InputError for a missing file, a folder, a device, a file that
+/// cannot be read, and an empty one.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// A word in quotation marks for error messages: its first 40 bytes, "..." if there are more, and

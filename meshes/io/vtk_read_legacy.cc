@@ -136,9 +136,8 @@ class LegacyVtkReader {
     in_.read_numbers<std::int64_t>(type, n_offsets, "an offset", [&](std::int64_t offset) {
       const bool is_first = cells.offsets.empty();
       const std::int64_t least = is_first ? 0 : cells.offsets.back();
-      const std::uint64_t most = is_first ? 0 : n_nodes;
+      const std::uint64_t most = is_first ? 0 : std::min<std::uint64_t>(n_nodes, UINT32_MAX);
       if (offset < least || static_cast<std::uint64_t>(offset) > most) refuse_rows();
-      require_countable(static_cast<std::size_t>(offset));
       cells.offsets.push_back(static_cast<RowOffset>(offset));
     });
     if (cells.offsets.back() != n_nodes) refuse_rows();

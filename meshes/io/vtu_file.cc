@@ -96,7 +96,7 @@ void VtuFile::read_array_tag() {
   const XmlTag& tag = tags_.tag();
   const std::string_view section = tags_.parent();
   if (std::find(section_names.begin(), section_names.end(), section) == section_names.end()) return;
-  VtuArray array{.name = tag.attribute("Name").value_or(""),
+  VtuArray array{.name = tag.attribute("Name").value_or(section),
                  .type = tag.attribute("type").value_or(""),
                  .format = tag.attribute("format").value_or("ascii"),
                  .n_components = number("NumberOfComponents", 1),

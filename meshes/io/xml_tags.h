@@ -51,6 +51,7 @@ class XmlTags {
   std::size_t at_ = 0;
   XmlTag tag_;
   std::vector<std::string_view> open_;
+  std::size_t n_roots_ = 0;
 };
 
 }  // namespace smoothfem

@@ -78,11 +78,11 @@ INSTANTIATE_TEST_SUITE_P(
                     "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n$NodeData\n1\n\"a\"\n0\n3\n0\n1\n"
                     "1000000000\n1 0.5\n",
                 "the file ends before $EndNodeData"},
-        Damaged{"msh_huge_counts", ".msh", msh_head + "$Nodes\n4000000000\n1 0 0 0\n$EndNodes\n",
-                "node 2 of 4000000000"},
+        Damaged{"msh_huge_counts", ".msh", msh_head + "$Nodes\n4000000000\n1 0 0 0\n",
+                "before node 2 of 4000000000"},
 
         Damaged{"vtk_huge_field", ".vtk", vtk_head + "FIELD F 1000000000\n" + vtk_points,
-                ":5: the number of components is 'double', which is not an integer"},
+                ":6: the number of values is 'double', which is not an integer"},
         Damaged{"vtk_huge_array", ".vtk",
                 vtk_head + "FIELD F 1\nx 1 1000000000 double\n1 2\n" + vtk_points + vtk_cells,
                 ":6: 1000000000 values are announced, more than the file has"},
@@ -164,8 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
                     .text(),
                 "would be more than 100 times as large as the file when decompressed"},
         Damaged{"vtu_compressor", ".vtu",
-                Vtu{.format = "binary", .attributes = "compressor=\"vtkOther\""}.text(),
-                "the array 'Points' is compressed by '"},
+                Vtu{.format = "binary", .attributes = "compressor=\"Other\""}.text(),
+                "the array 'Points' is compressed by 'Other', which is not known"},
         Damaged{"vtu_appended_offset", ".vtu", Vtu{.format = "appended"}.text(),
                 "the array 'Points' "},
         Damaged{"vtu_huge_names", ".vtu",
@@ -176,9 +176,42 @@ INSTANTIATE_TEST_SUITE_P(
                 "the array 'physical_name' has fewer values"},
         Damaged{"vtu_tags_cross", ".vtu", "<VTKFile type=\"UnstructuredGrid\"><a><b></a></b>\n",
                 "1: </a> ends no element"},
+        Damaged{"vtu_two_meshes", ".vtu", Vtu().text() + Vtu().text(),
+                ":10: the file has a second element"},
         Damaged{"vtu_cut_in_a_tag", ".vtu", "<VTKFile type=\"UnstructuredGrid",
                 "the attribute 'type' is not in quotes"}),
     [](const auto& info) { return info.param.name; });
+
+/// As many sets as nodes, of every second, third, ... node.
+TEST_F(FileTest, ManySetsOfManyNodesTakeLittleTime) {
+  constexpr int n = 20000;
+  std::string nodes = "*NODE\n", elements = "*ELEMENT, TYPE=S4\n",
+              fixed = "*NSET, NSET=SMOOTHFEM_FIXED, GENERATE\n",
+              sets = "*ELSET, ELSET=a, GENERATE\n";
+  for (int i = 1; i <= n; ++i) {
+    const std::string label = std::to_string(i), other = std::to_string(i + n);
+    nodes += label + "," + label + ",0\n" + other + "," + label + ",1\n";
+    if (i < n)
+      elements += label + "," + label + "," + std::to_string(i + 1) + "," +
+                  std::to_string(i + n + 1) + "," + other + "\n";
+    for (std::string* text : {&fixed, &sets})
+      for (const std::string last : {"99998", "99999"})
+        *text += "2," + last + "," + std::to_string(i + 1) + "\n";
+  }
+  const auto path = file_with("a.inp", nodes + elements + fixed + sets);
+  const auto start = std::chrono::steady_clock::now();
+  const PlanarFile read = read_planar(path);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  std::vector<NodeIndex> free = {0, 2};  // 1 before the ranges, 3 between the first two of each
+  for (NodeIndex label = 4; label <= 2 * n; ++label) {
+    bool is_free = true;
+    for (NodeIndex step = 2; step <= n + 1 && is_free; ++step) is_free = (label - 2) % step != 0;
+    if (is_free) free.push_back(label - 1);
+  }
+  EXPECT_EQ(read.mesh.topology().free_nodes(), free);
+  EXPECT_EQ(read.mesh.topology().labels().cell_tags[0], 0);
+  EXPECT_EQ(read.mesh.topology().labels().cell_tags[1], 1);
+}
 
 // --- What every format refuses -------------------------------------------------------------------
 

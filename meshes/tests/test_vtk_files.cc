@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVtk{"only_title", ".vtk", "# vtk DataFile Version 3.0\n", ""},
         BadVtk{"no_cells", ".vtk", head + points, "the file has no cells"},
         BadVtk{"cut_points", ".vtk", head + "POINTS 4 double\n0 0 0\n1 0",
-               ":7: 4 points are announced, more than the file has"},
+               ":7: the file ends before a coordinate; it is truncated"},
         BadVtk{"junk_points", ".vtk", head + "POINTS 4 double\n0 0 0\n1 0 x 1 1 1 0 0 1 0 0 1\n",
                ":7: a coordinate is 'x', which is not a number"},
         BadVtk{"cut_cells", ".vtk", head + points + "CELLS 2 8\n3 0 1 2\n3 0",
