@@ -177,7 +177,7 @@ void Topology::build_boundary(const CompressedRows<CellIndex>& node_cells) {
   for (const auto& [cell, wanted] : boundary) {
     const auto nodes = cells_[cell];
     std::uint32_t position = 0;
-    for_each_facet(dim_, nodes.size(), [&](std::span<const std::size_t> at) {
+    for_each_facet(dim_, nodes.size(), [&, wanted = wanted](std::span<const std::size_t> at) {
       if (position++ != wanted) return;
       row.clear();
       for (const std::size_t k : at) row.push_back(nodes[k]);
