@@ -125,8 +125,7 @@ class VtuReader {
 
 /// The text is gone when the mesh is made of its parts: large meshes would need more memory.
 MeshParts vtu_parts(const std::filesystem::path& path) {
-  const std::string content = read_whole_file(path);
-  VtuFile file(path, content);
+  VtuFile file(path, read_whole_file(path));
   return parts_of_grid(path.string(), VtuReader(file).grid());
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/vtu_file.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <memory>
 
 namespace smoothfem {
 
@@ -33,9 +37,9 @@ const VtuArray* VtuPiece::array(std::string_view section, std::string_view name)
   return nullptr;
 }
 
-VtuFile::VtuFile(const std::filesystem::path& path, std::string_view content)
-    : path_(path), content_(content), tags_(path.string(), content) {
-  if (content.find("<VTKFile") == content.npos)
+VtuFile::VtuFile(const std::filesystem::path& path, std::string content)
+    : path_(path), content_(std::move(content)), tags_(path.string(), content_) {
+  if (content_.find("<VTKFile") == content_.npos)
     throw InputError(path.string() +
                      ": the file has no element <VTKFile>; this is not a .vtu file");
   while (tags_.next())
@@ -105,7 +109,7 @@ void VtuFile::read_array_tag() {
                  .offset = number("offset", 0),
                  .position = tag.first};
   if (!tag.ends)
-    array.text = content_.substr(
+    array.text = std::string_view(content_).substr(
         tag.past_last,
         std::min(content_.find('<', tag.past_last), content_.size()) - tag.past_last);
   if (section == "FieldData")
@@ -128,7 +132,7 @@ void VtuFile::read_appended() {
   if (begin == content_.npos || end == content_.npos || end < begin)
     tags_.fail(
         "the appended data have no beginning '_' or no end; the file is truncated or damaged");
-  appended_ = content_.substr(begin + 1, end - begin - 1);
+  appended_ = std::string_view(content_).substr(begin + 1, end - begin - 1);
   tags_.go_to(end);
 }
 
@@ -137,12 +141,23 @@ VtkNumber VtuFile::type_of(const VtuArray& array) const {
   fail(array, "has numbers of the type " + in_quotes(array.type) + ", which is not known");
 }
 
+/// Whole pages only, and no less than are worth the call.
+void VtuFile::release(const VtuArray& array) {
+  constexpr std::size_t least = std::size_t{1} << 20;
+  if (array.text.size() < least) return;
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  void* begin = content_.data() + (array.text.data() - content_.data());
+  std::size_t size = array.text.size() - page;
+  if (std::align(page, size - page, begin, size))
+    ::madvise(begin, size / page * page, MADV_DONTNEED);
+}
+
 LineReader VtuFile::open_text(const VtuArray& array, std::uint64_t n) const {
   if (n > array.text.size() / 2 + 1)
     fail(array, "has fewer values than the " + std::to_string(n) + " announced");
   const auto begin = static_cast<std::size_t>(array.text.data() - content_.data());
   if (array.text.empty()) return LineReader(path_, {});
-  LineReader lines(path_, content_.substr(0, begin + array.text.size()));
+  LineReader lines(path_, std::string_view(content_).substr(0, begin + array.text.size()));
   lines.skip_bytes(begin);
   return lines;
 }

@@ -42,11 +42,14 @@ struct VtuPiece {
 };
 
 /// The elements of a .vtu file with an unstructured grid. No count is trusted: arrays are read when
-/// the file has shown that it can hold them. The content must outlive it. Throws InputError
-/// "path:line: ..." for whatever is wrong.
+/// the file has shown that it can hold them. Each array can be read once: of large
+/// ones in Base64 the text is gone then, so that large meshes do not need the memory twice. Throws
+/// InputError "path:line: ..." for whatever is wrong.
 class VtuFile {
  public:
-  VtuFile(const std::filesystem::path& path, std::string_view content);
+  VtuFile(const std::filesystem::path& path, std::string content);
+  VtuFile(const VtuFile&) = delete;
+  VtuFile& operator=(const VtuFile&) = delete;
 
   const std::vector<VtuPiece>& pieces() const { return pieces_; }
   const VtuSection& field_data() const { return field_data_; }
@@ -76,6 +79,7 @@ class VtuFile {
         for_each_vtk_number<Value>(type, encoding_.is_swapped, chunk.data(), n_now, use);
         left -= n_now;
       }
+      release(array);
     }
   }
 
@@ -90,6 +94,7 @@ class VtuFile {
   void read_appended();
   std::uint64_t number(std::string_view attribute, std::uint64_t fallback) const;
   VtkNumber type_of(const VtuArray& array) const;
+  void release(const VtuArray& array);
 
   LineReader open_text(const VtuArray& array, std::uint64_t n) const;
   VtuArrayBytes open_binary(const VtuArray& array, std::uint64_t n, VtkNumber type);
@@ -120,7 +125,7 @@ class VtuFile {
   }
 
   std::filesystem::path path_;
-  std::string_view content_;
+  std::string content_;
   XmlTags tags_;
   VtuEncoding encoding_;
   std::string_view appended_;
