@@ -8,7 +8,8 @@ from plots.results.data_folder import thesis_folder
 from plots.results.printed_values import read_printed_tables
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
-from plots.tables.formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
+from plots.tables.formats import TERMINAL_WIDTH, as_markdown, as_text
+from plots.tables.latex import as_latex
 from plots.tables.number_format import format_error, grouped, relative_difference
 from plots.tables.smoothing import make_tables
 from plots.tables.table import escape_tex

@@ -187,6 +187,6 @@ class VolumeStudy(InFolder):
         with mock.patch("shutil.which", return_value=None):
             errors, names = self.run_main(folder)
         self.assertEqual(errors.count("\n"), 1, errors)
-        self.assertIn("No pictures of volume meshes", errors)
+        self.assertIn("No pictures of volume meshes and surfaces", errors)
         self.assertIn("figure_6_7_histograms", names)
         self.assertNotIn("figure_6_6_meshes", names)
