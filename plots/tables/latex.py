@@ -6,7 +6,7 @@ from .table import escape_tex
 
 # Points: a digit of \footnotesize, the space of a column, the line of an article.
 DIGIT, COLUMN_SPACE, LINE_WIDTH = 4.25, 6.0, 345.0
-LEAST_SCALE = 0.8  # of a table that is shrunk to the line: smaller digits cannot be read
+LEAST_SCALE = 0.7  # of a table that is shrunk to the line: smaller digits cannot be read
 
 
 def as_latex(table):
@@ -45,10 +45,9 @@ def panels_of(table):
         return DIGIT * (group_width(group) - n + 1) + COLUMN_SPACE * n
     most = LINE_WIDTH / LEAST_SCALE - keys
     n_panels = len(split(table, most, width_of))
-    widths = sorted(width_of(group) for group in table.groups)
     # The narrowest panels of which there are no more: otherwise the last one is nearly empty.
-    while most - widths[0] > widths[-1] and len(split(table, most - widths[0], width_of)) == n_panels:
-        most -= widths[0]
+    while most > DIGIT and len(split(table, most - DIGIT, width_of)) == n_panels:
+        most -= DIGIT
     return split(table, most, width_of)
 
 
