@@ -59,9 +59,9 @@ TEST_F(CommandLine, TheQuickScaleOfTheBuiltInPolygonStudyHolds) {
   EXPECT_EQ(content_of(file("results/polygons/theorems.csv")).find(",false"), std::string::npos);
   EXPECT_EQ(content_of(file("results/polygons/classification.csv")).find(",false"),
             std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(content_of(file("results/polygons/provenance.json")))
-                .at("built_in"),
-            true);
+  EXPECT_EQ(
+      nlohmann::json::parse(content_of(file("results/polygons/provenance.json"))).at("built_in"),
+      true);
 }
 
 TEST_F(CommandLine, KindsThatDoNotExistAreNamedWithThoseThatDo) {
