@@ -13,7 +13,7 @@ from ..results.smoothing import INITIAL
 from ..results.symbols import symbol_of
 from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
                        styles_in_order, thin_markers)
-from .history_lines import FROM_ZERO, QUALITY, panel_lines, range_of
+from .history_lines import QUALITY, panel_lines, range_of
 from .scales import make_room_for_labels, scale_values, spans_magnitudes
 
 # Numbers that lie between 0 and 1 have linear axes.
@@ -41,7 +41,7 @@ def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log
                if any(line.shown.any() for mesh in meshes for line in lines[name, mesh].values())]
     if not columns:
         return None
-    ranges = [range_of([lines[name, mesh] for name in columns], log_x, x in FROM_ZERO) for mesh in meshes]
+    ranges = [range_of([lines[name, mesh] for name in columns], log_x, x) for mesh in meshes]
     styles = styles_in_order(results)
     figure, axes = empty_panels(results, styles, [[lines[name, mesh] for mesh in meshes] for name in columns],
                                 [results.title(mesh) for mesh in meshes])

@@ -92,20 +92,21 @@ class Range:
             return ~(x > self.high)
 
 
-def range_of(panels, logarithmic, from_zero):
-    """The Range of the lines that are drawn in panels below each other, each a result of panel_lines."""
+def range_of(panels, logarithmic, x=TIME):
+    """The Range of the lines that are drawn in panels below each other, each a result of panel_lines
+    against column `x`."""
     drawn = [(method, line.x[line.shown]) for lines in panels for method, line in lines.items()
              if method != INITIAL and line.shown.any()]
-    numbers = np.concatenate([x for _, x in drawn]) if drawn else np.array([0.0, 1.0])
+    numbers = np.concatenate([values for _, values in drawn]) if drawn else np.array([0.0, 1.0])
     if logarithmic and (numbers > 0).any():
         return logarithmic_range(numbers)
-    if not from_zero:
+    if x not in FROM_ZERO:
         margin = MARGIN * (np.ptp(numbers) or 1.0)
         return Range(numbers.min() - margin, numbers.max() + margin)
     ends = {}
-    for method, x in drawn:
-        ends[method] = max(ends.get(method, 0.0), x.max())
-    dominant, limit = dominant_method(ends)
+    for method, values in drawn:
+        ends[method] = max(ends.get(method, 0.0), values.max())
+    dominant, limit = dominant_method(ends) if x == TIME else ("", np.inf)
     last = max(ends.values(), default=0.0) or 1.0
     return Range(-MARGIN * min(last, limit), min((1 + MARGIN) * last, limit), dominant=dominant)
 

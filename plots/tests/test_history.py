@@ -143,14 +143,21 @@ class Ranges(InFolder):
         self.assertEqual(dominant_method({"a": 1.0, "b": 30.0}), ("b", 5.0))
         for ends in ((1.0, 10.0), (1.0,), (0.0, 10.0)):
             self.assertEqual(dominant_method(dict(zip("ab", ends))), ("", np.inf))
-        self.assertEqual(range_of([self.panel(1.0, 30.0)], False, True).high, 5.0)
+        self.assertEqual(range_of([self.panel(1.0, 30.0)], False).high, 5.0)
+
+    def test_other_columns_than_time_are_shown_as_a_whole(self):
+        for column, low in (("iteration", -0.6), ("cg_iterations", -0.6)):
+            extent = range_of([self.panel(1.0, 30.0)], False, column)
+            self.assertAlmostEqual(extent.low, low)
+            self.assertAlmostEqual(extent.high, 30.6)
+        self.assertEqual(extent.dominant, "")
 
     def test_all_rows_have_the_range_of_all(self):
         for panels in itertools.permutations([self.panel(1.0), self.panel(3.0)]):
-            self.assertAlmostEqual(range_of(panels, False, True).high, 3.06)
+            self.assertAlmostEqual(range_of(panels, False).high, 3.06)
 
     def test_without_any_number(self):
         nothing = {"a": Line(np.array([np.nan]), np.array([np.nan]), np.array([False]))}
         for logarithmic in (False, True):
-            extent = range_of([nothing], logarithmic, True)
+            extent = range_of([nothing], logarithmic)
             self.assertLess(extent.low, extent.high)
