@@ -110,6 +110,9 @@ def planned_figures(outputs, request, only, width):
     # Matplotlib takes a second to load.
     from .figures.style import FULL_WIDTH, apply_style
 
+    if width and width < outputs.least_width:
+        raise ResultsError(f"{outputs.folder}: the figures of this kind of study are at least "
+                           f"{outputs.least_width}in wide; choose a larger --width.")
     apply_style(width or FULL_WIDTH)
     planned = outputs.plan()
     known = {*outputs.names, *(figure.name for figure in planned)}

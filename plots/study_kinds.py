@@ -17,6 +17,7 @@ from .tables.polygons import make_polygon_tables
 from .tables.regularization import make_regularization_tables
 from .tables.smoothing import make_tables
 
+LEAST_WIDTH = 6.0  # of figures whose panels cannot go below each other
 NO_CLAIMS = "No claims.md: the thesis says nothing about this study."
 
 
@@ -34,6 +35,7 @@ class Outputs:
     texts: dict = field(default_factory=dict)
     remarks: tuple = ()  # sentences on what a user may look for in vain
     warnings: tuple = ()  # sentences on what is wrong with the results
+    least_width: float = 0.0  # inches that the words in the figures need
 
     @property
     def names(self):
@@ -68,7 +70,8 @@ def polygon_outputs(folder, request):
     def plan():
         from .figures.polygon_study import plan_polygon_figures
         return plan_polygon_figures(results)
-    return Outputs(results.folder, results.study_title, tuple(make_polygon_tables(results)), plan)
+    return Outputs(results.folder, results.study_title, tuple(make_polygon_tables(results)), plan,
+                   least_width=LEAST_WIDTH)
 
 
 def regularization_outputs(folder, request):
@@ -78,7 +81,8 @@ def regularization_outputs(folder, request):
     def plan():
         from .figures.regularization import plan_regularization_figures
         return plan_regularization_figures(results)
-    return Outputs(results.folder, results.study_title, tuple(make_regularization_tables(results)), plan)
+    return Outputs(results.folder, results.study_title, tuple(make_regularization_tables(results)), plan,
+                   least_width=LEAST_WIDTH)
 
 
 SMOOTHING = "smoothing"

@@ -214,3 +214,7 @@ class Library(CommandLine):
         code, _, errors = self.run_main(folder, "--quiet", "--only", "side_ratio")
         self.assertEqual(code, 2)
         self.assertIn("did you mean 'side_ratios'?", errors)
+        code, _, errors = self.run_main(folder, "--quiet", "--width", "84mm")
+        self.assertEqual(code, 2)
+        self.assertRegex(errors, r"^[^\n]*at least 6\.0in wide; choose a larger --width\.\n$")
+        self.assertFalse((folder / "tables").exists())
