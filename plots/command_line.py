@@ -115,7 +115,7 @@ def planned_figures(outputs, request, only, width):
                            f"{outputs.least_width}in wide; choose a larger --width.")
     apply_style(width or FULL_WIDTH)
     planned = outputs.plan()
-    known = {*outputs.names, *(figure.name for figure in planned)}
+    known = {*outputs.names, *(name for figure in planned for name in (figure.name, figure.whole))}
     known |= {short_name(name) for name in known}
     if known.issuperset(only) if only else request.has_history:
         return planned
@@ -128,8 +128,8 @@ def make_study(options):
     request = Request(options.methods, options.meshes, options.x, options.y, options.log_x, options.log_y)
     outputs = outputs_of(options.folder, request)
     figures = [] if options.no_figures else planned_figures(outputs, request, options.only, options.width)
-    drawn = [figure.name for figure in figures]
-    wanted = (select(options.only, [*outputs.names, *drawn]) if options.only else
+    drawn = {figure.name: figure.whole for figure in figures}
+    wanted = (select(options.only, {**dict.fromkeys(outputs.names, ""), **drawn}) if options.only else
               set(drawn) if request.has_history else {*outputs.names, *drawn})
     tables = [table for table in outputs.tables if table.name in wanted]
     texts = [(table.name + suffix, write(table)) for table in tables

@@ -26,20 +26,19 @@ def plan_histories(results):
     shown = shown if shown in results.degrees else first
     planned = []
 
-    def plan(name, title, *arguments):
-        planned.append(PlannedFigure(name, title, lambda: draw_history(results, *arguments)))
+    def plan(prefix, variant, title, *arguments):
+        planned.append(PlannedFigure(prefix + part + variant, title, lambda: draw_history(results, *arguments),
+                                     whole=prefix + variant))
     for part, meshes in pages(results.meshes, fits_as_columns).items():
         for log_time, variant, title in ((False, "", "history"),
                                          (True, "_log_time", "history, log time")):
-            plan(figure_name(study, "history", part + variant), title,
-                 main_columns(results), shown, log_time, meshes)
+            plan(figure_name(study, "history"), variant, title, main_columns(results), shown, log_time, meshes)
         for degree in results.degrees:
             # Without number: the thesis has these for one degree only, and no true errors.
-            prefix = ("figure_history" if study in THESIS_NUMBERS else "history") + part
+            prefix = "figure_history" if study in THESIS_NUMBERS else "history"
             if degree != shown:
-                plan(f"{prefix}_d{degree}", f"history, d = {degree}",
-                     main_columns(results), degree, False, meshes)
-            plan(f"{prefix}_norms_d{degree}", f"error norms, d = {degree}",
+                plan(prefix, f"_d{degree}", f"history, d = {degree}", main_columns(results), degree, False, meshes)
+            plan(prefix, f"_norms_d{degree}", f"error norms, d = {degree}",
                  ("e_l2", "e_h1", "l2_error", "h1_error"), degree, False, meshes)
     return planned
 
@@ -57,7 +56,9 @@ def plan_requested_history(results, request):
     planned = []
     for part, meshes in pages(results.meshes, fits_as_columns).items():
         for degree in results.degrees if by_degree else (results.degrees or ("",))[:1]:
-            name = request.history_name + part + (f"_d{degree}" if by_degree else "")
-            planned.append(PlannedFigure(name, "history", lambda degree=degree, meshes=meshes: draw_history(
-                results, columns, degree, request.log_x, meshes, request.x or TIME, request.log_y)))
+            variant = f"_d{degree}" if by_degree else ""
+            planned.append(PlannedFigure(
+                request.history_name + part + variant, "history", lambda degree=degree, meshes=meshes: draw_history(
+                    results, columns, degree, request.log_x, meshes, request.x or TIME, request.log_y),
+                whole=request.history_name + variant))
     return planned

@@ -17,6 +17,7 @@ class PlannedFigure:
     title: str
     draw: Callable
     rendered: bool = False  # whether it needs VTK's pictures
+    whole: str = ""  # of one for some meshes: the name that all of them would have in one figure
 
 
 def save_figures(planned, study_title, folder, formats, report):

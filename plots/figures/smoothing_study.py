@@ -22,8 +22,10 @@ def plan_mesh_figures(results, report):
     left out."""
     planned = []
 
-    def plan(draw, kind, variant, title, rendered=False):
-        planned.append(PlannedFigure(figure_name(results.thesis_study, kind, variant), title, draw, rendered))
+    def plan(draw, kind, variant, title, rendered=False, part="", suffix=""):
+        study = results.thesis_study
+        planned.append(PlannedFigure(figure_name(study, kind, suffix + part + variant), title, draw,
+                                     rendered, figure_name(study, kind, suffix + variant)))
 
     planar, volume, surface = read_grids(results, report)
     if planar:
@@ -34,7 +36,7 @@ def plan_mesh_figures(results, report):
     if surface:
         blocks = blocks_of(results, surface)
         for part, shown in pages_of_blocks(blocks, columns_of(blocks.values(), SURFACE_COLUMNS)).items():
-            plan(lambda shown=shown: draw_surfaces(shown), "meshes", part, "meshes", True)
+            plan(lambda shown=shown: draw_surfaces(shown), "meshes", "", "meshes", True, part)
     if planar or volume or surface:
         plan_histograms(results, {**planar, **volume, **surface}, plan)
     return planned
@@ -50,12 +52,12 @@ def plan_histograms(results, grids, plan):
         for logarithmic, variant in ((False, ""), (True, "_log")):
             plan(lambda shown=shown, logarithmic=logarithmic:
                  draw_histograms(results, shown, qualities, logarithmic),
-                 "histograms", part + variant, "histograms of quality")
+                 "histograms", variant, "histograms of quality", part=part)
     for part, shown in pages([mesh for mesh, _ in pairs], fits_as_columns).items():
         chosen = [pair for pair in pairs if pair[0] in shown]
         if chosen:
             plan(lambda chosen=chosen: draw_histogram_differences(results, chosen, qualities),
-                 "histogram_differences", part, "what distortion changes")
+                 "histogram_differences", "", "what distortion changes", part=part)
 
 
 def solved_grid(results, grids, report):
@@ -94,8 +96,8 @@ def plan_planar_figures(results, grids, plan, report):
     columns = columns_of(blocks.values(), PLANAR_COLUMNS, with_free=True)
     for part, shown in pages_of_blocks(blocks, columns).items():
         for variant, window in (("", detail), ("_full", None)):
-            plan(lambda shown=shown, window=window: draw_meshes(shown, window), "meshes", part + variant,
-                 "meshes" if window is None else "details of the meshes")
+            plan(lambda shown=shown, window=window: draw_meshes(shown, window), "meshes", variant,
+                 "meshes" if window is None else "details of the meshes", part=part)
 
 
 def plan_volume_figures(results, grids, plan, report, suffix):
@@ -112,13 +114,13 @@ def plan_volume_figures(results, grids, plan, report, suffix):
     for part, shown in pages_of_blocks(blocks, columns_of(blocks.values(), SECTION_COLUMNS)).items():
         for variant, detail in (("", False), ("_detail", True)):
             plan(lambda shown=shown, detail=detail: draw_sections(shown, detail, normal),
-                 "meshes", suffix + part + variant,
-                 "details of the cut meshes" if detail else "cut meshes", True)
+                 "meshes", variant, "details of the cut meshes" if detail else "cut meshes", True, part,
+                 suffix)
     coarse = [mesh for mesh, (_, panels) in blocks.items() if is_coarse(first_grid(panels))]
     for mesh in coarse:
         part = f"_{mesh}" if len(coarse) > 1 else ""
-        plan(lambda mesh=mesh: draw_plane_sections(*blocks[mesh]), "plane_sections", suffix + part,
-             "sections by planes", True)
+        plan(lambda mesh=mesh: draw_plane_sections(*blocks[mesh]), "plane_sections", "",
+             "sections by planes", True, part, suffix)
     mixed = [(title, panels_of_types(panels)) for title, panels in blocks.values()
              if is_mixed(first_grid(panels))]
     if mixed:

@@ -34,17 +34,14 @@ def short_name(name):
     return PREFIX.sub("", name)
 
 
-def matching(pattern, names):
-    """The names of figures and tables that a pattern such as `*history*` means, with or without
-    their numbers."""
-    return [name for name in names if fnmatchcase(name, pattern) or fnmatchcase(short_name(name), pattern)]
-
-
 def select(patterns, names):
-    """All names that the patterns mean; raises ResultsError for a pattern that means none."""
+    """All names of figures and tables that patterns such as `*history*` mean, with or without their
+    numbers; raises ResultsError for a pattern that means none. `names` maps each name to another one by
+    which it is called, too, or to an empty string."""
     found = set()
     for pattern in patterns:
-        matches = matching(pattern, names)
+        matches = [name for name, other in names.items() if any(
+            fnmatchcase(called, pattern) for called in (name, short_name(name), other, short_name(other)))]
         if not matches:
             raise no_such_name("figure or table", pattern, list(dict.fromkeys(map(short_name, names))))
         found.update(matches)

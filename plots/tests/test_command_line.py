@@ -60,6 +60,13 @@ class Options(CommandLine):
                          {"figure_6_3_meshes.pdf", "figure_6_3_meshes_full.pdf"})
         self.assertEqual(self.made("--only", "claims")[0], {"claims.md"})
 
+    def test_a_figure_that_is_divided_among_meshes_has_one_name(self):
+        self.results = write_results(self.folder / "two", meshes=("tri", "quad"))
+        self.assertEqual(self.made("--only", "history,meshes_full", "--width", "84mm", "--format", "png")[0],
+                         {"figure_6_4_history_tri.png", "figure_6_4_history_quad.png", "figure_6_3_meshes_full.png"})
+        self.assertEqual(self.made("--y", "q_min", "--only", "history_q_min", "--width", "3.3", "--format", "png")[0],
+                         {"history_q_min_tri.png", "history_q_min_quad.png"})
+
     def test_meshes_are_not_read_for_what_needs_none(self):
         (self.results / "meshes" / "tri_getme.vtu").write_text("no mesh")
         self.assertEqual(self.made("--only", "errors,history_log_time", "--format", "png")[0],
