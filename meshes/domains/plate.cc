@@ -59,7 +59,7 @@ CompressedRows<NodeIndex> append_cuboid(VolumeCells& mesh) {
     corner[d] = 0.5 * (plate[d] - cuboid_edge * static_cast<double>(cuboid_cells[d]));
   const auto [nx, ny, nz] = cuboid_cells;
   std::vector<NodeIndex> number((nx + 1) * (ny + 1) * (nz + 1), static_cast<NodeIndex>(-1));
-  const auto node = [&](std::array<std::size_t, 3> at) {
+  const auto node = [&, nx = nx, ny = ny](std::array<std::size_t, 3> at) {
     NodeIndex& known = number[at[0] + (nx + 1) * (at[1] + (ny + 1) * at[2])];
     if (known == static_cast<NodeIndex>(-1)) {
       known = static_cast<NodeIndex>(mesh.coordinates.size());

@@ -20,10 +20,25 @@ namespace {
 /// Labels first, first + step, ... up to last.
 struct LabelRange {
   std::size_t first, last, step;
-  bool contains(std::size_t label) const {
-    return label >= first && label <= last && (label - first) % step == 0;
-  }
 };
+
+/// use(i) for those of some ascending labels that are in a range.
+template <class Use>
+void for_each_in_range(const std::vector<std::size_t>& labels, const LabelRange& range,
+                       const Use& use) {
+  auto at = std::lower_bound(labels.begin(), labels.end(), range.first);
+  const auto end = std::upper_bound(at, labels.end(), range.last);
+  if ((range.last - range.first) / range.step < static_cast<std::size_t>(end - at)) {
+    for (std::size_t label = range.first;; label += range.step) {
+      at = std::lower_bound(at, end, label);
+      if (at == end) return;
+      if (*at == label) use(static_cast<std::size_t>(at - labels.begin()));
+      if (range.last - label < range.step) return;
+    }
+  }
+  for (; at != end; ++at)
+    if ((*at - range.first) % range.step == 0) use(static_cast<std::size_t>(at - labels.begin()));
+}
 
 /// Elements of one dimension with the position of their set's name; 0 stands for none.
 struct LabelledElements {
@@ -178,9 +193,7 @@ class AbaqusReader {
     if (fixed_.empty()) return;
     parts_.fixed.emplace(ids.size(), false);
     for (const LabelRange& range : fixed_)
-      for (auto id = std::lower_bound(ids.begin(), ids.end(), range.first);
-           id != ids.end() && *id <= range.last; ++id)
-        if (range.contains(*id)) (*parts_.fixed)[id - ids.begin()] = true;
+      for_each_in_range(ids, range, [&](std::size_t i) { (*parts_.fixed)[i] = true; });
   }
 
   static std::vector<std::size_t> sorted_by(const std::vector<std::size_t>& ids) {
@@ -215,6 +228,7 @@ class AbaqusReader {
   void add_elements(int dimension) {
     LabelledElements& from = elements_[dimension];
     ElementList& to = parts_.elements[dimension];
+    std::vector<std::size_t> sets;
     for (const std::size_t e : sorted_by(from.list.ids)) {
       const std::size_t line = from.list.lines[e], id = from.list.ids[e];
       if (!to.ids.empty() && to.ids.back() == id)
@@ -224,19 +238,24 @@ class AbaqusReader {
       to.nodes.append(row_);
       to.ids.push_back(id);
       to.lines.push_back(line);
-      const std::size_t set = from.sets[e] != 0 ? from.sets[e] : set_of(id);
-      to.tags.push_back(set == 0 ? 0 : tag_of(dimension, set));
+      sets.push_back(from.sets[e]);
     }
+    find_sets(to.ids, sets);
+    for (const std::size_t set : sets) to.tags.push_back(set == 0 ? 0 : tag_of(dimension, set));
   }
 
-  /// The first *ELSET with the element; sets are numbered as they come.
-  std::size_t set_of(std::size_t element) const {
+  /// Gives elements without a set, 0, the first *ELSET that has them; sets are numbered as they
+  /// come.
+  void find_sets(const std::vector<std::size_t>& ids, std::vector<std::size_t>& sets) const {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    std::size_t first = none;
-    if (const auto found = set_of_.find(element); found != set_of_.end()) first = found->second;
+    std::vector<std::size_t> first(ids.size(), none);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if (const auto found = set_of_.find(ids[i]); found != set_of_.end()) first[i] = found->second;
     for (const auto& [range, set] : set_ranges_)
-      if (set < first && range.contains(element)) first = set;
-    return first == none ? 0 : first;
+      for_each_in_range(ids, range,
+                        [&, set = set](std::size_t i) { first[i] = std::min(first[i], set); });
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if (sets[i] == 0 && first[i] != none) sets[i] = first[i];
   }
 
   /// The tag that a comment gave to the set's name, or a new one.

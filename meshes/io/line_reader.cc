@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/line_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -28,6 +29,8 @@ std::string read_whole_file(const std::filesystem::path& path) {
     throw InputError(path.string() + ": there is no such file; check the path");
   if (std::filesystem::is_directory(status))
     throw InputError(path.string() + ": this is a folder; give the name of a file in it");
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    throw InputError(path.string() + ": this is a device, which may have no end; give a file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string content;
@@ -43,11 +46,7 @@ std::string read_whole_file(const std::filesystem::path& path) {
 }
 
 bool LineReader::next_line() {
-  while (!rest_.empty()) {
-    const std::size_t end = rest_.find('\n');
-    text_ = rest_.substr(0, end);
-    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
-    ++line_;
+  while (whole_line()) {
     if (text_.find_first_not_of(separators_) != std::string_view::npos) {
       unread_ = text_;
       return true;
@@ -61,12 +60,33 @@ void LineReader::require_line(std::string_view what) {
   if (!next_line()) fail("the file ends before " + std::string(what) + "; it is truncated");
 }
 
-void LineReader::require_word(std::string_view what, char comment) {
+bool LineReader::find_word(char comment) {
   for (;;) {
     const std::size_t begin = unread_.find_first_not_of(separators_);
-    if (begin != std::string_view::npos && unread_[begin] != comment) return;
-    require_line(what);
+    if (begin != std::string_view::npos && unread_[begin] != comment) return true;
+    if (!next_line()) return false;
   }
+}
+
+void LineReader::require_word(std::string_view what, char comment) {
+  if (!find_word(comment)) require_line(what);
+}
+
+std::optional<std::string_view> LineReader::whole_line() {
+  unread_ = {};
+  if (rest_.empty()) return {};
+  const std::size_t end = rest_.find('\n');
+  text_ = rest_.substr(0, end);
+  rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+  ++line_;
+  return text_;
+}
+
+void LineReader::skip_bytes(std::size_t n) {
+  line_ += static_cast<std::size_t>(
+      std::count(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(n), '\n'));
+  rest_.remove_prefix(n);
+  text_ = unread_ = {};
 }
 
 std::string_view LineReader::word() {

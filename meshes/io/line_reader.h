@@ -4,13 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace smoothfem {
 
-/// The whole file as bytes. Throws InputError for a missing file, a folder, a file that cannot be
-/// read, and an empty one.
+/// The whole file as bytes. Throws InputError for a missing file, a folder, a device, a file that
+/// cannot be read, and an empty one.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// A word in quotation marks for error messages: its first 40 bytes, "..." if there are more, and
@@ -21,6 +22,8 @@ std::string in_quotes(std::string_view word);
 /// The content must outlive the reader.
 class LineReader {
  public:
+  static constexpr char no_comment = '\n';  ///< stands in no line
+
   /// separators: what stands between words.
   LineReader(const std::filesystem::path& path, std::string_view content,
              std::string_view separators = " \t\r\v\f")
@@ -32,8 +35,16 @@ class LineReader {
   void require_line(std::string_view what);
 
   /// Goes on to the next line that has a word where none is left on this one, for formats that do
-  /// not care for line ends; `comment` begins a comment up to the end of its line.
-  void require_word(std::string_view what, char comment);
+  /// not care for line ends; false at the end of the text. `comment` begins a comment up to the end
+  /// of its line.
+  bool find_word(char comment = no_comment);
+  /// The same where another word has to come.
+  void require_word(std::string_view what, char comment = no_comment);
+
+  /// The next line as it stands, blank or not, of which no words are read; nothing at the end.
+  std::optional<std::string_view> whole_line();
+  /// Goes past n bytes behind the current line, of which there are so many.
+  void skip_bytes(std::size_t n);
 
   /// Number of the current line, from 1.
   std::size_t line() const { return line_; }

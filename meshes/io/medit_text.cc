@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "meshes/io/atomic_file.h"
@@ -31,20 +33,33 @@ constexpr std::array sections{Section{"Tetrahedra", 3, 4}, Section{"Hexahedra", 
                               Section{"Triangles", 2, 3},  Section{"Quadrilaterals", 2, 4},
                               Section{"Edges", 1, 2}};
 
+/// The numbers of a section that is not read. How many make an entry is not known.
+class SkippedSection {
+ public:
+  void add(std::string_view word) {
+    if (n_words_++ == 0) std::from_chars(word.data(), word.data() + word.size(), n_entries_);
+  }
+  bool is_complete() const {
+    return n_words_ > 0 &&
+           (n_entries_ == 0 ? n_words_ == 1 : n_words_ > 1 && (n_words_ - 1) % n_entries_ == 0);
+  }
+
+ private:
+  std::uint64_t n_words_ = 0, n_entries_ = 0;  ///< the first word says how many entries follow
+};
+
 class MeditReader {
  public:
   MeditReader(const std::filesystem::path& path, std::string_view content)
-      : reader_(path, content) {}
+      : reader_(path, content), content_(content) {}
 
   MeshParts parts() {
     if (word("the first word") != title)
       reader_.fail("the first word is not '" + std::string(title) + "'");
     integer("the version");
-    std::string_view keyword = next_keyword();
-    while (keyword != "End") {
+    for (auto keyword = next_keyword(); !keyword.empty() && keyword != "End";
+         keyword = next_keyword())
       read_section(keyword);
-      keyword = next_keyword();
-    }
     return std::move(parts_);
   }
 
@@ -79,22 +94,35 @@ class MeditReader {
                    " has elements with nodes besides their corners; save the mesh with linear "
                    "elements");
     } else {
-      skipping_ = true;
+      skipped_.emplace();
     }
   }
 
-  /// Entries of sections that are not read are no keywords: they do not begin with a letter.
+  /// Nothing at the end of the file. Entries of sections that are not read are no keywords: they do
+  /// not begin with a letter.
   std::string_view next_keyword() {
-    constexpr std::string_view what = "the last word, 'End'";
-    std::string_view found = word(what);
-    while (skipping_ && !std::isalpha(static_cast<unsigned char>(found.front())))
-      found = word(what);
-    if (!std::isalpha(static_cast<unsigned char>(found.front())))
-      reader_.fail("expected the name of a section, but found '" +
-                   std::string(found.substr(0, 40)) +
-                   "'; the section before has more entries than announced");
-    skipping_ = false;
-    return found;
+    while (reader_.find_word('#')) {
+      const std::string_view found = reader_.word();
+      if (std::isalpha(static_cast<unsigned char>(found.front()))) {
+        skipped_.reset();
+        return found;
+      }
+      if (!skipped_)
+        reader_.fail("expected the name of a section, but found " + in_quotes(found) +
+                     "; the section before has more entries than announced");
+      skipped_->add(found);
+    }
+    require_complete();
+    return {};
+  }
+
+  /// Not every program writes 'End', without which a file may have been cut off: in the middle of a
+  /// number, or of a section that is not read.
+  void require_complete() const {
+    if (!content_.ends_with('\n') || (skipped_ && !skipped_->is_complete()))
+      reader_.fail(
+          "the file ends before the last word, 'End', and not behind a section; it is "
+          "truncated");
   }
 
   /// A count cannot exceed the bytes that are left, so a wrong one is found before memory is asked
@@ -154,8 +182,9 @@ class MeditReader {
   }
 
   LineReader reader_;
+  std::string_view content_;
   std::uint64_t dimension_ = 0;
-  bool skipping_ = false;
+  std::optional<SkippedSection> skipped_;  ///< that we are in
   MeshParts parts_;
 };
 

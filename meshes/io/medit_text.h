@@ -13,7 +13,8 @@ namespace smoothfem {
 /// mesh, in this order; without them Triangles and Quadrilaterals a planar one. References are the
 /// physical tags (0: none) of cells and facets; those of vertices are ignored, as are sections that
 /// are not named here. RequiredVertices are fixed besides the boundary nodes. All nodes are kept.
-/// Refused: a file without its last word, End; elements with mid-nodes.
+/// Without its last word, End, a file is taken if it ends behind a complete section and a line's
+/// end. Refused: elements with mid-nodes.
 MeshFile read_medit_text(const std::filesystem::path& path);
 
 /// True if the first word of the content announces this format.

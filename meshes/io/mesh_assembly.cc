@@ -2,11 +2,13 @@
 #include "meshes/io/mesh_assembly.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
 
+#include "meshes/io/number_text.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/surface/surface_constraints.h"
 
@@ -88,12 +90,32 @@ AnyMesh make_mesh(MeshParts& parts, int dim) {
   return PlanarMesh(std::move(topology), without_z(parts.coordinates));
 }
 
+/// Of a coordinate: sixth powers, squares of volumes, are still numbers.
+constexpr double largest_coordinate = 1e50;
+
+void require_usable_coordinates(const MeshParts& parts) {
+  for (std::size_t i = 0; i < parts.coordinates.size(); ++i) {
+    for (const double x : parts.coordinates[i]) {
+      if (std::abs(x) <= largest_coordinate) continue;
+      const bool has_id = !parts.node_ids.empty() && parts.node_ids[i] != 0;
+      std::string text =
+          "node " + std::to_string(has_id ? parts.node_ids[i] : i) + " has the coordinate ";
+      append_number(text, x);
+      throw InputError(text + (std::isfinite(x)
+                                   ? ", so large that sizes of cells would be no numbers; "
+                                     "choose a larger unit of length"
+                                   : ", which is not a finite number"));
+    }
+  }
+}
+
 }  // namespace
 
 MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
   const int dim = parts.elements[3].nodes.empty() ? 2 : 3;
   const auto lines = std::move(parts.elements[dim].lines);
   try {
+    require_usable_coordinates(parts);
     return {make_mesh(parts, dim), lines};
   } catch (const CellError& error) {
     std::string position = path.string() + ":";

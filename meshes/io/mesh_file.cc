@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <exception>
+#include <new>
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/line_reader.h"
@@ -82,8 +83,10 @@ MeshFile read_mesh(const std::filesystem::path& path) {
     return format_of_content(path).read(path);
   } catch (const InputError&) {
     throw;
-  } catch (const std::exception& error) {  // a damaged count can ask for more memory than there is
-    throw InputError(path.string() + ": the file is damaged or too large (" + error.what() + ")");
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string() + ": there is not enough memory to read the file");
+  } catch (const std::exception&) {
+    throw InputError(path.string() + ": the file is damaged");
   }
 }
 

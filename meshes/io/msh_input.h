@@ -44,7 +44,7 @@ class MshTextInput {
   std::string_view text_line(const char* what);
 
   /// Where records may be broken into lines anywhere: goes on to the next line at the end of one.
-  void find_value(const char* what) { reader_.require_word(what, '\0'); }
+  void find_value(const char* what) { reader_.require_word(what); }
   bool has_value() const { return reader_.has_word(); }
   std::uint64_t count(const char* what) { return reader_.integer(what); }
   std::uint64_t tag(const char* what) { return reader_.integer(what); }

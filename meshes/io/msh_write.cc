@@ -80,8 +80,8 @@ class MshWriter {
     std::string lines;
     int n = 0;
     for (const auto& [group, name] : labels_.names) {
-      const bool is_used =
-          std::any_of(entities_.begin(), entities_.end(), [&](const MshEntity& entity) {
+      const bool is_used = std::any_of(
+          entities_.begin(), entities_.end(), [&, group = group](const MshEntity& entity) {
             return entity.dimension == group.first && entity.group == group.second;
           });
       if (!is_used || group.second == 0) continue;

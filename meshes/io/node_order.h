@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "smoothing/mesh/volume_elements.h"
 
@@ -37,8 +38,8 @@ inline constexpr std::array<LocalIndex, 8> vtk_voxel{0, 1, 3, 2, 4, 5, 7, 6};
 
 /// row: as many indices as the order has.
 template <class Row, std::size_t n>
-void permute(Row& row, const std::array<LocalIndex, n>& order) {
-  std::array<typename Row::value_type, n> copy;
+void permute(Row&& row, const std::array<LocalIndex, n>& order) {
+  std::array<typename std::remove_reference_t<Row>::value_type, n> copy;
   std::copy_n(row.begin(), n, copy.begin());
   for (std::size_t k = 0; k < n; ++k) row[k] = copy[order[k]];
 }

@@ -2,21 +2,22 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 #include "meshes/io/mesh_file.h"
 
 namespace smoothfem {
 
-/// Read a legacy .vtk file (unstructured grid or polygonal data, text or binary) or a .vtu file
-/// (every encoding VTK knows). Cells are tetrahedra, pyramids, wedges, hexahedra and voxels, or in
-/// a plane triangles, quadrilaterals, pixels and polygons. Cells of one dimension less whose entry
+/// Read a legacy .vtk file (unstructured grid or polygonal data, text or binary, versions 1 to 5)
+/// or a .vtu file (text or binary, inline or appended, compressed by zlib, LZ4 or LZMA). VTK's own
+/// readers are not asked: a damaged file can crash them, or let them take all memory. Cells are
+/// tetrahedra, pyramids, wedges, hexahedra and voxels, or of dimension 2 triangles, quadrilaterals,
+/// pixels and polygons. Cells of one dimension less whose entry
 /// of the cell array `physical_tag` is not zero become labelled facets; other cells of lower
 /// dimension are ignored. Honoured are also the point array `fixed` (not zero = fixed), the arrays
 /// `node_id` and `cell_id`, and the field `physical_name`, characters of lines "dimension tag
 /// name". All nodes are kept. Many programs write wedges in Gmsh's order (node_order.h): if more of
 /// a file's wedges have a positive volume in that order than in VTK's, it is taken for all of them.
-/// Refused: incomplete files, surfaces that are not planar, cells with mid-edge nodes, other cells.
+/// Refused: incomplete files, cells with mid-edge nodes, other cells.
 MeshFile read_legacy_vtk(const std::filesystem::path& path);
 MeshFile read_vtu(const std::filesystem::path& path);
 
@@ -29,13 +30,5 @@ void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options);
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
-
-/// Checks what VTK relies on in a legacy file: that field data are complete and the rows of
-/// the cell sections (in versions below 5) fill exactly the announced size. Throws InputError that
-/// names the section.
-void check_legacy_vtk_structure(const std::filesystem::path& path, std::string_view content);
-
-/// The same for a .vtu file: arrays of its field data have a type that VTK knows.
-void check_vtu_field_data(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace smoothfem

@@ -13,20 +13,16 @@ class Collector : public vtkOutputWindow {
   static Collector* New();
   vtkTypeMacro(Collector, vtkOutputWindow);
 
-  void DisplayText(const char* text) override { append(text); }
-  void DisplayErrorText(const char* text) override { append(text); }
-  void DisplayWarningText(const char* text) override { append(text); }
-  void DisplayGenericWarningText(const char* text) override { append(text); }
+  void DisplayText(const char*) override { any_ = true; }
+  void DisplayErrorText(const char*) override { any_ = true; }
+  void DisplayWarningText(const char*) override { any_ = true; }
+  void DisplayGenericWarningText(const char*) override { any_ = true; }
   void DisplayDebugText(const char*) override {}
 
-  const std::string& text() const { return text_; }
+  bool any() const { return any_; }
 
  private:
-  void append(const char* text) {
-    if (text_.empty() && text) text_ = text;
-  }
-
-  std::string text_;
+  bool any_ = false;
 };
 
 vtkStandardNewMacro(Collector);
@@ -44,15 +40,8 @@ VtkMessages::~VtkMessages() {
   vtkOutputWindow::SetInstance(former_);
 }
 
-std::string VtkMessages::first() const {
-  // "ERROR: In vtkReader.cxx, line 12\nvtkReader (0x55d0): what happened\n\n"
-  std::string text = static_cast<const Collector&>(*collector_).text();
-  const std::size_t frame = text.find("): ");
-  if (frame != std::string::npos) text = text.substr(frame + 3);
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  for (char& c : text)
-    if (c == '\n') c = ' ';
-  return text;
+bool VtkMessages::any() const {
+  return static_cast<const Collector&>(*collector_).any();
 }
 
 }  // namespace smoothfem

@@ -4,11 +4,10 @@
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
-#include <string>
-
 namespace smoothfem {
 
-/// Collects VTK's errors and warnings for the length of a scope instead of printing them.
+/// Keeps VTK from printing errors and warnings for the length of a scope. They name its own source
+/// files and addresses, which tell users nothing.
 class VtkMessages {
  public:
   VtkMessages();
@@ -16,9 +15,7 @@ class VtkMessages {
   VtkMessages(const VtkMessages&) = delete;
   VtkMessages& operator=(const VtkMessages&) = delete;
 
-  /// The first message without VTK's frame of source file, line and address; empty if there is
-  /// none.
-  std::string first() const;
+  bool any() const;
 
  private:
   vtkSmartPointer<vtkOutputWindow> collector_, former_;

@@ -161,11 +161,8 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFie
 template <class Writer>
 void run(Writer& writer, const std::filesystem::path& path) {
   const VtkMessages messages;
-  const bool written = writer.Write() == 1;
-  const std::string message = messages.first();
-  if (!written || !message.empty())
-    throw InputError("cannot write " + path.string() +
-                     ": VTK: " + (message.empty() ? "unknown error" : message));
+  if (writer.Write() != 1 || messages.any())
+    throw InputError("cannot write " + path.string() + ": VTK's writer does not take the mesh");
 }
 
 /// VTK's writer into a buffer of ours; as a string it would hold the file twice.

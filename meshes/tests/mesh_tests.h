@@ -74,6 +74,25 @@ class FullDisk {
   rlimit former_;
 };
 
+/// A machine with so much memory beyond what this process has now: a limit on its addresses.
+class LittleMemory {
+ public:
+  explicit LittleMemory(rlim_t n_bytes) {
+    getrlimit(RLIMIT_AS, &former_);
+    rlim_t n_pages = 0;
+    std::ifstream("/proc/self/statm") >> n_pages;
+    const rlimit small = {n_pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + n_bytes,
+                          former_.rlim_max};
+    setrlimit(RLIMIT_AS, &small);
+  }
+  ~LittleMemory() { setrlimit(RLIMIT_AS, &former_); }
+  LittleMemory(const LittleMemory&) = delete;
+  LittleMemory& operator=(const LittleMemory&) = delete;
+
+ private:
+  rlimit former_;
+};
+
 /// The message of the InputError that a call throws; empty if it throws none.
 template <class Call>
 std::string input_error_of(const Call& call) {

@@ -15,6 +15,8 @@ TEST_F(MeshFiles, PathsThatCannotBeReadAreNamed) {
             missing + ": there is no such file; check the path");
   std::filesystem::create_directory(file("folder.msh"));
   EXPECT_THAT(input_error_of([&] { read_planar(file("folder.msh")); }), HasSubstr("is a folder"));
+  std::filesystem::create_symlink("/dev/zero", file("endless.vtk"));
+  EXPECT_THAT(input_error_of([&] { read_planar(file("endless.vtk")); }), HasSubstr("is a device"));
   EXPECT_THAT(
       input_error_of([&] { read_planar(file_with("a.stl", "solid")); }),
       HasSubstr("the extension .stl is not known; choose one of .inp, .msh, .mesh, .vtk, .vtu"));

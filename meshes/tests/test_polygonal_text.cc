@@ -68,7 +68,8 @@ TEST_P(BadPolygonalText, IsRefusedWithPositionAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     PolygonalText, BadPolygonalText,
     ::testing::Values(
-        BadText{"medit", "MeshVersionFormatted 1\n", 1, "the file ends before the last word"},
+        BadText{"medit", "MeshVersionFormatted 1\nVertices\n", 2,
+                "the section Vertices stands before the dimension"},
         BadText{"binary", std::string("\x7f\0ELF\1\n", 7), 1, "no mesh file of a known kind"},
         BadText{"title_only", title, 1, "ends before the section 'nodes'"},
         BadText{"junk_after_title", "planar_polygonal_mesh 2\n", 1, "unexpected '2'"},
@@ -95,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"twice", title + nodes + "polygons 2\n3 0 1 2\n3 0 2 2\n" + fixed, 9,
                 "cell 1 names node 2 more than once"},
         BadText{"three_at_an_edge",
-                title + nodes + "polygons 3\n3 0 1 2\n3 0 2 3\n3 0 2 1\n" + fixed, 10,
+                title + nodes + "polygons 3\n3 0 1 2\n3 0 2 3\n4 0 2 1 3\n" + fixed, 10,
                 "at most two planar cells share an edge"},
         BadText{"no_fixed", title + nodes + polygons, 9, "the section 'fixed_node_indices'"},
         BadText{"fixed_index", title + nodes + polygons + "fixed_node_indices 1\n4\n", 11,

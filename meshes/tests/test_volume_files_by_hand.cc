@@ -122,6 +122,12 @@ TEST_F(VolumeFiles, InvertedCellsStayAsTheyAreAndAreNamedWithTheirNumberAndLine)
                                ::testing::HasSubstr("cell 7")));
 }
 
+TEST_F(VolumeFiles, MeditNeedsNoLastWordBehindCompleteSections) {
+  std::string content = medit_by_hand;
+  content.erase(content.find("End"));
+  EXPECT_EQ(read_volume(file_with("a.mesh", content)).n_cells(), 4u);
+}
+
 TEST_F(VolumeFiles, AbaqusSetsAreNames) {
   const MeshFile read = read_mesh(file_with(
       "a.inp",
@@ -157,8 +163,13 @@ const std::string abaqus_head = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
 INSTANTIATE_TEST_SUITE_P(
     Volumes, BadVolumeFile,
     ::testing::Values(
-        BadVolume{"medit_no_end", ".mesh", medit_head + "Tetrahedra 1\n1 2 3 4 0\n",
+        BadVolume{"medit_no_end_in_a_number", ".mesh", medit_head + "Tetrahedra 1\n1 2 3 4 0",
                   ":9: the file ends before the last word, 'End'"},
+        BadVolume{"medit_no_end_in_an_element", ".mesh", medit_head + "Tetrahedra 1\n1 2 3\n",
+                  ":9: the file ends before the node"},
+        BadVolume{"medit_no_end_in_other_entries", ".mesh",
+                  medit_head + "Tetrahedra 1\n1 2 3 4 0\nNormals 2\n0 0 1\n",
+                  ":11: the file ends before the last word, 'End'"},
         BadVolume{"medit_count", ".mesh", medit_head + "Tetrahedra 99999\n1 2 3 4 0\nEnd\n",
                   ":8: the section Tetrahedra announces 99999"},
         BadVolume{"medit_more", ".mesh", medit_head + "Tetrahedra 1\n1 2 3 4 0\n5 6\nEnd\n",

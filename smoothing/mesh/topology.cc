@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <string>
 #include <tuple>
 
@@ -61,6 +62,32 @@ void facets_of(NodeIndex node, int dim, std::span<const CellIndex> cells,
                                             : "; at most two volume cells share a face"));
 }
 
+/// The same for the same nodes, and hardly ever for others.
+std::uint64_t key_of(const std::vector<NodeIndex>& sorted_nodes) {
+  std::uint64_t key = sorted_nodes.size();
+  for (const NodeIndex node : sorted_nodes) {
+    key = (key ^ node) * 0x9e3779b97f4a7c15u;
+    key ^= key >> 32;
+  }
+  return key;
+}
+
+/// A cell that is given twice, its nodes perhaps in another order, would count twice.
+void require_different_cells(const CompressedRows<NodeIndex>& cells,
+                             std::vector<std::uint64_t> keys) {
+  std::sort(keys.begin(), keys.end());
+  if (std::adjacent_find(keys.begin(), keys.end()) == keys.end()) return;
+  std::map<std::vector<NodeIndex>, CellIndex> seen;
+  for (CellIndex c = 0; c < cells.size(); ++c) {
+    std::vector<NodeIndex> nodes(cells[c].begin(), cells[c].end());
+    std::sort(nodes.begin(), nodes.end());
+    const auto [first, is_new] = seen.emplace(std::move(nodes), c);
+    if (!is_new)
+      throw CellError(c, "has the same nodes as cell " + std::to_string(first->second) +
+                             "; remove one of them");
+  }
+}
+
 }  // namespace
 
 Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
@@ -83,6 +110,8 @@ Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells
 void Topology::check_cells(std::size_t n_nodes) const {
   if (cells_.empty()) throw InputError("the mesh has no cells");
   std::vector<NodeIndex> sorted;
+  std::vector<std::uint64_t> keys;
+  keys.reserve(cells_.size());
   for (CellIndex c = 0; c < cells_.size(); ++c) {
     const auto nodes = cells_[c];
     if (!is_cell_size(dim_, nodes.size()))
@@ -98,7 +127,9 @@ void Topology::check_cells(std::size_t n_nodes) const {
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end())
       throw CellError(c, "names node " + std::to_string(*twice) + " more than once");
+    keys.push_back(key_of(sorted));
   }
+  require_different_cells(cells_, std::move(keys));
 }
 
 void Topology::build_boundary(const CompressedRows<CellIndex>& node_cells) {
@@ -146,7 +177,7 @@ void Topology::build_boundary(const CompressedRows<CellIndex>& node_cells) {
   for (const auto& [cell, wanted] : boundary) {
     const auto nodes = cells_[cell];
     std::uint32_t position = 0;
-    for_each_facet(dim_, nodes.size(), [&](std::span<const std::size_t> at) {
+    for_each_facet(dim_, nodes.size(), [&, wanted = wanted](std::span<const std::size_t> at) {
       if (position++ != wanted) return;
       row.clear();
       for (const std::size_t k : at) row.push_back(nodes[k]);

@@ -44,9 +44,9 @@ class Topology {
  public:
   /// dim: 2 (cells with three and more nodes, counterclockwise) or 3 (4, 5, 6 or 8 nodes in the
   /// order of volume_elements.h). cells: one row of node indices a cell, all different and below
-  /// n_nodes. fixed: n_nodes flags of nodes that smoothing must not move; without it the boundary
-  /// nodes are fixed. Nodes that no cell uses are always fixed. Throws InputError naming the first
-  /// cell that breaks this, or a facet with more than two cells.
+  /// n_nodes, no two with the same nodes. fixed: n_nodes flags of nodes that smoothing must not
+  /// move; without it the boundary nodes are fixed. Nodes that no cell uses are always fixed.
+  /// Throws InputError naming the first cell that breaks this, or a facet with more than two cells.
   Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
            std::optional<std::vector<bool>> fixed = std::nullopt, MeshLabels labels = {});
 

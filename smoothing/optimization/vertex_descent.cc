@@ -72,15 +72,18 @@ inline void for_each_cell_of_node(const Topology& topology, std::span<const Poin
     }
     with_cell_size<dim>(nodes.size(), [&](auto size) {
       constexpr std::size_t n = decltype(size)::value;
-      if constexpr (n == 0) {
-        count = 1;
-        std::vector<Vector<dim, double>> corners;
-        const std::size_t at = position_of(node, nodes);
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-          corners.push_back(vector_of(coordinates_of(nodes[(at + k) % nodes.size()])));
-        visit(std::span<const Vector<dim, double>>(corners),
-              std::integral_constant<std::size_t, 0>{}, count);
-      } else {
+      if constexpr (dim == 2) {  // clang looks at what follows for every n
+        if constexpr (n == 0) {
+          count = 1;
+          std::vector<Vector<dim, double>> corners;
+          const std::size_t at = position_of(node, nodes);
+          for (std::size_t k = 0; k < nodes.size(); ++k)
+            corners.push_back(vector_of(coordinates_of(nodes[(at + k) % nodes.size()])));
+          visit(std::span<const Vector<dim, double>>(corners),
+                std::integral_constant<std::size_t, 0>{}, count);
+        }
+      }
+      if constexpr (n > 0) {
         std::array<std::array<NodeIndex, n>, n_lanes> turned_nodes;
         std::array<const NodeIndex*, n_lanes> rows;
         for (std::size_t l = 0; l < n_lanes; ++l) {

@@ -103,12 +103,15 @@ inline void with_corners_at(std::span<const NodeIndex> nodes, const CoordinatesO
   using Corner = decltype(vector_of(coordinates_of(NodeIndex{})));
   with_cell_size<dim>(nodes.size(), [&](auto size) {
     constexpr std::size_t n = decltype(size)::value;
-    if constexpr (n == 0) {
-      std::vector<Corner> corners;
-      corners.reserve(nodes.size());
-      for (const NodeIndex node : nodes) corners.push_back(vector_of(coordinates_of(node)));
-      visit(std::span<const Corner>(corners));
-    } else {
+    if constexpr (dim == 2) {  // clang looks at what follows for every n
+      if constexpr (n == 0) {
+        std::vector<Corner> corners;
+        corners.reserve(nodes.size());
+        for (const NodeIndex node : nodes) corners.push_back(vector_of(coordinates_of(node)));
+        visit(std::span<const Corner>(corners));
+      }
+    }
+    if constexpr (n > 0) {
       std::array<Corner, n> corners;
       for (std::size_t k = 0; k < n; ++k) corners[k] = vector_of(coordinates_of(nodes[k]));
       visit(std::span<const Corner, n>(corners));
