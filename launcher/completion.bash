@@ -20,6 +20,8 @@ _smoothfem() {
       --preset) words=$(_smoothfem_listed "$program" PRESETS) ;;
       --elements) words='triangles quadrilaterals mixed tetrahedra hexahedra' ;;
       --scale) words='quick paper' ;;
+      --format) words='pdf png svg' ;;
+      --methods) words=$(_smoothfem_listed "$program" METHODS) ;;
       study) words="$("$program" study --list 2>/dev/null | sed -n 's/^\([^ ][^ ]*\) .*/\1/p') all" ;;
       generate) words=$(_smoothfem_listed "$program" DOMAINS) ;;
     esac

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is made of the results of each kind of study: the key `kind` of its study file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable
 
@@ -10,68 +10,95 @@ from .claims.report import claims_as_markdown
 from .results.polygons import read_polygon_results
 from .results.printed_values import read_printed_tables
 from .results.regularization import read_regularization_results
+from .results.request import Request
 from .results.rows import ResultsError, read_provenance
-from .results.smoothing import read_results
+from .results.smoothing import left_out, read_results
 from .tables.polygons import make_polygon_tables
 from .tables.regularization import make_regularization_tables
 from .tables.smoothing import make_tables
 
+LEAST_WIDTH = 6.0  # of figures whose panels cannot go below each other
+NO_CLAIMS = "No claims.md: the thesis says nothing about this study."
+
 
 @dataclass(frozen=True)
 class Outputs:
-    """Tables, texts (file name -> content) to stand beside them, and what draws the figures: takes a
-    function for sentences on what is left out, returns the paths."""
+    """Tables, texts (file name without suffix -> content) to stand beside them, and what plans the
+    figures: `plan` those that need no meshes, `plan_of_meshes` the others; that takes a function for
+    sentences on what has to be left out."""
 
     folder: Path
+    study_title: str
     tables: tuple
-    texts: dict
-    draw: Callable
+    plan: Callable
+    plan_of_meshes: Callable = lambda report: []
+    texts: dict = field(default_factory=dict)
+    remarks: tuple = ()  # sentences on what a user may look for in vain
+    warnings: tuple = ()  # sentences on what is wrong with the results
+    least_width: float = 0.0  # inches that the words in the figures need
+
+    @property
+    def names(self):
+        """Of tables and texts."""
+        return [table.name for table in self.tables] + list(self.texts)
 
 
-def smoothing_outputs(folder):
+def smoothing_outputs(folder, request):
     """Of a study of smoothing methods."""
-    results = read_results(folder)
-    printed = read_printed_tables(results.study, results.provenance)
-    claims, texts = read_claims(results.study), {}
-    if claims:
-        texts["claims.md"] = claims_as_markdown(check_claims(claims, results, printed), results)
+    whole = read_results(folder)
+    results = whole.restricted(request.methods, request.meshes)
+    printed = read_printed_tables(results.thesis_study, results.provenance)
+    claims, texts = read_claims(results.thesis_study), {}
+    if claims and results.methods == whole.methods and results.meshes == whole.meshes:
+        texts["claims"] = claims_as_markdown(check_claims(claims, results, printed), results)
 
-    def draw(report):
-        from .figures.smoothing_study import draw_figures  # matplotlib takes a second to load
-        return draw_figures(results, report)
-    return Outputs(results.folder, tuple(make_tables(results, printed)), texts, draw)
+    def plan():
+        from .figures.history_study import plan_histories, plan_requested_history
+        return plan_requested_history(results, request) if request.has_history else plan_histories(results)
+
+    def plan_of_meshes(report):
+        from .figures.smoothing_study import plan_mesh_figures
+        return plan_mesh_figures(results, report)
+    return Outputs(results.folder, results.study_title, tuple(make_tables(results, printed)), plan,
+                   plan_of_meshes, texts, () if claims else (NO_CLAIMS,), tuple(left_out(results)))
 
 
-def polygon_outputs(folder):
+def polygon_outputs(folder, request):
     """Of a study of polygon transformations."""
     results = read_polygon_results(folder)
 
-    def draw(report):
-        from .figures.polygon_study import draw_polygon_figures
-        return draw_polygon_figures(results)
-    return Outputs(results.folder, tuple(make_polygon_tables(results)), {}, draw)
+    def plan():
+        from .figures.polygon_study import plan_polygon_figures
+        return plan_polygon_figures(results)
+    return Outputs(results.folder, results.study_title, tuple(make_polygon_tables(results)), plan,
+                   least_width=LEAST_WIDTH)
 
 
-def regularization_outputs(folder):
+def regularization_outputs(folder, request):
     """Of a study of the regularization of volume elements."""
     results = read_regularization_results(folder)
 
-    def draw(report):
-        from .figures.regularization import draw_regularization_figures
-        return draw_regularization_figures(results)
-    return Outputs(results.folder, tuple(make_regularization_tables(results)), {}, draw)
+    def plan():
+        from .figures.regularization import plan_regularization_figures
+        return plan_regularization_figures(results)
+    return Outputs(results.folder, results.study_title, tuple(make_regularization_tables(results)), plan,
+                   least_width=LEAST_WIDTH)
 
 
-KINDS = {"smoothing": smoothing_outputs, "polygons": polygon_outputs,
+SMOOTHING = "smoothing"
+KINDS = {SMOOTHING: smoothing_outputs, "polygons": polygon_outputs,
          "regularization": regularization_outputs}
 
 
-def outputs_of(folder):
+def outputs_of(folder, request=Request()):
     """Reads a results folder of any kind; raises ResultsError with one sentence on what is wrong."""
     provenance = read_provenance(Path(folder) / "provenance.json")
     parameters = provenance.get("parameters")
-    kind = parameters.get("kind", "smoothing") if isinstance(parameters, dict) else "smoothing"
+    kind = parameters.get("kind", SMOOTHING) if isinstance(parameters, dict) else SMOOTHING
     if kind not in KINDS:
         raise ResultsError(f"{folder}: a study of the unknown kind `{kind}`; known are "
                            f"{', '.join(KINDS)}.")
-    return KINDS[kind](folder)
+    if kind != SMOOTHING and request != Request():
+        raise ResultsError(f"{folder}: a study of the kind `{kind}` has no methods, meshes or histories to "
+                           "choose from; leave out --methods, --meshes, --x, --y, --log-x and --log-y.")
+    return KINDS[kind](folder, request)

@@ -69,6 +69,11 @@ class Installed(unittest.TestCase):
         before = sorted(path.name for path in (results / "figures").iterdir())
         self.smoothfem_run("plot", "results/small", "--quiet")
         self.assertEqual(sorted(path.name for path in (results / "figures").iterdir()), before)
+        self.smoothfem_run("plot", "results/small", "--quiet", "--only", "history", "--format", "svg")
+        self.assertTrue((results / "figures" / "history.svg").is_file())
+        refused = run(self.smoothfem, "plot", "results/small", "--only", "histroy", folder=self.folder, check=False)
+        self.assertEqual((refused.returncode, refused.stderr.count("\n")), (2, 1), refused.stderr)
+        self.assertIn("did you mean 'history'?", refused.stderr)
 
     def test_completion(self):
         script = self.prefix / "share" / "bash-completion" / "completions" / "smoothfem"
@@ -86,6 +91,8 @@ class Installed(unittest.TestCase):
         self.assertEqual(complete("study", "nonu"), ["nonuniform-grid"])
         self.assertEqual(complete("generate", "fl"), ["flange"])
         self.assertEqual(complete("smooth", "--untan"), ["--untangle"])
+        self.assertEqual(complete("plot", "results/gear", "--wid"), ["--width"])
+        self.assertEqual(complete("plot", "results/gear", "--format", "s"), ["svg"])
 
     def test_headers_are_complete(self):
         include = self.prefix / "include" / "smoothfem"

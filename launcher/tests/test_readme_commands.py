@@ -92,7 +92,7 @@ class ReadmeCommands(unittest.TestCase):
     def run_line(self, line):
         """Runs one line of README."""
         command, *words = line.removeprefix("./run ").split()
-        if command in COMMANDS:
+        if command in (*COMMANDS, "plot"):
             self.run_program([command, *words])
         else:
             self.run_by_script(command, words)
@@ -107,8 +107,12 @@ class ReadmeCommands(unittest.TestCase):
         if key in SMALLER and "--list" not in words:
             words = [*words, "--quick", "--quiet"]
             self.set_up_published(words, more)
+        if words[0] == "plot":  # what there is to draw
+            run(SMOOTHFEM, "study", Path(words[1]).name, "--quick", "--quiet", "--out", words[1], folder=self.folder)
         outcome = run(SMOOTHFEM, *words, folder=self.folder, check=False, **more)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        if words[0] == "plot":
+            shutil.rmtree(self.folder / "results")
         for i, word in enumerate(words):
             if word in ("-o", "--log", "--series", "--histogram"):
                 self.assertTrue((self.folder / words[i + 1]).is_file(), words[i + 1])

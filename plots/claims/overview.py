@@ -11,7 +11,7 @@ from ..results.smoothing import read_results
 from ..results.write_files import write_atomically
 from ..tables.formats import escape_markdown
 from .check import FAILS, HOLDS, UNKNOWN, check_claims, read_claims
-from .report import bold_unless_it_holds, known_reasons
+from .report import emphasized, known_reasons
 
 # The lines around the overview.
 BEGIN, END = "<!-- made by python3 -m plots.claims.overview -->", "<!-- end of what it made -->"
@@ -43,7 +43,7 @@ def overview(folders):
         for outcome in found:
             cells = (outcome.claim["id"], outcome.claim["section"], outcome.claim["statement"])
             lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
-                         + f" | {bold_unless_it_holds(outcome.verdict)} |")
+                         + f" | {emphasized(outcome.verdict)} |")
         lines += known_reasons(found) + [""]
     return "\n".join(lines)
 
@@ -56,8 +56,8 @@ def count_phrase(number, of_one, of_many):
 def outcomes_of(folder):
     """A study's title and the outcomes of its claims."""
     results = read_results(folder)
-    printed = read_printed_tables(results.study, results.provenance)
-    return results.study_title, check_claims(read_claims(results.study), results, printed)
+    printed = read_printed_tables(results.thesis_study, results.provenance)
+    return results.study_title, check_claims(read_claims(results.thesis_study), results, printed)
 
 
 def with_overview(text, made):

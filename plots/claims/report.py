@@ -3,15 +3,17 @@
 
 from ..results.rows import entries
 from ..tables.formats import escape_markdown
-from .check import FAILS, HOLDS, UNKNOWN
+from .check import COARSE, FAILS, HOLDS, UNKNOWN
 
 
 def claims_as_markdown(outcomes, results):
     """All claims of a study as a Markdown table."""
     counts = {verdict: sum(o.verdict == verdict for o in outcomes)
-              for verdict in (HOLDS, FAILS, UNKNOWN)}
+              for verdict in (HOLDS, FAILS, COARSE, UNKNOWN)}
+    not_met = (f"the meshes are too coarse to judge {counts[COARSE]}" if results.is_quick
+               else f"{counts[FAILS]} do not hold")
     lines = [f"# {results.study_title}: what holds of the thesis", "",
-             f"Of {len(outcomes)} claims, {counts[HOLDS]} hold, {counts[FAILS]} do not hold, and "
+             f"Of {len(outcomes)} claims, {counts[HOLDS]} hold, {not_met}, and "
              f"{counts[UNKNOWN]} cannot be checked.", ""]
     lines += [sentence + "  " for sentence in caveats(results)]
     lines += ["", "| | Section | Claim | Criterion | Printed | Ours | |", "|:--|:--|:--|:--|:--|:--|:--|"]
@@ -20,14 +22,14 @@ def claims_as_markdown(outcomes, results):
         cells = (claim["id"], claim["section"], claim["statement"], claim["criterion"],
                  outcome.printed, outcome.ours)
         lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
-                     + f" | {bold_unless_it_holds(outcome.verdict)} |")
+                     + f" | {emphasized(outcome.verdict)} |")
     lines += known_reasons(outcomes)
     return "\n".join(lines) + "\n"
 
 
-def bold_unless_it_holds(verdict):
-    """A verdict as a table shows it."""
-    return verdict if verdict == HOLDS else f"**{verdict}**"
+def emphasized(verdict):
+    """A verdict as a table shows it: bold where a reader is to look."""
+    return f"**{verdict}**" if verdict in (FAILS, UNKNOWN) else verdict
 
 
 def known_reasons(outcomes):

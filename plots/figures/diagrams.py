@@ -18,7 +18,7 @@ MARKER_DISTANCE = 3.5  # points between the markers of one line that are drawn
 
 def figure_size(n_rows, n_columns):
     """Width and height in inches, without the legend; up to three columns can be read."""
-    width = style.FULL_WIDTH if n_columns > 1 else 1.3 * style.SINGLE_WIDTH
+    width = style.full_width() if n_columns > 1 else style.width_of(1.3 * style.SINGLE_WIDTH)
     return width, HEAD + FOOT + PANEL_HEIGHT * n_rows
 
 
@@ -28,19 +28,22 @@ def styles_in_order(results):
     return {method: styles[method] for method in (*results.methods, INITIAL)}
 
 
-def draw_legend(figure, results, styles, markers=True):
-    """The legend of all panels, above them, in as few lines as fit; returns its height in inches."""
+def draw_legend(figure, results, styles, markers=True, remarks=None, more=()):
+    """The legend of all panels, above them, in as few lines as fit; returns its height in inches.
+    `remarks` maps methods to words behind their titles, `more` are handles of what is no method."""
     handles = []
     for method, look in styles.items():
         handle = Line2D([], [], color=look.colour, marker=(look.marker or None) if markers else None,
                         markersize=MARKER_SIZE + 0.8, markerfacecolor=look.marker_fill)
-        handle.set_label("Initial mesh" if method == INITIAL else results.title(method))
+        title = "Initial mesh" if method == INITIAL else results.title(method)
+        handle.set_label(f"{title} ({remarks[method]})" if method in (remarks or {}) else title)
         if method == INITIAL:
             handle.set_linewidth(0.8)
             handle.set_dashes(INITIAL_DASHES)
         elif look.dashes:
             handle.set_dashes(look.dashes)
         handles.append(handle)
+    handles.extend(more)
     for n_lines in range(1, len(handles) + 1):
         per_line = math.ceil(len(handles) / n_lines)  # lines of about the same length
         legend = figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0),

@@ -30,7 +30,7 @@ def draw_domains(results):
     panel = 2.35
     height = panel * len(parts) + 0.42
     figure, axes = pyplot.subplots(len(parts), 2, squeeze=False, sharex=True, sharey=True,
-                                   figsize=(style.FULL_WIDTH, height))
+                                   figsize=(style.full_width(), height))
     figure.subplots_adjust(left=0.08, right=0.9, bottom=0.4 / height, top=1 - 0.22 / height,
                            wspace=0.08, hspace=0.12)
     # Tenths, and the same for all panels.

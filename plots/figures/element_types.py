@@ -27,7 +27,7 @@ def draw_element_types(blocks, normal=None):
     detail. `normal` of the cut as in draw_sections.
     """
     cuts = cuts_of(blocks, normal)
-    columns = 2 * max(len(panels) for _, panels in blocks)
+    columns = style.columns_that_fit(2 * max(len(panels) for _, panels in blocks))
     pixels = pixels_of(columns, DETAIL_ASPECT)
     shown, scenes = [], []
     for number, (title, panels) in enumerate(blocks):

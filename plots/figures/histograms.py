@@ -9,11 +9,13 @@ from matplotlib.ticker import StrMethodFormatter
 from ..results.smoothing import INITIAL
 from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
                        styles_in_order)
+from .scales import make_room_for_labels, spans_magnitudes
 
 BINS = 50
 # The thesis says of Fig. 5.33 at which qualities the differences are largest: 0.72, 0.92 and 0.98,
 # which are middles of thirtieths.
 DIFFERENCE_BINS = 30
+LEAST_DIFFERENCE = 10.0  # on an axis that is logarithmic on both sides of zero: linear below
 
 
 def draw_histograms(results, meshes, qualities, logarithmic=False):
@@ -32,6 +34,7 @@ def draw_histograms(results, meshes, qualities, logarithmic=False):
         else:
             ax.set_ylim(bottom=0)
     axes[0].set_ylabel("Number of cells")
+    make_room_for_labels(figure, axes[None, :])
     return figure
 
 
@@ -42,16 +45,23 @@ def draw_histogram_differences(results, pairs, qualities):
     middles = (np.arange(DIFFERENCE_BINS) + 0.5) / DIFFERENCE_BINS
     for ax, (mesh, distorted) in zip(axes, pairs):
         ax.axhline(0, color="0.6", linewidth=0.6)
-        for method, look in styles.items():
-            if not qualities.keys() >= {(mesh, method), (distorted, method)}:
-                continue
-            counts = [counts_of(qualities[name, method], DIFFERENCE_BINS) for name in (distorted, mesh)]
-            line, = ax.plot(middles, counts[0] - counts[1], color=look.colour, marker=look.marker,
+        differences = {method: counts_of(qualities[distorted, method], DIFFERENCE_BINS)
+                       - counts_of(qualities[mesh, method], DIFFERENCE_BINS) for method in styles
+                       if qualities.keys() >= {(mesh, method), (distorted, method)}}
+        for method, values in differences.items():
+            look = styles[method]
+            line, = ax.plot(middles, values, color=look.colour, marker=look.marker,
                             markersize=MARKER_SIZE, markeredgewidth=0.4, linewidth=0.8,
                             markerfacecolor=look.marker_fill, label=method)
             if dashes_of(method, look):
                 line.set_dashes(dashes_of(method, look))
+        largest = [np.abs(values).max() for values in differences.values() if values.any()]
+        if spans_magnitudes(np.array(largest)):
+            # On the scale of one method another would be a line on zero.
+            ax.set_yscale("symlog", linthresh=LEAST_DIFFERENCE, linscale=0.5)
+            ax.yaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
     axes[0].set_ylabel("Difference of numbers of cells")
+    make_room_for_labels(figure, axes[None, :])
     return figure
 
 
@@ -65,9 +75,7 @@ def panels(results, meshes, qualities, markers):
     legend_height = draw_legend(figure, results, styles, markers)
     height += legend_height
     figure.set_figheight(height)
-    figure.subplots_adjust(left=0.68 / width, right=1 - 0.1 / width, bottom=FOOT / height,
-                           top=1 - (HEAD + legend_height) / height,
-                           wspace=0.62 * len(meshes) / width)
+    figure.subplots_adjust(bottom=FOOT / height, top=1 - (HEAD + legend_height) / height)
     for ax, mesh in zip(axes[0], meshes):
         ax.set(xlim=(0, 1), xlabel="Mean ratio quality number $q$", title=results.title(mesh))
         ax.yaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))

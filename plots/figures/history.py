@@ -1,187 +1,174 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figure 6.4 of the thesis: mesh quality and solution errors against smoothing time."""
 
+import string
+import textwrap
+
 import matplotlib.pyplot as pyplot
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.lines import Line2D
 
+from ..results.request import TIME
 from ..results.smoothing import INITIAL
-from ..results.symbols import SYMBOLS
+from ..results.symbols import symbol_of
 from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
                        styles_in_order, thin_markers)
+from .history_lines import QUALITY, panel_lines, range_of
+from .scales import make_room_for_labels, scale_values, spans_magnitudes
 
-# Of the mesh, hence the same for every degree; numbers that lie between 0 and 1 have linear axes.
-QUALITY = ("q_min", "q_star_min", "q_mean", "w_mean")
+# Numbers that lie between 0 and 1 have linear axes.
 LINEAR = ("q_min", "q_star_min", "q_mean")
 
-# A row of other panels is logarithmic from this ratio of largest to smallest number on: the thesis'
-# own figure of errors spans a factor of 7 at most and is linear, errors of quadratic elements span
-# more than 20.
-LOGARITHMIC_FROM = 12.0
-
-# One method that takes so many times as long as every other would squeeze all of them into a line:
-# then a linear time axis ends at so many times the second longest time, and says when that one ends.
-DOMINANT_FROM, SHOWN_OF_DOMINANT = 20.0, 5.0
-
-LABEL_DISTANCE = 0.36  # inches from the axis to its label
+# Around the record of the resulting mesh, and where a method's meshes begin to be invalid.
+RESULT = {"marker": "o", "markersize": 7.0, "markerfacecolor": "none", "markeredgewidth": 0.8}
+INVALID = {"marker": "x", "markersize": 5.5, "markeredgewidth": 1.4}
+TITLE_LINE = 0.15  # inches
+# Of sentences in a panel or above it, and for finding a place for them beside the lines.
+LETTERS_OF_AN_INCH, POINTS_OF_A_SEGMENT = 15, 20
 
 
-def draw_history(results, columns, degree, log_time=False, meshes=None):
+def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log_y=False):
     """A figure with a row for each measure and a column for each mesh; None if there is no number.
 
-    `columns` are columns of iterations.csv, `degree` a string as in the file; `meshes` are some of
-    the study's, or None for all.
+    `columns` and `x` are columns of iterations.csv, `degree` a string as in the file; `meshes` are
+    some of the study's, or None for all. Vertical axes are logarithmic where their numbers span
+    magnitudes, with `log_y` all of them.
     """
     meshes = results.meshes if meshes is None else meshes
-    lines = {(name, mesh): panel_lines(results, name, mesh, degree)
+    lines = {(name, mesh): panel_lines(results, name, mesh, degree, x)
              for name in columns for mesh in meshes}
     columns = [name for name in columns
-               if any(np.isfinite(v).any() for mesh in meshes
-                      for _, v in lines[name, mesh].values())]
+               if any(line.shown.any() for mesh in meshes for line in lines[name, mesh].values())]
     if not columns:
         return None
+    ranges = [range_of([lines[name, mesh] for name in columns], log_x, x) for mesh in meshes]
     styles = styles_in_order(results)
-    figure, axes = empty_panels(results, styles, len(columns), len(meshes))
-    for letter, row, name in zip("abcdefghij", axes, columns):
-        logarithmic = name not in LINEAR and any(
-            spans_magnitudes(finite_values(lines[name, mesh])) for mesh in meshes)
-        for ax, mesh in zip(row, meshes):
-            dominant, limit = ("", np.inf) if log_time else dominant_method(lines[name, mesh])
-            draw_panel(ax, lines[name, mesh], styles, log_time, limit)
-            scale_values(ax, finite_values(lines[name, mesh]), logarithmic)
-            if dominant:
-                seconds, values = lines[name, mesh][dominant]
-                annotate_free_area(ax, f"{results.title(dominant)} ends after {seconds[-1]:.3g} s "
-                                          f"at {values[-1]:.3g}")
-        row[0].set_ylabel(f"({letter})  {SYMBOLS[name].tex}"
-                          + (f"  ($d={degree}$)" if name not in QUALITY else ""))
-        # A fixed distance aligns the labels of all rows, whatever their ticks are.
-        row[0].yaxis.set_label_coords(
-            -LABEL_DISTANCE / (row[0].get_position().width * figure.get_figwidth()), 0.5)
-    for ax, mesh in zip(axes[0], meshes):
-        ax.set_title(results.title(mesh))
-    for ax in axes[-1]:
-        ax.set_xlabel("Smoothing time (s)")
+    figure, axes = empty_panels(results, styles, [[lines[name, mesh] for mesh in meshes] for name in columns],
+                                [results.title(mesh) for mesh in meshes])
+    for row, name in zip(axes, columns):
+        values = [shown_values(lines[name, mesh], extent) for mesh, extent in zip(meshes, ranges)]
+        logarithmic = log_y or name not in LINEAR and any(map(spans_magnitudes, values))
+        for ax, mesh, extent, shown in zip(row, meshes, ranges, values):
+            draw_panel(ax, lines[name, mesh], styles, extent)
+            scale_values(ax, shown, logarithmic)
+    label_axes(figure, axes, columns, degree, x, ranges)
+    for row, name in zip(axes, columns):
+        for ax, mesh, extent in zip(row, meshes, ranges):
+            annotate_free_area(ax, words_on(results, lines[name, mesh], extent))
     thin_markers(figure)
     return figure
 
 
-def empty_panels(results, styles, n_rows, n_columns):
-    """(figure, axes (n_rows, n_columns)) below a legend of the methods with these styles."""
+def empty_panels(results, styles, lines, titles):
+    """(figure, axes) for rows of panels with these lines below titles, and a legend of the methods with
+    these styles. It calls those invalid that are so on all meshes; others stand below the titles."""
+    n_rows, n_columns = len(lines), len(titles)
     width, height = figure_size(n_rows, n_columns)
     figure, axes = pyplot.subplots(n_rows, n_columns, squeeze=False, sharex="col",
                                    figsize=(width, height))
-    legend_height = draw_legend(figure, results, styles)
-    height += legend_height
+    never = [{method for method, line in panel.items() if line.is_never_valid} for panel in lines[0]]
+    everywhere = set.intersection(*never)
+    elsewhere = [[results.title(method) for method in results.methods if method in methods - everywhere]
+                 for methods in never]
+    every = [line for row in lines for panel in row for method, line in panel.items() if method != INITIAL]
+    marks = [(RESULT, "Result", any(line.result is not None for line in every)),
+             (INVALID, "Invalid from here", any(line.invalid_after is not None for line in every))]
+    legend_height = draw_legend(figure, results, styles, remarks=dict.fromkeys(everywhere, "invalid"), more=[
+        Line2D([], [], color="0.25", linestyle="none", label=label, **look)
+        for look, label, occurs in marks if occurs])
+    letters = int(LETTERS_OF_AN_INCH * width / n_columns)
+    titles = ["\n".join([title, *(textwrap.wrap("invalid: " + ", ".join(methods), letters) if methods else [])])
+              for title, methods in zip(titles, elsewhere)]
+    head = HEAD + TITLE_LINE * max(title.count("\n") for title in titles) + legend_height
+    height += head - HEAD
     figure.set_figheight(height)
-    figure.subplots_adjust(left=0.6 / width, right=1 - 0.1 / width, bottom=FOOT / height,
-                           top=1 - (HEAD + legend_height) / height, hspace=0.1,
-                           wspace=0.52 * n_columns / width)
+    figure.subplots_adjust(bottom=FOOT / height, top=1 - head / height, hspace=0.1)
+    for ax, title in zip(axes[0], titles):
+        ax.set_title(title)
     return figure, axes
 
 
-def panel_lines(results, name, mesh, degree):
-    """What one panel shows: method -> (seconds, values), in the order of the iterations.
-
-    Values are NaN, and the line has a gap, where the mesh is invalid or the file has no number.
-    """
-    rows = results.iterations.select(mesh=mesh)
-    if name in QUALITY:  # the same for every degree
-        degree = next((d for d in rows.text("degree")), degree)
-    rows = rows.select(degree=degree)
-    lines = {}
-    for method in (*results.methods, INITIAL):
-        chosen = rows.select(method=method)
-        values = chosen.number(name)
-        invalid = chosen.number("n_invalid") > 0
-        if len(chosen):
-            lines[method] = (chosen.number("smoothing_seconds"), np.where(invalid, np.nan, values))
-    return lines
+def label_axes(figure, axes, columns, degree, x, ranges):
+    """Names of the axes, and room for them."""
+    for letter, row, name in zip(string.ascii_lowercase, axes, columns):
+        row[0].set_ylabel(f"({letter})  {symbol_of(name).tex}"
+                          + (f"  ($d={degree}$)" if degree and name not in QUALITY else ""))
+    for ax, extent in zip(axes[-1], ranges):
+        ax.set_xlabel(symbol_of(x).tex + ("" if extent.zero is None else "; 0 at the left edge"))
+    make_room_for_labels(figure, axes)
 
 
-def draw_panel(ax, lines, styles, log_time, limit):
-    """The lines of all methods up to a time and a level line for the initial mesh."""
-    for method, (seconds, values) in lines.items():
-        look = styles[method]
+def draw_panel(ax, lines, styles, extent):
+    """The lines of all methods with their marks, and a level line for the initial mesh."""
+    for method, line in lines.items():
         if method == INITIAL:
             continue
-        shown = seconds > 0 if log_time else seconds <= limit
-        line, = ax.plot(seconds[shown], values[shown], color=look.colour, marker=look.marker,
-                        markersize=MARKER_SIZE, markeredgewidth=0.4,
-                        markerfacecolor=look.marker_fill, clip_on=True, label=method)
+        look, x = styles[method], extent.placed(line.x)
+        inside = extent.holds(x)
+        drawn, = ax.plot(x[inside], line.y[inside], color=look.colour, marker=look.marker,
+                         markersize=MARKER_SIZE, markeredgewidth=0.4,
+                         markerfacecolor=look.marker_fill, label=method)
         if look.dashes:
-            line.set_dashes(look.dashes)
+            drawn.set_dashes(look.dashes)
+        for record, mark in ((line.result, RESULT), (line.invalid_after, INVALID)):
+            if record is not None and inside[record]:
+                ax.plot(x[record], line.y[record], color=look.colour, linestyle="none", zorder=4, **mark)
     level = initial_level(lines)
     if np.isfinite(level):
         ax.axhline(level, color=styles[INITIAL].colour, linewidth=0.8, dashes=INITIAL_DASHES, zorder=1)
-    if log_time:
-        ax.set_xscale("log")
-        ax.margins(x=0.02)
-    else:
-        last = max((seconds[-1] for seconds, _ in lines.values()), default=0.0)
-        if last > 0:
-            ax.set_xlim(-0.02 * min(last, limit), min(1.02 * last, limit))
+    if extent.logarithmic:
+        ax.set_xscale("log", nonpositive="mask")
+    ax.set_xlim(extent.low, extent.high)
 
 
-def dominant_method(lines):
-    """(method, time at which the axis ends) if one method takes far longer than all others; else no
-    name and an infinite time."""
-    ends = sorted((seconds[-1], method) for method, (seconds, _) in lines.items() if method != INITIAL)
-    if len(ends) < 2 or not 0 < DOMINANT_FROM * ends[-2][0] < ends[-1][0]:
-        return "", np.inf
-    return ends[-1][1], SHOWN_OF_DOMINANT * ends[-2][0]
+def words_on(results, lines, extent):
+    """What the axis does not show: where a method that goes on beyond its end comes to."""
+    line = lines.get(extent.dominant)
+    if line is None or not line.shown.any():
+        return []
+    end = np.flatnonzero(line.shown)[-1]
+    result = end if line.result is None or not line.shown[line.result] else line.result
+    return [f"{results.title(extent.dominant)} ends after {line.x[end]:.3g} s; its result: {line.y[result]:.3g}"]
 
 
-def annotate_free_area(ax, sentence):
-    """Writes at the right of a panel at the height that is farthest from all lines there."""
-    points = np.concatenate([line.get_transform().transform(line.get_xydata())
-                             for line in ax.get_lines()])
-    points = ax.transAxes.inverted().transform(points[np.isfinite(points).all(axis=1)])
-    taken = points[points[:, 0] > 0.4, 1]
-    height = max(np.linspace(0.1, 0.9, 9), key=lambda y: np.abs(taken - y).min(initial=1.0))
-    ax.text(0.98, height, sentence, transform=ax.transAxes, ha="right", va="center",
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1})
+def annotate_free_area(ax, sentences):
+    """Writes at the side and height of a panel that are farthest from all lines there."""
+    if not sentences:
+        return
+    letters = int(LETTERS_OF_AN_INCH * ax.get_position().width * ax.figure.get_figwidth())
+    words = ax.text(0.98, 0.5, "\n".join(textwrap.fill(sentence, letters) for sentence in sentences),
+                    transform=ax.transAxes, ha="right", va="center", fontsize=8,
+                    bbox={"facecolor": "white", "edgecolor": "none", "pad": 1})
+    points = points_on_lines(ax)
+    width = words.get_window_extent(ax.figure.canvas.get_renderer()).width / ax.bbox.width
+
+    def distance(place):
+        side, y = place
+        low, high = (0.98 - width, 0.98) if side == "right" else (0.02, 0.02 + width)
+        beside = (points[:, 0] >= low) & (points[:, 0] <= high)
+        return np.abs(points[beside, 1] - y).min(initial=1.0)
+    side, y = max(((side, y) for side in ("right", "left") for y in np.linspace(0.1, 0.9, 9)), key=distance)
+    words.set(x=0.98 if side == "right" else 0.02, y=y, ha=side)
+
+
+def points_on_lines(ax):
+    """Many points on all lines of a panel, shape (n, 2), from (0, 0) at its lower left corner to (1, 1)."""
+    found = [np.empty((0, 2))]
+    for line in ax.get_lines():
+        ends = ax.transAxes.inverted().transform(line.get_transform().transform(line.get_xydata()))
+        steps = np.linspace(0, 1, POINTS_OF_A_SEGMENT)[:, None, None]
+        found.append(((1 - steps) * ends[:-1] + steps * ends[1:]).reshape(-1, 2))
+    points = np.concatenate(found)
+    return points[np.isfinite(points).all(axis=1)]
 
 
 def initial_level(lines):
     """The value on the initial mesh: its own row, or iteration 0 of any method."""
-    firsts = [lines[INITIAL][1]] if INITIAL in lines else [v for _, v in lines.values()]
-    return next((v[0] for v in firsts if len(v)), np.nan)
+    firsts = [lines[INITIAL].y] if INITIAL in lines else [line.y for line in lines.values()]
+    return next((y[0] for y in firsts if len(y)), np.nan)
 
 
-def finite_values(lines):
+def shown_values(lines, extent):
     """All numbers that a panel shows."""
-    values = np.concatenate([v for _, v in lines.values()] or [np.array([])])
-    return values[np.isfinite(values)]
-
-
-def spans_magnitudes(values):
-    """Whether the values ask for a logarithmic axis."""
-    return len(values) > 0 and values.min() > 0 and values.max() > LOGARITHMIC_FROM * values.min()
-
-
-def scale_values(ax, values, logarithmic):
-    """A logarithmic axis, or a linear one that starts at zero."""
-    if not len(values):
-        return
-    high = values.max() if values.max() > 0 else 1.0
-    if logarithmic and values.min() > 0:
-        ax.set_yscale("log")
-        label_logarithmic(ax, values.min(), values.max())
-    else:
-        # A small margin below: lowest qualities are often as good as zero and would lie on the axis.
-        ax.set_ylim(min(0.0, values.min()) - 0.03 * high, 1.06 * high)
-
-
-def label_logarithmic(ax, low, high):
-    """Plain numbers instead of powers of ten where they are short, with 2 and 5 if the range is small."""
-    if low < 1e-3 or high > 1e4:
-        return
-    plain = FuncFormatter(lambda value, _: f"{value:g}")
-    ax.yaxis.set_major_formatter(plain)
-    if high / low < 300:
-        ax.yaxis.set_minor_locator(LogLocator(subs=(2, 5)))
-        ax.yaxis.set_minor_formatter(plain)
-        ax.tick_params(axis="y", which="minor", labelsize=8)
-    else:
-        ax.yaxis.set_minor_formatter(NullFormatter())
+    values = [line.y[line.shown & extent.holds(extent.placed(line.x))] for line in lines.values()]
+    return np.concatenate(values) if values else np.array([])

@@ -43,7 +43,8 @@ def draw_meshes(blocks, detail=None):
 
 def columns_of(blocks, most, with_free=False):
     """The least number of columns that needs no more rows than `most` columns do, so that rows are
-    about equally full; `with_free` if each block shall have a free panel."""
+    about equally full; `with_free` if each block shall have a free panel. `most` at the usual width."""
+    most = style.columns_that_fit(most)
     n_panels = max(len(panels) for _, panels in blocks) + with_free
     return math.ceil(n_panels / math.ceil(n_panels / most))
 
@@ -57,15 +58,15 @@ def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None, draw_foot=N
     block, `draw_free` draws the first free panel of a block.
     """
     gap = 0.08
-    width = (style.FULL_WIDTH - (columns + 1) * gap) / columns
+    width = (style.full_width() - (columns + 1) * gap) / columns
     heights = width / np.broadcast_to(aspect, len(blocks))
     rows = [rows_of_panels(panels, columns) for _, panels in blocks]
     total = np.dot(rows, heights + CAPTION) + len(blocks) * BLOCK_TITLE + FOOT
-    figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
+    figure = pyplot.figure(figsize=(style.full_width(), total))
 
     def add_axes(column, top, height):
-        return figure.add_axes([(gap + column * (width + gap)) / style.FULL_WIDTH,
-                                (top - height) / total, width / style.FULL_WIDTH, height / total])
+        return figure.add_axes([(gap + column * (width + gap)) / style.full_width(),
+                                (top - height) / total, width / style.full_width(), height / total])
     top = total
     for number, ((title, panels), n_rows, height) in enumerate(zip(blocks, rows, heights)):
         figure.text(0.5, (top - 0.7 * BLOCK_TITLE) / total, title, ha="center", fontsize=10)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which meshes of a study are drawn in one figure, so that it fits a page."""
 
+from . import style
 from .meshes import rows_of_panels
 
 # Rows of panels of meshes, and columns of panels of diagrams, one for each mesh.
@@ -26,13 +27,12 @@ def pages(meshes, fits):
 
 def fits_as_columns(meshes):
     """Whether a column of diagrams for each mesh can be read on one page."""
-    return len(meshes) <= MESHES_OF_A_PAGE
+    return len(meshes) <= style.columns_that_fit(MESHES_OF_A_PAGE)
 
 
-def draw_pages(blocks, columns, draw):
-    """Calls `draw` with a suffix and the blocks of each figure; `blocks` maps meshes to
-    (title, panels), which take so many columns."""
+def pages_of_blocks(blocks, columns):
+    """Suffix -> blocks of each figure; `blocks` maps meshes to (title, panels), which take so many
+    columns."""
     def fits(meshes):
         return sum(rows_of_panels(blocks[mesh][1], columns) for mesh in meshes) <= ROWS_OF_A_PAGE
-    for part, meshes in pages(list(blocks), fits).items():
-        draw(part, [blocks[mesh] for mesh in meshes])
+    return {part: [blocks[mesh] for mesh in meshes] for part, meshes in pages(list(blocks), fits).items()}

@@ -4,6 +4,9 @@
 import numpy as np
 from matplotlib.path import Path
 
+LEAST_FILLED = 0.5  # of the area of a detail
+SMALLER_WINDOWS = (1.0, 0.7, 0.5, 0.35)  # than wanted, where a domain is too narrow
+
 
 def edges_of(grid):
     """All directed edges of the cells as (n, 2) node numbers; each cell is walked around once."""
@@ -81,19 +84,35 @@ def bounding_box(grid):
     return (*low, *high)
 
 
+def areas(grid):
+    """The area of each cell, shape (n_cells,); those of cells that overlap themselves cancel."""
+    tails, heads = np.moveaxis(grid.points[edges_of(grid), :2], 1, 0)
+    doubled = tails[:, 0] * heads[:, 1] - tails[:, 1] * heads[:, 0]
+    return 0.5 * np.abs(np.add.reduceat(doubled, grid.offsets[:-1]))
+
+
 def window_of(grid, centre, width, aspect):
     """A window (x_min, y_min, x_max, y_max) around a relative position in the bounding box.
 
-    `width` is relative to the longer side of the box, `aspect` is width over height. If the centre
-    lies far from every cell (in a hole, in a corner), the window moves to the nearest one.
+    `width` is relative to the longer side of the box, `aspect` is width over height. If not even half
+    of the window would be filled by cells (on a narrow domain, near a hole or a corner), it moves to
+    the nearest place where it is, and where there is none it gets smaller.
     """
     x_min, y_min, x_max, y_max = bounding_box(grid)
     sides = np.array([x_max - x_min, y_max - y_min])
-    middle = np.array([x_min, y_min]) + np.asarray(centre) * sides
-    half = 0.5 * width * sides.max() * np.array([1.0, 1.0 / aspect])
-    cells = centroids(grid)
-    if not np.any(np.all(np.abs(cells - middle) < 0.5 * half, axis=1)):
-        middle = cells[np.argmin(((cells - middle) ** 2).sum(axis=1))]
+    wanted = np.array([x_min, y_min]) + np.asarray(centre) * sides
+    cells, sizes = centroids(grid), areas(grid)
+    # The wanted place, then some hundreds of others, the nearest first.
+    others = cells[::max(1, len(cells) // 400)]
+    places = np.vstack([wanted, others[np.argsort(((others - wanted) ** 2).sum(axis=1), kind="stable")]])
+    for factor in SMALLER_WINDOWS:
+        half = 0.5 * factor * width * sides.max() * np.array([1.0, 1.0 / aspect])
+        filled = [sizes[np.all(np.abs(cells - place) < half, axis=1)].sum() / (4 * half.prod())
+                  for place in places]
+        enough = np.flatnonzero(np.array(filled) >= LEAST_FILLED)
+        if len(enough):
+            break
+    middle = places[enough[0] if len(enough) else int(np.argmax(filled))]
     return (*(middle - half), *(middle + half))
 
 

@@ -59,10 +59,10 @@ def draw_decomposition(results):
     rows = groups_of(results.decomposition, "n")
     columns = 1 + max(len(groups_of(parts, "eigenpolygon")) - 1 for _, parts in rows)
     gap, title = 0.28, 0.22  # of the panels' sides, and in inches
-    side = style.FULL_WIDTH / (columns + gap * (columns - 1))
+    side = style.full_width() / (columns + gap * (columns - 1))
     height = (side + title) * len(rows)
     figure, axes = pyplot.subplots(len(rows), columns, squeeze=False,
-                                   figsize=(style.FULL_WIDTH, height))
+                                   figsize=(style.full_width(), height))
     figure.subplots_adjust(left=0, right=1, bottom=0, top=1 - title / height, wspace=gap,
                            hspace=title / side)
     for row, (_, parts) in zip(axes, rows):
@@ -92,7 +92,7 @@ def draw_sequences(results, transformation, same_scale):
              for _, part in rows]
     largest = extent_of([nodes for row in table for _, nodes in row])
     columns, label = len(table[0]), 1.15
-    side = min((style.FULL_WIDTH - label) / columns, 0.95)
+    side = min((style.full_width() - label) / columns, 0.95)
     width, height = label + side * columns, side * len(rows) + 0.25
     figure, axes = pyplot.subplots(len(rows), columns, squeeze=False, figsize=(width, height))
     figure.subplots_adjust(left=label / width, right=1, bottom=0, top=1 - 0.25 / height, wspace=0,
@@ -114,7 +114,7 @@ def draw_limits(results):
     """Figure 2.3: the limits along the axis of base angles, a panel for each number of nodes. Limits
     inside the intervals stand above those at the characteristic angles between them."""
     rows = groups_of(results.limits, "n")
-    width, lane = style.FULL_WIDTH, 1.02
+    width, lane = style.full_width(), 1.02
     left, right, foot = 1.05, 0.45, 0.42
     height = (2 * lane + foot + 0.05) * len(rows)
     figure = pyplot.figure(figsize=(width, height))

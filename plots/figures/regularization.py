@@ -5,6 +5,7 @@ import matplotlib.pyplot as pyplot
 
 from ..results.regularization import whole
 from . import style
+from .planned import plan_numbered
 
 # Markers and dash patterns; the colours are those of all figures.
 ELEMENTS = {"tetrahedron": ("o", ()), "hexahedron": ("s", (5, 1.5)), "pyramid": ("^", (1.2, 1.2)),
@@ -18,7 +19,7 @@ def draw_corridor(results):
     """Figure 3.4: least, mean and most transformations of tetrahedra by opposite face normals."""
     rows = whole(results.counts.select(element="tetrahedron", transformation="opposite-face-normals",
                                        start="valid"))
-    figure, ax = pyplot.subplots(figsize=(style.SINGLE_WIDTH * 1.3, 2.6), constrained_layout=True)
+    figure, ax = pyplot.subplots(figsize=(style.width_of(1.3 * style.SINGLE_WIDTH), 2.6), constrained_layout=True)
     sigma = rows.number("sigma")
     ax.fill_between(sigma, rows.number("least"), rows.number("most"), color="0.85", linewidth=0,
                     label="least to most")
@@ -30,7 +31,7 @@ def draw_corridor(results):
 
 def draw_speeds(results):
     """Figure 3.8: mean transformations of each element type, with standard deviations."""
-    figure, axes = pyplot.subplots(1, len(STARTS), figsize=(style.FULL_WIDTH, 2.8), sharey=True,
+    figure, axes = pyplot.subplots(1, len(STARTS), figsize=(style.full_width(), 2.8), sharey=True,
                                    constrained_layout=True)
     for ax, (start, title) in zip(axes, STARTS.items()):
         for element, (marker, dashes) in ELEMENTS.items():
@@ -56,13 +57,10 @@ def set_axes(ax):
     ax.margins(x=0.02)
 
 
-FIGURES = {"figure_3_4_corridor": ("opposite face normals", draw_corridor),
-           "figure_3_8_speeds": ("dual element transformation", draw_speeds)}
+FIGURES = {"corridor": ("3_4", "opposite face normals", draw_corridor),
+           "speeds": ("3_8", "dual element transformation", draw_speeds)}
 
 
-def draw_regularization_figures(results):
-    """Draws all figures into <folder>/figures; returns the paths."""
-    style.apply_style()
-    return [path for name, (title, draw) in FIGURES.items()
-            for path in style.save_figure(draw(results), results.folder / "figures", name,
-                                          f"{results.study_title}: {title}")]
+def plan_regularization_figures(results):
+    """All figures."""
+    return plan_numbered(results, FIGURES)

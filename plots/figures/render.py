@@ -41,7 +41,8 @@ class Scene:
     cells: Optional[np.ndarray] = None  # which are there, (n_cells,) bool; None: all
     cell_colours: Optional[np.ndarray] = None  # (n_cells, 3) uint8
     outside_coloured: bool = False
-    point_colours: Optional[np.ndarray] = None  # (n_points, 3) uint8
+    point_values: Optional[np.ndarray] = None  # (n_points,), from 0 to 1
+    value_colours: Optional[np.ndarray] = None  # (n, 3) uint8, those of values from 0 to 1
     plain_colour: tuple = (0.80, 0.86, 0.90)
     cell_edges: bool = False  # of the coloured faces
     feature_edges: bool = False
@@ -102,12 +103,12 @@ def draw_scene(scene):
 
 
 def actors_of(scene):
-    """The plain or point-coloured surface, the faces that were opened, and feature edges."""
+    """The plain surface or that with values, the faces that were opened, and feature edges."""
     from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 
     surface = surface_of(vtk_grid(scene))
     if scene.cell_colours is None:
-        found = [actor_of(surface, scene, scene.point_colours is not None)]
+        found = [actor_of(surface, scene, scene.point_values is not None)]
     else:
         whole = surface_of(vtk_grid(replace(scene, cells=None)))
         n_points = len(scene.grid.points)
@@ -128,7 +129,7 @@ def actors_of(scene):
 
 
 def vtk_grid(scene):
-    """The chosen cells as VTK's own grid, with colours as scalars."""
+    """The chosen cells as VTK's own grid, with colours or values as scalars."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
@@ -149,9 +150,9 @@ def vtk_grid(scene):
     if scene.cell_colours is not None:
         result.GetCellData().SetScalars(numpy_to_vtk(
             np.ascontiguousarray(scene.cell_colours[chosen]), deep=True))
-    if scene.point_colours is not None:
+    if scene.point_values is not None:
         result.GetPointData().SetScalars(numpy_to_vtk(
-            np.ascontiguousarray(scene.point_colours), deep=True))
+            np.ascontiguousarray(scene.point_values, dtype=float), deep=True))
     return result
 
 
@@ -161,7 +162,14 @@ def actor_of(surface, scene, coloured):
 
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
-    mapper.SetColorModeToDirectScalars()
+    if scene.point_values is None:
+        mapper.SetColorModeToDirectScalars()
+    else:
+        # Values are interpolated between points, then coloured: mixed colours are in no colour map.
+        mapper.SetLookupTable(lookup_table(scene.value_colours))
+        mapper.SetScalarRange(0, 1)
+        mapper.SetColorModeToMapScalars()
+        mapper.InterpolateScalarsBeforeMappingOn()
     # Without the offset, lines would drown in the faces that they bound.
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
     mapper.SetScalarVisibility(coloured)
@@ -180,6 +188,17 @@ def actor_of(surface, scene, coloured):
         look.SetEdgeColor(0.15, 0.15, 0.15)
         look.SetLineWidth(1.0 * SUPERSAMPLING)
     return actor
+
+
+def lookup_table(colours):
+    """VTK's form of a colour map."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkLookupTable
+
+    opaque = np.column_stack([colours, np.full(len(colours), 255, dtype=np.uint8)])
+    table = vtkLookupTable()
+    table.SetTable(numpy_to_vtk(np.ascontiguousarray(opaque), deep=True))
+    return table
 
 
 def line_actor(lines):

@@ -20,6 +20,12 @@ def in_plane(points, cut):
     return points @ np.column_stack([np.cross(up, normal), up])
 
 
+def area_of(polygon):
+    """The area of corners (k, 2)."""
+    x, y = polygon.T
+    return 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+
+
 def section(grid, cut):
     """(polygons, cells): what the plane of a cut has in common with each cell that it crosses, as
     corners (k, 2) in the coordinates of in_plane, and the numbers of these cells.

@@ -7,12 +7,16 @@ from matplotlib import colormaps
 
 from . import style
 from .meshes import QUALITY_RANGE, columns_of, draw_blocks
+from .planar_geometry import LEAST_FILLED
 from .render import Scene, render
-from .volume_geometry import Cut, same_box, widest_cut
+from .section_geometry import area_of, in_plane, section
+from .volume_geometry import Cut, cell_centres, same_box, widest_cut
 
 MOST_COLUMNS = 5
 DETAIL_ASPECT = 1.0
-DETAIL_CELLS = 16  # along the width of a detail: enough to see a pattern, few enough to see each
+# Along the width of a detail: enough cells to see a pattern, few enough to see each; less where the cut
+# is narrow.
+DETAIL_CELLS = (16, 12, 9, 6)
 IMAGE_DPI = 600  # of the printed panel
 # Where most cells are smaller than so many pixels, edges would hide the colours between them.
 PIXELS_FOR_EDGES = 14.0
@@ -69,14 +73,26 @@ def views_of(blocks, cuts, detail):
             found.append(found[twin])
             continue
         view = cut.view(grid)
-        found.append(view.zoomed(*cut.densest_window(grid, view, DETAIL_CELLS), DETAIL_ASPECT)
-                     if detail else view)
+        found.append(view.zoomed(*detail_of(grid, cut, view), DETAIL_ASPECT) if detail else view)
     return found
+
+
+def detail_of(grid, cut, view):
+    """(centre, width) of a window on the cut, so small that cells fill half of it."""
+    polygons, cells = section(grid, cut)
+    sizes = np.array([area_of(polygon) for polygon in polygons])
+    middles = in_plane(cell_centres(grid)[cells], cut)
+    for cells_across in DETAIL_CELLS:
+        centre, width = cut.densest_window(grid, view, cells_across)
+        inside = np.all(np.abs(middles - in_plane(np.atleast_2d(centre), cut)) < 0.5 * width, axis=1)
+        if sizes[inside].sum() >= LEAST_FILLED * width**2 / DETAIL_ASPECT:
+            break
+    return centre, width
 
 
 def pixels_of(columns, aspect):
     """Width and height of the picture of a panel."""
-    width = round(IMAGE_DPI * style.FULL_WIDTH / columns)
+    width = round(IMAGE_DPI * style.full_width() / columns)
     return width, round(width / aspect)
 
 

@@ -2,6 +2,7 @@
 """Figure 6.5 of the thesis: the solid, and the solid coloured by the exact solution."""
 
 import matplotlib.pyplot as pyplot
+import numpy as np
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
@@ -18,22 +19,22 @@ MARGIN, BAR, CAPTION = 0.08, 0.62, 0.24
 def draw_solid(grid):
     """A figure of the solid (a) and of the point data `exact_solution` on it (b); raises NoDisplay
     if nothing can be rendered."""
-    width = 0.5 * (style.FULL_WIDTH - 3 * MARGIN - BAR)
+    width = 0.5 * (style.full_width() - 3 * MARGIN - BAR)
     view = view_of(grid.points, MODEL_DIRECTION)
     height = min(width * view.height / view.width, 1.6 * width)
     view = view.fitted(width / height)
     total = height + MARGIN + CAPTION
     values = grid.point_data["exact_solution"]
     scale = Normalize(values.min(), values.max())
-    colours = colormaps[style.SOLUTION_MAP](scale(values), bytes=True)[:, :3]
+    colours = colormaps[style.SOLUTION_MAP](np.arange(256), bytes=True)[:, :3]
     pixels = (round(IMAGE_DPI * width), round(IMAGE_DPI * height))
     plain = Scene(grid, view, pixels, feature_edges=True)
-    pictures = render([plain, Scene(grid, view, pixels, point_colours=colours, feature_edges=True,
-                                    ambient=0.7)])
-    figure = pyplot.figure(figsize=(style.FULL_WIDTH, total))
+    pictures = render([plain, Scene(grid, view, pixels, point_values=np.asarray(scale(values)),
+                                    value_colours=colours, feature_edges=True, ambient=0.7)])
+    figure = pyplot.figure(figsize=(style.full_width(), total))
 
     def add_axes(left, bottom, breadth, tall):
-        return figure.add_axes([left / style.FULL_WIDTH, bottom / total, breadth / style.FULL_WIDTH,
+        return figure.add_axes([left / style.full_width(), bottom / total, breadth / style.full_width(),
                                 tall / total])
     for i, (picture, text) in enumerate(zip(pictures, ("(a) Model", "(b) Exact solution $u$"))):
         axes = add_axes(MARGIN + i * (width + MARGIN), CAPTION, width, height)

@@ -105,10 +105,28 @@ def method_styles(methods):
     return styles
 
 
-def apply_style():
-    """Makes the settings those of all figures drawn from now on."""
+def apply_style(width=FULL_WIDTH):
+    """Makes the settings those of all figures drawn from now on; they are so many inches wide, at the
+    usual width less where they have little to show."""
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(SETTINGS)
+    matplotlib.rcParams["figure.figsize"] = (width, 0.7 * width)
+
+
+def full_width():
+    """The width in inches of a figure that has much to show."""
+    return matplotlib.rcParams["figure.figsize"][0]
+
+
+def width_of(narrower):
+    """The width of a figure to which less than the usual width would do: that, unless another width is
+    asked for."""
+    return narrower if full_width() == FULL_WIDTH else full_width()
+
+
+def columns_that_fit(usual):
+    """How many columns of panels there may be, where there may be so many at the usual width."""
+    return max(1, int(usual * full_width() / FULL_WIDTH + 0.5))
 
 
 def figure_bytes(figure, suffix, title):
@@ -122,9 +140,9 @@ def figure_bytes(figure, suffix, title):
     return stream.getvalue()
 
 
-def save_figure(figure, folder, name, title):
-    """Writes `name`.pdf and `name`.png, closes the figure and returns the two paths."""
+def save_figure(figure, folder, name, title, formats):
+    """Writes `name`.pdf and so on, closes the figure and returns the paths."""
     paths = [write_atomically(folder / f"{name}.{suffix}", figure_bytes(figure, suffix, title))
-             for suffix in ("pdf", "png")]
+             for suffix in formats]
     pyplot.close(figure)
     return paths

@@ -5,6 +5,9 @@
 PLANAR_CELL_TYPES = {5: "triangle", 7: "polygon", 9: "quadrilateral"}
 # VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID.
 VOLUME_CELL_TYPES = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid"}
+# VTK_VERTEX, VTK_POLY_VERTEX, VTK_LINE and VTK_POLY_LINE, which carry labels, and those above.
+CELL_DIMENSIONS = {1: 0, 2: 0, 3: 1, 4: 1, **dict.fromkeys(PLANAR_CELL_TYPES, 2),
+                   **dict.fromkeys(VOLUME_CELL_TYPES, 3)}
 CELL_NAMES = (*PLANAR_CELL_TYPES.values(), *VOLUME_CELL_TYPES.values())
 ANY_CELL = "cell"  # where it is not known of which type
 

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from .rows import Rows, read_provenance, read_rows
+from .rows import Rows, is_built_in, read_provenance, read_rows
 
+STUDY = "polygons"  # the program's own of this kind
 # What tables and figures cannot do without.
 REQUIRED_COLUMNS = {
     "theorems": ("theorem", "statement", "quantity", "cases", "measured", "expected",
@@ -28,6 +29,7 @@ class PolygonResults:
     folder: Path
     study: str
     study_title: str
+    is_thesis_study: bool  # whether its figures are those of the thesis, by their numbers
     theorems: Rows
     classification: Rows
     decomposition: Rows
@@ -45,7 +47,8 @@ def read_polygon_results(folder):
     provenance = read_provenance(folder / "provenance.json")
     study = str(provenance.get("study") or folder.resolve().name)
     return PolygonResults(folder=folder, study=study,
-                          study_title=str(provenance.get("study_title") or study), **files)
+                          study_title=str(provenance.get("study_title") or study),
+                          is_thesis_study=is_built_in(provenance) and study == STUDY, **files)
 
 
 def nodes_of(rows):

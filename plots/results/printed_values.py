@@ -23,7 +23,8 @@ class PrintedTable:
 
 
 def read_printed_tables(study, provenance):
-    """The printed tables of a study as a dictionary from content to PrintedTable.
+    """The printed tables of a study as a dictionary from content to PrintedTable; `study` as in
+    Results.thesis_study.
 
     The provenance may choose them (`printed_values`: table numbers or paths); without that key the
     tables are those listed for a study of this name. Empty if there is nothing to compare with.

@@ -33,7 +33,7 @@ def read_quality_histogram(path, title, q_min=None, q_mean=None, n_invalid=0):
     types. Raises ResultsError if these are no bins and counts."""
     if not Path(path).exists():
         raise ResultsError(f"{path}: the file is missing.")
-    rows = read_rows(path, COLUMNS)
+    rows = read_rows(path, COLUMNS, ends_with_line=False)
     lower, upper, count = (rows.number(name) for name in COLUMNS)
     refuse_unless(np.isfinite([lower, upper, count]).all(), rows, "holds an empty or infinite number")
     refuse_unless((lower < upper).all(), rows, "has a bin whose `upper` is not above its `lower`")

@@ -4,8 +4,9 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from .rows import Rows, read_provenance, read_rows
+from .rows import Rows, is_built_in, read_provenance, read_rows
 
+STUDY = "regularization"  # the program's own of this kind
 COUNTS = ("element", "transformation", "start", "sigma", "n_elements", "n_regularized", "mean",
           "deviation", "least", "most")
 
@@ -15,7 +16,9 @@ class RegularizationResults:
     """One results folder."""
 
     folder: Path
+    study: str
     study_title: str
+    is_thesis_study: bool  # whether the thesis' numbers are about it
     counts: Rows
     validity: Rows
 
@@ -24,13 +27,14 @@ def read_regularization_results(folder):
     """Reads the folder; raises ResultsError if a file is missing, truncated or lacks a column."""
     folder = Path(folder)
     provenance = read_provenance(folder / "provenance.json")
-    title = str(provenance.get("study_title") or folder.resolve().name)
+    study = str(provenance.get("study") or folder.resolve().name)
     return RegularizationResults(
-        folder, title, read_rows(folder / "regularization.csv", COUNTS),
+        folder, study, str(provenance.get("study_title") or study),
+        is_built_in(provenance) and study == STUDY, read_rows(folder / "regularization.csv", COUNTS),
         read_rows(folder / "validity.csv", ("element", "n_elements", "n_valid", "share")))
 
 
 def whole(rows):
     """The rows of those sigmas that made all elements regular."""
     complete = rows.text("n_regularized") == rows.text("n_elements")
-    return Rows(rows.path, {name: column[complete] for name, column in rows.columns.items()})
+    return rows.where(complete)

@@ -2,6 +2,7 @@
 """Rows of CSV files, and what a study says about itself in provenance.json."""
 
 import csv
+import io
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,38 +29,59 @@ class Rows:
         return self.columns.get(name, np.full(len(self), "", dtype=object))
 
     def number(self, name):
-        """The numbers of a column, shape (rows,); NaN where the field is empty."""
+        """The numbers of a column, shape (rows,); NaN where the field is empty or not finite."""
         try:
-            return np.array([float(field) if field else np.nan for field in self.text(name)])
+            values = np.array([float(field) if field else np.nan for field in self.text(name)])
         except ValueError as error:
             raise ResultsError(f"{self.path}: column `{name}` holds something that is "
                                f"not a number ({error}).") from None
+        return np.where(np.isfinite(values), values, np.nan)
+
+    def require_numbers(self, *names):
+        """Raises ResultsError unless each field of the columns is a finite number."""
+        for name in names:
+            missing = np.flatnonzero(np.isnan(self.number(name)))
+            if len(missing):
+                field = self.text(name)[missing[0]] or "empty"
+                raise ResultsError(f"{self.path}, row {missing[0] + 2}: `{name}` is {field}, not a number; "
+                                   "run the study again.")
+
+    def without_number(self, name):
+        """In how many rows a column holds a word for what is no number (nan, inf)."""
+        return int(np.count_nonzero(np.isnan(self.number(name)) & (self.text(name) != "")))
+
+    def where(self, chosen):
+        """The rows with these numbers, or for which a mask is true."""
+        return Rows(self.path, {name: column[chosen] for name, column in self.columns.items()})
 
     def select(self, **wanted):
         """The rows whose columns equal the given strings, in the order of the file."""
         mask = np.ones(len(self), dtype=bool)
         for name, value in wanted.items():
             mask &= self.text(name) == value
-        return Rows(self.path, {name: column[mask] for name, column in self.columns.items()})
+        return self.where(mask)
 
     def records(self):
         """The rows as a list of dictionaries from column name to string."""
         return [dict(zip(self.columns, fields)) for fields in zip(*self.columns.values())]
 
 
-def read_rows(path, required=()):
+def read_rows(path, required=(), ends_with_line=True):
     """Reads a CSV file with a header line; raises ResultsError if it is missing, truncated or lacks a
-    required column."""
+    required column. The program ends every line; files that users write may leave out the last end."""
     path = Path(path)
     try:
         with open(path, newline="", encoding="utf-8") as stream:
-            lines = list(csv.reader(stream))
+            text = stream.read()
+        lines = list(csv.reader(io.StringIO(text, newline="")))
     except FileNotFoundError:
         raise ResultsError(f"{path}: the file is missing; has the study been run?") from None
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise ResultsError(f"{path}: the file cannot be read ({error}).") from None
     if not lines:
         raise ResultsError(f"{path}: the file is empty.")
+    if ends_with_line and not text.endswith("\n"):
+        raise ResultsError(f"{path}: the last line has no end; the file looks truncated.")
     header, body = lines[0], lines[1:]
     for name in required:
         if name not in header:
@@ -79,8 +101,7 @@ def groups_of(rows, *names):
     found = {}
     for number, key in enumerate(keys):
         found.setdefault(key, []).append(number)
-    return [(key, Rows(rows.path, {name: column[numbers] for name, column in rows.columns.items()}))
-            for key, numbers in found.items()]
+    return [(key, rows.where(numbers)) for key, numbers in found.items()]
 
 
 def read_provenance(path):
@@ -94,6 +115,12 @@ def read_provenance(path):
     if not isinstance(provenance, dict):
         raise ResultsError(f"{path}: a JSON object is expected.")
     return provenance
+
+
+def is_built_in(provenance):
+    """Whether the study is one of the program's own, word for word: only then what the thesis says is
+    about it. Results from before this was recorded are taken for what their name says."""
+    return provenance.get("built_in", True) is not False
 
 
 def entries(provenance, key):

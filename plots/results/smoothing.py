@@ -4,12 +4,13 @@
 Columns are documented in results/README.md.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from .rows import ResultsError, Rows, entries, order_of, read_provenance, read_rows
+from .names import find_all
+from .rows import (ResultsError, Rows, entries, is_built_in, order_of, read_provenance, read_rows)
 
 # What tables and figures cannot do without; any other column may be absent and then counts as empty.
 REQUIRED_COLUMNS = {
@@ -22,7 +23,21 @@ REQUIRED_COLUMNS = {
                        "reference_seconds", "method", "method_seconds", "speedup"),
 }
 
+# Columns without whose numbers a row says nothing.
+REQUIRED_NUMBERS = {"iterations.csv": ("iteration", "smoothing_seconds", "q_min", "q_mean", "n_invalid"),
+                    "summary.csv": ("q_min", "q_mean"), "thresholds.csv": ("degree", "threshold")}
+# Columns that hold numbers, of any of the files.
+NUMBERS = ("iteration", "smoothing_seconds", "q_min", "q_star_min", "q_mean", "n_invalid", "n_reset",
+           "w_max", "w_mean", "peak_memory_gib", "degree", "n_dofs", "n_free", "condition_number",
+           "lambda_min", "lambda_max", "condition_residual", "cg_iterations", "cg_seconds",
+           "jacobi_cg_iterations", "jacobi_cg_seconds", "amg_cg_iterations", "amg_setup_seconds",
+           "amg_cg_seconds", "e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error", "threshold",
+           "reference_seconds", "method_seconds", "speedup")
+# What tells the mesh of one record from that of another.
+FINGERPRINT = ("q_min", "q_star_min", "q_mean", "n_invalid")
+
 INITIAL = "initial"
+QUICK = "quick"  # the scale that shows that everything works
 
 
 @dataclass(frozen=True)
@@ -42,6 +57,17 @@ class Results:
     provenance: dict
 
     @property
+    def thesis_study(self):
+        """By which name the thesis' numbers, figures and claims are about this study; empty for a
+        study of the user's, whatever its name."""
+        return self.study if is_built_in(self.provenance) else ""
+
+    @property
+    def is_quick(self):
+        """Whether the meshes are too coarse to judge anything by them."""
+        return self.provenance.get("scale") == QUICK
+
+    @property
     def note(self):
         """What the study says about comparing its numbers with the thesis; may be empty."""
         return str(self.provenance.get("note") or "")
@@ -53,6 +79,30 @@ class Results:
     def mesh_file(self, mesh, method):
         """Path of the mesh that the method ended with (it need not exist)."""
         return self.folder / "meshes" / f"{mesh}_{method}.vtu"
+
+    def restricted(self, methods=(), meshes=()):
+        """The results of some methods and meshes only, in the order of the study; all of them where
+        none is named. The initial mesh stays. Raises ResultsError for a name that is not there."""
+        methods = find_all("method", methods, self.methods)
+        meshes = find_all("mesh", meshes, self.meshes)
+
+        def rows_of(rows):
+            return rows.where(np.isin(rows.text("mesh"), meshes)
+                              & np.isin(rows.text("method"), (INITIAL, *methods)))
+        return replace(self, methods=methods, meshes=meshes, summary=rows_of(self.summary),
+                       iterations=rows_of(self.iterations), thresholds=rows_of(self.thresholds))
+
+    def result_record(self, rows):
+        """Which of the rows of one mesh, method and degree is the record of the method's resulting
+        mesh: the first one with its quality numbers. None if there is none: not every iteration is
+        recorded. (The result need not be the last one, see `result_record` of the program.)"""
+        names = [name for name in FINGERPRINT
+                 if name in rows.columns and name in self.summary.columns]
+        results = self.summary.select(mesh=rows.text("mesh")[0], method=rows.text("method")[0])
+        if not len(results):
+            return None
+        same = np.all([rows.text(name) == results.text(name)[0] for name in names], axis=0)
+        return int(np.argmax(same)) if same.any() else None
 
     def is_published(self, mesh):
         """Whether the provenance calls the mesh one of the published ones."""
@@ -66,17 +116,16 @@ def read_results(folder):
     folder = Path(folder)
     if not folder.is_dir():
         raise ResultsError(f"{folder}: there is no such folder.")
-    summary = read_rows(folder / "summary.csv", REQUIRED_COLUMNS["summary.csv"])
-    iterations = read_rows(folder / "iterations.csv", REQUIRED_COLUMNS["iterations.csv"])
-    if not len(summary) or not len(iterations):
-        empty = summary if not len(summary) else iterations
-        raise ResultsError(f"{empty.path}: the file has no rows.")
-    required = REQUIRED_COLUMNS["thresholds.csv"]
+    summary, iterations = (read_checked(folder / name) for name in ("summary.csv", "iterations.csv"))
+    for rows in (summary, iterations):
+        if not len(rows):
+            raise ResultsError(f"{rows.path}: the file has no rows.")
     path = folder / "thresholds.csv"
     if path.exists():
-        thresholds = read_rows(path, required)
+        thresholds = read_checked(path)
     else:
-        thresholds = Rows(path, {name: np.array([], dtype=object) for name in required})
+        thresholds = Rows(path, {name: np.array([], dtype=object)
+                                 for name in REQUIRED_COLUMNS[path.name]})
     provenance = read_provenance(folder / "provenance.json")
     study = str(provenance.get("study") or summary.text("study")[0] or folder.resolve().name)
     titles = {INITIAL: "Initial"}
@@ -90,3 +139,27 @@ def read_results(folder):
         degrees=tuple(sorted({degree for degree in summary.text("degree") if degree}, key=float)),
         titles=titles, summary=summary, iterations=iterations, thresholds=thresholds,
         provenance=provenance)
+
+
+def read_checked(path):
+    """The rows of one of the files; raises ResultsError if something in them is no number that has to
+    be one."""
+    rows = read_rows(path, REQUIRED_COLUMNS[path.name])
+    rows.require_numbers(*REQUIRED_NUMBERS[path.name])
+    for name in number_columns(rows):
+        rows.number(name)
+    return rows
+
+
+def number_columns(rows):
+    """The columns that hold numbers."""
+    return [name for name in rows.columns if name in NUMBERS]
+
+
+def left_out(results):
+    """A sentence for each column that holds something that is no finite number: there, tables have a
+    dash and lines a gap."""
+    counted = [(rows, name, rows.without_number(name))
+               for rows in (results.iterations, results.summary) for name in number_columns(rows)]
+    return [f"{rows.path}: `{name}` is no finite number in {count} of {len(rows)} rows; there, lines have "
+            "a gap and tables a dash." for rows, name, count in counted if count]

@@ -22,4 +22,13 @@ SYMBOLS = {
     "lambda_min": Heading("lambda_min", r"$\lambda_{\min}$"),
     "lambda_max": Heading("lambda_max", r"$\lambda_{\max}$"),
     "w_max": Heading("w_max", r"$w_{\max}$"), "w_mean": Heading("w_mean", r"$w_{\mathrm{mean}}$"),
+    "condition_number": Heading("cond(A)", r"$\mathrm{cond}(A)$"),
+    "cg_iterations": Heading("CG iterations", "CG iterations"),
+    "smoothing_seconds": Heading("Smoothing time (s)", "Smoothing time (s)"),
+    "iteration": Heading("Iteration", "Iteration"),
 }
+
+
+def symbol_of(column):
+    """The heading of a column; the name of one that has none."""
+    return SYMBOLS.get(column, Heading(column, column))

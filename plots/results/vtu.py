@@ -4,12 +4,12 @@
 import importlib
 import os
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from .cell_types import PLANAR_CELL_TYPES, VOLUME_CELL_TYPES
+from .cell_types import CELL_DIMENSIONS, PLANAR_CELL_TYPES, VOLUME_CELL_TYPES
 from .rows import ResultsError
 
 
@@ -108,7 +108,20 @@ def adapted(grid):
         """Name -> numbers; arrays of texts are of no use here."""
         found = [attributes.GetArray(i) for i in range(attributes.GetNumberOfArrays())]
         return {array.GetName(): to_numpy(array) for array in found if array is not None}
-    return UnstructuredGrid(
+    return of_highest_dimension(UnstructuredGrid(
         points=to_numpy(grid.GetPoints().GetData()), connectivity=connectivity, offsets=offsets,
         types=to_numpy(grid.GetCellTypesArray()), point_data=arrays(grid.GetPointData()),
-        cell_data=arrays(grid.GetCellData()))
+        cell_data=arrays(grid.GetCellData())))
+
+
+def of_highest_dimension(grid):
+    """The grid without cells that only carry the labels of its points, edges or facets."""
+    # A type that is not known is no label: the figures say that they cannot draw it.
+    dimensions = np.array([CELL_DIMENSIONS.get(int(kind), 3) for kind in grid.types])
+    chosen = dimensions == dimensions.max()
+    if chosen.all():
+        return grid
+    sizes = np.diff(grid.offsets)
+    return replace(grid, connectivity=grid.connectivity[np.repeat(chosen, sizes)],
+                   offsets=np.concatenate(([0], np.cumsum(sizes[chosen]))), types=grid.types[chosen],
+                   cell_data={name: values[chosen] for name, values in grid.cell_data.items()})

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stands in each table, as data. A new table is a new entry of TABLES; no code belongs to it."""
 
+import math
 from dataclasses import dataclass
 from typing import Callable, Optional
 
@@ -28,10 +29,11 @@ class Measure:
         if self.format is None:
             return None, [field or form.MISSING for field in fields]
         try:
-            values = [float(field) if field else float("nan") for field in fields]
+            values = [float(field) if field else math.nan for field in fields]
         except ValueError as error:
             raise ResultsError(f"Column `{self.column}` holds something that is not a number "
                                f"({error}).") from None
+        values = [value if math.isfinite(value) else math.nan for value in values]
         return values, self.format(values)
 
 
@@ -79,9 +81,8 @@ SOLVER = TableDescription(
     content="solver", source="summary", keys=("mesh", "degree", "method"),
     caption="Performance of the CG solver",
     measures=(
-        Measure("condition_number", Heading("cond(A)", r"$\mathrm{cond}(A)$"),
-                form.format_scientific),
-        Measure("cg_iterations", Heading("CG iterations", "CG iterations"), form.format_integer),
+        Measure("condition_number", SYMBOLS["condition_number"], form.format_scientific),
+        Measure("cg_iterations", SYMBOLS["cg_iterations"], form.format_integer),
         Measure("jacobi_cg_iterations", Heading("with Jacobi", "with Jacobi"), form.format_integer),
         Measure("cg_seconds", TIME, form.format_seconds, difference=False),
         Measure("amg_cg_iterations", Heading("with AMG", "with AMG"), form.format_integer),

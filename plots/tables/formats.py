@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes a Table as aligned text, as Markdown and as LaTeX (booktabs, graphicx)."""
+"""Writes a Table as aligned text and as Markdown."""
 
 import re
 import textwrap
 from dataclasses import replace
-
-from .table import escape_tex
 
 TERMINAL_WIDTH = 110
 GAP = 2  # blanks between groups; within a group there is one
@@ -21,21 +19,25 @@ def superscript(letter):
 def as_text(table, width=TERMINAL_WIDTH):
     """The table for a terminal; groups that do not fit the width go to a panel below."""
     key_width = sum(w + GAP for w in key_widths(table))
-    panels, used = [[]], key_width
-    for group in table.groups:
-        needed = GAP + group_width(group)
-        if panels[-1] and used + needed > width:
-            panels.append([])
-            used = key_width
-        panels[-1].append(group)
-        used += needed
     lines = [table.caption, ""]
-    for panel in panels:
-        lines += panel_lines(replace(table, groups=tuple(panel))) + [""]
+    for panel in split(table, width - key_width, lambda group: GAP + group_width(group)):
+        lines += panel_lines(panel) + [""]
     for letter, sentence in table.notes:
         lines += textwrap.wrap(sentence, width, initial_indent=f"{superscript(letter):2}",
                                subsequent_indent="  ")
     return "\n".join(line.rstrip() for line in lines).rstrip() + "\n"
+
+
+def split(table, width, width_of):
+    """Tables of some groups each, as many in each as fit a width; `width_of` is that of a group."""
+    panels, used = [[]], 0
+    for group in table.groups:
+        if panels[-1] and used + width_of(group) > width:
+            panels.append([])
+            used = 0
+        panels[-1].append(group)
+        used += width_of(group)
+    return [replace(table, groups=tuple(panel)) for panel in panels]
 
 
 def panel_lines(table):
@@ -118,48 +120,3 @@ def as_markdown(table):
     for letter, sentence in table.notes:
         lines.append((f"<sup>{letter}</sup> " if letter else "") + escape_markdown(sentence) + "  ")
     return "\n".join(lines).rstrip() + "\n"
-
-
-def as_latex(table):
-    """The table for LaTeX; needs the packages booktabs and graphicx.
-
-    Shrunk to the line width if it is wider, never enlarged.
-    """
-    columns = "l" * len(table.key_headings)
-    first, second, rules, column = [h.tex for h in table.key_headings], [], [], len(columns) + 1
-    second = ["" for _ in first]
-    for group in table.groups:
-        n = len(group.subheadings)
-        columns += "l" if group.heading.text in table.left_aligned else "r" * n
-        first.append(rf"\multicolumn{{{n}}}{{c}}{{{group.heading.tex}}}" if n > 1
-                     else group.heading.tex)
-        second += [escape_tex(subheading) for subheading in group.subheadings]
-        rules += [rf"\cmidrule(lr){{{column}-{column + n - 1}}}"] if n > 1 else []
-        column += n
-    body = []
-    for number, key in enumerate(table.keys):
-        if number in table.rules:
-            body.append(r"\addlinespace")
-        cells = list(key) + [cell for group in table.groups for cell in group.cells[number]]
-        body.append(" & ".join(tex_cell(cell) for cell in cells) + r" \\")
-    header = [" & ".join(first) + r" \\"]
-    if any(second):
-        header += ["".join(rules), " & ".join(second) + r" \\"]
-    notes = [rf"\textsuperscript{{{letter}}}~{escape_tex(sentence)}" if letter
-             else escape_tex(sentence) for letter, sentence in table.notes]
-    caption = table.caption.partition(": ")[2] if table.caption.startswith("Table ") else table.caption
-    lines = [r"% Needs \usepackage{booktabs} and \usepackage{graphicx}.", r"\begin{table}", r"\centering",
-             rf"\caption{{{escape_tex(caption)}}}", rf"\label{{tab:{table.name}}}", r"\footnotesize",
-             r"\setlength{\tabcolsep}{3pt}",
-             r"\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{%",
-             rf"\begin{{tabular}}{{{columns}}}", r"\toprule", *header, r"\midrule", *body,
-             r"\bottomrule", r"\end{tabular}}"]
-    lines += [r"\par\smallskip\begin{minipage}{\linewidth}\scriptsize",
-              "\\par\n".join(notes), r"\end{minipage}"] if notes else []
-    return "\n".join(lines + [r"\end{table}"]) + "\n"
-
-
-def tex_cell(cell):
-    """A cell in LaTeX with its mark; \\rlap keeps the digits of marked numbers in their columns."""
-    text = cell.tex or escape_tex(cell.text)
-    return text + (rf"\rlap{{\textsuperscript{{{cell.mark}}}}}" if cell.mark else "")

@@ -29,7 +29,8 @@ def theorem_table(results):
             for name in ("measured", "expected")}
     verdicts = [text_cell("yes" if text == "true" else "NO") for text in rows.text("holds")]
     return Table(
-        name="table_theorems", caption=f"{results.study_title}: the theorems of Chapter 2, measured",
+        study=results.study, name="table_theorems",
+        caption=f"{results.study_title}: the theorems of Chapter 2, measured",
         key_headings=(Heading("Theorem", "Theorem"),),
         keys=tuple((text_cell("" if i and names[i - 1] == name else name),)
                    for i, name in enumerate(names)),
@@ -57,7 +58,7 @@ def classification_table(results):
     keys, *numbers = zip(*counted)
     headings = ("Pairs inside the domains", "Pairs on the lines", "Disagreements")
     return Table(
-        name="table_classification",
+        study=results.study, name="table_classification",
         caption=f"{results.study_title}: limits predicted, against those found by iteration",
         key_headings=(Heading("n", "$n$"),), keys=tuple((number_cell(n),) for n in keys), rules=(),
         left_aligned=(),

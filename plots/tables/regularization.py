@@ -39,12 +39,13 @@ def compared(heading, texts, printed):
 
 def make_regularization_tables(results):
     """The fastest sigma of each series, and the fractions of valid elements."""
-    printed = printed_numbers()
+    printed = printed_numbers() if results.is_thesis_study else {}
     series = groups_of(results.counts, "element", "transformation", "start")
     least = [least_mean(rows) for _, rows in series]
     at_two = [rows.number("mean")[-1] for _, rows in series]
     fastest = Table(
-        name="table_fastest", caption=f"{results.study_title}: sigma with the fewest transformations",
+        study=results.study, name="table_fastest",
+        caption=f"{results.study_title}: sigma with the fewest transformations",
         key_headings=tuple(Heading(n, n) for n in ("Element", "Transformation", "Start")),
         keys=tuple(tuple(number_cell(text) for text in key) for key, _ in series), rules=(),
         left_aligned=(),
@@ -55,11 +56,13 @@ def make_regularization_tables(results):
                 compared("Mean number at the largest sigma", [f"{mean:.2f}" for mean in at_two],
                          [None] * len(series))),
         notes=(("", "Transformations until the mean ratio is at least 1 - tolerance; least mean over the "
-                    "sigmas that made every element regular. The thesis does not say what its printed "
-                    "number started from; it is the one for valid elements."),))
+                    "sigmas that made every element regular." + (
+                        " The thesis does not say what its printed number started from; it is the one "
+                        "for valid elements." if printed else "")),))
     elements = list(results.validity.text("element"))
     valid = Table(
-        name="table_valid", caption=f"{results.study_title}: valid ones among random elements (%)",
+        study=results.study, name="table_valid",
+        caption=f"{results.study_title}: valid ones among random elements (%)",
         key_headings=(Heading("Element", "Element"),),
         keys=tuple((number_cell(element),) for element in elements), rules=(), left_aligned=(),
         groups=(compared("Valid", [f"{100 * fraction:.2f}" for fraction in results.validity.number("share")],

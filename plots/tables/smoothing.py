@@ -63,7 +63,8 @@ def make_table(description, results, printed):
         sentences = tuple(("", sentence) for sentence in (
             *comparison_notes(printed, results), COLUMNS_NOTE,
             *order_notes(description, pairs, results))) + sentences
-    return Table(name=f"table_{name}", caption=caption, keys=keys, rules=rules, groups=groups,
+    return Table(study=results.study, name=f"table_{name}", caption=caption, keys=keys, rules=rules,
+                 groups=groups,
                  key_headings=tuple(KEY_HEADINGS[key] for key in description.keys),
                  left_aligned=("Status", "cond(A) by"), notes=sentences)
 

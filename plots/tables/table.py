@@ -29,6 +29,7 @@ class Group:
 class Table:
     """A table ready to be written in any format."""
 
+    study: str  # with the name it makes a label that other studies' tables do not have
     name: str
     caption: str
     key_headings: tuple

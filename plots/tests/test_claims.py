@@ -6,7 +6,7 @@ import math
 import re
 
 from plots.__main__ import main
-from plots.claims.check import (FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, cases_of, check_claim,
+from plots.claims.check import (COARSE, FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, cases_of, check_claim,
                                 check_claims, met_in, number_of, read_claims, verdict_of)
 from plots.claims.expressions import Missing, evaluate
 from plots.claims.report import claims_as_markdown
@@ -191,6 +191,29 @@ class ClaimsOfTheThesis(InFolder):
         folder = write_results(self.folder / "own", study="slab")
         self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
         self.assertFalse((folder / "tables" / "claims.md").exists())
+
+    def test_quick_meshes_are_too_coarse_to_judge(self):
+        folder = write_results(self.folder / "r")
+        verdicts, texts = {}, {}
+        for scale in ("default", "quick"):
+            change_provenance(folder, scale=scale)
+            results = read_results(folder)
+            outcomes = check_claims(read_claims("gear"), results, read_printed_tables("gear", {}))
+            verdicts[scale] = [outcome.verdict for outcome in outcomes]
+            texts[scale] = claims_as_markdown(outcomes, results)
+        self.assertIn(FAILS, verdicts["default"])
+        self.assertEqual(verdicts["quick"], [COARSE if v == FAILS else v for v in verdicts["default"]])
+        n = verdicts["quick"].count(COARSE)
+        self.assertIn(f"{n} do not hold", texts["default"])
+        self.assertIn(f"the meshes are too coarse to judge {n},", texts["quick"])
+        self.assertIn(f"| {COARSE} |", texts["quick"])
+        self.assertNotIn("not hold", texts["quick"])
+
+    def test_a_study_of_the_users_has_no_claims_whatever_its_name(self):
+        folder = write_results(self.folder / "r")
+        self.assertNotEqual(read_claims(read_results(folder).thesis_study), [])
+        change_provenance(folder, built_in=False)
+        self.assertEqual(read_claims(read_results(folder).thesis_study), [])
 
     def test_count_of_verdicts(self):
         results = read_results(write_results(self.folder / "r"))

@@ -9,7 +9,7 @@ import numpy as np
 
 from plots.__main__ import main
 from plots.figures import style
-from plots.figures.history import dominant_method, draw_history, annotate_free_area
+from plots.figures.history import annotate_free_area, draw_history
 from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
@@ -66,19 +66,12 @@ class Figures(InFolder):
             self.assertFalse(np.isnan(lines["getme"].get_ydata()).any())
         style.pyplot.close(figure)
 
-    def test_a_dominant_method_ends_the_axis_early(self):
-        def lines(*seconds):
-            return {str(i): (np.array([0, end]), np.array([0.1, 0.2])) for i, end in enumerate(seconds)}
-        self.assertEqual(dominant_method(lines(1.0, 30.0)), ("1", 5.0))
-        for seconds in ((1.0, 10.0), (1.0,), (0.0, 10.0)):
-            self.assertEqual(dominant_method(lines(*seconds)), ("", np.inf))
-
     def test_words_stay_off_the_lines(self):
         for height, expected in ((0.1, 0.9), (0.95, 0.1)):
             figure, axes = style.pyplot.subplots()
             axes.plot([0, 1], [height, height])
             axes.set(xlim=(0, 1), ylim=(0, 1))
-            annotate_free_area(axes, "words")
+            annotate_free_area(axes, ["words"])
             self.assertAlmostEqual(axes.texts[0].get_position()[1], expected)
             style.pyplot.close(figure)
 

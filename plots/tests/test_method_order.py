@@ -9,7 +9,8 @@ from types import SimpleNamespace
 from plots.results.printed_values import read_printed_tables
 from plots.results.smoothing import read_results
 from plots.tables.descriptions import ERRORS, SMOOTHING, THRESHOLDS
-from plots.tables.formats import as_latex, as_markdown, as_text
+from plots.tables.formats import as_markdown, as_text
+from plots.tables.latex import as_latex
 from plots.tables.method_order import order_notes
 from plots.tables.smoothing import make_tables
 from plots.tests.synthetic_results import without_finite_elements, write_results

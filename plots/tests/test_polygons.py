@@ -16,9 +16,11 @@ from plots.figures.polygons import angle_text, draw_decomposition, draw_limits, 
 from plots.figures.side_ratios import draw_side_ratios
 from plots.results.polygons import nodes_of, read_polygon_results
 from plots.results.rows import groups_of
-from plots.tables.formats import as_latex, as_markdown, as_text
+from plots.tables.formats import as_markdown, as_text
+from plots.tables.latex import as_latex
 from plots.tables.polygons import make_polygon_tables
 from plots.tests.synthetic_polygons import write_polygon_results
+from plots.tests.synthetic_results import change_provenance
 from plots.tests.test_read_results import InFolder
 
 
@@ -40,10 +42,24 @@ class PolygonStudy(InFolder):
             files = sorted(self.results_folder.glob("*s/*"))
             contents.append({path.name: path.read_bytes() for path in files})
         self.assertEqual(contents[0], contents[1])
-        figures = {name + suffix for name in FIGURES for suffix in (".pdf", ".png")}
+        figures = {"_".join(filter(None, ("figure", number, name))) + suffix
+                   for name, (number, _, _) in FIGURES.items() for suffix in (".pdf", ".png")}
+        self.assertIn("figure_2_3_limits.pdf", figures)
         tables = {f"table_{name}{suffix}" for name in ("theorems", "classification")
                   for suffix in (".md", ".tex")}
         self.assertEqual(set(contents[0]), figures | tables)
+
+    def test_a_study_of_the_users_has_no_numbers_of_the_thesis(self):
+        change_provenance(self.results_folder, built_in=False)
+        self.assertEqual(self.run_main("--quiet", "--no-figures", "--only", "theorems"), (0, "", ""))
+        self.assertEqual(self.run_main("--quiet", "--only", "limits,domains", "--format", "png"), (0, "", ""))
+        self.assertEqual({path.name for path in self.results_folder.glob("*s/*")},
+                         {"table_theorems.md", "table_theorems.tex", "limits.png", "domains.png"})
+
+    def test_methods_and_columns_are_none_of_its(self):
+        code, _, errors = self.run_main("--methods", "getme")
+        self.assertEqual(code, 2)
+        self.assertRegex(errors, r"^[^\n]*kind `polygons` has no methods[^\n]*\.\n$")
 
     def test_what_does_not_hold_is_seen(self):
         theorems, classification = make_polygon_tables(read_polygon_results(self.results_folder))
@@ -110,10 +126,13 @@ class PolygonFigures(InFolder):
         mask[0] = False
         self.assertEqual([clearance(mask, 3, 2), clearance(mask, 1, 2)], [2, 1])
 
-    def test_bounds_are_drawn_for_every_second_step(self):
+    def test_bounds_are_drawn_for_every_second_step_and_lines_until_they_are_exact(self):
         axes = draw_side_ratios(self.results).axes[0]
         lengths = [len(line.get_xdata()) for line in axes.get_lines()]
-        self.assertEqual(lengths, [1, 1, 31, 16])
+        # The first transformation is exact after a step, where its line leaves the panel.
+        self.assertEqual(lengths, [2, 1, 31, 16])
+        exact = axes.get_lines()[0].get_ydata()
+        self.assertTrue(0 < exact[1] < axes.get_ylim()[0])
 
     def test_angles_are_written_as_parts_of_pi(self):
         for theta, text in ((math.pi / 3, r"\pi/3"), (7 * math.pi / 16, r"7\pi/16"), (0.1, "0.100")):

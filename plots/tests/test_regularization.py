@@ -8,10 +8,10 @@ import json
 from plots.__main__ import main
 from plots.figures import style
 from plots.figures.regularization import ELEMENTS, FIGURES, STARTS, draw_corridor, draw_speeds
-from plots.results.regularization import COUNTS, read_regularization_results
+from plots.results.regularization import COUNTS, STUDY, read_regularization_results
 from plots.tables.formats import as_text
 from plots.tables.regularization import make_regularization_tables
-from plots.tests.synthetic_results import write_csv
+from plots.tests.synthetic_results import change_provenance, write_csv
 from plots.tests.test_read_results import InFolder
 
 SIGMAS = [0.0, 0.5, 1.0, 2.0]
@@ -33,7 +33,7 @@ def write_results(folder):
     valid = [{"element": e, "n_elements": 10, "n_valid": 5, "share": 0.5} for e in ELEMENTS]
     write_csv(folder / "validity.csv", list(valid[0]), valid)
     (folder / "provenance.json").write_text(json.dumps(
-        {"study": "r", "study_title": "R", "parameters": {"kind": "regularization"}}))
+        {"study": STUDY, "study_title": "R", "parameters": {"kind": "regularization"}}))
     return folder
 
 
@@ -60,10 +60,18 @@ class Regularization(InFolder):
     def test_files(self):
         folder = write_results(self.folder / "r")
         self.assertEqual(main([str(folder), "--quiet"]), 0)
-        for name in FIGURES:
+        for name, (number, _, _) in FIGURES.items():
             for suffix in ("pdf", "png"):
-                self.assertGreater((folder / "figures" / f"{name}.{suffix}").stat().st_size, 1000)
+                self.assertGreater((folder / "figures" / f"figure_{number}_{name}.{suffix}").stat().st_size, 1000)
         self.assertTrue((folder / "tables" / "table_fastest.tex").exists())
+
+    def test_a_study_of_the_users_has_no_numbers_of_the_thesis(self):
+        folder = write_results(self.folder / "r")
+        change_provenance(folder, built_in=False)
+        self.assertEqual(main([str(folder), "--quiet", "--format", "svg"]), 0)
+        self.assertEqual({path.name for path in folder.glob("figures/*")}, {"corridor.svg", "speeds.svg"})
+        for path in folder.glob("tables/*.md"):
+            self.assertNotIn("printed", path.read_text())
 
     def test_what_is_missing(self):
         folder = write_results(self.folder / "r")

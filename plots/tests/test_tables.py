@@ -2,16 +2,20 @@
 """Ours beside the printed numbers, in all formats."""
 
 import math
+import re
+from dataclasses import replace
 from fnmatch import fnmatchcase
 
 from plots.results.data_folder import thesis_folder
 from plots.results.printed_values import read_printed_tables
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
-from plots.tables.formats import TERMINAL_WIDTH, as_latex, as_markdown, as_text
+from plots.results.symbols import Heading
+from plots.tables.formats import TERMINAL_WIDTH, as_markdown, as_text
+from plots.tables.latex import as_latex, panels_of
 from plots.tables.number_format import format_error, grouped, relative_difference
 from plots.tables.smoothing import make_tables
-from plots.tables.table import escape_tex
+from plots.tables.table import Cell, Group, Table, escape_tex
 from plots.tests.synthetic_results import (change_provenance, without_columns,
                                            without_finite_elements, write_results)
 from plots.tests.test_read_results import InFolder
@@ -37,9 +41,9 @@ class Numbers(InFolder):
 
 
 class Tables(InFolder):
-    def tables(self, **arguments):
-        results = read_results(write_results(self.folder / "r", **arguments))
-        printed = read_printed_tables(results.study, results.provenance)
+    def tables(self, folder="r", **arguments):
+        results = read_results(write_results(self.folder / folder, **arguments))
+        printed = read_printed_tables(results.thesis_study, results.provenance)
         return {table.name: table for table in make_tables(results, printed)}
 
     def test_ours_beside_printed(self):
@@ -125,18 +129,49 @@ class Tables(InFolder):
         for table in self.tables().values():
             latex = as_latex(table)
             self.assertIn(r"\caption{A \& B\_1: ", latex)
-            body = latex[latex.index(r"\midrule"):latex.index(r"\bottomrule")].splitlines()
-            columns = len(table.keys[0]) + sum(len(group.subheadings) for group in table.groups)
-            rows = [line for line in body if line.endswith(r"\\")]
-            self.assertEqual({line.count(" & ") for line in rows}, {columns - 1})
+            bodies = [part.partition(r"\bottomrule")[0] for part in latex.split(r"\midrule")[1:]]
+            panels = panels_of(table)
+            self.assertEqual(len(bodies), len(panels))
+            for body, panel in zip(bodies, panels):
+                columns = len(table.keys[0]) + sum(len(group.subheadings) for group in panel.groups)
+                rows = [line for line in body.splitlines() if line.endswith(r"\\")]
+                self.assertEqual({line.count(" & ") for line in rows}, {columns - 1})
+                self.assertEqual(len(rows), len(table.keys))
             self.assertEqual(latex.count("{"), latex.count("}"))
         self.assertIn(r"$7.39\cdot10^{2}$\rlap{\textsuperscript{a}}",
                       as_latex(self.tables_of("r", "solver")))
 
+    def test_labels_of_two_studies_do_not_clash(self):
+        labels = {re.search(r"\\label\{(.*?)\}", as_latex(table))[1]
+                  for study in ("one", "two") for table in self.tables(study=study, folder=study).values()}
+        self.assertLessEqual({"tab:one:smoothing", "tab:two:smoothing", "tab:two:details"}, labels)
+        self.assertEqual(len(labels), 10)
+
+    def test_wide_tables_are_split_not_shrunk(self):
+        keys = (Heading("Mesh", "Mesh"),)
+        groups = tuple(Group(Heading(f"Method number {i} (s)", ""), ("ours", "printed"),
+                             ((Cell("0.123"), Cell("0.1")),) * 3) for i in range(11))
+        wide = Table("own", "table_thresholds", "", keys, ((Cell("tri"),),) * 3, (), (), groups, ())
+        panels = panels_of(wide)
+        self.assertEqual(tuple(group for panel in panels for group in panel.groups), groups)
+        self.assertEqual(sorted(len(panel.groups) for panel in panels), [3, 4, 4])
+        self.assertEqual(as_latex(wide).count(r"\begin{tabular}"), 3)
+        self.assertEqual(as_latex(wide).count(r"\caption"), 1)
+        narrow = replace(wide, groups=groups[:3])
+        self.assertEqual(panels_of(narrow), [narrow])
+
+    def test_a_study_of_the_users_is_not_compared_whatever_its_name(self):
+        folder = write_results(self.folder / "gear")
+        change_provenance(folder, built_in=False)
+        results = read_results(folder)
+        for table in make_tables(results, read_printed_tables(results.thesis_study, results.provenance)):
+            self.assertNotIn("printed", as_text(table))
+            self.assertNotIn("6_", table.name)
+
     def tables_of(self, folder, content):
         """A table of a folder that has been written before."""
         results = read_results(self.folder / folder)
-        printed = read_printed_tables(results.study, results.provenance)
+        printed = read_printed_tables(results.thesis_study, results.provenance)
         return next(t for t in make_tables(results, printed) if t.name.endswith(content))
 
 

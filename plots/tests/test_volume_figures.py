@@ -14,6 +14,7 @@ from plots.figures.element_types import counts_of_types, draw_element_types, is_
 from plots.figures.histograms import draw_histogram_differences, draw_histograms
 from plots.figures.meshes import columns_of
 from plots.figures.pages import pages
+from plots.figures.sections import detail_of
 from plots.figures.smoothing_study import read_grids
 from plots.figures.volume_geometry import Cut, view_of, widest_cut
 from plots.results.smoothing import read_results
@@ -60,6 +61,20 @@ class Geometry(InFolder):
         view = cut.view(grid)
         for cells, width in ((1, 1.0), (100, 0.5 * min(view.width, view.height))):
             self.assertAlmostEqual(cut.densest_window(grid, view, cells)[1], width)
+
+    def test_a_detail_of_a_narrow_cut_is_filled(self):
+        points, cells = box("hex", (60, 2, 2))
+        grid = UnstructuredGrid(points=points, connectivity=cells.ravel(), offsets=8 * np.arange(len(cells) + 1),
+                                types=np.full(len(cells), 12), point_data={}, cell_data={})
+        cut = Cut((30, 1, 1), (0, 0, 1))
+        view = replace(cut.view(grid), height=40.0)  # of a solid that is high elsewhere
+        centre, width = detail_of(grid, cut, view)
+        self.assertLessEqual(width, 6.0)  # of 16 cells an eighth would be filled
+        self.assertLess(abs(centre[1] - 1), 0.6)
+        thick, cells = box("hex", (60, 20, 2))
+        grid = replace(grid, points=thick, connectivity=cells.ravel(), offsets=8 * np.arange(len(cells) + 1),
+                       types=np.full(len(cells), 12))
+        self.assertEqual(detail_of(grid, cut, replace(view, width=60.0))[1], 16.0)
 
     def test_view_holds_all_points(self):
         points = self.grid("tet").points
@@ -147,6 +162,22 @@ class Histograms(InFolder):
                          {"0.02": 1, "0.52": 1, "0.98": -2})
         self.assertFalse(lines["getme"].get_ydata().any())
         self.assertNotIn("own", lines)
+        self.assertEqual(figure.axes[0].get_yscale(), "linear")
+        style.pyplot.close(figure)
+
+    def test_small_differences_are_seen_beside_large_ones(self):
+        results = read_results(write_volume_results(self.folder / "r", "own", ("hex", "hex-distorted"),
+                                                    ("getme", "own")))
+        qualities = {(mesh, method): [0.9] * 100 for mesh in results.meshes for method in ("getme", "own")}
+        qualities["hex-distorted", "own"] = [0.5] * 100
+        qualities["hex-distorted", "getme"] = [0.9] * 98 + [0.5] * 2
+        style.apply_style()
+        figure = draw_histogram_differences(results, [("hex", "hex-distorted")], qualities)
+        axes = figure.axes[0]
+        self.assertEqual(axes.get_yscale(), "symlog")
+        heights = axes.transAxes.inverted().transform(axes.transData.transform([(0, 0), (0, 2), (0, 100)]))[:, 1]
+        self.assertGreater(heights[1] - heights[0], 0.02)  # on a linear axis 2 of 200 would be 0.01
+        self.assertLess(heights[2], 1)
         style.pyplot.close(figure)
 
 
@@ -187,6 +218,6 @@ class VolumeStudy(InFolder):
         with mock.patch("shutil.which", return_value=None):
             errors, names = self.run_main(folder)
         self.assertEqual(errors.count("\n"), 1, errors)
-        self.assertIn("No pictures of volume meshes", errors)
+        self.assertIn("No pictures of volume meshes and surfaces", errors)
         self.assertIn("figure_6_7_histograms", names)
         self.assertNotIn("figure_6_6_meshes", names)

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "smoothing/loop/smoother.h"
@@ -76,8 +77,16 @@ Stages<dim, spacedim> stages_of(const std::string& name);
 /// The one stage of a method that is a single smoother.
 template <class SmootherType, int dim, int spacedim = dim>
 Stages<dim, spacedim> make_single_stage() {
+  static_assert(std::is_base_of_v<Smoother<dim, spacedim>, SmootherType>,
+                "a smoother derives from Smoother<dim>, or on surfaces too from "
+                "Smoother<dim, spacedim>");
+  static_assert(!std::is_abstract_v<SmootherType>,
+                "a smoother needs 'std::string_view name() const override' and 'StepReport "
+                "step(SmoothingState<dim>& state) override'");
   Stages<dim, spacedim> stages;
-  stages.push_back(std::make_unique<SmootherType>());
+  if constexpr (std::is_base_of_v<Smoother<dim, spacedim>, SmootherType> &&
+                !std::is_abstract_v<SmootherType>)
+    stages.push_back(std::make_unique<SmootherType>());
   return stages;
 }
 

@@ -369,6 +369,14 @@ TEST(FindStudy, TakesNamesOfBuiltInStudiesAndPaths) {
       << input_error_of([&] { find_study("geer"); });
 }
 
+TEST_F(StudyFile, IsBuiltInWithTheNameAndTheTextOfAStudyOfTheProgramOnly) {
+  const std::string text = content_of(gear_file);
+  EXPECT_TRUE(read_study(find_study("gear")).header.built_in);
+  EXPECT_TRUE(read_study(file_with("gear.prm", text)).header.built_in);
+  EXPECT_FALSE(read_study(file_with("gear.prm", text + "set record every = 2\n")).header.built_in);
+  EXPECT_FALSE(read_study(file_with("mine.prm", text)).header.built_in);
+}
+
 TEST_F(StudyFile, AScaleMayTakeSomeOfTheMeshes) {
   const auto path = file_with("own.prm",
                               "set meshes = a, b, c\nset scales = small, odd\n"

@@ -21,6 +21,7 @@ TEST_F(Readme, OptionsInItsTextExist) {
   std::string help = content_of(root / "run");
   for (const std::string command : {"study", "smooth", "quality", "generate", "list"})
     help += smoothfem({command, "--help"}).out;
+  help += content_of(root / "plots/command_line.py");  // the launcher's command plot
   const std::string text = content_of(root / "README.md") + content_of(root / "results/README.md");
   const std::regex option("[ `]--[a-z][a-z-]*");
   std::size_t n_found = 0;

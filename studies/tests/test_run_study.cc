@@ -250,6 +250,7 @@ TEST_F(RunStudy, ProvenanceSaysWhereEverythingComesFrom) {
   EXPECT_EQ(json.at("status"), "complete");
   EXPECT_EQ(json.at("study"), "tiny");
   EXPECT_EQ(json.at("scale"), "default");
+  EXPECT_EQ(json.at("built_in"), false);
   for (const std::string key : {"version", "commit", "compiler", "flags"})
     EXPECT_FALSE(json.at("program").at(key).get<std::string>().empty()) << key;
   EXPECT_TRUE(json.at("program").at("uncommitted_changes").is_boolean());

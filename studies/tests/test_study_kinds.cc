@@ -25,6 +25,7 @@ TEST_F(CommandLine, RunsAStudyOfPolygons) {
   EXPECT_EQ(json.at("status"), "complete");
   EXPECT_EQ(json.at("study_title"), "Mine");
   EXPECT_EQ(json.at("parameters").at("kind"), "polygons");
+  EXPECT_EQ(json.at("built_in"), false);
   EXPECT_EQ(json.at("seconds").size(), files_in(file("results/my")).size() - 1);
 }
 
@@ -58,6 +59,9 @@ TEST_F(CommandLine, TheQuickScaleOfTheBuiltInPolygonStudyHolds) {
   EXPECT_EQ(content_of(file("results/polygons/theorems.csv")).find(",false"), std::string::npos);
   EXPECT_EQ(content_of(file("results/polygons/classification.csv")).find(",false"),
             std::string::npos);
+  EXPECT_EQ(
+      nlohmann::json::parse(content_of(file("results/polygons/provenance.json"))).at("built_in"),
+      true);
 }
 
 TEST_F(CommandLine, KindsThatDoNotExistAreNamedWithThoseThatDo) {

@@ -5,6 +5,7 @@
 
 #include "smoothing/base/data_folder.h"
 #include "smoothing/base/find_named.h"
+#include "studies/framework/definition/study_file.h"
 
 namespace smoothfem {
 
@@ -30,6 +31,11 @@ fs::path find_study(const std::string& path_or_name) {
   const auto built_in = study_files(built_in_studies());
   return find_named("study", path_or_name, built_in,
                     [](const fs::path& file) { return file.stem().string(); });
+}
+
+bool is_built_in(const fs::path& file) {
+  const fs::path own = built_in_studies() / file.filename();
+  return fs::is_regular_file(own) && read_study_text(own) == read_study_text(file);
 }
 
 }  // namespace smoothfem

@@ -17,4 +17,9 @@ std::vector<std::filesystem::path> study_files(const std::filesystem::path& fold
 /// InputError for what is neither a file nor looks like the path of one.
 std::filesystem::path find_study(const std::string& path_or_name);
 
+/// Whether a study file, wherever it is, has the name and the text of one that comes with the
+/// program: only then what the literature says is about it. Throws InputError as built_in_studies
+/// and read_study_text do.
+bool is_built_in(const std::filesystem::path& file);
+
 }  // namespace smoothfem

@@ -3,6 +3,7 @@
 
 #include "smoothing/base/find_named.h"
 #include "studies/framework/definition/check_study.h"
+#include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/study.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/definition/study_keys.h"
@@ -158,6 +159,7 @@ StudyHeader read_header(ParameterHandler& p, const std::filesystem::path& file,
                      .title = p.get("title"),
                      .note = p.get("note"),
                      .scale = scale,
+                     .built_in = is_built_in(file),
                      .parameters = {},
                      .file_parameters = said_parameters(p)};
   check_label(header.name, "study", file.string());

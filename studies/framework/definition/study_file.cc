@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "smoothing/base/find_named.h"
+#include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/parse_messages.h"
 
 namespace smoothfem {
@@ -143,6 +144,7 @@ StudyHeader read_table_study(ParameterHandler& p, const std::filesystem::path& f
   header.name = file.stem().string();
   header.title = p.get("title").empty() ? header.name : p.get("title");
   header.scale = scale;
+  header.built_in = is_built_in(file);
   header.file_parameters = all_parameters(p);
   check_label(header.name, "study", file.string());
   apply_scale(p, scale, file.string(), numbers);

@@ -141,6 +141,7 @@ std::string provenance_json(const RunFacts& facts) {
   json["status"] = facts.status;
   json["written"] = now_utc();
   json["scale"] = facts.study.scale.empty() ? "default" : facts.study.scale;
+  json["built_in"] = facts.study.built_in;
   json["program"] = describe_program();
   json["machine"] = describe_machine(facts);
   json["meshes"] = describe_meshes(facts);

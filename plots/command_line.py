@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command lines of the package."""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+from .results.names import select, short_name
+from .results.quality_histogram import read_quality_histogram
+from .results.request import Request
+from .results.rows import ResultsError
+from .results.write_files import write_atomically
+from .study_kinds import outputs_of
+from .tables.formats import as_markdown, as_text
+from .tables.latex import as_latex
+
+HISTOGRAM = "histogram"
+FORMATS = ("pdf", "png", "svg")
+MILLIMETRES = 25.4  # in an inch
+WIDTHS = (2.0, 30.0)  # inches
+
+
+def names(text):
+    """The items of "a, b", for argparse."""
+    return tuple(filter(None, (item.strip() for item in text.split(","))))
+
+
+def width(text):
+    """Inches of "84mm", "3.3in" or "3.3", for argparse."""
+    match = re.fullmatch(r"\s*(\d+\.?\d*|\.\d+)\s*(mm|in|)\s*", text)
+    inches = float(match[1]) / (MILLIMETRES if match[2] == "mm" else 1.0) if match else 0.0
+    if not WIDTHS[0] <= inches <= WIDTHS[1]:
+        raise argparse.ArgumentTypeError(f"'{text}' is no width from {WIDTHS[0]:.0f}in to {WIDTHS[1]:.0f}in, "
+                                         "such as 84mm or 3.3in")
+    return inches
+
+
+def formats(text):
+    """The formats in "pdf, svg", for argparse."""
+    wanted = names(text)
+    if not wanted or not set(wanted) <= set(FORMATS):
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of formats; choose from {', '.join(FORMATS)}")
+    return wanted
+
+
+class Parser(argparse.ArgumentParser):
+    """Refuses a command line in one sentence."""
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message}; --help shows what there is.\n")
+
+
+def parse_study(arguments):
+    """The command line for a results folder."""
+    parser = Parser(
+        prog="smoothfem plot", description="Makes tables and figures of a results folder anew.",
+        epilog="Lists are separated by commas. From the sources: python3 -m plots FOLDER. "
+               f"python3 -m plots {HISTOGRAM} --help: numbers of cells by mean ratio as a figure.")
+    parser.add_argument("folder", help="results folder of a study, e.g. results/gear")
+    parser.add_argument("--only", type=names, default=(), metavar="NAMES",
+                        help="these figures and tables only, by their file names with or without number; "
+                        "patterns such as 'history*' too")
+    parser.add_argument("--methods", type=names, default=(), help="with these methods only")
+    parser.add_argument("--meshes", type=names, default=(), help="with these meshes only")
+    parser.add_argument("--y", type=names, default=(), metavar="COLUMNS",
+                        help="draw these columns of iterations.csv, a row of panels each; without --only "
+                        "nothing else is made")
+    parser.add_argument("--x", default="", metavar="COLUMN",
+                        help="the same against this column, not against the smoothing time")
+    parser.add_argument("--log-x", action="store_true", help="the same with a logarithmic horizontal axis")
+    parser.add_argument("--log-y", action="store_true", help="the same with logarithmic vertical axes")
+    parser.add_argument("--width", type=width, metavar="WIDTH",
+                        help="width of the figures in inches or, with mm behind it, millimetres: 3.3, 84mm; "
+                        "7 inches unless given, less where there is little to show")
+    parser.add_argument("--format", type=formats, default=FORMATS[:2], metavar="FORMATS",
+                        help="pdf, png or svg; pdf,png unless given")
+    parser.add_argument("--out", type=Path, metavar="DIR",
+                        help="folder for the folders tables and figures; FOLDER unless given")
+    parser.add_argument("--no-figures", action="store_true", help="make the tables only")
+    parser.add_argument("--quiet", action="store_true", help="print neither tables nor paths")
+    options = parser.parse_args(arguments)
+    if options.no_figures and (options.x or options.y or options.log_x or options.log_y):
+        parser.error("--x, --y, --log-x and --log-y are about figures: leave out --no-figures")
+    return options
+
+
+def parse_histogram(arguments):
+    """The command line for a histogram."""
+    parser = Parser(
+        prog=f"python3 -m plots {HISTOGRAM}",
+        description="Draws numbers of cells by mean ratio, types of cells on top of each other.")
+    parser.add_argument("counts", type=Path, help="CSV file with the columns lower, upper, count and, if "
+                        "there is more than one type, cell_type")
+    parser.add_argument("figure", type=Path, help="file to write: .pdf, .png or .svg")
+    parser.add_argument("--title", help="what stands over the figure; the name of the CSV file if not given")
+    parser.add_argument("--q-min", type=float, help="lowest mean ratio, drawn as a line")
+    parser.add_argument("--q-mean", type=float, help="arithmetic mean, drawn as a line")
+    parser.add_argument("--n-invalid", type=int, default=0, help="invalid cells, named in the title")
+    return parser.parse_args(arguments)
+
+
+def warn(sentence):
+    """Says what is left out."""
+    print(sentence, file=sys.stderr)
+
+
+def planned_figures(outputs, request, only, width):
+    """The figures to choose from. Meshes are read only if figures of them may be among those chosen."""
+    # Matplotlib takes a second to load.
+    from .figures.style import FULL_WIDTH, apply_style
+
+    if width and width < outputs.least_width:
+        raise ResultsError(f"{outputs.folder}: the figures of this kind of study are at least "
+                           f"{outputs.least_width}in wide; choose a larger --width.")
+    apply_style(width or FULL_WIDTH)
+    planned = outputs.plan()
+    known = {*outputs.names, *(name for figure in planned for name in (figure.name, figure.whole))}
+    known |= {short_name(name) for name in known}
+    if known.issuperset(only) if only else request.has_history:
+        return planned
+    return outputs.plan_of_meshes(warn) + planned
+
+
+def make_study(options):
+    """Makes the tables and figures of a study; raises ResultsError or OSError. What can be wrong with
+    the results is found before the first file is written."""
+    request = Request(options.methods, options.meshes, options.x, options.y, options.log_x, options.log_y)
+    outputs = outputs_of(options.folder, request)
+    figures = [] if options.no_figures else planned_figures(outputs, request, options.only, options.width)
+    drawn = {figure.name: figure.whole for figure in figures}
+    wanted = (select(options.only, {**dict.fromkeys(outputs.names, ""), **drawn}) if options.only else
+              set(drawn) if request.has_history else {*outputs.names, *drawn})
+    tables = [table for table in outputs.tables if table.name in wanted]
+    texts = [(table.name + suffix, write(table)) for table in tables
+             for suffix, write in ((".md", as_markdown), (".tex", as_latex))]
+    texts += [(f"{name}.md", text) for name, text in outputs.texts.items() if name in wanted]
+
+    tell = (lambda text: None) if options.quiet else print
+    folder = options.out or outputs.folder
+    for sentence in outputs.warnings:
+        warn(sentence)
+    for table in tables:
+        tell(as_text(table))
+    paths = [write_atomically(folder / "tables" / name, text) for name, text in texts]
+    if not wanted.isdisjoint(drawn):
+        from .figures.planned import save_figures
+        paths += save_figures([figure for figure in figures if figure.name in wanted], outputs.study_title,
+                              folder / "figures", options.format, warn)
+    for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
+        tell(sentence)
+
+
+def make_histogram(options):
+    """Draws a histogram; raises ResultsError or OSError."""
+    # Matplotlib takes a second to load.
+    from .figures.quality_histogram import SUFFIXES, write_quality_histogram
+
+    if options.figure.suffix.lower() not in SUFFIXES:
+        raise ResultsError(f"{options.figure}: a figure ends with {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}.")
+    title = options.counts.name if options.title is None else options.title
+    write_quality_histogram(read_quality_histogram(options.counts, title, options.q_min, options.q_mean,
+                                                   options.n_invalid), options.figure)
+
+
+def run(arguments):
+    """Runs a command line; returns the exit code: 0, or 2 if the results cannot be used."""
+    # A terminal without UTF-8 gets replacement characters instead of an exception.
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="replace")
+    try:
+        if arguments[:1] == [HISTOGRAM]:
+            make_histogram(parse_histogram(arguments[1:]))
+        else:
+            make_study(parse_study(arguments))
+    except ResultsError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"The files cannot be written: {error}.", file=sys.stderr)
+        return 2
+    return 0

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a panel of a history shows, before it is drawn: a line for each method, and the range of its
+horizontal axis."""
+
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+
+from ..results.request import TIME
+from ..results.smoothing import INITIAL
+
+# Of the mesh, hence the same for every degree.
+QUALITY = ("q_min", "q_star_min", "q_mean", "w_max", "w_mean", "n_invalid", "n_reset", TIME, "iteration")
+FROM_ZERO = (TIME, "iteration")  # what is counted from a beginning on
+
+# One method that takes so many times as long as every other would squeeze all of them into a line:
+# then a linear axis ends at so many times the second longest time, and says when that one ends.
+DOMINANT_FROM, SHOWN_OF_DOMINANT = 20.0, 5.0
+
+MARGIN = 0.02  # of the range, on both sides
+# On a logarithmic axis zero has its place at the left, so much of the range before the first number.
+PLACE_OF_ZERO = 0.06
+
+
+@dataclass(frozen=True)
+class Line:
+    """One method on one mesh: an entry for each of its records, in their order. Numbers are NaN, and
+    the line has a gap, where the mesh is invalid or the file has none."""
+
+    x: np.ndarray
+    y: np.ndarray
+    valid: np.ndarray  # whether the record's mesh is
+    result: Optional[int] = None  # which record is that of the resulting mesh
+
+    @property
+    def shown(self):
+        """Which records can be drawn."""
+        return np.isfinite(self.x) & np.isfinite(self.y)
+
+    @property
+    def invalid_after(self):
+        """The last record shown before all meshes are invalid; None if it does not come to that."""
+        before = np.flatnonzero(self.shown & self.valid)
+        return None if self.valid[-1] or not len(before) else int(before[-1])
+
+    @property
+    def is_never_valid(self):
+        """Whether no mesh is valid but, perhaps, the initial one."""
+        return not (self.valid[1:] if len(self.valid) > 1 else self.valid).any()
+
+
+def panel_lines(results, name, mesh, degree, x=TIME):
+    """Method -> Line of a column against column `x`, on one mesh."""
+    rows = results.iterations.select(mesh=mesh)
+    if name in QUALITY:
+        degree = next((d for d in rows.text("degree")), degree)
+    rows = rows.select(degree=degree)
+    lines = {}
+    for method in (*results.methods, INITIAL):
+        chosen = rows.select(method=method)
+        if len(chosen):
+            valid = ~(chosen.number("n_invalid") > 0)
+            values = chosen.number(name)
+            # How many cells are invalid is known of invalid meshes, too.
+            y = values if name in ("n_invalid", "n_reset") else np.where(valid, values, np.nan)
+            lines[method] = Line(chosen.number(x), y, valid,
+                                 None if method == INITIAL else results.result_record(chosen))
+    return lines
+
+
+@dataclass(frozen=True)
+class Range:
+    """What a horizontal axis shows."""
+
+    low: float
+    high: float
+    logarithmic: bool = False
+    zero: Optional[float] = None  # where zero has its place on a logarithmic axis; None: nowhere
+    dominant: str = ""  # the one method that goes on beyond the end
+
+    def placed(self, x):
+        """Where numbers are on the axis; NaN where they have no place."""
+        if not self.logarithmic:
+            return x
+        place = np.nan if self.zero is None else self.zero
+        return np.where(x == 0, place, np.where(x > 0, x, np.nan))
+
+    def holds(self, x):
+        """Which of the placed numbers are before the end."""
+        with np.errstate(invalid="ignore"):
+            return ~(x > self.high)
+
+
+def range_of(panels, logarithmic, x=TIME):
+    """The Range of the lines that are drawn in panels below each other, each a result of panel_lines
+    against column `x`."""
+    drawn = [(method, line.x[line.shown]) for lines in panels for method, line in lines.items()
+             if method != INITIAL and line.shown.any()]
+    numbers = np.concatenate([values for _, values in drawn]) if drawn else np.array([0.0, 1.0])
+    if logarithmic and (numbers > 0).any():
+        return logarithmic_range(numbers)
+    if x not in FROM_ZERO:
+        margin = MARGIN * (np.ptp(numbers) or 1.0)
+        return Range(numbers.min() - margin, numbers.max() + margin)
+    ends = {}
+    for method, values in drawn:
+        ends[method] = max(ends.get(method, 0.0), values.max())
+    dominant, limit = dominant_method(ends) if x == TIME else ("", np.inf)
+    last = max(ends.values(), default=0.0) or 1.0
+    return Range(-MARGIN * min(last, limit), min((1 + MARGIN) * last, limit), dominant=dominant)
+
+
+def logarithmic_range(numbers):
+    """A range that holds all positive numbers, and a place for zero if that is among them."""
+    positive = numbers[numbers > 0]
+    span = max(positive.max() / positive.min(), 10.0)
+    has_zero = bool((numbers == 0).any())
+    first = positive.min() / (span**PLACE_OF_ZERO if has_zero else 1.0)
+    return Range(first / span**MARGIN, positive.max() * span**MARGIN, True, first if has_zero else None)
+
+
+def dominant_method(ends):
+    """(method, where the axis ends) if one method takes far longer than all others, else no name and
+    an infinite number; `ends` maps methods to the last number of their lines."""
+    ordered = sorted((end, method) for method, end in ends.items())
+    if len(ordered) < 2 or not 0 < DOMINANT_FROM * ordered[-2][0] < ordered[-1][0]:
+        return "", np.inf
+    return ordered[-1][1], SHOWN_OF_DOMINANT * ordered[-2][0]

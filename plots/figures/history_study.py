@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which histories belong to a study, and what they are called."""
+
+import numpy as np
+
+from ..results.names import no_such_name
+from ..results.request import TIME
+from ..results.rows import ResultsError
+from ..results.smoothing import number_columns
+from .history import draw_history
+from .history_lines import QUALITY
+from .pages import fits_as_columns, pages
+from .planned import PlannedFigure
+from .thesis_numbers import HISTORY_DEGREES, THESIS_NUMBERS, figure_name
+
+
+def main_columns(results):
+    """What the history shows unless other columns are asked for."""
+    return ("q_min", "q_mean", "e_max", "e_mean") if results.degrees else ("q_star_min", "q_mean", "w_mean")
+
+
+def plan_histories(results):
+    """Quality and errors against smoothing time, for each degree."""
+    study, first = results.thesis_study, results.degrees[0] if results.degrees else ""
+    shown = HISTORY_DEGREES.get(study, first)
+    shown = shown if shown in results.degrees else first
+    planned = []
+
+    def plan(prefix, variant, title, *arguments):
+        planned.append(PlannedFigure(prefix + part + variant, title, lambda: draw_history(results, *arguments),
+                                     whole=prefix + variant))
+    for part, meshes in pages(results.meshes, fits_as_columns).items():
+        for log_time, variant, title in ((False, "", "history"),
+                                         (True, "_log_time", "history, log time")):
+            plan(figure_name(study, "history"), variant, title, main_columns(results), shown, log_time, meshes)
+        for degree in results.degrees:
+            # Without number: the thesis has these for one degree only, and no true errors.
+            prefix = "figure_history" if study in THESIS_NUMBERS else "history"
+            if degree != shown:
+                plan(prefix, f"_d{degree}", f"history, d = {degree}", main_columns(results), degree, False, meshes)
+            plan(prefix, f"_norms_d{degree}", f"error norms, d = {degree}",
+                 ("e_l2", "e_h1", "l2_error", "h1_error"), degree, False, meshes)
+    return planned
+
+
+def plan_requested_history(results, request):
+    """The history that a user asks for; raises ResultsError for a column that is not there or holds
+    no numbers."""
+    for name in filter(None, (*request.y, request.x)):
+        if name not in results.iterations.columns:
+            raise no_such_name("column", name, number_columns(results.iterations))
+        if not np.isfinite(results.iterations.number(name)).any():
+            raise ResultsError(f"{results.iterations.path}: column `{name}` has no numbers.")
+    columns = request.y or main_columns(results)
+    by_degree = len(results.degrees) > 1 and not {*columns, request.x or TIME} <= {*QUALITY}
+    planned = []
+    for part, meshes in pages(results.meshes, fits_as_columns).items():
+        for degree in results.degrees if by_degree else (results.degrees or ("",))[:1]:
+            variant = f"_d{degree}" if by_degree else ""
+            planned.append(PlannedFigure(
+                request.history_name + part + variant, "history", lambda degree=degree, meshes=meshes: draw_history(
+                    results, columns, degree, request.log_x, meshes, request.x or TIME, request.log_y),
+                whole=request.history_name + variant))
+    return planned

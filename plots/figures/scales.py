@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertical scales of diagrams, and room for their labels."""
+
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+# Panels are logarithmic from this ratio of largest to smallest number on: the thesis' own figure of
+# errors spans a factor of 7 at most and is linear, errors of quadratic elements span more than 20.
+LOGARITHMIC_FROM = 12.0
+
+# Inches: around labels, and the height of a line of them.
+PAD, LABEL_HEIGHT = 0.06, 0.18
+
+
+def spans_magnitudes(values):
+    """Whether finite numbers ask for a logarithmic axis."""
+    return len(values) > 0 and values.min() > 0 and values.max() > LOGARITHMIC_FROM * values.min()
+
+
+def scale_values(ax, values, logarithmic):
+    """A logarithmic axis that holds the positive ones of finite numbers, or a linear one that starts
+    at zero."""
+    positive = values[values > 0]
+    if logarithmic and len(positive):
+        ax.set_yscale("log", nonpositive="mask")
+        label_logarithmic(ax, positive.min(), positive.max())
+    elif len(values):
+        high = values.max() if values.max() > 0 else 1.0
+        # A small margin below: lowest qualities are often as good as zero and would lie on the axis.
+        ax.set_ylim(min(0.0, values.min()) - 0.03 * high, 1.06 * high)
+
+
+def label_logarithmic(ax, low, high):
+    """Plain numbers instead of powers of ten where they are short, with 2 and 5 if the range is small."""
+    if low < 1e-3 or high > 1e4:
+        return
+    plain = FuncFormatter(lambda value, _: f"{value:g}")
+    ax.yaxis.set_major_formatter(plain)
+    if high / low < 300:
+        ax.yaxis.set_minor_locator(LogLocator(subs=(2, 5)))
+        ax.yaxis.set_minor_formatter(plain)
+        ax.tick_params(axis="y", which="minor", labelsize=8)
+    else:
+        ax.yaxis.set_minor_formatter(NullFormatter())
+
+
+def make_room_for_labels(figure, axes, right=0.1):
+    """Moves columns of panels so far apart that the labels of their vertical axes have room; `axes` as
+    an array (rows, columns). The labels of the first column stand in one line."""
+    renderer = figure.canvas.get_renderer()
+    widths = [max(width_of_tick_labels(ax, renderer) for ax in column) / figure.dpi for column in axes.T]
+    width, n = figure.get_figwidth(), len(widths)
+    left = widths[0] + 2 * PAD + LABEL_HEIGHT
+    gap = max(widths[1:], default=0.0) + 2 * PAD
+    panel = (width - left - right - (n - 1) * gap) / n
+    figure.subplots_adjust(left=left / width, right=1 - right / width, wspace=gap / panel)
+    for ax in axes[:, 0]:
+        ax.yaxis.set_label_coords(-(widths[0] + PAD) / panel, 0.5)
+
+
+def width_of_tick_labels(ax, renderer):
+    """How far the labels of the vertical axis reach to the left of a panel, in pixels."""
+    ax.yaxis.label.set_visible(False)
+    box = ax.yaxis.get_tightbbox(renderer)
+    ax.yaxis.label.set_visible(True)
+    return 0.0 if box is None else max(0.0, ax.get_window_extent(renderer).x0 - box.x0)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names that a user gives: found, or refused with the nearest one."""
+
+import difflib
+import re
+from fnmatch import fnmatchcase
+
+from .rows import ResultsError
+
+# What stands before the names of figures and tables: figure_6_4_history, table_5_11-5_12_smoothing.
+PREFIX = re.compile(r"^(figure|table)_((\d+_\d+-?)+_)?")
+
+
+def no_such_name(what, wanted, names):
+    """The error that refuses a name, in the words of the program's own."""
+    if not names:
+        return ResultsError(f"there is no {what} '{wanted}'; there is none to choose.")
+    nearest = difflib.get_close_matches(wanted, names, 1)
+    question = f"did you mean '{nearest[0]}'? " if nearest else ""
+    return ResultsError(f"there is no {what} '{wanted}'; {question}choose one of {', '.join(names)}.")
+
+
+def find_all(what, wanted, names):
+    """The wanted names in the order of `names`; all of them if none is wanted. Raises ResultsError
+    for one that is not among them."""
+    for name in wanted:
+        if name not in names:
+            raise no_such_name(what, name, names)
+    return tuple(name for name in names if name in wanted or not wanted)
+
+
+def short_name(name):
+    """The name of a figure or table without its number: history."""
+    return PREFIX.sub("", name)
+
+
+def select(patterns, names):
+    """All names of figures and tables that patterns such as `*history*` mean, with or without their
+    numbers; raises ResultsError for a pattern that means none. `names` maps each name to another one by
+    which it is called, too, or to an empty string."""
+    found = set()
+    for pattern in patterns:
+        matches = [name for name, other in names.items() if any(
+            fnmatchcase(called, pattern) for called in (name, short_name(name), other, short_name(other)))]
+        if not matches:
+            raise no_such_name("figure or table", pattern, list(dict.fromkeys(map(short_name, names))))
+        found.update(matches)
+    return found

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What can be asked for, what is said where it is not there, and that nothing is half made."""
+
+import contextlib
+import csv
+import io
+import os
+import re
+import struct
+import subprocess
+import sys
+from pathlib import Path
+from unittest import mock
+
+from plots.__main__ import main
+from plots.tests.synthetic_polygons import write_polygon_results
+from plots.tests.synthetic_results import change_provenance, write_csv, write_results
+from plots.tests.test_read_results import InFolder
+
+PACKAGE = Path(__file__).resolve().parents[1]
+
+
+class CommandLine(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.results = write_results(self.folder / "r", methods=("weighted-laplace", "getme", "own"))
+        self.enterContext(mock.patch("plots.figures.style.DPI", 40))
+
+    def run_main(self, *arguments):
+        """(exit code, output, errors)"""
+        output, errors = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+            try:
+                code = main([str(argument) for argument in arguments])
+            except SystemExit as end:
+                code = end.code
+        return code, output.getvalue(), errors.getvalue()
+
+    def made(self, *arguments):
+        """Names of the files that a command line makes in a folder of its own."""
+        out = self.folder / f"out{len(list(self.folder.iterdir()))}"
+        code, _, errors = self.run_main(self.results, "--out", out, "--quiet", *arguments)
+        self.assertEqual((code, errors), (0, ""))
+        return {path.name for path in out.glob("*/*")}, out
+
+    def refused(self, *arguments):
+        """The one sentence on what is wrong; nothing is made."""
+        before = sorted(self.results.rglob("*"))
+        code, output, errors = self.run_main(self.results, *arguments)
+        self.assertEqual((code, output, errors.count("\n")), (2, "", 1), errors)
+        self.assertEqual(sorted(self.results.rglob("*")), before)
+        return errors
+
+
+class Options(CommandLine):
+    def test_only_some_by_name_or_pattern(self):
+        self.assertEqual(self.made("--only", "history,table_6_2_solver", "--format", "svg")[0],
+                         {"figure_6_4_history.svg", "table_6_2_solver.md", "table_6_2_solver.tex"})
+        self.assertEqual(self.made("--only", "figure_6_3_*", "--format", "pdf")[0],
+                         {"figure_6_3_meshes.pdf", "figure_6_3_meshes_full.pdf"})
+        self.assertEqual(self.made("--only", "claims")[0], {"claims.md"})
+
+    def test_a_figure_that_is_divided_among_meshes_has_one_name(self):
+        self.results = write_results(self.folder / "two", meshes=("tri", "quad"))
+        self.assertEqual(self.made("--only", "history,meshes_full", "--width", "84mm", "--format", "png")[0],
+                         {"figure_6_4_history_tri.png", "figure_6_4_history_quad.png", "figure_6_3_meshes_full.png"})
+        self.assertEqual(self.made("--y", "q_min", "--only", "history_q_min", "--width", "3.3", "--format", "png")[0],
+                         {"history_q_min_tri.png", "history_q_min_quad.png"})
+
+    def test_meshes_are_not_read_for_what_needs_none(self):
+        (self.results / "meshes" / "tri_getme.vtu").write_text("no mesh")
+        self.assertEqual(self.made("--only", "errors,history_log_time", "--format", "png")[0],
+                         {"table_6_3_errors.md", "table_6_3_errors.tex", "figure_6_4_history_log_time.png"})
+        self.assertIn("not a complete VTU file", self.refused("--only", "meshes"))
+
+    def test_names_that_are_not_there(self):
+        for options, said in ((("--only", "histroy"), "figure or table 'histroy'; did you mean 'history'?"),
+                              (("--only", "x*"), r"figure or table 'x\*'; choose one of smoothing, solver, "),
+                              (("--methods", "getmee"), "method 'getmee'; did you mean 'getme'? choose one of getme"),
+                              (("--meshes", "trii"), "mesh 'trii'; did you mean 'tri'? choose one of tri"),
+                              (("--y", "e_maks"), "column 'e_maks'; did you mean 'e_max'? choose one of iteration, "),
+                              (("--x", "cg_itrations"), "column 'cg_itrations'; did you mean 'cg_iterations'?")):
+            self.assertRegex(self.refused(*options), "^there is no " + said.replace("?", r"\?"))
+        self.assertIn("column `status` holds something that is not a number", self.refused("--y", "status"))
+        self.assertIn("column `w_mean` has no numbers", self.refused("--y", "w_mean"))
+
+    def test_values_that_cannot_be_used(self):
+        for options, said in ((("--width", "84cm"), "is no width from 2in to 30in"),
+                              (("--width", "1mm"), "such as 84mm or 3.3in"), (("--format", "jpg"), "choose from pdf, png"),
+                              (("--y", "e_max", "--no-figures"), "leave out --no-figures"), (("--wide",), "unrecognized")):
+            self.assertIn(said, self.refused(*options))
+
+    def test_some_methods(self):
+        names, out = self.made("--methods", "getme,own", "--only", "*smoothing,*errors", "--no-figures")
+        self.assertNotIn("claims.md", names)
+        text = (out / "tables" / "table_6_1_smoothing.md").read_text()
+        self.assertIn("GETMe", text)
+        self.assertIn("| Initial |", text)
+        self.assertNotIn("weighted-laplace", text)
+
+    def test_a_history_of_other_columns(self):
+        self.assertEqual(self.made("--y", "q_min,cg_iterations", "--x", "iteration", "--format", "png")[0],
+                         {f"history_q_min_cg_iterations_over_iteration_d{d}.png" for d in "12"})
+        self.assertEqual(self.made("--y", "q_min", "--log-x", "--format", "png")[0], {"history_q_min_log_x.png"})
+        self.assertEqual(self.made("--log-y", "--only", "history_log_y*,errors", "--format", "png")[0],
+                         {"history_log_y_d1.png", "history_log_y_d2.png", "table_6_3_errors.md",
+                          "table_6_3_errors.tex"})
+
+    def test_width(self):
+        for text, inches in (("84mm", 84 / 25.4), ("3.3", 3.3), ("5in", 5.0)):
+            _, out = self.made("--width", text, "--only", "history,model", "--format", "png")
+            for path in (out / "figures").iterdir():
+                width, = struct.unpack(">I", path.read_bytes()[16:20])  # of the PNG's header
+                self.assertAlmostEqual(width / 40, inches, delta=0.03, msg=path.name)
+
+    def test_a_study_of_the_users_has_no_numbers_of_the_thesis(self):
+        change_provenance(self.results, built_in=False)
+        names, _ = self.made()
+        self.assertFalse([name for name in names if re.search(r"\d_\d|figure|claims", name)])
+        self.assertLessEqual({"history.pdf", "meshes.pdf", "model.pdf", "table_errors.tex"}, names)
+        code, output, _ = self.run_main(self.results, "--only", "errors")
+        self.assertEqual(code, 0)
+        self.assertIn("No claims.md: the thesis says nothing about this study.\n", output)
+        change_provenance(self.results, built_in=True)
+        names, _ = self.made()
+        self.assertLessEqual({"figure_6_4_history.pdf", "table_6_3_errors.tex", "claims.md"}, names)
+
+
+class BrokenResults(CommandLine):
+    def change(self, name, change):
+        """Rewrites a CSV file of the results."""
+        path = self.results / name
+        with open(path, newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        change(rows)
+        write_csv(path, list(rows[0]), rows)
+
+    def test_no_number_where_one_has_to_be(self):
+        for name, column, value in (("iterations.csv", "smoothing_seconds", "nan"),
+                                    ("iterations.csv", "q_min", ""), ("summary.csv", "q_mean", "inf")):
+            before = (self.results / name).read_text()
+            self.change(name, lambda rows, column=column, value=value: rows[3].update({column: value}))
+            self.assertRegex(self.refused(), rf"{name}, row 5: `{column}` is {value or 'empty'}, not a number; "
+                             r"run the study again\.$")
+            (self.results / name).write_text(before)
+
+    def test_no_number_where_there_may_be_none(self):
+        self.change("iterations.csv", lambda rows: [row.update(e_max="nan") for row in rows[2:5]])
+        self.change("summary.csv", lambda rows: rows[1].update(cg_seconds="-inf"))
+        code, _, errors = self.run_main(self.results, "--quiet")
+        self.assertEqual(code, 0)
+        first, second = errors.splitlines()
+        self.assertRegex(first, r"iterations.csv: `e_max` is no finite number in 3 of \d+ rows; there, lines")
+        self.assertRegex(second, r"summary.csv: `cg_seconds` is no finite number in 1 of \d+ rows")
+        self.assertNotIn("nan", (self.results / "tables" / "table_6_2_solver.md").read_text())
+        self.assertNotIn("inf", (self.results / "tables" / "table_6_2_solver.md").read_text())
+
+    def test_files_that_are_not_whole(self):
+        for name, change, said in (
+                ("iterations.csv", lambda text: text[:-1], "the last line has no end; the file looks truncated"),
+                ("iterations.csv", lambda text: text[:-3], "the last line has no end"),
+                ("iterations.csv", lambda text: text[:text.index("\n") + 1], "the file has no rows"),
+                ("summary.csv", lambda text: "", "the file is empty"),
+                ("thresholds.csv", lambda text: text.replace("speedup", "other"), "column `speedup` is missing"),
+                ("summary.csv", lambda text: text.replace(",1,9,", ",one,9,"), "column `degree` holds something")):
+            path = self.results / name
+            before = path.read_text()
+            path.write_text(change(before))
+            self.assertNotEqual(path.read_text(), before)
+            self.assertIn(said, self.refused())
+            path.write_text(before)
+
+    def test_a_broken_mesh_is_found_before_anything_is_written(self):
+        path = self.results / "meshes" / "tri_getme.vtu"
+        path.write_text(path.read_text()[:500])
+        self.assertIn("tri_getme.vtu: not a complete VTU file", self.refused())
+
+
+class WithoutPackages(CommandLine):
+    def test_one_sentence(self):
+        for module in ("numpy", "matplotlib"):
+            # Ahead of the real one, a module that is not there.
+            (self.folder / module).mkdir()
+            (self.folder / module / "__init__.py").write_text(
+                f"raise ModuleNotFoundError(\"No module named '{module}'\", name='{module}')\n")
+            done = subprocess.run(
+                [sys.executable, "-B", "-m", "plots", str(self.results)], cwd=PACKAGE.parent,
+                env={**os.environ, "PYTHONPATH": str(self.folder)}, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertRegex(done.stderr, rf"^[^\n]*No module named '{module}'; install the Debian package "
+                             rf"python3-{module}, [^\n]*SMOOTHFEM_PYTHON[^\n]*\.\n$")
+            self.assertFalse((self.results / "tables").exists())
+            (self.folder / module / "__init__.py").unlink()
+            (self.folder / module).rmdir()
+
+
+class Library(CommandLine):
+    def test_the_readme_does_what_it_says(self):
+        text = (PACKAGE / "README.md").read_text(encoding="utf-8")
+        code, = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        (self.folder / "results").mkdir()
+        self.results.rename(self.folder / "results" / "gear")
+        here = os.getcwd()
+        self.addCleanup(os.chdir, here)
+        os.chdir(self.folder)
+        names = {}
+        exec(compile(code, "README.md", "exec"), names)  # the text is the repository's own
+        self.assertEqual((self.folder / "ours.pdf").read_bytes()[:4], b"%PDF")
+        self.assertEqual(names["results"].methods, ("getme",))
+        self.assertIn("GETMe, ours", [text.get_text() for text in names["figure"].legends[0].get_texts()])
+
+    def test_the_readmes_command_lines(self):
+        text = (PACKAGE / "README.md").read_text(encoding="utf-8")
+        lines = re.findall(r"^smoothfem plot results/gear(.*?)(?: +#.*)?$", text, re.MULTILINE)
+        self.assertEqual(len(lines), 4)
+        for line in lines:
+            self.made(*line.replace("--out paper", "").replace("smart-laplace", "own").split())
+
+    def test_another_kind_of_study(self):
+        folder = write_polygon_results(self.folder / "p")
+        code, _, errors = self.run_main(folder, "--quiet", "--only", "side_ratio")
+        self.assertEqual(code, 2)
+        self.assertIn("did you mean 'side_ratios'?", errors)
+        code, _, errors = self.run_main(folder, "--quiet", "--width", "84mm")
+        self.assertEqual(code, 2)
+        self.assertRegex(errors, r"^[^\n]*at least 6\.0in wide; choose a larger --width\.\n$")
+        self.assertFalse((folder / "tables").exists())
