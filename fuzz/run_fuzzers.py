@@ -40,7 +40,7 @@ class Outcome:
         self.coverage = max(self.coverage, last(r' cov: (\d+)'))
         self.memory_mb = max(self.memory_mb, last(r'stat::peak_rss_mb: *(\d+)') or last(r' rss: (\d+)'))
         self.slowest_seconds = max(self.slowest_seconds, last(r'stat::slowest_unit_time_sec: *(\d+)'))
-        self.findings += re.findall(r'Test unit written to (\S+)', log)
+        self.findings += [f for f in re.findall(r'Test unit written to (\S+)', log) if f not in self.findings]
 
 
 def run_target(fuzzer: Path, folder: Path, seconds: float) -> Outcome:
@@ -63,8 +63,9 @@ def run_target(fuzzer: Path, folder: Path, seconds: float) -> Outcome:
         (folder / f'{fuzzer.name}.log').write_text(log)
         known = len(outcome.findings)
         outcome.add(log)
-        if run.returncode != 0 and len(outcome.findings) == known:
-            outcome.findings.append(f'no file: see {folder}/{fuzzer.name}.log')
+        if run.returncode != 0 and len(outcome.findings) == known:  # the same again, or none
+            outcome.findings += [] if known else [f'see {folder}/{fuzzer.name}.log']
+            break
     outcome.seconds = time.monotonic() - begin
     return outcome
 
