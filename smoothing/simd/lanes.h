@@ -35,36 +35,30 @@ inline void unrolled(const Visit& visit) {
   (std::make_index_sequence<n>{});
 }
 
-/// n_lanes numbers of an array of double or float.
+/// n_lanes numbers of an array of double or float, and the same at any address. (With std::memcpy
+/// GCC goes by way of the stack.)
 template <class Number>
 struct ArrayLanes;
 template <>
 struct ArrayLanes<double> {
   using Values = Lanes;
+  using Unaligned  // clang forgets the alignment where the attributes stand behind the type
+      __attribute__((vector_size(sizeof(Lanes)), aligned(sizeof(double)), may_alias)) = double;
 };
 template <>
 struct ArrayLanes<float> {
   using Values = FloatLanes;
+  using Unaligned
+      __attribute__((vector_size(sizeof(FloatLanes)), aligned(sizeof(float)), may_alias)) = float;
 };
 
-/// The same at any address. With std::memcpy GCC goes by way of the stack; in templates clang
-/// forgets the alignment.
-using UnalignedLanes =
-    double __attribute__((vector_size(sizeof(Lanes)), aligned(sizeof(double)), may_alias));
-using UnalignedFloatLanes =
-    float __attribute__((vector_size(sizeof(FloatLanes)), aligned(sizeof(float)), may_alias));
-
-inline Lanes load_lanes(const double* numbers) {
-  return *reinterpret_cast<const UnalignedLanes*>(numbers);
+template <class Number>
+inline typename ArrayLanes<Number>::Values load_lanes(const Number* numbers) {
+  return *reinterpret_cast<const typename ArrayLanes<Number>::Unaligned*>(numbers);
 }
-inline FloatLanes load_lanes(const float* numbers) {
-  return *reinterpret_cast<const UnalignedFloatLanes*>(numbers);
-}
-inline void store_lanes(Lanes lanes, double* numbers) {
-  *reinterpret_cast<UnalignedLanes*>(numbers) = lanes;
-}
-inline void store_lanes(FloatLanes lanes, float* numbers) {
-  *reinterpret_cast<UnalignedFloatLanes*>(numbers) = lanes;
+template <class Number>
+inline void store_lanes(typename ArrayLanes<Number>::Values lanes, Number* numbers) {
+  *reinterpret_cast<typename ArrayLanes<Number>::Unaligned*>(numbers) = lanes;
 }
 
 inline double square_root(double value) {

@@ -142,14 +142,14 @@ class TaskMaker {
 
   SolveJob& add_job(std::string name, std::string trajectory, std::size_t mesh, std::size_t degree,
                     std::size_t method) {
-    SolveJob& job = data_.jobs.emplace_back(
-        SolveJob{std::move(name), std::move(trajectory), mesh, degree, method});
+    SolveJob& job =
+        data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree, method);
     if (auto solved = data_.checkpoint.load_solved(job.name)) job.solved = std::move(*solved);
     return job;
   }
 
   SolveTask* add_task(SolveJob& job, std::size_t record, bool is_result) {
-    SolveTask& task = data_.tasks.emplace_back(SolveTask{job, record, is_result});
+    SolveTask& task = data_.tasks.emplace_back(job, record, is_result);
     ++job.n_tasks;
     const auto found = job.solved.records.find(record);
     if (found != job.solved.records.end()) {

@@ -19,6 +19,14 @@ namespace smoothfem {
 /// The finite element records of one mesh, method (or the initial mesh) and degree: what is
 /// checkpointed together.
 struct SolveJob {
+  SolveJob(std::string name_, std::string trajectory_, std::size_t mesh_, std::size_t degree_,
+           std::size_t method_)
+      : name(std::move(name_)),
+        trajectory(std::move(trajectory_)),
+        mesh(mesh_),
+        degree(degree_),
+        method(method_) {}
+
   std::string name;          ///< in the checkpoint
   std::string trajectory;    ///< name of the trajectory; empty: the initial mesh
   std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
@@ -31,6 +39,9 @@ struct SolveJob {
 
 /// A finite element record to be made.
 struct SolveTask {
+  SolveTask(SolveJob& job_, std::size_t record_, bool is_result_)
+      : job(job_), record(record_), is_result(is_result_) {}
+
   SolveJob& job;
   std::size_t record;  ///< of the trajectory
   bool is_result;      ///< an initial or resulting mesh
