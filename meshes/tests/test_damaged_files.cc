@@ -60,9 +60,12 @@ struct Vtu {
   }
 };
 
-/// 1000 blocks of 2^30 bytes, or one that is not compressed.
-const std::string huge_blocks =
-    "6AMAAAAAAEAAAAAA" + std::string(6000, 'A');  // 1000, 2^30, 0, and sizes of 0
+/// The header of 1000 blocks of 2^30 bytes, each of one byte when compressed.
+const std::string huge_blocks = [] {
+  std::string header = "6AMAAAAAAEAAAAAA";
+  for (int block = 0; block < 1000; block += 3) header += "AQAAAAEAAAABAAAA";
+  return header;
+}();
 
 INSTANTIATE_TEST_SUITE_P(
     Files, DamagedFile,
