@@ -87,8 +87,9 @@ void insert_cell(vtkUnstructuredGrid& grid, int type, std::span<const NodeIndex>
 
 void set_cells(const Topology& topology, vtkUnstructuredGrid& grid) {
   const auto& facets = topology.labels().facets;
-  grid.AllocateExact(static_cast<vtkIdType>(topology.n_cells() + facets.size()),
-                     static_cast<vtkIdType>(topology.cells().n_entries() + facets.n_entries()));
+  const std::size_t n_cells = topology.n_cells() + facets.size(),
+                    n_entries = topology.cells().n_entries() + facets.n_entries();
+  grid.AllocateExact(static_cast<vtkIdType>(n_cells), static_cast<vtkIdType>(n_entries));
   for (CellIndex c = 0; c < topology.n_cells(); ++c)
     insert_cell(grid, vtk_type(topology.cell_type(c)), topology.cell_nodes(c));
   for (std::size_t f = 0; f < facets.size(); ++f)
