@@ -154,6 +154,7 @@ void VtuArrayBytes::read_block_sizes() {
   size_ = (n_blocks - 1) * block_size_ + last_block_size_;
   for (std::uint64_t b = 0; b < n_blocks; ++b) {
     compressed_sizes_.push_back(header_number());
+    if (compressed_sizes_.back() == 0) fail("has an empty block");
     if (compressed_sizes_.back() > bytes_.most()) fail("announces more bytes than there are");
   }
 }
