@@ -73,6 +73,7 @@ auto& find_named(const std::string& what, const std::string& wanted, Range& all,
   for (auto& candidate : all)
     if (name_of(candidate) == wanted) return candidate;
   std::vector<std::string> names;
+  names.reserve(std::size(all));
   for (const auto& candidate : all) names.emplace_back(name_of(candidate));
   throw InputError(no_such_name(what, wanted, names));
 }

@@ -15,7 +15,7 @@ namespace smoothfem {
 inline double signed_cell_size(const PlanarMesh& mesh, CellIndex cell) {
   const auto nodes = mesh.topology().cell_nodes(cell);
   const auto x = mesh.coordinates();
-  const Point<2> origin = x[nodes[0]];
+  const Point<2>& origin = x[nodes[0]];
   double twice_area = 0.0;
   for (std::size_t k = 2; k < nodes.size(); ++k)
     twice_area += cross(Point<2>(x[nodes[k - 1]] - origin), Point<2>(x[nodes[k]] - origin));

@@ -208,7 +208,8 @@ void require_different_files(const Arguments& arguments) {
       throw InputError(std::string(option) + " names " + path.string() +
                        ", which is a mesh of this command; give another file name");
   }
-  if (!arguments.log.empty() && is_same(arguments.log, arguments.series))
+  if (!arguments.log.empty() && !arguments.series.empty() &&
+      is_same(arguments.log, arguments.series))
     throw InputError("--log and --series name the same file " + arguments.log +
                      "; give two file names");
 }
