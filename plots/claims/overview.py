@@ -27,9 +27,14 @@ def readme():
     return data_folder() / "results" / "README.md"
 
 
+def results_folders(folders):
+    """The folders of results in a folder, by name."""
+    return sorted(path for path in folders.iterdir() if path.is_dir())
+
+
 def overview(folders):
     """All claims about the studies in a folder of results folders, as Markdown."""
-    outcomes = {folder: outcomes_of(folder) for folder in sorted(folders.iterdir()) if folder.is_dir()}
+    outcomes = {folder: outcomes_of(folder) for folder in results_folders(folders)}
     lines = []
     for folder, (title, found) in outcomes.items():
         if not found:

@@ -5,7 +5,7 @@ import unittest
 
 from plots.claims.check import FAILS, HOLDS
 from plots.claims.overview import (BEGIN, END, outcomes_of, overview, readme, reference,
-                                   with_overview)
+                                   results_folders, with_overview)
 from plots.results.rows import ResultsError
 
 
@@ -17,7 +17,7 @@ class Overview(unittest.TestCase):
 
     def test_every_claim_has_a_row_with_its_verdict(self):
         made = overview(reference())
-        for folder in reference().iterdir():
+        for folder in results_folders(reference()):
             _, outcomes = outcomes_of(folder)
             self.assertTrue(outcomes, folder)
             for outcome in outcomes:
