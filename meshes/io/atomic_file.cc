@@ -131,14 +131,20 @@ void write_atomically(const fs::path& path, std::string_view content) {
   write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, content); });
 }
 
+std::string why_not_writable(const fs::path& folder) {
+  fs::path existing = fs::absolute(folder);
+  std::error_code ignored;  // what cannot be looked at is no folder either
+  while (!fs::exists(existing, ignored) && existing.has_relative_path())
+    existing = existing.parent_path();
+  if (!fs::is_directory(existing, ignored)) return existing.string() + " is not a folder";
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) return std::strerror(errno);
+  return "";
+}
+
 void require_writable_file(const fs::path& path) {
   require_replaceable(path);
-  fs::path existing = fs::absolute(path).parent_path();
-  std::error_code error;
-  while (!fs::exists(existing, error) && existing.has_relative_path())
-    existing = existing.parent_path();
-  if (!fs::is_directory(existing, error)) fail(path, existing.string() + " is not a folder");
-  if (::access(existing.c_str(), W_OK | X_OK) != 0) fail(path, std::strerror(errno));
+  const std::string reason = why_not_writable(fs::absolute(path).parent_path());
+  if (!reason.empty()) fail(path, reason);
 }
 
 void remove_unfinished_files(const fs::path& folder) {

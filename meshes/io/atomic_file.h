@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
 
 namespace smoothfem {
@@ -19,6 +20,10 @@ void write_atomically(const std::filesystem::path& path,
 
 /// The same with the content at hand; short writes are errors.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// Why no file can be made in a folder, which need not be there yet; empty if one can. Leaves no
+/// trace.
+std::string why_not_writable(const std::filesystem::path& folder);
 
 /// Before long work, and without leaving a trace: throws InputError if `path` is a folder or a
 /// device, or lies where no file can be written.

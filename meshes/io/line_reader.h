@@ -18,6 +18,9 @@ std::string read_whole_file(const std::filesystem::path& path);
 /// '?' for control characters, which could garble the terminal.
 std::string in_quotes(std::string_view word);
 
+/// Capital letters of the Latin alphabet become small ones.
+std::string lower_case(std::string_view text);
+
 /// Reads a text line by line and each line word by word, and knows where it is for error messages.
 /// The content must outlive the reader.
 class LineReader {

@@ -2,7 +2,6 @@
 #include "meshes/io/mesh_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <exception>
 #include <new>
 
@@ -34,8 +33,7 @@ namespace {
 /// Formats of the path's extension: one or more.
 std::vector<const MeshFormat*> formats_of(const std::filesystem::path& path,
                                           const std::string& prefix) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_case(path.extension().string());
   std::vector<std::string> known;
   std::vector<const MeshFormat*> found;
   for (const auto& format : mesh_formats()) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/io/vtk_legacy_input.h"
 
-#include <cctype>
-
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
@@ -28,12 +26,6 @@ constexpr std::array type_names{
 };
 
 }  // namespace
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 LegacyVtkInput::LegacyVtkInput(const std::filesystem::path& path, std::string_view content)
     : lines_(path, content) {

@@ -13,8 +13,6 @@
 
 namespace smoothfem {
 
-std::string lower_case(std::string_view text);
-
 /// The words and numbers of a legacy VTK file, whose numbers are text, or bytes with the highest
 /// first behind the line that announces them. Whatever is wrong throws InputError "path:line: ...";
 /// lines count as an editor shows them, also in binary files.

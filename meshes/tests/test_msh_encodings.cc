@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Binary .msh files written byte by byte, and files that announce more than they hold.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -91,25 +89,6 @@ TEST_F(MshEncodings, BinaryFilesOfBothByteOrdersAreRead) {
       EXPECT_EQ(labels.names.at({2, 6}), "sheet");
     }
 }
-
-/// All further memory the process may take.
-class LittleMemory {
- public:
-  explicit LittleMemory(rlim_t n_bytes) {
-    std::ifstream pages("/proc/self/statm");
-    rlim_t n_pages = 0;
-    pages >> n_pages;
-    getrlimit(RLIMIT_AS, &former_);
-    const rlimit small = {n_pages * static_cast<rlim_t>(getpagesize()) + n_bytes, former_.rlim_max};
-    setrlimit(RLIMIT_AS, &small);
-  }
-  ~LittleMemory() { setrlimit(RLIMIT_AS, &former_); }
-  LittleMemory(const LittleMemory&) = delete;
-  LittleMemory& operator=(const LittleMemory&) = delete;
-
- private:
-  rlimit former_;
-};
 
 class GreedyMsh : public FileTest,
                   public ::testing::WithParamInterface<std::pair<std::string, std::string>> {};

@@ -14,34 +14,10 @@ namespace {
 
 using test::box_mesh;
 using test::BoxCells;
+using test::distorted_meshes;
 using test::grid_mesh;
 using test::GridCells;
-
-template <int dim>
-using NamedMeshes = std::vector<std::pair<std::string, Mesh<dim>>>;
-
-template <int dim>
-NamedMeshes<dim> regular_topologies() {
-  if constexpr (dim == 2)
-    return {{"triangles", grid_mesh(7, GridCells::triangles)},
-            {"quadrilaterals", grid_mesh(7, GridCells::quadrilaterals)},
-            {"mixed", grid_mesh(7, GridCells::mixed)},
-            {"pentagons", test::pentagon_mesh()},
-            {"hexagons", test::honeycomb_mesh()}};
-  else
-    return {{"tetrahedra", box_mesh(4, 4, 4, BoxCells::tetrahedra)},
-            {"pyramids", box_mesh(4, 3, 3, BoxCells::pyramids)},
-            {"prisms", box_mesh(4, 4, 4, BoxCells::prisms)},
-            {"hexahedra", box_mesh(4, 4, 4, BoxCells::hexahedra)},
-            {"mixed", box_mesh(3, 4, 6, BoxCells::mixed)}};
-}
-
-template <int dim>
-NamedMeshes<dim> distorted_meshes() {
-  auto all = regular_topologies<dim>();
-  for (auto& [name, mesh] : all) test::distort(mesh, 0.25, 7);
-  return all;
-}
+using test::regular_topologies;
 
 /// Meshes that are where every method wants them.
 template <int dim>

@@ -20,22 +20,7 @@ namespace {
 
 using test::box_mesh;
 using test::BoxCells;
-using test::grid_mesh;
-using test::GridCells;
-
-template <int dim>
-std::vector<Mesh<dim>> distorted_meshes() {
-  std::vector<Mesh<dim>> meshes;
-  if constexpr (dim == 2)
-    for (const auto cells : {GridCells::triangles, GridCells::quadrilaterals, GridCells::mixed})
-      meshes.push_back(grid_mesh(5, cells));
-  else
-    for (const auto cells :
-         {BoxCells::tetrahedra, BoxCells::pyramids, BoxCells::prisms, BoxCells::hexahedra})
-      meshes.push_back(box_mesh(3, 3, 3, cells));
-  for (auto& mesh : meshes) test::distort(mesh, 0.2, 5);
-  return meshes;
-}
+using test::distorted_meshes;
 
 /// All that is said about a mesh, sizes as lengths.
 template <int dim>
@@ -52,14 +37,15 @@ std::vector<double> numbers_of(const Mesh<dim>& mesh) {
 
 template <int dim>
 void expect_same_numbers_at_every_size() {
-  for (const auto& mesh : distorted_meshes<dim>())
+  for (const auto& [name, mesh] : distorted_meshes<dim>())
     for (const int exponent : {-332, -200, -101, -99, 99, 101, 200, 332}) {  // 1e-100 to 1e100
       Mesh<dim> scaled = mesh;
       scale_by_power_of_two(scaled.coordinates(), exponent);
       const auto here = numbers_of(mesh), there = numbers_of(scaled);
       ASSERT_EQ(here.size(), there.size());
       for (std::size_t i = 0; i < here.size(); ++i)
-        EXPECT_NEAR(there[i], here[i], 1e-13 * std::abs(here[i])) << exponent << ' ' << i;
+        EXPECT_NEAR(there[i], here[i], 1e-13 * std::abs(here[i]))
+            << name << ' ' << exponent << ' ' << i;
       for (CellIndex c = 0; c < mesh.n_cells(); ++c)
         EXPECT_NEAR(std::ldexp(signed_cell_size(scaled, c), -dim * exponent),
                     signed_cell_size(mesh, c), 1e-14);
@@ -94,7 +80,7 @@ TEST(ExtremeGeometry, SurfaceNumbersDoNotDependOnTheSize) {
 template <int dim>
 void expect_same_numbers_far_from_the_origin() {
   const Point<dim> far = Point<dim>::LinSpaced(1e7, -2e7);
-  for (auto mesh : distorted_meshes<dim>()) {
+  for (auto& [name, mesh] : distorted_meshes<dim>()) {
     for (auto& p : mesh.coordinates()) p = (p + far) - far;  // as far as it is kept there
     Mesh<dim> moved = mesh;
     for (auto& p : moved.coordinates()) p += far;
@@ -141,11 +127,11 @@ TEST(ExtremeGeometry, ThinCells) {
 /// Beyond: no number, but never one that is not, nor one outside of [0, 1].
 TEST(ExtremeGeometry, QualitiesStayInTheirRange) {
   for (const double size : {1e-320, 1e-200, 1e-160, 1e160, 1e200, 1e307}) {
-    for (auto mesh : distorted_meshes<2>()) {
+    for (auto& [name, mesh] : distorted_meshes<2>()) {
       for (auto& p : mesh.coordinates()) p *= size;
       for (const double q : cell_mean_ratios(mesh)) EXPECT_TRUE(q >= 0.0 && q <= 1.0) << q;
     }
-    for (auto mesh : distorted_meshes<3>()) {
+    for (auto& [name, mesh] : distorted_meshes<3>()) {
       for (auto& p : mesh.coordinates()) p *= size;
       for (const double q : cell_mean_ratios(mesh)) EXPECT_TRUE(q >= 0.0 && q <= 1.0) << q;
       const MeshQuality quality = mesh_quality(mesh);

@@ -91,4 +91,32 @@ inline void distort(VolumeMesh& mesh, double radius, std::uint64_t seed) {
   }
 }
 
+template <int dim>
+using NamedMeshes = std::vector<std::pair<std::string, Mesh<dim>>>;
+
+/// Grids and boxes of unit cells, of each type of cells and of several.
+template <int dim>
+NamedMeshes<dim> regular_topologies() {
+  if constexpr (dim == 2)
+    return {{"triangles", grid_mesh(7, GridCells::triangles)},
+            {"quadrilaterals", grid_mesh(7, GridCells::quadrilaterals)},
+            {"mixed", grid_mesh(7, GridCells::mixed)},
+            {"pentagons", pentagon_mesh()},
+            {"hexagons", honeycomb_mesh()}};
+  else
+    return {{"tetrahedra", box_mesh(4, 4, 4, BoxCells::tetrahedra)},
+            {"pyramids", box_mesh(4, 3, 3, BoxCells::pyramids)},
+            {"prisms", box_mesh(4, 4, 4, BoxCells::prisms)},
+            {"hexahedra", box_mesh(4, 4, 4, BoxCells::hexahedra)},
+            {"mixed", box_mesh(3, 4, 6, BoxCells::mixed)}};
+}
+
+/// The same with each free node up to a quarter of a cell elsewhere.
+template <int dim>
+NamedMeshes<dim> distorted_meshes() {
+  auto all = regular_topologies<dim>();
+  for (auto& [name, mesh] : all) distort(mesh, 0.25, 7);
+  return all;
+}
+
 }  // namespace smoothfem::test

@@ -47,14 +47,16 @@ struct SimulatedStudy {
   double worst_factor(double from) const {
     SolveCosts costs;
     double total = 0.0, spent = 0.0, worst = 1.0;
-    for (const Task& task : tasks) total += task.seconds;
+    for (const Task& task : tasks) {
+      total += task.seconds;
+      costs.expect(task.kind);
+    }
     for (std::size_t i = 0; i + 1 < tasks.size(); ++i) {
+      costs.forget(tasks[i].kind);
       costs.add(tasks[i].kind, tasks[i].seconds);
       spent += tasks[i].seconds;
       if (spent < from * total) continue;
-      double expected = 0.0;
-      for (std::size_t j = i + 1; j < tasks.size(); ++j) expected += costs.expected(tasks[j].kind);
-      const double ratio = expected / (total - spent);
+      const double ratio = costs.seconds_to_come() / (total - spent);
       worst = std::max({worst, ratio, 1.0 / ratio});
     }
     return worst;

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/results/results_folder.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
+#include "meshes/io/atomic_file.h"
 
 namespace smoothfem {
 
 namespace fs = std::filesystem;
 
 void require_writable(const fs::path& folder) {
-  fs::path existing = fs::absolute(folder);
-  while (!fs::exists(existing) && existing.has_relative_path()) existing = existing.parent_path();
-  if (!fs::is_directory(existing))
-    throw InputError("cannot write results to " + folder.string() + ": " + existing.string() +
-                     " is not a folder");
-  if (::access(existing.c_str(), W_OK | X_OK) != 0)
-    throw InputError("cannot write results to " + folder.string() + ": " + std::strerror(errno));
+  const std::string reason = why_not_writable(folder);
+  if (!reason.empty())
+    throw InputError("cannot write results to " + folder.string() + ": " + reason);
 }
 
 void require_published_files(const Study& study, const fs::path& mesh_dir) {

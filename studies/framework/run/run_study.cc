@@ -151,41 +151,38 @@ class StudyRun {
   void solve() {
     std::vector<SolveTask*> open;
     for (auto& task : data_.tasks)
-      if (!task.done)
-        open.push_back(&task);
-      else
+      if (task.done) {
         costs_.add(data_.kind_of(task), task.seconds);
+      } else {
+        open.push_back(&task);
+        costs_.expect(data_.kind_of(task));
+      }
     // Threads take tasks in any order: with the initial meshes first, soon it is known what each
     // size costs. Several processes would have to make their solver twice.
     if (dim == 2)
       std::stable_partition(open.begin(), open.end(),
                             [](const SolveTask* task) { return task->job.method == 0; });
-    announce(open);
+    announce(open.size());
     progress_.begin("Finite elements", data_.tasks.size());
     run_tasks(open);
     progress_.end();
   }
 
   /// What is to come, before the first of it.
-  void announce(const std::vector<SolveTask*>& open) {
+  void announce(std::size_t n_open) {
     constexpr double long_time = 60.0;
-    const double seconds = seconds_left(open);
-    std::string text = std::to_string(open.size()) + " finite element solves are to come, some " +
+    const double seconds = seconds_left();
+    std::string text = std::to_string(n_open) + " finite element solves are to come, some " +
                        duration_text(seconds);
     if (seconds > long_time)
       text += " by a rough estimate; 'set record every = " +
               std::to_string(10 * study_.record_every.default_interval) +
               "' or '--scale quick' takes fewer";
-    if (!open.empty()) progress_.say(text + ".");
+    if (n_open > 0) progress_.say(text + ".");
   }
 
   /// Until the tasks that are not done are: those under way count as not begun.
-  double seconds_left(const std::vector<SolveTask*>& open) const {
-    double seconds = 0.0;
-    for (const auto* task : open)
-      if (!task->done) seconds += costs_.expected(data_.kind_of(*task));
-    return seconds / (dim == 2 ? n_threads_ : 1U);
-  }
+  double seconds_left() const { return costs_.seconds_to_come() / (dim == 2 ? n_threads_ : 1U); }
 
   std::vector<SolveQueue::Worker> workers(const std::vector<SolveTask*>& open) {
     if constexpr (spacedim > dim)
@@ -210,13 +207,14 @@ class StudyRun {
       stop_if_interrupted();
       std::erase_if(not_counted, [&](const SolveTask* task) {
         if (!task->done) return false;
+        costs_.forget(data_.kind_of(*task));
         costs_.add(data_.kind_of(*task), task->seconds);
         return true;
       });
       const std::size_t n_done = n_known + queue.n_done();
       progress_.update(
           n_done, std::to_string(n_done) + " of " + std::to_string(data_.tasks.size()) + " solved",
-          seconds_left(not_counted));
+          seconds_left());
       if (Clock::now() - last_write < between_writes) continue;
       write_iterations();
       write_provenance("running");

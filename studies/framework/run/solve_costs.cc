@@ -68,4 +68,11 @@ double SolveCosts::expected(const SolveKind& kind) const {
   return std::exp(logarithm);
 }
 
+double SolveCosts::seconds_to_come() const {
+  double seconds = 0.0;
+  for (const auto& [key, open] : open_)
+    seconds += static_cast<double>(open.second) * expected(open.first);
+  return seconds;
+}
+
 }  // namespace smoothfem

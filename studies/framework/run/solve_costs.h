@@ -26,7 +26,17 @@ struct SolveKind {
 /// known, and fitted by least squares, in which a zero weighs as much as a few tasks.
 class SolveCosts {
  public:
+  /// A task that took so long.
   void add(const SolveKind& kind, double seconds);
+
+  /// A task that is still to come, and that it is none any more.
+  void expect(const SolveKind& kind) {
+    ++open_.try_emplace(kind.key(), kind, 0).first->second.second;
+  }
+  void forget(const SolveKind& kind) { --open_.at(kind.key()).second; }
+
+  /// Expected seconds of all tasks to come, one after the other.
+  double seconds_to_come() const;
 
   /// Expected seconds of one task. Before the first one is known: right within a factor of ten or
   /// so.
@@ -44,8 +54,11 @@ class SolveCosts {
   static std::array<Effect, 5> effects_of(const SolveKind& kind);
   void fit() const;
 
-  std::map<decltype(SolveKind{}.key()), Known> known_;
-  mutable std::map<Effect, double> effects_;  ///< as last fitted
+  using Key = decltype(SolveKind{}.key());
+
+  std::map<Key, Known> known_;
+  std::map<Key, std::pair<SolveKind, std::size_t>> open_;  ///< and how many of the kind
+  mutable std::map<Effect, double> effects_;               ///< as last fitted
   mutable bool fitted_ = true;
 };
 

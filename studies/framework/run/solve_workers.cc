@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/solve_workers.h"
 
-#include <chrono>
 #include <mutex>
+
+#include "smoothing/base/scoped_timer.h"
 
 namespace smoothfem {
 
@@ -19,16 +20,6 @@ PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
 bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
   return task.is_result || study.write_series;
 }
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// The solvers of planar meshes and degrees, made when first needed. Threads take copies, which
 /// share what depends on the topology.
@@ -58,18 +49,21 @@ class PlanarWorker {
       : data_(data), solvers_(std::move(solvers)) {}
 
   void work(SolveTask& task) {
-    const Stopwatch stopwatch;
     const SolveJob& job = task.job;
-    if (!solver_ || mesh_ != job.mesh || degree_ != job.degree) {
-      solver_ = solvers_->copy(job);
-      mesh_ = job.mesh;
-      degree_ = job.degree;
+    double seconds = 0.0;
+    SolutionRecord solution;
+    {
+      const ScopedTimer timer(seconds);
+      if (!solver_ || mesh_ != job.mesh || degree_ != job.degree) {
+        solver_ = solvers_->copy(job);
+        mesh_ = job.mesh;
+        degree_ = job.degree;
+      }
+      solution = solver_->solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+      if (keeps_nodal_errors(data_.study, task))
+        data_.checkpoint.save_numbers(job.name, task.record, solver_->nodal_errors());
     }
-    SolutionRecord solution =
-        solver_->solve(data_.coordinates_of(task), *data_.solution, task.is_result);
-    if (keeps_nodal_errors(data_.study, task))
-      data_.checkpoint.save_numbers(job.name, task.record, solver_->nodal_errors());
-    finish_task(task, std::move(solution), stopwatch.seconds(), {}, data_.checkpoint);
+    finish_task(task, std::move(solution), seconds, {}, data_.checkpoint);
   }
 
  private:
@@ -86,19 +80,21 @@ class TeamWorker {
   TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team) {}
 
   void work(SolveTask& task) {
-    const Stopwatch stopwatch;
     const SolveJob& job = task.job;
-    const bool other_solver =
-        job_ == nullptr || job_->mesh != job.mesh || job_->degree != job.degree;
-    if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
-    if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
-    job_ = &job;
-    SolutionRecord solution =
-        team_.solve(data_.coordinates_of(task), *data_.solution, task.is_result);
-    if (keeps_nodal_errors(data_.study, task))
-      data_.checkpoint.save_numbers(job.name, task.record, team_.nodal_errors());
-    finish_task(task, std::move(solution), stopwatch.seconds(), team_.eigenvectors(),
-                data_.checkpoint);
+    double seconds = 0.0;
+    SolutionRecord solution;
+    {
+      const ScopedTimer timer(seconds);
+      const bool other_solver =
+          job_ == nullptr || job_->mesh != job.mesh || job_->degree != job.degree;
+      if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
+      if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
+      job_ = &job;
+      solution = team_.solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+      if (keeps_nodal_errors(data_.study, task))
+        data_.checkpoint.save_numbers(job.name, task.record, team_.nodal_errors());
+    }
+    finish_task(task, std::move(solution), seconds, team_.eigenvectors(), data_.checkpoint);
   }
 
  private:
