@@ -157,15 +157,24 @@ class StudyRun {
         open.push_back(&task);
         costs_.expect(data_.kind_of(task));
       }
-    // Threads take tasks in any order: with the initial meshes first, soon it is known what each
-    // size costs. Several processes would have to make their solver twice.
-    if (dim == 2)
-      std::stable_partition(open.begin(), open.end(),
-                            [](const SolveTask* task) { return task->job.method == 0; });
+    if (dim == 2) put_telling_ones_first(open);
     announce(open.size());
     progress_.begin("Finite elements", data_.tasks.size());
     run_tasks(open);
     progress_.end();
+  }
+
+  /// Threads take tasks in any order: with the middle one of each job first, soon it is known what
+  /// the others cost. Several processes go from record to record of a job.
+  static void put_telling_ones_first(std::vector<SolveTask*>& tasks) {
+    std::vector<SolveTask*> first, others;
+    for (std::size_t begin = 0, end = 0; begin < tasks.size(); begin = end) {
+      while (end < tasks.size() && &tasks[end]->job == &tasks[begin]->job) ++end;
+      const std::size_t middle = begin + (end - begin) / 2;
+      for (std::size_t i = begin; i < end; ++i) (i == middle ? first : others).push_back(tasks[i]);
+    }
+    tasks = std::move(first);
+    tasks.insert(tasks.end(), others.begin(), others.end());
   }
 
   /// What is to come, before the first of it.

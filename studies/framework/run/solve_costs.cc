@@ -21,8 +21,13 @@ double SolveCosts::base(const SolveKind& kind) {
   return std::log(seconds_at_1000_dofs) + exponent * std::log(n_dofs / 1000.0);
 }
 
-std::array<SolveCosts::Effect, 5> SolveCosts::effects_of(const SolveKind& kind) {
-  return {{{0, 0}, {1, kind.mesh}, {2, kind.method}, {3, kind.degree}, {4, kind.is_result}}};
+std::array<SolveCosts::Effect, 6> SolveCosts::effects_of(const SolveKind& kind) {
+  return {{{0, 0},
+           {1, kind.mesh},
+           {2, kind.method},
+           {3, kind.degree},
+           {4, kind.is_result},
+           {5, kind.is_initial}}};
 }
 
 void SolveCosts::fit() const {
@@ -36,12 +41,11 @@ void SolveCosts::fit() const {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   // In units of the scatter of one task: a factor of 1.2. Effects are expected within 2, that of
-  // the machine within 5.
-  constexpr double scatter = 0.2, effect_scatter = 0.7, machine_scatter = 1.6;
-  for (const auto& [effect, column] : columns) {
-    const double expected = effect.first == 0 ? machine_scatter : effect_scatter;
-    normal(column, column) = std::pow(scatter / expected, 2);
-  }
+  // the machine within 5, that of being an initial mesh within 10.
+  constexpr double scatter = 0.2;
+  constexpr std::array<double, 6> expected{1.6, 0.7, 0.7, 0.7, 0.7, 2.3};
+  for (const auto& [effect, column] : columns)
+    normal(column, column) = std::pow(scatter / expected.at(effect.first), 2);
   for (const auto& [key, known] : known_) {
     const double count = static_cast<double>(known.n);
     const double excess = std::log(std::max(known.seconds / count, 1e-9)) - base(known.kind);

@@ -12,7 +12,7 @@ namespace smoothfem {
 /// Tasks that cost about the same.
 struct SolveKind {
   std::size_t mesh, method, degree;  ///< any numbers that tell them apart
-  bool is_result;
+  bool is_initial, is_result;
   double n_nodes;
   int dimension;
   int polynomial_degree;
@@ -23,7 +23,9 @@ struct SolveKind {
 /// How long finite element tasks take, learned from those that are done. The logarithm of the
 /// seconds is taken for a sum: of a part that follows from the size of the system, and of what each
 /// mesh, method and degree, and being a result, adds to it; these are zero as long as nothing is
-/// known, and fitted by least squares, in which a zero weighs as much as a few tasks.
+/// known, and fitted by least squares, in which a zero weighs as much as a few tasks. The initial
+/// mesh, a method of its own here, may take ten times as long as others: its condition number is
+/// the hardest to find.
 class SolveCosts {
  public:
   /// A task that took so long.
@@ -48,10 +50,11 @@ class SolveCosts {
     std::size_t n = 0;
     double seconds = 0.0;
   };
-  using Effect = std::pair<int, std::size_t>;  ///< what of: 0 all, 1 mesh, 2 method, ...; which
+  using Effect =
+      std::pair<std::size_t, std::size_t>;  ///< what of: 0 all, 1 mesh, 2 method, ...; which
 
   static double base(const SolveKind& kind);
-  static std::array<Effect, 5> effects_of(const SolveKind& kind);
+  static std::array<Effect, 6> effects_of(const SolveKind& kind);
   void fit() const;
 
   using Key = decltype(SolveKind{}.key());
