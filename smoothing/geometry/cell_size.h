@@ -6,20 +6,58 @@
 
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/mesh/volume_elements.h"
-#include "smoothing/simd/vectors.h"
+#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
-/// Area of a planar cell; negative if its nodes run clockwise. From the first node, as products of
+/// Area of a polygon; negative if its corners run clockwise. From the first corner, as products of
 /// the coordinates themselves would cancel far from the origin.
-inline double signed_cell_size(const PlanarMesh& mesh, CellIndex cell) {
-  const auto nodes = mesh.topology().cell_nodes(cell);
-  const auto x = mesh.coordinates();
-  const Point<2>& origin = x[nodes[0]];
-  double twice_area = 0.0;
-  for (std::size_t k = 2; k < nodes.size(); ++k)
-    twice_area += cross(Point<2>(x[nodes[k - 1]] - origin), Point<2>(x[nodes[k]] - origin));
+template <class Real, std::size_t extent>
+inline Real signed_cell_size(std::span<const Vector2<Real>, extent> corners) {
+  Real twice_area{};
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    twice_area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
   return 0.5 * twice_area;
+}
+
+/// Volume of a cell whose quadrilateral faces are bilinear (each holds as much as the mean of its
+/// two divisions into triangles); negative for cells turned inside out. By the tetrahedra that the
+/// faces' triangles make with the first node.
+template <class Real, std::size_t n>
+inline Real signed_cell_size(std::span<const Vector3<Real>, n> nodes) {
+  Real six_volumes{};
+  unrolled<VolumeElement<n>::faces.size()>([&](auto f) {
+    constexpr LocalFace face = VolumeElement<n>::faces[f];
+    const auto add = [&](Real& sum, auto a, auto b, auto c) {
+      constexpr LocalIndex i = face.nodes[a], j = face.nodes[b], k = face.nodes[c];
+      if constexpr (i != 0 && j != 0 && k != 0)
+        sum += dot(nodes[i] - nodes[0], cross(nodes[j] - nodes[0], nodes[k] - nodes[0]));
+    };
+    constexpr std::integral_constant<std::size_t, 0> a;
+    constexpr std::integral_constant<std::size_t, 1> b;
+    constexpr std::integral_constant<std::size_t, 2> c;
+    if constexpr (face.size == 3) {
+      add(six_volumes, a, b, c);
+    } else {
+      constexpr std::integral_constant<std::size_t, 3> d;
+      Real both_divisions{};
+      add(both_divisions, a, b, c);
+      add(both_divisions, a, c, d);
+      add(both_divisions, a, b, d);
+      add(both_divisions, b, c, d);
+      six_volumes += 0.5 * both_divisions;
+    }
+  });
+  return six_volumes / 6.0;
+}
+
+/// The same of a cell of a mesh.
+template <int dim>
+inline double signed_cell_size(const Mesh<dim>& mesh, CellIndex cell) {
+  double size = 0.0;
+  with_corners<dim>(mesh.topology().cell_nodes(cell), mesh.coordinates().data(),
+                    [&](auto corners) { size = signed_cell_size(corners); });
+  return size;
 }
 
 /// Area vector of a polygon in space: along its mean normal, twice as long as its area.
@@ -48,25 +86,6 @@ inline double signed_cell_size(const SurfaceMesh& mesh, CellIndex cell) {
   const Point<3> area = area_vector(mesh.topology().cell_nodes(cell), mesh.coordinates());
   return 0.5 * std::copysign(1.0, area.dot(mesh.constraints()->facet_normals()[cell])) *
          area.stableNorm();
-}
-
-/// Volume of a volume cell whose quadrilateral faces are bilinear (each holds as much as the mean
-/// of its two divisions into triangles); negative for cells turned inside out.
-inline double signed_cell_size(const VolumeMesh& mesh, CellIndex cell) {
-  const auto nodes = mesh.topology().cell_nodes(cell);
-  const auto x = mesh.coordinates();
-  const Point<3>& origin = x[nodes[0]];
-  double six_volumes = 0.0;
-  for (const LocalFace& face : volume_element(nodes.size()).faces) {
-    std::array<Point<3>, 4> p;
-    for (std::size_t k = 0; k < face.size; ++k) p[k] = x[nodes[face.nodes[k]]] - origin;
-    const auto triangle = [&](int a, int b, int c) { return dot<3>(p[a], p[b].cross(p[c])); };
-    six_volumes +=
-        face.size == 3
-            ? triangle(0, 1, 2)
-            : 0.5 * (triangle(0, 1, 2) + triangle(0, 2, 3) + triangle(0, 1, 3) + triangle(1, 2, 3));
-  }
-  return six_volumes / 6.0;
 }
 
 }  // namespace smoothfem

@@ -27,9 +27,11 @@ StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movemen
     Point<spacedim> move = movement(i);
     const Point<spacedim> old = mesh.coordinates()[i];
     mesh.coordinates()[i] = allowed_position<dim, spacedim>(mesh, i, old + move);
-    if (mesh.coordinates()[i] != old && !keeps_facet_bound(mesh, {&i, 1}))
-      mesh.coordinates()[i] = old;
-    if (mesh.constraints()) move = mesh.coordinates()[i] - old;
+    if (mesh.constraints()) {
+      if (mesh.coordinates()[i] != old && !keeps_facet_bound(mesh, {&i, 1}))
+        mesh.coordinates()[i] = old;
+      move = mesh.coordinates()[i] - old;
+    }
     longest = std::max(longest, squared_length<spacedim>(move));
   }
   return {.max_displacement = std::sqrt(longest)};

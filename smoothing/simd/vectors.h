@@ -17,6 +17,12 @@ struct Vector2 {
   friend inline Vector2 operator*(double s, Vector2 a) requires(!std::is_same_v<Real, double>) {
     return {s * a.x, s * a.y};
   }
+  friend inline Vector2 operator/(Vector2 a, double s) { return {a.x / s, a.y / s}; }
+  /// The same point of the plane from each lane.
+  friend inline Vector2 operator-(Vector2 a,
+                                  Vector2<double> b) requires(!std::is_same_v<Real, double>) {
+    return {a.x - b.x, a.y - b.y};
+  }
 };
 
 /// The same of space.
@@ -33,6 +39,11 @@ struct Vector3 {
   friend inline Vector3 operator*(Real s, Vector3 a) { return {s * a.x, s * a.y, s * a.z}; }
   friend inline Vector3 operator*(double s, Vector3 a) requires(!std::is_same_v<Real, double>) {
     return {s * a.x, s * a.y, s * a.z};
+  }
+  friend inline Vector3 operator/(Vector3 a, double s) { return {a.x / s, a.y / s, a.z / s}; }
+  friend inline Vector3 operator-(Vector3 a,
+                                  Vector3<double> b) requires(!std::is_same_v<Real, double>) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
 };
 
