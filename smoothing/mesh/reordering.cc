@@ -13,42 +13,56 @@ namespace smoothfem {
 
 namespace {
 
-/// Nodes in the order of a breadth-first search from `start` over nodes that are not in `visited`
-/// yet, neighbours with few neighbours of their own first; appended to `order`.
-void append_breadth_first(const CompressedRows<NodeIndex>& neighbours, NodeIndex start,
-                          std::vector<bool>& visited, std::vector<NodeIndex>& order) {
-  std::vector<NodeIndex> next;
-  std::size_t head = order.size();
-  order.push_back(start);
-  visited[start] = true;
-  for (; head < order.size(); ++head) {
-    next.clear();
-    for (const NodeIndex j : neighbours[order[head]])
-      if (!visited[j]) {
-        visited[j] = true;
-        next.push_back(j);
+/// Breadth-first search over the nodes of a mesh, from cell to cell: nodes of one cell are
+/// neighbours. A table of neighbours would take longer to make than both searches.
+class BreadthFirst {
+ public:
+  BreadthFirst(const Topology& topology, const CompressedRows<CellIndex>& node_cells)
+      : topology_(topology),
+        node_cells_(node_cells),
+        visited_(topology.n_nodes(), 0),
+        expanded_(topology.n_cells(), 0) {}
+
+  bool has_visited(NodeIndex node) const { return visited_[node] != 0; }
+
+  /// Appends what can be reached from a node to `order`, those with few cells first among the nodes
+  /// that are reached from the same one.
+  void append_from(NodeIndex start, std::vector<NodeIndex>& order) {
+    std::size_t head = order.size();
+    order.push_back(start);
+    visited_[start] = 1;
+    for (; head < order.size(); ++head) {
+      const auto n_before = static_cast<std::ptrdiff_t>(order.size());
+      for (const CellIndex c : node_cells_[order[head]]) {
+        if (std::exchange(expanded_[c], 1)) continue;
+        for (const NodeIndex j : topology_.cell_nodes(c))
+          if (!std::exchange(visited_[j], 1)) order.push_back(j);
       }
-    std::sort(next.begin(), next.end(), [&](NodeIndex a, NodeIndex b) {
-      return std::make_pair(neighbours[a].size(), a) < std::make_pair(neighbours[b].size(), b);
-    });
-    order.insert(order.end(), next.begin(), next.end());
+      std::sort(order.begin() + n_before, order.end(), [&](NodeIndex a, NodeIndex b) {
+        return std::make_pair(node_cells_[a].size(), a) < std::make_pair(node_cells_[b].size(), b);
+      });
+    }
   }
-}
+
+ private:
+  const Topology& topology_;
+  const CompressedRows<CellIndex>& node_cells_;
+  std::vector<std::uint8_t> visited_, expanded_;
+};
 
 /// Each part of the mesh starts at a node that a search from its lowest node finds last: far out,
 /// so that levels are small.
 std::vector<NodeIndex> reverse_cuthill_mckee(const Topology& topology) {
-  // The topology's own tables would be kept, but these are large meshes.
-  const auto neighbours =
-      nodes_by_node(topology, rows_by_entry(topology.cells(), topology.n_nodes()));
-  std::vector<bool> visited(topology.n_nodes(), false), searched(topology.n_nodes(), false);
-  std::vector<NodeIndex> order, search;
+  // The topology's own table would be kept, but these are large meshes.
+  const auto node_cells = rows_by_entry(topology.cells(), topology.n_nodes());
+  BreadthFirst search(topology, node_cells), numbering(topology, node_cells);
+  std::vector<NodeIndex> found, order;
   order.reserve(topology.n_nodes());
   for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
-    if (visited[i]) continue;
-    search.clear();
-    append_breadth_first(neighbours, i, searched, search);
-    append_breadth_first(neighbours, search.back(), visited, order);
+    if (numbering.has_visited(i)) continue;
+    found.clear();
+    search.append_from(i, found);
+    numbering.append_from(found.back(), order);
   }
   std::reverse(order.begin(), order.end());
   return order;
