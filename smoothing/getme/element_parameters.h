@@ -17,6 +17,9 @@ struct ElementParameters<2> {
   double lambda;         ///< subdivision ratio, in (0, 1)
   double theta_degrees;  ///< base angle, in (0, 90)
   double rho;            ///< relaxation, in (0, 1]
+  int scaling = mean_edge_length;
+
+  enum Scaling { mean_edge_length, neighbour_mean_size };
 
   Parameters parameters() {
     return {{"lambda", "subdivision ratio of the polygon sides (Section 2.3)", &lambda, 0.0, 1.0,
@@ -24,7 +27,11 @@ struct ElementParameters<2> {
             {"theta", "base angle of the similar triangles in degrees (Section 2.3)",
              &theta_degrees, 0.0, 90.0, true, true},
             {"rho", "relaxation; 1 takes the transformed element as it is (Eq. 3.12)", &rho, 0.0,
-             1.0, true}};
+             1.0, true},
+            {"scaling",
+             "what size a transformed element has: that of before (Eq. 3.11), or the mean of the "
+             "elements around its nodes",
+             Choice{&scaling, {"mean-edge-length", "neighbour-mean-size"}}}};
   }
 };
 
@@ -37,7 +44,7 @@ struct SigmaRange {
 template <>
 struct ElementParameters<3> {
   enum TetrahedronTransformation { opposite_face_normals, dual_element };
-  enum Scaling { mean_edge_length, mean_volume };
+  enum Scaling { mean_edge_length, mean_volume, neighbour_mean_size };
 
   SigmaRange tetrahedron, pyramid, prism, hexahedron;
   double rho;  ///< relaxation, in (0, 1]
@@ -67,8 +74,11 @@ struct ElementParameters<3> {
     all.push_back({"tetrahedron_transformation",
                    "how tetrahedra are transformed (Sections 3.2, 3.3)",
                    Choice{&tetrahedron_transformation, {"opposite-face-normals", "dual-element"}}});
-    all.push_back({"scaling", "what an element keeps (Section 3.3)",
-                   Choice{&scaling, {"mean-edge-length", "mean-volume"}}});
+    all.push_back(
+        {"scaling",
+         "what size a transformed element has: that of before (Section 3.3), or the mean of the "
+         "elements around its nodes",
+         Choice{&scaling, {"mean-edge-length", "mean-volume", "neighbour-mean-size"}}});
     return all;
   }
 };

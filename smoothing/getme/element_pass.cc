@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "smoothing/getme/neighbour_sizes.h"
 #include "smoothing/getme/node_sums.h"
 #include "smoothing/getme/regularize.h"
 #include "smoothing/simd/cells.h"
@@ -86,6 +87,7 @@ template <int dim, int spacedim, class Weighting>
 struct Pass {
   const Mesh<dim, spacedim>& mesh;
   const ElementRegularization<dim, spacedim>& element;
+  const NeighbourSizes<dim, spacedim>& sizes;  ///< up to date if the element's step needs them
   Weighting weighting;
 
   /// sums[i] += w_j p'_i for the elements of a batch and their nodes where wanted(i). Returns their
@@ -95,8 +97,9 @@ struct Pass {
   Lanes add(const CellBatch<n>& batch, const Wanted& wanted, double* sums) const {
     const auto corners = batch.template corners<dim>(mesh.coordinates().data());
     std::array<Vector<dim, Lanes>, n> transformed;
+    const Lanes size = element.fits_neighbours() ? sizes.of(batch) : Lanes{};
     const Lanes quality = element.regularize(std::span<const Vector<dim, Lanes>, n>(corners),
-                                             std::span<Vector<dim, Lanes>, n>(transformed));
+                                             std::span<Vector<dim, Lanes>, n>(transformed), size);
     const Lanes weight = weighting.weight(batch.cells, quality);
     unrolled<n>([&](auto k) {
       const auto terms = weighted(weighting.chosen(quality, transformed[k], corners[k]), weight);
@@ -114,7 +117,8 @@ struct Pass {
     double quality = 0.0;
     with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
       with_result(corners, [&](auto transformed) {
-        quality = regularize(element, upper_side(mesh, cell), corners, transformed);
+        const double size = element.fits_neighbours() ? sizes.of(nodes) : 0.0;
+        quality = regularize(element, upper_side(mesh, cell), corners, transformed, size);
         const double weight = weighting.weight(cell, quality);
         for (std::size_t k = 0; k < nodes.size(); ++k)
           if (wanted(nodes[k]))
@@ -159,10 +163,30 @@ void add_to_marked(const Pass<dim, spacedim, Weighting>& pass, std::span<const C
 template <int dim, int spacedim>
 struct ElementPass<dim, spacedim>::Tables {
   std::optional<ElementRegularization<dim, spacedim>> element;
+  NeighbourSizes<dim, spacedim> sizes;
   NodeSums sums;
   std::vector<PartialQuality> qualities;   ///< of each block of cells
   std::vector<std::uint8_t> marked_nodes;  ///< whose sums have to be added again
   std::vector<std::uint8_t> marked_cells;  ///< that add to them
+
+  /// The nodes of all cells around some nodes that are not marked yet; marks them.
+  std::vector<NodeIndex> nodes_around(const Topology& topology, std::span<const NodeIndex> nodes) {
+    std::vector<NodeIndex> around;
+    for (const NodeIndex i : nodes)
+      for (const CellIndex c : topology.node_cells(i))
+        for (const NodeIndex j : topology.cell_nodes(c))
+          if (!std::exchange(marked_nodes[j], 1)) around.push_back(j);
+    return around;
+  }
+  /// The nodes of some cells.
+  std::vector<NodeIndex> nodes_of(const Topology& topology, std::span<const CellIndex> cells) {
+    marked_nodes.assign(topology.n_nodes(), 0);
+    std::vector<NodeIndex> nodes;
+    for (const CellIndex c : cells)
+      for (const NodeIndex i : topology.cell_nodes(c))
+        if (!std::exchange(marked_nodes[i], 1)) nodes.push_back(i);
+    return nodes;
+  }
 };
 
 template <int dim, int spacedim>
@@ -183,7 +207,9 @@ template <int dim, int spacedim>
 MeshQuality ElementPass<dim, spacedim>::transform_all(SmoothingState<dim, spacedim>& state,
                                                       double eta) {
   const Topology& topology = state.mesh.topology();
-  const Pass<dim, spacedim, QualityWeighting> pass{state.mesh, *tables_->element, {eta}};
+  if (tables_->element->fits_neighbours()) tables_->sizes.update(state.mesh);
+  const Pass<dim, spacedim, QualityWeighting> pass{
+      state.mesh, *tables_->element, tables_->sizes, {eta}};
   tables_->sums.compute([&](std::size_t b, double* sums) {
     add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
     tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
@@ -200,11 +226,12 @@ MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spa
   auto& marked_cells = tables_->marked_cells;
   marked_nodes.assign(topology.n_nodes(), 0);
   marked_cells.assign(topology.n_cells(), 0);
-  std::vector<NodeIndex> changed_sums;
-  for (const NodeIndex i : nodes)
-    for (const CellIndex c : topology.node_cells(i))
-      for (const NodeIndex j : topology.cell_nodes(c))
-        if (!std::exchange(marked_nodes[j], 1)) changed_sums.push_back(j);
+  auto changed_sums = tables_->nodes_around(topology, nodes);
+  if (tables_->element->fits_neighbours()) {  // cells of other sizes change the steps of others
+    tables_->sizes.update(state.mesh, changed_sums);
+    const auto further = tables_->nodes_around(topology, changed_sums);
+    changed_sums.insert(changed_sums.end(), further.begin(), further.end());
+  }
   if (4 * changed_sums.size() > topology.n_nodes()) return transform_all(state, eta);
   std::sort(changed_sums.begin(), changed_sums.end());
   for (const NodeIndex i : changed_sums)
@@ -213,7 +240,8 @@ MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spa
   for (CellIndex c = 0; c < topology.n_cells(); ++c)
     if (marked_cells[c]) cells.push_back(c);
 
-  const Pass<dim, spacedim, QualityWeighting> pass{state.mesh, *tables_->element, {eta}};
+  const Pass<dim, spacedim, QualityWeighting> pass{
+      state.mesh, *tables_->element, tables_->sizes, {eta}};
   tables_->sums.compute_some(
       changed_sums, cells,
       [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
@@ -228,8 +256,14 @@ void ElementPass<dim, spacedim>::transform_some(const SmoothingState<dim, spaced
                                                 std::span<const NodeIndex> nodes,
                                                 std::span<const CellIndex> cells,
                                                 std::span<const double> weights, double threshold) {
+  if (tables_->element->fits_neighbours()) {
+    if (cells.size() == state.mesh.n_cells())
+      tables_->sizes.update(state.mesh);
+    else
+      tables_->sizes.update(state.mesh, tables_->nodes_of(state.mesh.topology(), cells));
+  }
   const Pass<dim, spacedim, ThresholdWeighting> pass{
-      state.mesh, *tables_->element, {weights.data(), threshold}};
+      state.mesh, *tables_->element, tables_->sizes, {weights.data(), threshold}};
   auto& marked_nodes = tables_->marked_nodes;
   marked_nodes.assign(state.mesh.n_nodes(), 0);
   for (const NodeIndex i : nodes) marked_nodes[i] = 1;

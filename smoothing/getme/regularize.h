@@ -12,7 +12,8 @@
 
 namespace smoothfem {
 
-/// The element step of GETMe: transform, keep centroid and size, relax.
+/// The element step of GETMe: transform, keep centroid and size, relax. Where the size is to be
+/// that of the neighbours, each step is told it (NeighbourSizes).
 template <int dim, int spacedim = dim>
 class ElementRegularization;
 
@@ -21,14 +22,21 @@ class ElementRegularization<2> {
  public:
   explicit ElementRegularization(const ElementParameters<2>& parameters)
       : transformation_(parameters.lambda, parameters.theta_degrees * std::numbers::pi / 180.0),
-        rho_(parameters.rho) {}
+        rho_(parameters.rho),
+        fits_neighbours_(parameters.scaling == ElementParameters<2>::neighbour_mean_size) {}
+
+  /// Whether steps need to be told a size.
+  bool fits_neighbours() const { return fits_neighbours_; }
 
   /// Returns the mean ratio of the polygon, which planar transformations do not depend on.
   template <class Real, std::size_t extent>
   inline Real regularize(std::span<const Vector2<Real>, extent> polygon,
-                         std::span<Vector2<Real>, extent> result) const {
+                         std::span<Vector2<Real>, extent> result, Real size = Real{}) const {
     transformation_.apply(polygon, result);
-    keep_mean_edge_length(polygon, result);
+    if (fits_neighbours_)
+      give_size<2>(polygon, size, result);
+    else
+      keep_mean_edge_length(polygon, result);
     if (rho_ != 1.0) relax(polygon, result, rho_);
     return mean_ratio(polygon);
   }
@@ -36,6 +44,7 @@ class ElementRegularization<2> {
  protected:
   PolygonTransformation transformation_;
   double rho_;
+  bool fits_neighbours_;
 };
 
 /// Polygons of a surface in space: the planar step in the plane across each one's mean normal.
@@ -47,9 +56,12 @@ class ElementRegularization<2, 3> : public ElementRegularization<2> {
   /// upper: see mean_ratio, which is returned.
   template <std::size_t extent>
   double regularize(Vector3<double> upper, std::span<const Vector3<double>, extent> polygon,
-                    std::span<Vector3<double>, extent> result) const {
+                    std::span<Vector3<double>, extent> result, double size = 0.0) const {
     transformation_.apply(unit_normal(polygon), polygon, result);
-    keep_mean_edge_length(polygon, result);
+    if (fits_neighbours_)
+      give_size<2>(polygon, size, result);
+    else
+      keep_mean_edge_length(polygon, result);
     if (rho_ != 1.0) relax(polygon, result, rho_);
     return mean_ratio(upper, polygon);
   }
@@ -61,10 +73,14 @@ class ElementRegularization<3> {
   explicit ElementRegularization(const ElementParameters<3>& parameters)
       : parameters_(parameters) {}
 
+  bool fits_neighbours() const {
+    return parameters_.scaling == ElementParameters<3>::neighbour_mean_size;
+  }
+
   /// Returns the mean ratio of the cell, which the normals' factor depends on.
   template <class Real, std::size_t n>
   inline Real regularize(std::span<const Vector3<Real>, n> nodes,
-                         std::span<Vector3<Real>, n> result) const {
+                         std::span<Vector3<Real>, n> result, Real size = Real{}) const {
     using Parameters = ElementParameters<3>;
     const CellEdges<Real, n> edges(nodes);
     const Real quality = mean_ratio(edges);
@@ -80,8 +96,10 @@ class ElementRegularization<3> {
     }
     if (parameters_.scaling == Parameters::mean_edge_length)
       keep_mean_edge_length(nodes, edges, result);
-    else
+    else if (parameters_.scaling == Parameters::mean_volume)
       keep_mean_volume(nodes, result);
+    else
+      give_size<3>(nodes, size, result);
     if (parameters_.rho != 1.0) relax(nodes, result, parameters_.rho);
     return quality;
   }
@@ -93,11 +111,11 @@ class ElementRegularization<3> {
 /// One line for cells of every kind of mesh.
 template <int dim, int spacedim, class Upper, class Corners, class Result>
 inline double regularize(const ElementRegularization<dim, spacedim>& element, Upper upper,
-                         Corners corners, Result result) {
+                         Corners corners, Result result, double size) {
   if constexpr (dim == spacedim)
-    return element.regularize(corners, result);
+    return element.regularize(corners, result, size);
   else
-    return element.regularize(upper, corners, result);
+    return element.regularize(upper, corners, result, size);
 }
 
 }  // namespace smoothfem

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "smoothing/getme/min_tree.h"
+#include "smoothing/getme/neighbour_sizes.h"
 #include "smoothing/getme/regularize.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/quality/local_quality.h"
@@ -172,6 +173,13 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     return worst;
   }
 
+  /// The size that an element's step is told, where it needs one.
+  double fitting_size(const Mesh<dim, spacedim>& mesh, std::span<const NodeIndex> nodes) {
+    if (!regularization_->fits_neighbours()) return 0.0;
+    neighbour_sizes_.update(mesh, nodes);
+    return neighbour_sizes_.of(nodes);
+  }
+
   /// Sets the free nodes of a cell to their transformed positions; remembers the old ones.
   [[gnu::flatten]] void transform(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     auto& mesh = state.mesh;
@@ -182,7 +190,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     ++n_transformations_;
     with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
       with_result(corners, [&](auto result) {
-        regularize(*regularization_, upper_side(mesh, cell), corners, result);
+        const double size = fitting_size(mesh, nodes);
+        regularize(*regularization_, upper_side(mesh, cell), corners, result, size);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (topology.is_fixed(nodes[k])) continue;
           moved_.emplace_back(nodes[k], point_of(corners[k]));
@@ -228,6 +237,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
 
   ElementParameters<dim> element_ = default_parameters<dim>();
   std::optional<ElementRegularization<dim, spacedim>> regularization_;
+  NeighbourSizes<dim, spacedim> neighbour_sizes_;
   Assessment assess_;
   double penalty_invalid_ = 1e-4;
   double penalty_repeated_ = 1e-5;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,24 @@
 
 namespace smoothfem::test {
 
-/// The method with so few iterations a stage that differences in rounding cannot grow.
+/// A method of the catalogue, or with " NAME=VALUE" behind its name one whose stages all have a
+/// parameter otherwise.
+template <int dim, int spacedim = dim>
+Method<dim, spacedim> make_variant(const std::string& name) {
+  const auto space = name.find(' ');
+  auto method = make_method<dim, spacedim>(name.substr(0, space));
+  if (space == std::string::npos) return method;
+  const auto equals = name.find('=');
+  for (const auto& parameter : method.parameters())
+    if (parameter.name.ends_with(name.substr(space + 1, equals - space - 1)))
+      method.set(parameter.name, name.substr(equals + 1));
+  return method;
+}
+
+/// The same with so few iterations a stage that differences in rounding cannot grow.
 template <int dim, int spacedim = dim>
 Method<dim, spacedim> short_method(const std::string& name, const std::string& n_iterations) {
-  auto method = make_method<dim, spacedim>(name);
+  auto method = make_variant<dim, spacedim>(name);
   for (const auto& parameter : method.parameters())
     if (parameter.name.ends_with("max_iterations") || parameter.name.ends_with("max_cycles"))
       method.set(parameter.name, n_iterations);
@@ -27,9 +42,17 @@ inline std::vector<std::string> method_names() {
   for (const auto& info : method_catalogue()) names.push_back(info.name);
   return names;
 }
+/// The same and the variants that are as good as methods of their own.
+inline std::vector<std::string> variant_names() {
+  auto names = method_names();
+  for (const auto& name : method_names())
+    if (name.starts_with("getme")) names.push_back(name + " scaling=neighbour-mean-size");
+  return names;
+}
 inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
-  std::replace(name.begin(), name.end(), '-', '_');
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
 }
 

@@ -35,6 +35,28 @@ inline void keep_mean_edge_length(std::span<const Corner, extent> original,
   for (auto& node : transformed) node = centre + factor * (node - centre);
 }
 
+/// Twice the mean area of the triangles that a polygon's nodes make with their neighbours.
+template <class Real, std::size_t extent>
+inline Real mean_node_triangle(std::span<const Vector2<Real>, extent> polygon) {
+  const std::size_t n = polygon.size();
+  if (n == 3) return cross(polygon[1] - polygon[0], polygon[2] - polygon[0]);  // all three the same
+  Real sum{};
+  for (std::size_t k = 0; k < n; ++k)
+    sum += cross(polygon[k + 1 == n ? 0 : k + 1] - polygon[k],
+                 polygon[k == 0 ? n - 1 : k - 1] - polygon[k]);
+  return sum / static_cast<double>(n);
+}
+/// The same of a polygon in space, across its mean normal.
+template <std::size_t extent>
+inline double mean_node_triangle(std::span<const Vector3<double>, extent> polygon) {
+  const std::size_t n = polygon.size();
+  Vector3<double> sum{};
+  for (std::size_t k = 0; k < n; ++k)
+    sum = sum + cross(polygon[k + 1 == n ? 0 : k + 1] - polygon[k],
+                      polygon[k == 0 ? n - 1 : k - 1] - polygon[k]);
+  return length_of_any_size(sum) / static_cast<double>(n);
+}
+
 /// Sum of the lengths of a volume cell's edges.
 template <class Real, std::size_t n>
 inline Real edge_length_sum(const CellEdges<Real, n>& edges) {
@@ -56,12 +78,27 @@ inline Real node_simplex_volume_sum(std::span<const Vector3<Real>, n> nodes) {
   return sum;
 }
 
-/// Scales a transformed cell by `factor` and moves it so that it has the original's centroid.
+/// Six times the mean volume of a cell's node simplices.
 template <class Real, std::size_t n>
-inline void scale_about_centroid(std::span<const Vector3<Real>, n> original, Real factor,
-                                 std::span<Vector3<Real>, n> transformed) {
+inline Real mean_node_tetrahedron(std::span<const Vector3<Real>, n> nodes) {
+  return node_simplex_volume_sum(nodes) / static_cast<double>(VolumeElement<n>::corners.size());
+}
+
+/// Size of a cell of dimension dim by its mean node simplex.
+template <int dim, class Corners>
+inline auto node_simplex_size(Corners corners) {
+  if constexpr (dim == 2)
+    return mean_node_triangle(corners);
+  else
+    return mean_node_tetrahedron(corners);
+}
+
+/// Scales a transformed cell by `factor` and moves it so that it has the original's centroid.
+template <class Corner, std::size_t extent, class Real>
+inline void scale_about_centroid(std::span<const Corner, extent> original, Real factor,
+                                 std::span<Corner, extent> transformed) {
   const auto centre = centroid(original);
-  const auto present_centre = centroid(std::span<const Vector3<Real>, n>(transformed));
+  const auto present_centre = centroid(std::span<const Corner, extent>(transformed));
   for (auto& node : transformed) node = centre + factor * (node - present_centre);
 }
 
@@ -83,6 +120,14 @@ inline void keep_mean_volume(std::span<const Vector3<Real>, n> original,
   const Real present = node_simplex_volume_sum(std::span<const Vector3<Real>, n>(transformed));
   scale_about_centroid(original, inverse_root<3>(present / node_simplex_volume_sum(original)),
                        transformed);
+}
+
+/// The same so that its mean node simplex has a given size. Both have to be positive.
+template <int dim, class Corner, std::size_t extent, class Real>
+inline void give_size(std::span<const Corner, extent> original, Real size,
+                      std::span<Corner, extent> transformed) {
+  const Real present = node_simplex_size<dim>(std::span<const Corner, extent>(transformed));
+  scale_about_centroid(original, inverse_root<dim>(present / size), transformed);
 }
 
 /// Relaxation (1 - rho) original + rho transformed (thesis, Eq. 3.12), rho in (0, 1].
