@@ -180,14 +180,14 @@ class SmoothingRun {
     {
       const bool uses_quality = any_stage(
           method, [](const auto& stage) { return stage.traits().quality_use != QualityUse::none; });
-      const ScopedTimer timer(uses_quality ? seconds_ : others_seconds);
+      const ScopedTimer timer(uses_quality ? preparation_seconds_ : others_seconds);
       evaluate_quality();
     }
     state_.initial_quality = quality_;
     if (any_stage(method, [](const auto& stage) {
           return stage.stopping().criterion == StoppingRule::Criterion::max_displacement;
         })) {
-      const ScopedTimer timer(seconds_);
+      const ScopedTimer timer(preparation_seconds_);
       mean_edge_length_ = mean_edge_length(state_.mesh);
     }
     observe("initial", 0, 0);
@@ -201,7 +201,7 @@ class SmoothingRun {
                        .why_stopped = "it reached its largest number of iterations"};
     std::optional<BestMesh<spacedim>> best;
     {
-      const ScopedTimer timer(seconds_);
+      const ScopedTimer timer(preparation_seconds_);
       smoother.initialize(state_);
       best.emplace(traits.result, state_.mesh.coordinates(), quality_, smoother.initial_score());
     }
@@ -235,7 +235,7 @@ class SmoothingRun {
   }
 
   SmoothingResult result(std::vector<StageResult> stages) const {
-    return {std::move(stages), seconds_, quality_, result_record_};
+    return {std::move(stages), seconds_, preparation_seconds_, quality_, result_record_};
   }
 
  private:
@@ -247,7 +247,7 @@ class SmoothingRun {
         any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
       return;
     if constexpr (dim == spacedim) {
-      const ScopedTimer timer(seconds_);
+      const ScopedTimer timer(preparation_seconds_);
       reordering_.emplace(state_.mesh.shared_topology());
       state_.mesh = reordering_->apply(std::move(state_.mesh));
     }
@@ -303,7 +303,8 @@ class SmoothingRun {
 
   void observe(const std::string& stage, std::size_t iteration, std::size_t n_reset) {
     if (observer_)
-      observer_({n_records_, stage, iteration, seconds_, quality_, n_reset}, users_view());
+      observer_({n_records_, stage, iteration, seconds_, preparation_seconds_, quality_, n_reset},
+                users_view());
     ++n_records_;
   }
 
@@ -312,7 +313,8 @@ class SmoothingRun {
   const Observer<dim, spacedim>& observer_;
   std::optional<Reordering<spacedim>> reordering_;
   std::optional<Mesh<dim, spacedim>> view_;  ///< the mesh in the caller's order, where reordered
-  double seconds_ = 0.0;                     ///< that belong to smoothing
+  double seconds_ = 0.0;                     ///< of the main loops
+  double preparation_seconds_ = 0.0;
   MeshQuality quality_;
   double mean_edge_length_ = 0.0;
   std::vector<Point<spacedim>> previous_;

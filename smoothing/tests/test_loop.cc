@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "smoothing/getme/min_tree.h"
 #include "smoothing/loop/catalogue.h"
@@ -312,6 +314,45 @@ TEST(Loop, AStageThatRefusesToBeginLeavesTheMeshThatItWasGiven) {
     EXPECT_THROW(smooth(mesh, method), InputError);
     EXPECT_EQ(mesh.copied_coordinates(), given) << n;
   }
+}
+
+/// Takes its time, and says how much.
+class SlowSmoother final : public Smoother<2> {
+ public:
+  static constexpr std::chrono::milliseconds preparation{40}, iteration{10};
+  std::string_view name() const override { return "slow"; }
+  SmootherTraits traits() const override { return {.quality_use = QualityUse::none}; }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = 3};
+  }
+  void initialize(const SmoothingState<2>&) override { std::this_thread::sleep_for(preparation); }
+  StepReport step(SmoothingState<2>&) override {
+    std::this_thread::sleep_for(iteration);
+    return {};
+  }
+};
+
+TEST(Loop, PreparationsAreTimedApart) {
+  PlanarMesh mesh = test::grid_mesh(10, test::GridCells::quadrilaterals);
+  Method<2> method;
+  method.stages.push_back(std::make_unique<SlowSmoother>());
+  method.stages.push_back(std::make_unique<SlowSmoother>());
+  const double preparation = 0.040, iteration = 0.010;
+  std::vector<IterationRecord> records;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result =
+      smooth(mesh, method, [&](const auto& record, const auto&) { records.push_back(record); });
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(result.preparation_seconds, 2 * preparation);
+  EXPECT_GE(result.smoothing_seconds, 6 * iteration);
+  EXPECT_LE(result.preparation_seconds + result.smoothing_seconds, all.count());
+  ASSERT_EQ(records.size(), 7U);
+  EXPECT_EQ(records[0].smoothing_seconds, 0.0);
+  EXPECT_GE(records[1].preparation_seconds, preparation);
+  EXPECT_EQ(records[3].preparation_seconds, records[1].preparation_seconds);
+  EXPECT_GE(records[4].preparation_seconds, records[3].preparation_seconds + preparation);
+  EXPECT_EQ(records.back().preparation_seconds, result.preparation_seconds);
+  EXPECT_GE(result.smoothing_seconds, records.back().smoothing_seconds);
 }
 
 }  // namespace

@@ -253,9 +253,11 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
   print_row("before", before);
   print_row("after", outcome.smoothing.quality);
-  std::printf("%s: %s iterations in %.4g s on %d threads; written to %s\n",
-              outcome.method_title.c_str(), outcome.smoothing.iterations_text().c_str(),
-              outcome.smoothing.smoothing_seconds, n_threads(), arguments.out.c_str());
+  std::printf(
+      "%s: %s iterations in %.4g s, and %.4g s of preparation, on %d threads; written to %s\n",
+      outcome.method_title.c_str(), outcome.smoothing.iterations_text().c_str(),
+      outcome.smoothing.smoothing_seconds, outcome.smoothing.preparation_seconds, n_threads(),
+      arguments.out.c_str());
   print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
   if constexpr (dim == 3)
     if (const auto* constraints = mesh.constraints())

@@ -59,6 +59,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
   IterationRow row = iteration_row("getme", 3, 0.1);
   row.iteration.quality = {.q_min = 0.1, .q_star_min = 0.2, .q_mean = 2.0 / 3.0, .n_invalid = 0};
   row.iteration.n_reset = 4;
+  row.iteration.preparation_seconds = 0.25;
   row.warpage = MeshWarpage{.max = 0.75, .mean = 0.125, .n_faces = 3};
   row.solved = full_record();
   const auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
@@ -68,6 +69,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                         {"stage", "stage"},
                                         {"iteration", "3"},
                                         {"smoothing_seconds", "0.1"},
+                                        {"preparation_seconds", "0.25"},
                                         {"q_min", "0.1"},
                                         {"q_star_min", "0.2"},
                                         {"n_invalid", "0"},
@@ -164,14 +166,19 @@ TEST(IterationsCsv, CommasAndQuotesAreQuoted) {
 TEST(SummaryCsv, TheInitialMeshHasNoIterationsAndNoTime) {
   SummaryRow initial{.mesh = "tri", .method = "initial"};
   initial.degree = 1;
-  SummaryRow smoothed{
-      .mesh = "tri", .method = "getme", .iterations = "40/2800", .smoothing_seconds = 0.25};
+  SummaryRow smoothed{.mesh = "tri",
+                      .method = "getme",
+                      .iterations = "40/2800",
+                      .smoothing_seconds = 0.25,
+                      .preparation_seconds = 0.125};
   smoothed.degree = 1;
   smoothed.peak_memory_gib = 1.5;
   smoothed.warpage = MeshWarpage{};  // no quadrilateral faces
   const CsvTable table(summary_csv("study", {initial, smoothed}));
   EXPECT_EQ(table.rows.at(0).at("iterations"), "");
   EXPECT_EQ(table.rows.at(0).at("smoothing_seconds"), "");
+  EXPECT_EQ(table.rows.at(0).at("preparation_seconds"), "");
+  EXPECT_EQ(table.rows.at(1).at("preparation_seconds"), "0.125");
   EXPECT_EQ(table.rows.at(1).at("iterations"), "40/2800");
   EXPECT_EQ(table.rows.at(1).at("smoothing_seconds"), "0.25");
   EXPECT_EQ(table.rows.at(0).at("peak_memory_gib"), "");

@@ -76,6 +76,10 @@ std::optional<double> first_time_below(const Curve& curve, const NamedError& err
   return std::nullopt;
 }
 
+double preparation_of(const Curve& curve) {
+  return curve.back()->iteration.preparation_seconds;
+}
+
 }  // namespace
 
 std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
@@ -107,7 +111,8 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
           if (method != reference)
             result.push_back({group.first, group.second, error.name, threshold, reference,
                               first_time_below(reference_curve, error, threshold), method,
-                              first_time_below(curve, error, threshold)});
+                              first_time_below(curve, error, threshold),
+                              preparation_of(reference_curve), preparation_of(curve)});
       }
     }
   }
@@ -115,12 +120,13 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 }
 
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows) {
-  CsvText csv(std::string("study,mesh,method,stage,iteration,smoothing_seconds,q_min,q_star_min,"
-                          "q_mean,n_invalid,n_reset,w_max,w_mean,") +
+  CsvText csv(std::string("study,mesh,method,stage,iteration,smoothing_seconds,preparation_seconds,"
+                          "q_min,q_star_min,q_mean,n_invalid,n_reset,w_max,w_mean,") +
               solution_columns);
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iteration.stage);
     csv.integer(row.iteration.iteration).number(row.iteration.smoothing_seconds);
+    csv.number(row.iteration.preparation_seconds);
     add_quality(csv, row.iteration.quality);
     csv.integer(row.iteration.n_reset);
     add_warpage(csv, row.warpage);
@@ -131,12 +137,16 @@ std::string iterations_csv(const std::string& study, const std::vector<Iteration
 }
 
 std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows) {
-  CsvText csv(std::string("study,mesh,method,iterations,smoothing_seconds,q_min,q_star_min,q_mean,"
-                          "n_invalid,w_max,w_mean,peak_memory_gib,") +
-              solution_columns);
+  CsvText csv(
+      std::string("study,mesh,method,iterations,smoothing_seconds,preparation_seconds,q_min,"
+                  "q_star_min,q_mean,n_invalid,w_max,w_mean,peak_memory_gib,") +
+      solution_columns);
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iterations);
-    csv.number(row.iterations.empty() ? std::nullopt : std::optional(row.smoothing_seconds));
+    if (row.iterations.empty())
+      csv.field("").field("");
+    else
+      csv.number(row.smoothing_seconds).number(row.preparation_seconds);
     add_quality(csv, row.quality);
     add_warpage(csv, row.warpage);
     csv.number(row.peak_memory_gib);
@@ -149,7 +159,7 @@ std::string summary_csv(const std::string& study, const std::vector<SummaryRow>&
 std::string thresholds_csv(const std::string& study, const std::vector<ThresholdRow>& rows) {
   CsvText csv(
       "study,mesh,degree,error,threshold,reference_method,reference_seconds,method,"
-      "method_seconds,speedup");
+      "method_seconds,speedup,reference_preparation_seconds,method_preparation_seconds");
   for (const auto& row : rows) {
     std::optional<double> speedup;
     if (row.reference_seconds && row.method_seconds && *row.method_seconds > 0.0)
@@ -157,6 +167,7 @@ std::string thresholds_csv(const std::string& study, const std::vector<Threshold
     csv.field(study).field(row.mesh).field(std::to_string(row.degree)).field(row.error);
     csv.number(row.threshold).field(row.reference_method).number(row.reference_seconds);
     csv.field(row.method).number(row.method_seconds).number(speedup);
+    csv.number(row.reference_preparation_seconds).number(row.method_preparation_seconds);
     csv.end_line();
   }
   return csv.text();

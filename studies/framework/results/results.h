@@ -27,6 +27,7 @@ struct SummaryRow {
   std::string mesh, method;
   std::string iterations{};  ///< "40/2800"; empty for the initial mesh
   double smoothing_seconds = 0.0;
+  double preparation_seconds = 0.0;
   MeshQuality quality{};
   std::optional<MeshWarpage> warpage{};     ///< of volume meshes
   std::optional<double> peak_memory_gib{};  ///< of the process while the method ran
@@ -42,9 +43,10 @@ struct ThresholdRow {
   std::string error;
   double threshold = 0.0;
   std::string reference_method;
-  std::optional<double> reference_seconds;
+  std::optional<double> reference_seconds;  ///< of its main loops, as method_seconds
   std::string method;
   std::optional<double> method_seconds;
+  double reference_preparation_seconds = 0.0, method_preparation_seconds = 0.0;
 };
 
 /// The thresholds that the reference's least errors, increased by the margin, set on each mesh,

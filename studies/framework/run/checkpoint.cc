@@ -13,10 +13,10 @@ namespace smoothfem {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshQuality, q_min, q_star_min, q_mean, n_invalid)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshWarpage, max, mean, n_faces)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(IterationRecord, record, stage, iteration, smoothing_seconds,
-                                   quality, n_reset)
+                                   preparation_seconds, quality, n_reset)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record, iterations_text,
-                                   smoothing_seconds, quality, warpage, warpage_of_records,
-                                   peak_memory_gib)
+                                   smoothing_seconds, preparation_seconds, quality, warpage,
+                                   warpage_of_records, peak_memory_gib)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, condition_number,
                                    lambda_min, lambda_max, condition_method, condition_residual,
                                    cg_iterations, jacobi_cg_iterations, amg_cg_iterations,

@@ -16,6 +16,24 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
+/// Both times of several runs, of a whole run or up to one of its records.
+class RecordTimes {
+ public:
+  template <class Timed>
+  void add(const Timed& timed) {
+    smoothing_.push_back(timed.smoothing_seconds);
+    preparation_.push_back(timed.preparation_seconds);
+  }
+  template <class Timed>
+  void set_medians(Timed& timed) const {
+    timed.smoothing_seconds = median(smoothing_);
+    timed.preparation_seconds = median(preparation_);
+  }
+
+ private:
+  std::vector<double> smoothing_, preparation_;
+};
+
 /// Tells for record after record whether it is to be kept: every k-th of all, or of its stage if
 /// that has a number of its own.
 class Schedule {
@@ -57,15 +75,15 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
                              const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
                              const WatchIteration& watch) {
   Trajectory trajectory;
-  std::vector<std::vector<double>> times;
-  std::vector<double> totals;
+  std::vector<RecordTimes> times;
+  RecordTimes totals;
   Schedule schedule(study.record_every);
   const bool keeps_all = !study.degrees.empty() || study.write_series;
   std::vector<Point<spacedim>> last;
   const auto record_all = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
     watch(record);
     trajectory.records.push_back(record);
-    times.push_back({record.smoothing_seconds});
+    times.emplace_back().add(record);
     if (study.record_warpage) trajectory.warpage_of_records.push_back(warpage_of(now));
     if (record.record == 0) return;
     if (schedule.is_due(record)) {
@@ -78,7 +96,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   Mesh<dim, spacedim> smoothed = mesh;
   auto first = method.make<dim, spacedim>();
   const SmoothingResult result = smooth(smoothed, first, record_all);
-  totals.push_back(result.smoothing_seconds);
+  totals.add(result);
   trajectory.iterations_text = result.iterations_text();
   trajectory.quality = result.quality;
   trajectory.warpage = warpage_of(smoothed);
@@ -99,14 +117,14 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   for (int run = 1; run < study.timing_runs; ++run) {
     Mesh<dim, spacedim> again = mesh;
     auto made = method.make<dim, spacedim>();
-    totals.push_back(smooth(again, made, [&](const IterationRecord& record, const auto&) {
-                       watch(record);
-                       times[record.record].push_back(record.smoothing_seconds);
-                     }).smoothing_seconds);
+    totals.add(smooth(again, made, [&](const IterationRecord& record, const auto&) {
+      watch(record);
+      times[record.record].add(record);
+    }));
   }
-  trajectory.smoothing_seconds = median(totals);
+  totals.set_medians(trajectory);
   for (std::size_t r = 0; r < trajectory.records.size(); ++r)
-    trajectory.records[r].smoothing_seconds = median(times[r]);
+    times[r].set_medians(trajectory.records[r]);
   return trajectory;
 }
 

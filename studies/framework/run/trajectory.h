@@ -19,6 +19,7 @@ struct Trajectory {
   std::size_t result_record = 0;       ///< whose mesh is the method's result
   std::string iterations_text;         ///< "40/2800"
   double smoothing_seconds = 0.0;      ///< of the whole run
+  double preparation_seconds = 0.0;    ///< the same
   MeshQuality quality;                 ///< of the result
   MeshWarpage warpage;                 ///< of the result; planar meshes: none
   std::vector<MeshWarpage> warpage_of_records;  ///< one per record, or empty
