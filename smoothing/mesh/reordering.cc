@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "smoothing/base/parallel.h"
@@ -13,57 +12,28 @@ namespace smoothfem {
 
 namespace {
 
-/// Breadth-first search over the nodes of a mesh, from cell to cell: nodes of one cell are
-/// neighbours. A table of neighbours would take longer to make than both searches.
-class BreadthFirst {
- public:
-  BreadthFirst(const Topology& topology, const CompressedRows<CellIndex>& node_cells)
-      : topology_(topology),
-        node_cells_(node_cells),
-        visited_(topology.n_nodes(), 0),
-        expanded_(topology.n_cells(), 0) {}
-
-  bool has_visited(NodeIndex node) const { return visited_[node] != 0; }
-
-  /// Appends what can be reached from a node to `order`, those with few cells first among the nodes
-  /// that are reached from the same one.
-  void append_from(NodeIndex start, std::vector<NodeIndex>& order) {
-    std::size_t head = order.size();
-    order.push_back(start);
-    visited_[start] = 1;
-    for (; head < order.size(); ++head) {
-      const auto n_before = static_cast<std::ptrdiff_t>(order.size());
-      for (const CellIndex c : node_cells_[order[head]]) {
-        if (std::exchange(expanded_[c], 1)) continue;
-        for (const NodeIndex j : topology_.cell_nodes(c))
-          if (!std::exchange(visited_[j], 1)) order.push_back(j);
-      }
-      std::sort(order.begin() + n_before, order.end(), [&](NodeIndex a, NodeIndex b) {
-        return std::make_pair(node_cells_[a].size(), a) < std::make_pair(node_cells_[b].size(), b);
-      });
-    }
-  }
-
- private:
-  const Topology& topology_;
-  const CompressedRows<CellIndex>& node_cells_;
-  std::vector<std::uint8_t> visited_, expanded_;
-};
-
-/// Each part of the mesh starts at a node that a search from its lowest node finds last: far out,
-/// so that levels are small.
-std::vector<NodeIndex> reverse_cuthill_mckee(const Topology& topology) {
+/// Nodes in the order of breadth-first searches from cell to cell, each part of the mesh from one
+/// of its boundary nodes, so that levels are small; reversed. That is the algorithm of Cuthill and
+/// McKee without sorting the nodes of a level by their neighbours, for which smoothing is no
+/// faster.
+std::vector<NodeIndex> nodes_by_level(const Topology& topology) {
   // The topology's own table would be kept, but these are large meshes.
   const auto node_cells = rows_by_entry(topology.cells(), topology.n_nodes());
-  BreadthFirst search(topology, node_cells), numbering(topology, node_cells);
-  std::vector<NodeIndex> found, order;
+  std::vector<std::uint8_t> reached(topology.n_nodes(), 0), passed(topology.n_cells(), 0);
+  std::vector<NodeIndex> order;
   order.reserve(topology.n_nodes());
+  const auto reach = [&](NodeIndex node) {
+    if (!std::exchange(reached[node], 1)) order.push_back(node);
+  };
+  std::size_t head = 0;
   for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
-    if (numbering.has_visited(i)) continue;
-    found.clear();
-    search.append_from(i, found);
-    numbering.append_from(found.back(), order);
+    if (topology.on_boundary()[i]) reach(i);
+    for (; head < order.size(); ++head)
+      for (const CellIndex c : node_cells[order[head]])
+        if (!std::exchange(passed[c], 1))
+          for (const NodeIndex j : topology.cell_nodes(c)) reach(j);
   }
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) reach(i);  // those that no cell uses
   std::reverse(order.begin(), order.end());
   return order;
 }
@@ -72,27 +42,29 @@ std::vector<NodeIndex> reverse_cuthill_mckee(const Topology& topology) {
 /// nodes: whole vectors of cells of one type are cheaper than single ones.
 std::vector<CellIndex> cells_by_first_node(const Topology& topology,
                                            const std::vector<NodeIndex>& node_order) {
-  constexpr NodeIndex group = 1024;
-  std::vector<NodeIndex> new_node(topology.n_nodes());
+  constexpr std::size_t group = 1024, grain = 4096;
+  std::vector<NodeIndex> new_node(topology.n_nodes()), first(topology.n_cells());
   for (NodeIndex i = 0; i < topology.n_nodes(); ++i) new_node[node_order[i]] = i;
-  std::vector<NodeIndex> first(topology.n_cells(), std::numeric_limits<NodeIndex>::max());
-  for (CellIndex c = 0; c < topology.n_cells(); ++c)
-    for (const NodeIndex node : topology.cell_nodes(c))
-      first[c] = std::min(first[c], new_node[node]);
-  std::vector<CellIndex> order(topology.n_cells());
-  std::iota(order.begin(), order.end(), CellIndex{0});
-  const auto key = [&](CellIndex c) {
-    return std::make_tuple(first[c] / group, topology.cell_nodes(c).size(), first[c], c);
-  };
-  // Sorted by groups of nodes first, which is cheap, then each group on its own.
-  std::vector<std::size_t> offsets(topology.n_nodes() / group + 2, 0);
-  for (const NodeIndex node : first) ++offsets[node / group + 1];
+  parallel_for_ranges(topology.n_cells(), grain, [&](std::size_t begin, std::size_t end) {
+    for (auto c = static_cast<CellIndex>(begin); c < end; ++c) {
+      first[c] = std::numeric_limits<NodeIndex>::max();
+      for (const NodeIndex node : topology.cell_nodes(c))
+        first[c] = std::min(first[c], new_node[node]);
+    }
+  });
+  std::vector<std::size_t> offsets(topology.n_nodes() + 1, 0);
+  for (const NodeIndex node : first) ++offsets[node + 1];
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::vector<CellIndex> order(topology.n_cells());
   auto next = offsets;
-  for (CellIndex c = 0; c < topology.n_cells(); ++c) order[next[first[c] / group]++] = c;
-  parallel_for(offsets.size() - 1, [&](std::size_t g) {
-    std::sort(order.begin() + offsets[g], order.begin() + offsets[g + 1],
-              [&](CellIndex a, CellIndex b) { return key(a) < key(b); });
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) order[next[first[c]]++] = c;
+  const auto at_node = [&](std::size_t node) {
+    return order.begin() + static_cast<std::ptrdiff_t>(offsets[std::min(node, topology.n_nodes())]);
+  };
+  parallel_for(topology.n_nodes() / group + 1, [&](std::size_t g) {
+    std::stable_sort(at_node(g * group), at_node((g + 1) * group), [&](CellIndex a, CellIndex b) {
+      return topology.cell_nodes(a).size() < topology.cell_nodes(b).size();
+    });
   });
   return order;
 }
@@ -102,7 +74,7 @@ std::vector<CellIndex> cells_by_first_node(const Topology& topology,
 template <int dim>
 Reordering<dim>::Reordering(std::shared_ptr<const Topology> topology)
     : old_topology_(std::move(topology)),
-      node_order_(reverse_cuthill_mckee(*old_topology_)),
+      node_order_(nodes_by_level(*old_topology_)),
       topology_(old_topology_->reordered(node_order_,
                                          cells_by_first_node(*old_topology_, node_order_))) {}
 

@@ -9,9 +9,9 @@
 namespace smoothfem {
 
 /// The same mesh with nodes and cells in an order in which neighbours lie near each other in
-/// memory: nodes by the reverse Cuthill-McKee algorithm (Cuthill and McKee, Proc. 24th ACM Nat.
-/// Conf., 1969), cells by their first node, those of one type together where that costs little.
-/// Smoothing large meshes takes half the time of that in a mesh generator's order.
+/// memory: nodes by levels, much as the reverse Cuthill-McKee algorithm has them (Proc. 24th ACM
+/// Nat. Conf., 1969), cells by their first node, those of one type together where that costs
+/// little. Smoothing large meshes takes half the time of that in a mesh generator's order.
 template <int dim>
 class Reordering {
  public:

@@ -237,9 +237,18 @@ std::shared_ptr<const Topology> Topology::reordered(
   for (NodeIndex i = 0; i < n_nodes(); ++i) new_node[node_order[i]] = i;
   std::shared_ptr<Topology> result(new Topology);
   result->dim_ = dim_;
-  result->cells_ = make_rows<NodeIndex>(n_cells(), [&](std::size_t c, std::vector<NodeIndex>& row) {
-    for (const NodeIndex node : cells_[cell_order[c]]) row.push_back(new_node[node]);
+  constexpr std::size_t grain = 4096;
+  std::vector<RowOffset> offsets(n_cells() + 1, 0);
+  for (CellIndex c = 0; c < n_cells(); ++c)
+    offsets[c + 1] = offsets[c] + static_cast<RowOffset>(cells_[cell_order[c]].size());
+  std::vector<NodeIndex> entries(offsets.back());
+  parallel_for_ranges(n_cells(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      const auto nodes = cells_[cell_order[c]];
+      for (std::size_t k = 0; k < nodes.size(); ++k) entries[offsets[c] + k] = new_node[nodes[k]];
+    }
   });
+  result->cells_ = {std::move(offsets), std::move(entries)};
   result->n_facets_ = n_facets_;
   result->on_boundary_.resize(n_nodes());
   std::vector<bool> fixed(n_nodes());
