@@ -139,7 +139,7 @@ TEST(Presets, HaveTheParametersOfTheText) {
     apply_preset(find_preset(preset), method);
     return value_text(find_parameter(method.parameters(), parameter, "test"));
   };
-  EXPECT_EQ(text("thesis-5.2", "getme", "simultaneous.scaling"), "mean-volume");
+  EXPECT_EQ(text("thesis-5.2", "getme", "simultaneous.scaling"), "neighbour-mean-size");
   EXPECT_EQ(text("thesis-5.2", "getme", "sequential.max_mean_loss"), "0.01");
   for (const std::string section : {"5.2", "5.3", "5.4"})
     EXPECT_EQ(text("thesis-" + section, "global-optimization", "result"), "best-q-mean");
