@@ -19,11 +19,14 @@ class Criterion:
     commit: str  # that made the criterion what it is
     results_known: bool  # whether our results were, when it was written
 
+    @property
+    def is_as_it_should_be(self):
+        """Whether it was written before our results were looked at, and not changed after."""
+        return not self.changed and not self.results_known
+
     def __str__(self):
-        """What a reader of the criterion has to know; empty if it is as it should be."""
-        parts = [f"changed {self.changed}"] if self.changed else []
-        parts += ["our results were known"] if self.results_known else []
-        return f"written {self.written}, {', '.join(parts)}" if parts else ""
+        return ", ".join((f"written {self.written}", *([f"changed {self.changed}"] if self.changed else []),
+                          *(["our results were known"] if self.results_known else [])))
 
 
 def read_criteria():

@@ -28,9 +28,10 @@ def claims_as_markdown(outcomes, results):
 
 
 def criterion_of(claim):
-    """The criterion, and what has to be known about when it was written."""
-    history = str(claim.get("history") or "")
-    return claim["criterion"] + (f" ({history})" if history else "")
+    """The criterion, and when it was written where a reader has to know."""
+    history = claim.get("history")
+    is_plain = history is None or ("beside" not in claim and history.is_as_it_should_be)
+    return claim["criterion"] + ("" if is_plain else f" ({history})")
 
 
 def totals(outcomes):
