@@ -83,8 +83,9 @@ def overview(folders):
 def runs(found):
     """Which run each study's results are of, as lines of a Markdown table."""
     commits = {commit for study in found for commit in commits_of(study)}
-    lines = [f"The results come from {len(commits)} commits of the program, those of a study from one run; "
-             "times of one are not for comparing with those of another.", "",
+    lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. Times of "
+             "different commits are not for comparing, and today's program need not repeat the numbers of an "
+             "earlier one to the last digit.", "",
              "| study | scale | written | commit |", "|:--|:--|:--|:--|"]
     for study in found:
         run = study.provenance or {}
