@@ -10,7 +10,7 @@ ERRORS = ("e_max", "e_mean", "e_l2", "e_h1")
 
 
 def agreement(folder):
-    """The results in the folder beside Tables 6.1 to 6.4, as lines of a Markdown table."""
+    """The results in the folder beside Tables 6.1 to 6.4, as lines of Markdown."""
     results = read_results(folder)
     printed = read_printed_tables(results.thesis_study, results.provenance)
 
@@ -39,7 +39,8 @@ def agreement(folder):
                               f"the initial triangles at d = 2 {within(errors, lambda row: row in worst)}"),
         ("Table 6.4, thresholds", "computed from our own runs; " + ", ".join(
             f"{results.title(method)} reaches {sum(met)} of {len(met)}" for method, met in reached.items())))
-    return ["| thesis | agreement |", "|---|---|", *(f"| {name} | {text} |" for name, text in lines)]
+    return ["| thesis | agreement |", "|---|---|", *(f"| {name} | {text} |" for name, text in lines), "",
+            "Differences are the largest relative ones, less half a unit of the last printed digit."]
 
 
 def paired(records, printed, columns):

@@ -86,11 +86,11 @@ def runs(found):
     lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. Times of "
              "different commits are not for comparing, and today's program need not repeat the numbers of an "
              "earlier one to the last digit.", "",
-             "| study | scale | written | commit |", "|:--|:--|:--|:--|"]
+             "| study | scale | written | commit | system |", "|:--|:--|:--|:--|:--|"]
     for study in found:
         run = study.provenance or {}
         cells = (f"`{study.name}`", run.get("scale", MISSING), run.get("written", MISSING)[:len("2026-11-22")],
-                 ", ".join(commits_of(study)) or "no results")
+                 ", ".join(commits_of(study)) or "no results", run.get("machine", {}).get("system", MISSING))
         lines.append(f"| {' | '.join(cells)} |")
     return lines
 

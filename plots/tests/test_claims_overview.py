@@ -7,6 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from plots.claims.agreement import paired, same, within
 from plots.claims.check import FAILS, HOLDS, read_claims
 from plots.claims.overview import BEGIN, END, overview, pages, reference, studies, with_made
 from plots.results.data_folder import thesis_folder
@@ -44,8 +45,9 @@ class Overview(unittest.TestCase):
             row, = [line for line in self.made.splitlines() if line.startswith(f"| `{study.name}` |")]
             path = reference() / study.name / "provenance.json"
             if path.exists():
-                commit = json.loads(path.read_text(encoding="utf-8"))["program"]["commit"]
-                self.assertIn(commit[:7], row)
+                run = json.loads(path.read_text(encoding="utf-8"))
+                self.assertIn(run["program"]["commit"][:7], row)
+                self.assertIn(run["machine"]["system"], row)
 
     def test_a_study_that_was_never_run_is_there(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -54,7 +56,7 @@ class Overview(unittest.TestCase):
         section = found.partition("### Embedded ring\n")[2].partition("###")[0]
         self.assertIn(f"Of {n} claims 0 hold, 0 do not hold, {n} cannot be checked", section)
         self.assertIn("there are no results", section)
-        self.assertRegex(found, r"\| `ring` \| – \| – \| no results \|")
+        self.assertRegex(found, r"\| `ring` \| – \| – \| no results \| – \|")
         self.assertNotIn("| holds |", found)
 
     def test_what_is_between_the_lines_is_replaced(self):
@@ -68,6 +70,23 @@ class Overview(unittest.TestCase):
             path.write_text("no lines")
             with self.assertRaisesRegex(ResultsError, re.escape(str(path))):
                 with_made(path, "new")
+
+
+class Agreement(unittest.TestCase):
+    def test_equal_digits(self):
+        pairs = [({}, "0.20449", "0.2045"), ({}, "24", "24"), ({}, "40/2800", "40/2800"), ({}, "0.2044", "0.2045")]
+        self.assertEqual(same(pairs), "3 of 4")
+
+    def test_differences_beyond_the_printed_digits(self):
+        near, far = ({"method": "near"}, "104", "1.0e+02"), ({"method": "far"}, "110", "100")
+        self.assertEqual(within([near], lambda row: True), "within 0.0 %")
+        self.assertEqual(within([near, far], lambda row: True), "within 9.5 %")
+        self.assertEqual(within([near, far], lambda row: row["method"] == "near"), "within 0.0 %")
+
+    def test_numbers_are_paired_by_their_keys(self):
+        ours = [{"mesh": mesh, "degree": "1", "method": "getme", "q": q} for mesh, q in (("a", "1"), ("b", "2"))]
+        row, empty = {"mesh": "b", "method": "getme", "q": "2.5"}, {"mesh": "a", "method": "getme", "q": ""}
+        self.assertEqual(paired(ours, [empty, row], ["q"]), [(row, "2", "2.5")])
 
 
 if __name__ == "__main__":
