@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from ..results.data_folder import thesis_folder
 from ..results.rows import ResultsError
 from ..tables.number_format import MISSING
+from .criteria import read_criteria
 from .expressions import Missing, evaluate
 from .values import Values
 
@@ -32,12 +33,18 @@ class Outcome:
     verdict: str
     printed: str
     ours: str
-    note: str = ""
+    note: str = ""  # what our numbers show of why it may not hold
+    guess: str = ""  # why that may be, as far as no run has tested it
+
+    @property
+    def is_beside(self):
+        """Whether it judges a claim once more, by a later criterion that stands beside the first one."""
+        return "beside" in self.claim
 
 
 def read_claims(study):
-    """The claims about a study, as a list of dictionaries; empty if there are none. `study` as in
-    Results.thesis_study."""
+    """The claims about a study, as a list of dictionaries, with the Criterion of each as `history`;
+    empty if there are none. `study` as in Results.thesis_study."""
     path = thesis_folder() / "claims.json"
     if not path.exists():
         return []
@@ -45,7 +52,8 @@ def read_claims(study):
         claims = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as error:
         raise ResultsError(f"{path}: not a complete JSON file ({error}).") from None
-    return [claim for claim in claims if claim["study"] == study]
+    criteria = read_criteria()
+    return [{**claim, "history": criteria.get(claim["id"])} for claim in claims if claim["study"] == study]
 
 
 def check_claims(claims, results, printed):
@@ -74,8 +82,9 @@ def check_claim(claim, ours, theirs):
                        shown(numbers, cases, met_in(check, numbers, numbers)))
         own.append(shown(found, cases, met))
     worst = next(v for v in (FAILS, UNKNOWN, HOLDS) if v in verdicts)
-    return Outcome(claim, worst, "; ".join(printed), "; ".join(own),
-                   filled(claim.get("note", ""), ours, theirs))
+    missing = claim.get("reason") if worst == UNKNOWN else None
+    return Outcome(claim, worst, "; ".join(printed), missing or "; ".join(own),
+                   filled(claim.get("note", ""), ours, theirs), claim.get("guess", ""))
 
 
 def filled(note, ours, theirs):

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python3 -m plots.claims.overview: writes what holds of the thesis' claims into results/README.md,
-from the results in results/reference."""
+"""python3 -m plots.claims.overview: writes what holds of the thesis' claims into results/README.md, and
+how far the published gears' tables come out into README.md, from the results in results/reference."""
 
+import re
 import sys
+from dataclasses import dataclass
 
 from ..results.data_folder import data_folder
 from ..results.printed_values import read_printed_tables
@@ -10,11 +12,25 @@ from ..results.rows import ResultsError
 from ..results.smoothing import read_results
 from ..results.write_files import write_atomically
 from ..tables.formats import escape_markdown
-from .check import FAILS, HOLDS, UNKNOWN, check_claims, read_claims
-from .report import emphasized, known_reasons
+from ..tables.number_format import MISSING
+from .agreement import agreement
+from .check import UNKNOWN, Outcome, check_claims, read_claims
+from .report import emphasized, known_reasons, totals
 
 # The lines around the overview.
 BEGIN, END = "<!-- made by python3 -m plots.claims.overview -->", "<!-- end of what it made -->"
+TITLE = re.compile(r"^set title\s*=\s*(.*?)\s*$", re.MULTILINE)
+SHORT_COMMIT = 7  # digits
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study with claims, its outcomes, and of which run they are."""
+
+    name: str
+    title: str
+    outcomes: list
+    provenance: dict  # None: there are no results
 
 
 def reference():
@@ -22,64 +38,88 @@ def reference():
     return data_folder() / "results" / "reference"
 
 
-def readme():
-    """The file with the overview."""
-    return data_folder() / "results" / "README.md"
+def pages():
+    """What is made: path -> Markdown."""
+    return {data_folder() / "results" / "README.md": overview(reference()),
+            data_folder() / "README.md": "\n".join(agreement(reference() / "gear")) + "\n"}
 
 
-def results_folders(folders):
-    """The folders of results in a folder, by name."""
-    return sorted(path for path in folders.iterdir() if path.is_dir())
+def studies(folders):
+    """The studies of which there are claims, by name; `folders` is the folder of results folders."""
+    found = []
+    for path in sorted((data_folder() / "studies").glob("*.prm")):
+        claims = read_claims(path.stem)
+        if not claims:
+            continue
+        if (folders / path.stem).is_dir():
+            results = read_results(folders / path.stem)
+            printed = read_printed_tables(results.thesis_study, results.provenance)
+            found.append(Study(path.stem, results.study_title, check_claims(claims, results, printed),
+                               results.provenance))
+        else:
+            outcomes = [Outcome(claim, UNKNOWN, MISSING, MISSING) for claim in claims]
+            found.append(Study(path.stem, TITLE.search(path.read_text(encoding="utf-8"))[1], outcomes, None))
+    return found
 
 
 def overview(folders):
-    """All claims about the studies in a folder of results folders, as Markdown."""
-    outcomes = {folder: outcomes_of(folder) for folder in results_folders(folders)}
-    lines = []
-    for folder, (title, found) in outcomes.items():
-        if not found:
-            continue
-        counts = ", ".join(count_phrase(sum(o.verdict == verdict for o in found), *words) for verdict, words in
-                           ((HOLDS, ("holds", "hold")), (FAILS, ("does not hold", "do not hold")),
-                            (UNKNOWN, ("cannot be checked", "cannot be checked"))))
-        table = f"reference/{folder.name}/tables/claims.md"
-        lines += [f"### {title}", "", f"Of {len(found)} claims {counts}; the numbers are in [{table}]({table}).", "",
+    """All claims about all studies, as Markdown."""
+    found = studies(folders)
+    lines = [totals([outcome for study in found for outcome in study.outcomes]) + ".", "", *runs(found), ""]
+    for study in found:
+        table = f"reference/{study.name}/tables/claims.md"
+        where = ("there are no results to check them with" if study.provenance is None
+                 else f"the numbers are in [{table}]({table})")
+        lines += [f"### {study.title}", "", f"{totals(study.outcomes)}; {where}.", "",
                   "| | Section | Claim | |", "|:--|:--|:--|:--|"]
-        for outcome in found:
+        for outcome in study.outcomes:
             cells = (outcome.claim["id"], outcome.claim["section"], outcome.claim["statement"])
             lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
                          + f" | {emphasized(outcome.verdict)} |")
-        lines += known_reasons(found) + [""]
+        lines += known_reasons(study.outcomes) + [""]
     return "\n".join(lines)
 
 
-def count_phrase(number, of_one, of_many):
-    """A number and what is said of so many."""
-    return f"{number} {of_one if number == 1 else of_many}"
+def runs(found):
+    """Which run each study's results are of, as lines of a Markdown table."""
+    commits = {commit for study in found for commit in commits_of(study)}
+    lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. Times of "
+             "different commits are not for comparing, and today's program need not repeat the numbers of an "
+             "earlier one to the last digit.", "",
+             "| study | scale | written | commit | system |", "|:--|:--|:--|:--|:--|"]
+    for study in found:
+        run = study.provenance or {}
+        cells = (f"`{study.name}`", run.get("scale", MISSING), run.get("written", MISSING)[:len("2026-11-22")],
+                 ", ".join(commits_of(study)) or "no results", run.get("machine", {}).get("system", MISSING))
+        lines.append(f"| {' | '.join(cells)} |")
+    return lines
 
 
-def outcomes_of(folder):
-    """A study's title and the outcomes of its claims."""
-    results = read_results(folder)
-    printed = read_printed_tables(results.thesis_study, results.provenance)
-    return results.study_title, check_claims(read_claims(results.thesis_study), results, printed)
+def commits_of(study):
+    """The commits of the program of a run's sessions, in short, and whether there were changes beside
+    them; empty if there are no results."""
+    sessions = (study.provenance or {}).get("sessions", [])
+    return list(dict.fromkeys(session["commit"][:SHORT_COMMIT] + ("+" if session["uncommitted_changes"] else "")
+                              for session in sessions))
 
 
-def with_overview(text, made):
-    """A text with what stands between the two lines replaced; ResultsError if they are not there."""
+def with_made(path, made):
+    """The text of a file with what stands between the two lines replaced; ResultsError if they are not
+    there."""
+    text = path.read_text(encoding="utf-8")
     before, begin, rest = text.partition(BEGIN + "\n")
     _, end, after = rest.partition(END + "\n")
     if not begin or not end:
-        raise ResultsError(f"{readme()}: the lines `{BEGIN}` and `{END}` are not there.")
+        raise ResultsError(f"{path}: the lines `{BEGIN}` and `{END}` are not there.")
     return f"{before}{begin}\n{made}\n{end}{after}"
 
 
 def main():
-    """Writes the file anew; returns the exit code."""
+    """Writes the files anew; returns the exit code."""
     try:
-        path = readme()
-        text = path.read_text(encoding="utf-8")
-        write_atomically(path, with_overview(text, overview(reference())))
+        texts = {path: with_made(path, made) for path, made in pages().items()}
+        for path, text in texts.items():
+            write_atomically(path, text)
     except (OSError, ResultsError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -1,30 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The claims about a study and their verdicts as Markdown."""
 
+from ..results.printed_values import as_guess
 from ..results.rows import entries
 from ..tables.formats import escape_markdown
 from .check import COARSE, FAILS, HOLDS, UNKNOWN
 
+# What is said of one and of several.
+PHRASES = {HOLDS: ("holds", "hold"), FAILS: ("does not hold", "do not hold"),
+           COARSE: ("is on meshes too coarse to judge", "are on meshes too coarse to judge"),
+           UNKNOWN: ("cannot be checked", "cannot be checked")}
+
 
 def claims_as_markdown(outcomes, results):
     """All claims of a study as a Markdown table."""
-    counts = {verdict: sum(o.verdict == verdict for o in outcomes)
-              for verdict in (HOLDS, FAILS, COARSE, UNKNOWN)}
-    not_met = (f"the meshes are too coarse to judge {counts[COARSE]}" if results.is_quick
-               else f"{counts[FAILS]} do not hold")
-    lines = [f"# {results.study_title}: what holds of the thesis", "",
-             f"Of {len(outcomes)} claims, {counts[HOLDS]} hold, {not_met}, and "
-             f"{counts[UNKNOWN]} cannot be checked.", ""]
+    lines = [f"# {results.study_title}: what holds of the thesis", "", totals(outcomes) + ".", ""]
     lines += [sentence + "  " for sentence in caveats(results)]
     lines += ["", "| | Section | Claim | Criterion | Printed | Ours | |", "|:--|:--|:--|:--|:--|:--|:--|"]
     for outcome in outcomes:
         claim = outcome.claim
-        cells = (claim["id"], claim["section"], claim["statement"], claim["criterion"],
+        cells = (claim["id"], claim["section"], claim["statement"], criterion_of(claim),
                  outcome.printed, outcome.ours)
         lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
                      + f" | {emphasized(outcome.verdict)} |")
     lines += known_reasons(outcomes)
     return "\n".join(lines) + "\n"
+
+
+def criterion_of(claim):
+    """The criterion, and when it was written where a reader has to know."""
+    history = claim.get("history")
+    is_plain = history is None or ("beside" not in claim and history.is_as_it_should_be)
+    return claim["criterion"] + ("" if is_plain else f" ({history})")
+
+
+def totals(outcomes):
+    """How many claims hold by their first criterion, and how many by a later one beside it."""
+    # At the scale `quick` one verdict stands in place of another.
+    left_out = FAILS if any(o.verdict == COARSE for o in outcomes) else COARSE
+
+    def counted(chosen, one, many):
+        numbers = {verdict: sum(o.verdict == verdict for o in chosen) for verdict in PHRASES}
+        counts = ", ".join(f"{number} {PHRASES[verdict][number != 1]}" for verdict, number in numbers.items()
+                           if verdict != left_out)
+        return f"{len(chosen)} {one if len(chosen) == 1 else many} {counts}"
+    text = "Of " + counted([o for o in outcomes if not o.is_beside], "claim", "claims")
+    beside = [o for o in outcomes if o.is_beside]
+    return text + ("; of " + counted(beside, "later criterion", "later criteria") if beside else "")
 
 
 def emphasized(verdict):
@@ -33,11 +55,15 @@ def emphasized(verdict):
 
 
 def known_reasons(outcomes):
-    """Why claims may not hold, where it is known, as lines below the table."""
-    failed = [o for o in outcomes if o.verdict == FAILS and o.note]
-    lines = [f"- {', '.join(o.claim['id'] for o in failed if o.note == note)}: {escape_markdown(note)}"
-             for note in dict.fromkeys(o.note for o in failed)]
-    return ["", "Known reasons for what does not hold:", "", *lines] if lines else []
+    """What is known, and what is guessed, of why claims do not hold: lines below the table."""
+    found = {}
+    for outcome in outcomes:
+        if outcome.verdict == FAILS:
+            guess = as_guess(outcome.guess) if outcome.guess else ""
+            reason = " ".join(filter(None, (outcome.note, guess))) or "Reason not known."
+            found.setdefault(reason, []).append(outcome.claim["id"])
+    lines = [f"- {', '.join(ids)}: {escape_markdown(reason)}" for reason, ids in found.items()]
+    return ["", "What is known of why claims do not hold, and what is guessed:", "", *lines] if lines else []
 
 
 def caveats(results):

@@ -104,6 +104,15 @@ def highest(rows, column, mesh, method, degree, stage=None):
     return np.nanmax(values)
 
 
+def total(rows, column, mesh, method, stage=None):
+    """The sum over all iterations, or over those of a stage."""
+    rows = of_one_degree(rows, mesh, method)
+    values = rows.number(column)[rows.text("stage") != INITIAL if stage is None else rows.text("stage") == stage]
+    if not len(values) or np.isnan(values).any():
+        raise Missing(f"{column} of {method} on {mesh}")
+    return values.sum()
+
+
 def valid_iterations(rows, mesh, method):
     """How many recorded iterations left no cell invalid."""
     return np.count_nonzero(counts_of_invalid(rows, mesh, method) == 0)
@@ -187,6 +196,6 @@ def last(values):
 
 
 TRAJECTORY = {function.__name__: function for function in (
-    at_start, at_stage_end, after_iterations, after_share_of_time, highest, valid_iterations,
+    at_start, at_stage_end, after_iterations, after_share_of_time, highest, total, valid_iterations,
     invalid_iterations, seconds_until, seconds_until_below, iterations_until,
     seconds_per_iteration)}

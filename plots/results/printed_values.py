@@ -19,7 +19,8 @@ class PrintedTable:
     number: str = ""
     measured_on: str = ""
     rows: list = field(default_factory=list)  # dictionaries from column name to string
-    deviations: list = field(default_factory=list)  # table, mesh, degree, method, column, note
+    # table, mesh, degree, method, column, known_from, note; where nothing is known the note says so.
+    deviations: list = field(default_factory=list)
 
 
 def read_printed_tables(study, provenance):
@@ -42,11 +43,17 @@ def read_printed_tables(study, provenance):
             table.rows += read_rows(folder / entry["file"], ("mesh", "method")).records()
     deviations = folder / "deviations.csv"
     if tables and deviations.exists():
-        required = ("table", "mesh", "degree", "method", "column", "note")
-        notes = read_rows(deviations, required).records()
+        required = ("table", "mesh", "degree", "method", "column", "known_from", "note")
+        notes = [{**row, "note": row["note"] if row["known_from"] else as_guess(row["note"])}
+                 for row in read_rows(deviations, required).records()]
         for table in tables.values():
             table.deviations = [note for note in notes if fnmatchcase(table.number, note["table"])]
     return tables
+
+
+def as_guess(reason):
+    """A reason for a deviation that nothing is known from."""
+    return f"Guess, tested by no run: {reason}"
 
 
 def is_chosen(entry, study, chosen):

@@ -9,7 +9,7 @@ from plots.__main__ import main
 from plots.claims.check import (COARSE, FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, cases_of, check_claim,
                                 check_claims, met_in, number_of, read_claims, verdict_of)
 from plots.claims.expressions import Missing, evaluate
-from plots.claims.report import claims_as_markdown
+from plots.claims.report import claims_as_markdown, known_reasons
 from plots.claims.values import TRAJECTORY, Values
 from plots.results.data_folder import thesis_folder
 from plots.results.printed_values import read_printed_tables
@@ -108,13 +108,14 @@ class Trajectories(InFolder):
         return Values([], [], read_results(folder).iterations)
 
     def test_functions(self):
-        values = self.values()
+        values = self.values(n_reset=3)
         for text, expected in (
                 ("at_start('q_min', 'tri', 'getme', 1)", 0.1), ("highest('q_min', 'tri', 'getme', 1)", 0.3),
                 ("at_stage_end('q_min', 'tri', 'getme', 1, 'first')", 0.3),
                 ("after_iterations('q_min', 'tri', 'getme', 1, 1)", 0.2),
                 ("highest('q_min', 'tri', 'getme', 1, 'second')", 0.2),
                 ("after_share_of_time('q_min', 'tri', 'getme', 1, 0.25)", 0.25),
+                ("total('n_reset', 'tri', 'getme')", 9), ("total('n_reset', 'tri', 'getme', 'second')", 3),
                 ("invalid_iterations('tri', 'getme')", 1), ("valid_iterations('tri', 'getme')", 2)):
             self.assertAlmostEqual(evaluate(text, {}, values), expected, msg=text)
 
@@ -132,7 +133,8 @@ class Trajectories(InFolder):
     def test_gaps_in_the_record_leave_questions_open(self):
         values = self.values(iterations=(0, 10, 20))
         for text in ("invalid_iterations('tri', 'getme')", "highest('q_min', 'tri', 'getme', 1)",
-                     "after_iterations('q_min', 'tri', 'getme', 1, 5)", "valid_iterations('quad', 'getme')"):
+                     "after_iterations('q_min', 'tri', 'getme', 1, 5)", "valid_iterations('quad', 'getme')",
+                     "total('n_reset', 'tri', 'getme')"):
             with self.assertRaises(Missing, msg=text):
                 evaluate(text, {}, values)
         self.assertAlmostEqual(evaluate("at_start('q_min', 'tri', 'getme', 1)", {}, values), 0.1)
@@ -203,9 +205,9 @@ class ClaimsOfTheThesis(InFolder):
             texts[scale] = claims_as_markdown(outcomes, results)
         self.assertIn(FAILS, verdicts["default"])
         self.assertEqual(verdicts["quick"], [COARSE if v == FAILS else v for v in verdicts["default"]])
-        n = verdicts["quick"].count(COARSE)
-        self.assertIn(f"{n} do not hold", texts["default"])
-        self.assertIn(f"the meshes are too coarse to judge {n},", texts["quick"])
+        n = sum(o.verdict == COARSE and not o.is_beside for o in outcomes)
+        self.assertIn(f" {n} do not hold", texts["default"])
+        self.assertIn(f" {n} are on meshes too coarse to judge,", texts["quick"])
         self.assertIn(f"| {COARSE} |", texts["quick"])
         self.assertNotIn("not hold", texts["quick"])
 
@@ -221,7 +223,24 @@ class ClaimsOfTheThesis(InFolder):
         text = claims_as_markdown(outcomes, results)
         for verdict in (FAILS, UNKNOWN):
             self.assertEqual(text.count(f"**{verdict}**"), sum(o.verdict == verdict for o in outcomes))
-        reasons = text.partition("Known reasons")[2]
+        reasons = text.partition("What is known of why")[2]
         for outcome in outcomes:
-            self.assertEqual(outcome.claim["id"] in re.findall(r"[GV]\d+", reasons),
-                             outcome.verdict == FAILS and "note" in outcome.claim)
+            self.assertEqual(outcome.claim["id"] in re.findall(r"[GV]\d+b?", reasons), outcome.verdict == FAILS)
+
+    def test_what_is_guessed_is_called_a_guess(self):
+        def reasons(**keys):
+            claim = {"id": "X1", "checks": [{"quantity": "1", "condition": "value == 2"}], **keys}
+            return known_reasons([check_claim(claim, Values(ROWS, []), Values([], []))])[-1]
+        self.assertEqual(reasons(note="It is {q_min('tri', 'getme')}.", guess="Chance."),
+                         "- X1: It is 0.5. Guess, tested by no run: Chance.")
+        self.assertEqual(reasons(note="It is so."), "- X1: It is so.")
+        self.assertEqual(reasons(guess="Chance."), "- X1: Guess, tested by no run: Chance.")
+        self.assertEqual(reasons(), "- X1: Reason not known.")
+
+    def test_what_is_missing_stands_in_the_row(self):
+        check = {"quantity": "n_cells('tri', 'getme')", "condition": "value > 0"}
+        claim = {"id": "X1", "checks": [check], "reason": "missing: column `n_cells`"}
+        outcome = check_claim(claim, Values(ROWS, []), Values([], []))
+        self.assertEqual((outcome.verdict, outcome.ours), (UNKNOWN, claim["reason"]))
+        there = check_claim(claim, Values([{**ROWS[0], "n_cells": "3"}], []), Values([], []))
+        self.assertEqual((there.verdict, there.ours), (HOLDS, "3"))

@@ -1,37 +1,92 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The overview of what holds of the thesis, in results/README.md."""
+"""What is made from the reference results and stands in results/README.md and README.md."""
 
+import json
+import re
+import tempfile
 import unittest
+from pathlib import Path
 
-from plots.claims.check import FAILS, HOLDS
-from plots.claims.overview import (BEGIN, END, outcomes_of, overview, readme, reference,
-                                   results_folders, with_overview)
+from plots.claims.agreement import paired, same, within
+from plots.claims.check import FAILS, HOLDS, read_claims
+from plots.claims.overview import BEGIN, END, overview, pages, reference, studies, with_made
+from plots.results.data_folder import thesis_folder
 from plots.results.rows import ResultsError
 
 
 class Overview(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made, cls.studies = overview(reference()), studies(reference())
+
     def test_it_is_made_from_the_results_there_are(self):
-        text = readme().read_text(encoding="utf-8")
-        self.assertEqual(text, with_overview(text, overview(reference())),
-                         "run python3 -m plots.claims.overview")
+        for path, made in pages().items():
+            self.assertEqual(path.read_text(encoding="utf-8"), with_made(path, made),
+                             "run python3 -m plots.claims.overview")
 
     def test_every_claim_has_a_row_with_its_verdict(self):
-        made = overview(reference())
-        for folder in results_folders(reference()):
-            _, outcomes = outcomes_of(folder)
-            self.assertTrue(outcomes, folder)
-            for outcome in outcomes:
-                row, = [line for line in made.splitlines() if line.startswith(f"| {outcome.claim['id']} |")]
-                ending = {HOLDS: "| holds |", FAILS: "| **does not hold** |"}
-                self.assertTrue(row.endswith(ending.get(outcome.verdict, "|")), row)
+        claims = json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8"))
+        outcomes = [outcome for study in self.studies for outcome in study.outcomes]
+        self.assertEqual(sorted(o.claim["id"] for o in outcomes), sorted(c["id"] for c in claims))
+        for outcome in outcomes:
+            row, = [line for line in self.made.splitlines() if line.startswith(f"| {outcome.claim['id']} |")]
+            ending = {HOLDS: "| holds |", FAILS: "| **does not hold** |"}
+            self.assertTrue(row.endswith(ending.get(outcome.verdict, "| **cannot be checked** |")), row)
+
+    def test_totals(self):
+        first = [o for study in self.studies for o in study.outcomes if "beside" not in o.claim]
+        n = {verdict: sum(o.verdict == verdict for o in first) for verdict in (HOLDS, FAILS)}
+        self.assertTrue(self.made.startswith(
+            f"Of {len(first)} claims {n[HOLDS]} hold, {n[FAILS]} do not hold, "
+            f"{len(first) - n[HOLDS] - n[FAILS]} cannot be checked; of "), self.made[:200])
+
+    def test_every_run_has_its_commit(self):
+        for study in self.studies:
+            row, = [line for line in self.made.splitlines() if line.startswith(f"| `{study.name}` |")]
+            path = reference() / study.name / "provenance.json"
+            if path.exists():
+                run = json.loads(path.read_text(encoding="utf-8"))
+                self.assertIn(run["program"]["commit"][:7], row)
+                self.assertIn(run["machine"]["system"], row)
+
+    def test_a_study_that_was_never_run_is_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            found = overview(Path(folder))
+        n = len([claim for claim in read_claims("ring") if "beside" not in claim])
+        section = found.partition("### Embedded ring\n")[2].partition("###")[0]
+        self.assertIn(f"Of {n} claims 0 hold, 0 do not hold, {n} cannot be checked", section)
+        self.assertIn("there are no results", section)
+        self.assertRegex(found, r"\| `ring` \| – \| – \| no results \| – \|")
+        self.assertNotIn("| holds |", found)
 
     def test_what_is_between_the_lines_is_replaced(self):
-        text = f"before\n{BEGIN}\nold\n{END}\nafter\n"
-        once = with_overview(text, "new")
-        self.assertEqual(once, f"before\n{BEGIN}\n\nnew\n{END}\nafter\n")
-        self.assertEqual(with_overview(once, "new"), once)
-        with self.assertRaises(ResultsError):
-            with_overview("no lines", "new")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "page.md"
+            path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n")
+            once = with_made(path, "new")
+            self.assertEqual(once, f"before\n{BEGIN}\n\nnew\n{END}\nafter\n")
+            path.write_text(once)
+            self.assertEqual(with_made(path, "new"), once)
+            path.write_text("no lines")
+            with self.assertRaisesRegex(ResultsError, re.escape(str(path))):
+                with_made(path, "new")
+
+
+class Agreement(unittest.TestCase):
+    def test_equal_digits(self):
+        pairs = [({}, "0.20449", "0.2045"), ({}, "24", "24"), ({}, "40/2800", "40/2800"), ({}, "0.2044", "0.2045")]
+        self.assertEqual(same(pairs), "3 of 4")
+
+    def test_differences_beyond_the_printed_digits(self):
+        near, far = ({"method": "near"}, "104", "1.0e+02"), ({"method": "far"}, "110", "100")
+        self.assertEqual(within([near], lambda row: True), "within 0.0 %")
+        self.assertEqual(within([near, far], lambda row: True), "within 9.5 %")
+        self.assertEqual(within([near, far], lambda row: row["method"] == "near"), "within 0.0 %")
+
+    def test_numbers_are_paired_by_their_keys(self):
+        ours = [{"mesh": mesh, "degree": "1", "method": "getme", "q": q} for mesh, q in (("a", "1"), ("b", "2"))]
+        row, empty = {"mesh": "b", "method": "getme", "q": "2.5"}, {"mesh": "a", "method": "getme", "q": ""}
+        self.assertEqual(paired(ours, [empty, row], ["q"]), [(row, "2", "2.5")])
 
 
 if __name__ == "__main__":

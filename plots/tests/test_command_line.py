@@ -115,14 +115,14 @@ class Options(CommandLine):
 
     def test_a_study_of_the_users_has_no_numbers_of_the_thesis(self):
         change_provenance(self.results, built_in=False)
-        names, _ = self.made()
+        names, _ = self.made("--format", "pdf")
         self.assertFalse([name for name in names if re.search(r"\d_\d|figure|claims", name)])
         self.assertLessEqual({"history.pdf", "meshes.pdf", "model.pdf", "table_errors.tex"}, names)
         code, output, _ = self.run_main(self.results, "--only", "errors")
         self.assertEqual(code, 0)
         self.assertIn("No claims.md: the thesis says nothing about this study.\n", output)
         change_provenance(self.results, built_in=True)
-        names, _ = self.made()
+        names, _ = self.made("--format", "pdf")
         self.assertLessEqual({"figure_6_4_history.pdf", "table_6_3_errors.tex", "claims.md"}, names)
 
 
@@ -147,7 +147,7 @@ class BrokenResults(CommandLine):
     def test_no_number_where_there_may_be_none(self):
         self.change("iterations.csv", lambda rows: [row.update(e_max="nan") for row in rows[2:5]])
         self.change("summary.csv", lambda rows: rows[1].update(cg_seconds="-inf"))
-        code, _, errors = self.run_main(self.results, "--quiet")
+        code, _, errors = self.run_main(self.results, "--quiet", "--format", "png")
         self.assertEqual(code, 0)
         first, second = errors.splitlines()
         self.assertRegex(first, r"iterations.csv: `e_max` is no finite number in 3 of \d+ rows; there, lines")

@@ -40,9 +40,10 @@ class Figures(InFolder):
     def test_other_study_several_meshes_one_mesh_file_missing(self):
         folder = write_results(self.folder / "r", "slab", ("a", "b", "c"), ("own", "other", "laplace"))
         (folder / "meshes" / "b_own.vtu").unlink()
-        output, errors = self.run_main(folder)
+        with mock.patch("plots.figures.style.DPI", 40):
+            output, errors = self.run_main(folder, "--format", "png")
         self.assertIn("b_own.vtu", errors)
-        self.assertIn("figures/model.pdf", output)
+        self.assertIn("figures/model.png", output)
         self.assertTrue((folder / "figures" / "history_log_time.png").exists())
 
     def test_no_figures_and_no_meshes(self):
@@ -51,9 +52,10 @@ class Figures(InFolder):
         self.assertFalse((folder / "figures").exists())
         for path in (folder / "meshes").iterdir():
             path.unlink()
-        self.run_main(folder)
-        self.assertTrue((folder / "figures" / "figure_6_4_history.pdf").exists())
-        self.assertFalse((folder / "figures" / "figure_6_2_model.pdf").exists())
+        with mock.patch("plots.figures.style.DPI", 40):
+            self.run_main(folder, "--format", "png")
+        self.assertTrue((folder / "figures" / "figure_6_4_history.png").exists())
+        self.assertFalse((folder / "figures" / "figure_6_2_model.png").exists())
 
     def test_gaps_where_the_mesh_is_invalid(self):
         results = read_results(write_results(self.folder / "r"))
@@ -89,8 +91,8 @@ class Figures(InFolder):
         folder = without_finite_elements(
             write_results(self.folder / "r", "slab", ("a", "a-distorted", "b", "b-distorted")))
         with mock.patch("plots.figures.style.DPI", 40):  # what they look like is not looked at here
-            self.run_main(folder, "--quiet")
-        names = {path.stem for path in folder.glob("figures/*.pdf")}
+            self.run_main(folder, "--quiet", "--format", "png")
+        names = {path.stem for path in folder.glob("figures/*.png")}
         self.assertLessEqual({"history_a", "history_b_log_time", "histograms_a", "histograms_b_log",
                               "histogram_differences", "meshes", "meshes_full"}, names)
 

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 from fnmatch import fnmatchcase
 
-from plots.results.data_folder import thesis_folder
+from plots.results.data_folder import data_folder, thesis_folder
 from plots.results.printed_values import read_printed_tables
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
@@ -183,6 +183,17 @@ class PrintedValues(InFolder):
         self.assertEqual(read_printed_tables("gear", {"printed_values": []}), {})
         for chosen in ("6.1", "table_6_1", "studies/thesis/table_6_1.csv"):
             self.assertEqual(set(read_printed_tables("own", {"printed_values": [chosen]})), {"smoothing"})
+
+    def test_deviations_are_known_from_somewhere_or_guesses(self):
+        for note in read_rows(thesis_folder() / "deviations.csv").records():
+            known_from = note["known_from"]
+            if known_from and not known_from.startswith("thesis, "):
+                self.assertTrue((data_folder() / known_from).is_file(), known_from)
+        shown = [note for study in ("gear", "volume") for table in read_printed_tables(study, {}).values()
+                 for note in table.deviations]
+        guesses = {note["note"] for note in shown if not note["known_from"]}
+        self.assertEqual(guesses, {note["note"] for note in shown if note["note"].startswith("Guess, tested by no run: ")})
+        self.assertTrue(guesses)
 
     def test_deviations_name_rows_that_are_printed(self):
         index = read_rows(thesis_folder() / "tables.csv").records()

@@ -188,8 +188,8 @@ class VolumeStudy(InFolder):
         with contextlib.redirect_stderr(errors), mock.patch("plots.figures.style.DPI", 40), \
                 mock.patch("plots.figures.sections.IMAGE_DPI", 100), \
                 mock.patch("plots.figures.solid.IMAGE_DPI", 100):
-            self.assertEqual(main([str(folder), "--quiet"]), 0, errors.getvalue())
-        return errors.getvalue(), {path.stem for path in folder.glob("figures/*.pdf")}
+            self.assertEqual(main([str(folder), "--quiet", "--format", "png"]), 0, errors.getvalue())
+        return errors.getvalue(), {path.stem for path in folder.glob("figures/*.png")}
 
     @needs_rendering
     def test_figures_of_the_thesis(self):

@@ -86,8 +86,8 @@ class ReadVtu(InFolder):
             with self.assertRaisesRegex(NoVtk, "python3-vtk9"):
                 read_vtu(folder / "meshes" / "tri_initial.vtu")
             with contextlib.redirect_stderr(errors):
-                self.assertEqual(main([str(folder), "--quiet"]), 0)
+                self.assertEqual(main([str(folder), "--quiet", "--format", "png"]), 0)
         self.assertRegex(errors.getvalue(), r"^No pictures of meshes: [^\n]*python3-vtk9\.\n$")
-        names = {path.stem for path in folder.glob("figures/*.pdf")}
+        names = {path.stem for path in folder.glob("figures/*.png")}
         self.assertIn("figure_6_4_history", names)
         self.assertNotIn("figure_6_3_meshes", names)
