@@ -190,7 +190,7 @@ class SmoothingRun {
       const ScopedTimer timer(preparation_seconds_);
       mean_edge_length_ = mean_edge_length(state_.mesh);
     }
-    observe("initial", 0, 0);
+    observe("initial", 0, {});
   }
 
   StageResult run_stage(Smoother<dim, spacedim>& smoother) {
@@ -217,7 +217,7 @@ class SmoothingRun {
       }
       complete_quality(traits, report);
       result.iterations += report.n_counted;
-      observe(result.name, result.iterations, report.n_reset);
+      observe(result.name, result.iterations, report);
       history.add(quality_, is_best);
       result.n_last_reset = report.n_reset;
       if (auto why = history.why_stop(stopping, report, state_.initial_quality.q_star_min,
@@ -275,6 +275,7 @@ class SmoothingRun {
     StepReport report = smoother.step(state_);
     if (traits.quality_use == QualityUse::loop) {
       evaluate_quality();
+      report.n_made_invalid = quality_.n_invalid;
       if (quality_.n_invalid > 0 || has_facet_bound(state_.mesh)) {
         report.n_reset +=
             reset_nodes_of_invalid_cells(state_.mesh, previous_, state_.cell_quality).size();
@@ -301,9 +302,10 @@ class SmoothingRun {
       quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
   }
 
-  void observe(const std::string& stage, std::size_t iteration, std::size_t n_reset) {
+  void observe(const std::string& stage, std::size_t iteration, const StepReport& report) {
     if (observer_)
-      observer_({n_records_, stage, iteration, seconds_, preparation_seconds_, quality_, n_reset},
+      observer_({n_records_, stage, iteration, seconds_, preparation_seconds_, quality_,
+                 report.n_made_invalid, report.n_reset},
                 users_view());
     ++n_records_;
   }

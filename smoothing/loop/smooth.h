@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -20,6 +21,8 @@ struct IterationRecord {
   double smoothing_seconds = 0;  ///< of the stages' main loops so far, without the observers' time
   double preparation_seconds = 0;  ///< before them: reordering, tables, the initial quality
   MeshQuality quality;
+  /// Cells that the step made invalid, before nodes were put back; of methods that do that.
+  std::optional<std::size_t> n_made_invalid;
   std::size_t n_reset = 0;
 };
 

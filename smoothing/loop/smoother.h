@@ -58,7 +58,9 @@ struct StepReport {
   std::size_t n_counted = 1;      ///< iterations in the method's own count (100 for a cycle of 100)
   double max_displacement = 0.0;  ///< longest movement of a node; needed by that criterion only
   bool converged = false;         ///< see StoppingRule::Criterion
-  std::size_t n_reset = 0;        ///< nodes (or elements) put back because a cell became invalid
+  /// Cells that were invalid before nodes were put back; of steps that put them back all at once.
+  std::optional<std::size_t> n_made_invalid = {};
+  std::size_t n_reset = 0;  ///< nodes (or elements) put back because a cell became invalid
   /// From steps that keep the quality up to date themselves: the quality of the mesh, or just its
   /// q*_min where the rest would take a look at every cell.
   std::optional<MeshQuality> quality = {};

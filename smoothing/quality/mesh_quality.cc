@@ -102,6 +102,26 @@ std::vector<CellIndex> invalid_cells(std::span<const double> cell_quality) {
   return invalid;
 }
 
+template <int dim, int spacedim>
+std::vector<CellsBelow> count_cells_below(const Mesh<dim, spacedim>& mesh,
+                                          std::span<const double> thresholds) {
+  std::vector<CellsBelow> counts;
+  if (thresholds.empty()) return counts;
+  const auto quality = cell_mean_ratios(mesh);
+  for (const double threshold : thresholds) {
+    auto& count = counts.emplace_back(CellsBelow{.threshold = threshold});
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+      if (!(quality[c] < threshold)) continue;
+      ++count.n;
+      if (mesh.topology().has_free_node(c)) ++count.n_star;
+    }
+  }
+  return counts;
+}
+template std::vector<CellsBelow> count_cells_below(const PlanarMesh&, std::span<const double>);
+template std::vector<CellsBelow> count_cells_below(const VolumeMesh&, std::span<const double>);
+template std::vector<CellsBelow> count_cells_below(const SurfaceMesh&, std::span<const double>);
+
 std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
                                            std::size_t n_bins) {
   std::vector<std::size_t> counts(n_bins, 0);

@@ -49,6 +49,16 @@ MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t 
 /// The cells with quality <= 0, ascending.
 std::vector<CellIndex> invalid_cells(std::span<const double> cell_quality);
 
+/// How many cells have a quality below a threshold, and how many of those with a free node.
+struct CellsBelow {
+  double threshold = 0.0;
+  std::size_t n = 0, n_star = 0;
+};
+/// For each of some thresholds.
+template <int dim, int spacedim>
+std::vector<CellsBelow> count_cells_below(const Mesh<dim, spacedim>& mesh,
+                                          std::span<const double> thresholds);
+
 /// Number of cells in each of the n_bins equal parts of [0, 1]; quality 1 counts in the last.
 std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
                                            std::size_t n_bins);

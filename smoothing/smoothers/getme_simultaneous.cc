@@ -53,6 +53,7 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     is_transformed_ = true;
     move_nodes(state.mesh);
     StepReport report{.quality = pass_.transform_all(state, eta_)};
+    report.n_made_invalid = report.quality->n_invalid;
     if (report.quality->n_invalid > 0 || has_facet_bound(state.mesh)) {
       const auto nodes = reset_nodes_of_invalid_cells(state.mesh, previous_, state.cell_quality);
       if (!nodes.empty()) report.quality = pass_.transform_around(state, nodes, eta_);

@@ -355,5 +355,34 @@ TEST(Loop, PreparationsAreTimedApart) {
   EXPECT_GE(result.smoothing_seconds, records.back().smoothing_seconds);
 }
 
+/// Moves one node beyond its neighbours, again and again.
+class Tangler final : public Smoother<2> {
+ public:
+  std::string_view name() const override { return "tangler"; }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = 2};
+  }
+  StepReport step(SmoothingState<2>& state) override {
+    state.mesh.coordinates()[state.mesh.topology().free_nodes()[0]].x() += 2.0;
+    return {};
+  }
+};
+
+TEST(Loop, CellsMadeInvalidAreCountedBeforeNodesArePutBack) {
+  PlanarMesh mesh = test::grid_mesh(10, test::GridCells::quadrilaterals);
+  PlanarMesh tangled = mesh;
+  tangled.coordinates()[mesh.topology().free_nodes()[0]].x() += 2.0;
+  Method<2> method;
+  method.stages.push_back(std::make_unique<Tangler>());
+  smooth(mesh, method, [&](const IterationRecord& record, const auto&) {
+    EXPECT_EQ(record.quality.n_invalid, 0U);
+    EXPECT_EQ(record.n_made_invalid.has_value(), record.record > 0);
+    if (record.record > 0) {
+      EXPECT_EQ(*record.n_made_invalid, mesh_quality(tangled).n_invalid);
+      EXPECT_GT(record.n_reset, 0U);
+    }
+  });
+}
+
 }  // namespace
 }  // namespace smoothfem

@@ -165,6 +165,33 @@ TEST(MeshQuality, WithoutFreeCellsTheMinimaAreTheSame) {
   EXPECT_EQ(quality.q_star_min, quality.q_min);
 }
 
+/// A square of four triangles around a node near one side, and a thin triangle at another side.
+TEST(CellsBelow, AreCountedWithAndWithoutFreeNodes) {
+  const double low = 0.05;
+  const CompressedRows<NodeIndex> cells = [] {
+    CompressedRows<NodeIndex> rows;
+    for (const std::vector<NodeIndex>& row :
+         {std::vector<NodeIndex>{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 5, 2}})
+      rows.append(row);
+    return rows;
+  }();
+  const PlanarMesh mesh(std::make_shared<const Topology>(2, 6, cells),
+                        {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, low}, {1 + low, 0.5}});
+  const auto quality = cell_mean_ratios(mesh);
+  ASSERT_LT(quality[0], 0.3);  // has the free node 4
+  ASSERT_LT(quality[4], 0.3);  // has none
+  for (const std::size_t c : {1, 2, 3}) ASSERT_GT(quality[c], 0.3);
+  const std::vector<double> thresholds{0.3, 0.0, 1.0};
+  const auto counts = count_cells_below(mesh, thresholds);
+  ASSERT_EQ(counts.size(), 3U);
+  EXPECT_EQ(counts[0].n, 2U);
+  EXPECT_EQ(counts[0].n_star, 1U);
+  EXPECT_EQ(counts[1].n, 0U);
+  EXPECT_EQ(counts[2].n, 5U);
+  EXPECT_EQ(counts[2].n_star, 4U);
+  EXPECT_TRUE(count_cells_below(mesh, {}).empty());
+}
+
 TEST(QualityHistogram, CountsInEqualParts) {
   const std::vector<double> quality{0.0, 0.1, 0.25, 0.49, 0.5, 0.99, 1.0};
   EXPECT_EQ(quality_histogram(quality, 4), (std::vector<std::size_t>{2, 2, 1, 2}));

@@ -59,6 +59,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
   IterationRow row = iteration_row("getme", 3, 0.1);
   row.iteration.quality = {.q_min = 0.1, .q_star_min = 0.2, .q_mean = 2.0 / 3.0, .n_invalid = 0};
   row.iteration.n_reset = 4;
+  row.iteration.n_made_invalid = 5;
   row.iteration.preparation_seconds = 0.25;
   row.warpage = MeshWarpage{.max = 0.75, .mean = 0.125, .n_faces = 3};
   row.solved = full_record();
@@ -73,6 +74,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                         {"q_min", "0.1"},
                                         {"q_star_min", "0.2"},
                                         {"n_invalid", "0"},
+                                        {"n_made_invalid", "5"},
                                         {"n_reset", "4"},
                                         {"w_max", "0.75"},
                                         {"w_mean", "0.125"},
@@ -184,6 +186,16 @@ TEST(SummaryCsv, TheInitialMeshHasNoIterationsAndNoTime) {
   EXPECT_EQ(table.rows.at(0).at("peak_memory_gib"), "");
   EXPECT_EQ(table.rows.at(1).at("peak_memory_gib"), "1.5");
   EXPECT_EQ(table.rows.at(1).at("w_mean"), "");
+}
+
+TEST(SummaryCsv, CountsHaveAColumnForEachThreshold) {
+  SummaryRow row{.mesh = "tri", .method = "getme"};
+  row.cells_below = {{0.3, 7, 5}, {0.6619, 20, 18}};
+  const CsvTable table(summary_csv("study", {row}));
+  EXPECT_EQ(table.rows.at(0).at("n_below_0.3"), "7");
+  EXPECT_EQ(table.rows.at(0).at("n_star_below_0.3"), "5");
+  EXPECT_EQ(table.rows.at(0).at("n_below_0.6619"), "20");
+  EXPECT_EQ(table.rows.at(0).at("n_star_below_0.6619"), "18");
 }
 
 /// Rows of a method at 0, 1, 2, ... seconds with these values of every error; NaN: invalid mesh.

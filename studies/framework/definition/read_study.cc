@@ -103,6 +103,8 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
   study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
   study.record_warpage = p.get_bool("record warpage");
+  for (const auto& item : split_list(p.get("count cells below")))
+    study.count_below.push_back(std::stod(item));
   study.write_series = p.get_bool("write series");
   {
     const Subsection subsection(p, "solution");

@@ -81,7 +81,8 @@ struct Study {
   int timing_runs = 1;          ///< smoothing times are medians over this many runs
   double edge_scale = 1.0;      ///< generated meshes: edges this much longer
   bool record_warpage = false;  ///< of every iteration, not only of initial and resulting meshes
-  bool write_series = false;    ///< a VTU series for each mesh and method
+  std::vector<double> count_below;  ///< mean ratios below which cells are counted
+  bool write_series = false;        ///< a VTU series for each mesh and method
 };
 
 /// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: with the changes

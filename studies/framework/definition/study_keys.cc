@@ -127,6 +127,9 @@ void declare_problem(ParameterHandler& p) {
                   "Generated meshes: edges longer by this factor.");
   p.declare_entry("record warpage", "false", Patterns::Bool(),
                   "Warpage of volume meshes after every iteration, not only at the end.");
+  p.declare_entry(
+      "count cells below", "", Patterns::List(Patterns::Double(0.0, 1.0)),
+      "Mean ratios: summary.csv says how many cells are below each, initially and at the end.");
   p.declare_entry("write series", "false", Patterns::Bool(),
                   "Write each method's meshes as a VTU series (.pvd).");
   {

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "meshes/io/number_text.h"
 #include "studies/framework/results/csv_text.h"
 
 namespace smoothfem {
@@ -17,6 +18,17 @@ constexpr const char* solution_columns =
     "jacobi_cg_seconds,amg_cg_iterations,amg_setup_seconds,amg_cg_seconds,e_max,e_mean,e_l2,e_h1,"
     "l2_error,h1_error,status";
 constexpr int n_solution_numbers = 21;  ///< between degree and status
+
+/// Two columns for each threshold.
+std::string count_columns(const std::vector<CellsBelow>& counts) {
+  std::string columns;
+  for (const CellsBelow& count : counts) {
+    std::string threshold;
+    append_number(threshold, count.threshold);
+    columns += ",n_below_" + threshold + ",n_star_below_" + threshold;
+  }
+  return columns;
+}
 
 void add_quality(CsvText& csv, const MeshQuality& quality) {
   csv.number(quality.q_min).number(quality.q_star_min).number(quality.q_mean);
@@ -120,14 +132,19 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 }
 
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows) {
-  CsvText csv(std::string("study,mesh,method,stage,iteration,smoothing_seconds,preparation_seconds,"
-                          "q_min,q_star_min,q_mean,n_invalid,n_reset,w_max,w_mean,") +
-              solution_columns);
+  CsvText csv(
+      std::string("study,mesh,method,stage,iteration,smoothing_seconds,preparation_seconds,"
+                  "q_min,q_star_min,q_mean,n_invalid,n_made_invalid,n_reset,w_max,w_mean,") +
+      solution_columns);
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iteration.stage);
     csv.integer(row.iteration.iteration).number(row.iteration.smoothing_seconds);
     csv.number(row.iteration.preparation_seconds);
     add_quality(csv, row.iteration.quality);
+    if (row.iteration.n_made_invalid)
+      csv.integer(*row.iteration.n_made_invalid);
+    else
+      csv.field("");
     csv.integer(row.iteration.n_reset);
     add_warpage(csv, row.warpage);
     add_solution(csv, row.degree, row.solved, row.status);
@@ -140,7 +157,7 @@ std::string summary_csv(const std::string& study, const std::vector<SummaryRow>&
   CsvText csv(
       std::string("study,mesh,method,iterations,smoothing_seconds,preparation_seconds,q_min,"
                   "q_star_min,q_mean,n_invalid,w_max,w_mean,peak_memory_gib,") +
-      solution_columns);
+      solution_columns + (rows.empty() ? "" : count_columns(rows.front().cells_below)));
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iterations);
     if (row.iterations.empty())
@@ -151,6 +168,7 @@ std::string summary_csv(const std::string& study, const std::vector<SummaryRow>&
     add_warpage(csv, row.warpage);
     csv.number(row.peak_memory_gib);
     add_solution(csv, row.degree, row.solved, row.status);
+    for (const CellsBelow& count : row.cells_below) csv.integer(count.n).integer(count.n_star);
     csv.end_line();
   }
   return csv.text();

@@ -29,6 +29,7 @@ struct SummaryRow {
   double smoothing_seconds = 0.0;
   double preparation_seconds = 0.0;
   MeshQuality quality{};
+  std::vector<CellsBelow> cells_below{};    ///< for the same thresholds in all rows
   std::optional<MeshWarpage> warpage{};     ///< of volume meshes
   std::optional<double> peak_memory_gib{};  ///< of the process while the method ran
   int degree = 0;

@@ -8,15 +8,30 @@
 #include "meshes/io/atomic_file.h"
 #include "studies/framework/run/sealed_file.h"
 
+namespace nlohmann {
+
+template <class T>
+struct adl_serializer<std::optional<T>> {
+  static void to_json(json& made, const std::optional<T>& value) {
+    made = value ? json(*value) : json(nullptr);
+  }
+  static void from_json(const json& read, std::optional<T>& value) {
+    value = read.is_null() ? std::nullopt : std::optional(read.get<T>());
+  }
+};
+
+}  // namespace nlohmann
+
 namespace smoothfem {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshQuality, q_min, q_star_min, q_mean, n_invalid)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CellsBelow, threshold, n, n_star)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshWarpage, max, mean, n_faces)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(IterationRecord, record, stage, iteration, smoothing_seconds,
-                                   preparation_seconds, quality, n_reset)
+                                   preparation_seconds, quality, n_made_invalid, n_reset)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record, iterations_text,
-                                   smoothing_seconds, preparation_seconds, quality, warpage,
-                                   warpage_of_records, peak_memory_gib)
+                                   smoothing_seconds, preparation_seconds, quality, cells_below,
+                                   warpage, warpage_of_records, peak_memory_gib)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, condition_number,
                                    lambda_min, lambda_max, condition_method, condition_residual,
                                    cg_iterations, jacobi_cg_iterations, amg_cg_iterations,

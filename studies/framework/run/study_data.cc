@@ -231,6 +231,7 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
                    {.mesh = name,
                     .method = "initial",
                     .quality = data.meshes[m].quality,
+                    .cells_below = count_cells_below(data.meshes[m].mesh, data.study.count_below),
                     .warpage = warpage_of(data.meshes[m].mesh)},
                    data.mesh_tasks[m].initial, rows);
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
@@ -242,6 +243,7 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
                       .smoothing_seconds = trajectory.smoothing_seconds,
                       .preparation_seconds = trajectory.preparation_seconds,
                       .quality = trajectory.quality,
+                      .cells_below = trajectory.cells_below,
                       .warpage = trajectory.warpage,
                       .peak_memory_gib = trajectory.peak_memory_gib},
                      result_tasks(data, m, k), rows);

@@ -99,6 +99,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   totals.add(result);
   trajectory.iterations_text = result.iterations_text();
   trajectory.quality = result.quality;
+  trajectory.cells_below = count_cells_below(smoothed, study.count_below);
   trajectory.warpage = warpage_of(smoothed);
   trajectory.peak_memory_gib = memory.gib();
   trajectory.result_record = result.result_record;

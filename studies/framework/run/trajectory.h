@@ -21,7 +21,8 @@ struct Trajectory {
   double smoothing_seconds = 0.0;      ///< of the whole run
   double preparation_seconds = 0.0;    ///< the same
   MeshQuality quality;                 ///< of the result
-  MeshWarpage warpage;                 ///< of the result; planar meshes: none
+  std::vector<CellsBelow> cells_below;          ///< of the result
+  MeshWarpage warpage;                          ///< of the result; planar meshes: none
   std::vector<MeshWarpage> warpage_of_records;  ///< one per record, or empty
   double peak_memory_gib = 0.0;  ///< of the process, the study's other meshes included
 };
