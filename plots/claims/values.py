@@ -164,7 +164,7 @@ def seconds_per_iteration(rows, mesh, method):
     """Mean time of an iteration of the first stage."""
     rows = of_one_degree(rows, mesh, method)
     stage = in_first_stage(rows)
-    start = rows.number("smoothing_seconds")[0]  # of preparations before the first iteration
+    start = rows.number("smoothing_seconds")[0]  # 0, but for results that count preparations as smoothing
     return (rows.number("smoothing_seconds")[stage][-1] - start) / rows.number("iteration")[stage][-1]
 
 

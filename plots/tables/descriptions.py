@@ -64,6 +64,8 @@ SMOOTHING = TableDescription(
     measures=(
         Measure("iterations", Heading("Iterations", "Iterations"), None, difference=False),
         Measure("smoothing_seconds", TIME, form.format_seconds, difference=False),
+        Measure("preparation_seconds", Heading("Preparation (s)", "Preparation (s)"), form.format_seconds,
+                difference=False, ranks_methods=False),
         Measure("peak_memory_gib", Heading("Memory (GiB)", "Memory (GiB)"), form.format_memory,
                 difference=False, if_printed=True, ranks_methods=False),
         Measure("q_min", SYMBOLS["q_min"], form.format_quality),
