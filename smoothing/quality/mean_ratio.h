@@ -41,7 +41,7 @@ inline Real corner_mean_ratio(Edge next, Edge previous, Real determinant, Regula
 /// A quality that is none, as sizes near the limits of numbers give, is that of an invalid cell.
 template <class Real>
 inline Real zero_unless_finite(Real quality) {
-  return (quality > 0.0) & (quality < 2.0) ? quality : Real{};
+  return ((quality > 0.0) & (quality < 2.0)) ? quality : Real{};
 }
 
 /// Mean of the corner mean ratios of a polygon, 0 if one of them is not positive. determinant(next,
