@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the built-in studies for results/reference: all at the scale `paper`, the gear on the published
+meshes as it is. Goes on where it was stopped: a study whose reference is of this commit is left alone,
+one that was interrupted goes on by itself. Shortest ones first.
+
+    make_reference.py SOURCE PROGRAM WORK [STUDY...]
+
+PROGRAM: bin/smoothfem, built from SOURCE without changes that are not committed; WORK: where studies run,
+with their meshes and figures. What is kept of them is in results/reference of SOURCE."""
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+KEPT = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json", "tables")
+DRAWN = ("gear", "volume")  # whose figures are kept, too
+SCALE = "subsection scale paper"
+UNKNOWN_SECONDS = 1e9  # studies without a reference come last
+
+
+def provenance(folder):
+    """What provenance.json of a results folder says; empty if there is none."""
+    path = folder / "provenance.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+
+def is_done(folder, commit):
+    """Whether a folder has a study's whole results, made by the program of a commit."""
+    found = provenance(folder)
+    return found.get("status") == "complete" and made_by(found, commit)
+
+
+def made_by(found, commit):
+    """Whether results are of a commit's program."""
+    program = found.get("program", {})
+    return program.get("commit") == commit and not program.get("uncommitted_changes")
+
+
+def seconds(folder):
+    """How long the study took when it was last run."""
+    return sum(provenance(folder).get("seconds", {}).values()) or UNKNOWN_SECONDS
+
+
+def options(study):
+    """How a study is run for the reference."""
+    return ["--published"] if study == "gear" else ["--scale", "paper"]
+
+
+def keep(results, reference, study):
+    """Replaces a study's reference by new results."""
+    new = reference / f".{study}.new"
+    shutil.rmtree(new, ignore_errors=True)
+    new.mkdir(parents=True)
+    for name in KEPT + (("figures",) if study in DRAWN else ()):
+        source = results / name
+        if source.is_dir():
+            shutil.copytree(source, new / name, ignore=shutil.ignore_patterns("*.pdf"))
+        elif source.exists():
+            shutil.copy2(source, new / name)
+    shutil.rmtree(reference / study, ignore_errors=True)
+    new.rename(reference / study)
+
+
+def git(source, *words):
+    """What git says of the sources."""
+    return subprocess.run(["git", "-C", source, *words], capture_output=True, text=True, check=True).stdout.strip()
+
+
+def main():
+    """Runs what has to be run; returns the exit code."""
+    parser = argparse.ArgumentParser(description="runs the studies of results/reference")
+    for name in ("source", "program", "work"):
+        parser.add_argument(name, type=Path)
+    parser.add_argument("studies", nargs="*")
+    chosen = parser.parse_args()
+    reference = chosen.source / "results" / "reference"
+    known = [path.stem for path in (chosen.source / "studies").glob("*.prm")
+             if path.stem == "gear" or SCALE in path.read_text(encoding="utf-8")]
+    wrong = [study for study in chosen.studies if study not in known]
+    if wrong:
+        sys.exit(f"reference: there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
+    if git(chosen.source, "status", "--porcelain", "--", ".", ":!results/reference"):
+        sys.exit("reference: there are changes that are not committed; commit them first, so that the results can be "
+                 "made again")
+    commit = git(chosen.source, "rev-parse", "HEAD")
+    for study in sorted(chosen.studies or known, key=lambda name: seconds(reference / name)):
+        if is_done(reference / study, commit):
+            print(f"{study}: of this commit already", flush=True)
+            continue
+        print(study, flush=True)
+        results = chosen.work / study
+        if not is_done(results, commit):
+            found = provenance(results)
+            other = ["--force"] if found and not made_by(found, commit) else []
+            code = subprocess.run([chosen.program, "study", study, *options(study), "--out", results, *other],
+                                  check=False).returncode
+            if code != 0:
+                return code
+        keep(results, reference, study)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
