@@ -149,10 +149,12 @@ class SpaceReader {
     std::sort(ghosts, columns.end());
     space_.n_columns = space_.n_local = columns.size();
     for (const double number : numbers_) {
-      const auto n = static_cast<std::size_t>(number);
-      if (number == boundary)
+      if (number == boundary) {
         local_.push_back(static_cast<std::uint32_t>(space_.n_local++));
-      else if (number >= first && number < last)
+        continue;
+      }
+      const auto n = static_cast<std::size_t>(number);
+      if (number >= first && number < last)
         local_.push_back(static_cast<std::uint32_t>(n - first_number_));
       else
         local_.push_back(static_cast<std::uint32_t>(std::lower_bound(ghosts, columns.end(), n) -
