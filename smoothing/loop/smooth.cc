@@ -174,6 +174,12 @@ class SmoothingRun {
 
   /// The initial quality costs a method time only if it looks at quality at all.
   void start(const Method<dim, spacedim>& method) {
+    if (any_stage(method, [](const auto& stage) {
+          return stage.stopping().criterion == StoppingRule::Criterion::max_displacement;
+        })) {
+      const ScopedTimer timer(preparation_seconds_);
+      mean_edge_length_ = mean_edge_length(state_.mesh);
+    }
     reorder(method);
     if (!reordering_) state_.mesh.topology().node_cells(0);  // of the mesh, and so no method's time
     double others_seconds = 0.0;
@@ -184,12 +190,6 @@ class SmoothingRun {
       evaluate_quality();
     }
     state_.initial_quality = quality_;
-    if (any_stage(method, [](const auto& stage) {
-          return stage.stopping().criterion == StoppingRule::Criterion::max_displacement;
-        })) {
-      const ScopedTimer timer(preparation_seconds_);
-      mean_edge_length_ = mean_edge_length(state_.mesh);
-    }
     observe("initial", 0, {});
   }
 
@@ -243,12 +243,13 @@ class SmoothingRun {
   /// Constraints know nodes by their numbers.
   void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
-    if (state_.mesh.constraints() || state_.mesh.n_nodes() < min_nodes ||
-        any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
-      return;
+    if (state_.mesh.constraints() || state_.mesh.n_nodes() < min_nodes) return;
     if constexpr (dim == spacedim) {
       const ScopedTimer timer(preparation_seconds_);
-      reordering_.emplace(state_.mesh.shared_topology());
+      const bool keeps_order =
+          any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; });
+      reordering_.emplace(state_.mesh.shared_topology(),
+                          keeps_order ? Topology::NumberOrder::before : Topology::NumberOrder::now);
       state_.mesh = reordering_->apply(std::move(state_.mesh));
     }
   }

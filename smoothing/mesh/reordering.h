@@ -15,7 +15,8 @@ namespace smoothfem {
 template <int dim>
 class Reordering {
  public:
-  explicit Reordering(std::shared_ptr<const Topology> topology);
+  explicit Reordering(std::shared_ptr<const Topology> topology,
+                      Topology::NumberOrder number_order = Topology::NumberOrder::now);
 
   /// A mesh of the topology given, in the new order. Takes no memory besides.
   Mesh<dim> apply(Mesh<dim> mesh) const;

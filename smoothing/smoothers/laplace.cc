@@ -14,6 +14,10 @@ class Laplace final : public Smoother<dim, spacedim> {
   SmootherTraits traits() const override { return uncontrolled_sweeps; }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
+  void initialize(const SmoothingState<dim, spacedim>& state) override {
+    state.mesh.topology().node_neighbours(0);  // the table is made before the first step
+  }
+
   StepReport step(SmoothingState<dim, spacedim>& state) override {
     return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) -> Point<spacedim> {
       return mean_of_neighbours(state.mesh, i) - state.mesh.coordinates()[i];

@@ -18,6 +18,10 @@ class SmartLaplace final : public Smoother<dim, spacedim> {
   SmootherTraits traits() const override { return {.keeps_constraints = true}; }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
+  void initialize(const SmoothingState<dim, spacedim>& state) override {
+    state.mesh.topology().node_neighbours(0);  // with cells of nodes, before the first step
+  }
+
   StepReport step(SmoothingState<dim, spacedim>& state) override {
     constexpr std::size_t grain = 1024;
     const auto& free_nodes = state.mesh.topology().free_nodes();

@@ -50,6 +50,10 @@ class WeightedLaplace final : public Smoother<dim> {
   SmootherTraits traits() const override { return uncontrolled_sweeps; }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
+  void initialize(const SmoothingState<dim>& state) override {
+    state.mesh.topology().node_cells(0);  // the table is made before the first step
+  }
+
   StepReport step(SmoothingState<dim>& state) override {
     return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) {
       return movement(state.mesh.topology(), state.mesh.coordinates().data(), i);
@@ -60,7 +64,7 @@ class WeightedLaplace final : public Smoother<dim> {
   static Point<dim> movement(const Topology& topology, const Point<dim>* x, NodeIndex node) {
     WeightedCentroids<dim> centroids(x[node]);
     const auto cells = topology.node_cells(node);
-    prefetch_corners(topology, cells, x);  // nodes come in the mesh's order, whatever that is
+    prefetch_corners(topology, cells, x);
     for_each_batch<dim>(
         topology, cells,
         [&]<std::size_t n>(const CellBatch<n>& batch) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <map>
+#include <numeric>
 #include <set>
 #include <thread>
 
@@ -382,6 +383,69 @@ TEST(Loop, CellsMadeInvalidAreCountedBeforeNodesArePutBack) {
       EXPECT_GT(record.n_reset, 0U);
     }
   });
+}
+
+/// A mesh that is large enough to be smoothed in another order of memory, its nodes and cells
+/// numbered anyhow.
+VolumeMesh large_mesh_in_no_order(test::BoxCells kind) {
+  VolumeMesh mesh = test::box_mesh(26, 26, 25, kind);
+  test::distort(mesh, 0.3, 1);
+  const auto shuffled = [](std::size_t n, std::uint64_t seed) {
+    std::vector<std::uint32_t> order(n);
+    std::iota(order.begin(), order.end(), 0U);
+    test::Random random(seed);
+    for (std::size_t i = n; i > 1; --i)
+      std::swap(order[i - 1],
+                order[static_cast<std::size_t>((0.5 + 0.499 * random()) * static_cast<double>(i))]);
+    return order;
+  };
+  const auto nodes = shuffled(mesh.n_nodes(), 1);
+  std::vector<Point<3>> coordinates;
+  for (const NodeIndex i : nodes) coordinates.push_back(mesh.coordinates()[i]);
+  return {mesh.topology().reordered(nodes, shuffled(mesh.n_cells(), 2)), std::move(coordinates)};
+}
+
+TEST(Loop, SweepsFollowTheMeshsOwnOrderWhereverNodesAreInMemory) {
+  for (const auto kind : {test::BoxCells::tetrahedra, test::BoxCells::hexahedra})
+    for (const std::string name : {"laplace", "weighted-laplace"}) {
+      SCOPED_TRACE(name);
+      VolumeMesh mesh = large_mesh_in_no_order(kind);
+      SmoothingState<3> alone{mesh, {}};
+      const auto stages = stages_of<3>(name);
+      for (int i = 0; i < 3; ++i) stages[0]->step(alone);
+      auto method = make_method<3>(name);
+      method.set("max_iterations", "3");
+      method.set("tolerance", "0");
+      smooth(mesh, method);
+      EXPECT_EQ(mesh.copied_coordinates(), alone.mesh.copied_coordinates());
+    }
+}
+
+TEST(Topology, ReorderedForMemoryOnlyKeepsTheOrderOfBefore) {
+  const VolumeMesh mesh = test::box_mesh(3, 4, 2, test::BoxCells::tetrahedra);
+  const Topology& old = mesh.topology();
+  std::vector<NodeIndex> nodes(old.n_nodes());
+  std::vector<CellIndex> cells(old.n_cells());
+  std::iota(nodes.rbegin(), nodes.rend(), 0U);  // last one first
+  std::iota(cells.rbegin(), cells.rend(), 0U);
+  const auto reordered = old.reordered(nodes, cells, Topology::NumberOrder::before);
+  const auto last_node = static_cast<NodeIndex>(old.n_nodes() - 1);
+  const auto last_cell = static_cast<CellIndex>(old.n_cells() - 1);
+  const auto turned = [](auto rows, std::uint32_t last) {
+    std::vector<std::uint32_t> numbers(rows.begin(), rows.end());
+    for (auto& number : numbers) number = last - number;
+    return numbers;
+  };
+  EXPECT_EQ(turned(reordered->free_nodes(), last_node), old.free_nodes());
+  for (NodeIndex i = 0; i <= last_node; ++i) {
+    const auto as_it_was = [](auto row) {
+      return std::vector<std::uint32_t>(row.begin(), row.end());
+    };
+    EXPECT_EQ(turned(reordered->node_cells(last_node - i), last_cell),
+              as_it_was(old.node_cells(i)));
+    EXPECT_EQ(turned(reordered->node_neighbours(last_node - i), last_node),
+              as_it_was(old.node_neighbours(i)));
+  }
 }
 
 }  // namespace
