@@ -64,7 +64,8 @@ class NodeMoves {
                                                             : worst_candidate(node, sweep, radius);
   }
 
-  /// Mean quality of a node's cells; 0 if one is invalid, folded or below the least quality allowed.
+  /// Mean quality of a node's cells; 0 if one is invalid, folded or below the least quality
+  /// allowed.
   double quality_around(NodeIndex node) const {
     double sum = 0.0;
     const auto cells = mesh_.topology().node_cells(node);
@@ -146,7 +147,7 @@ class NodeMoves {
 
   Mesh<dim, spacedim> mesh_;
   std::vector<Point<spacedim>> original_;
-  std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
+  std::vector<double> edge_length_;    ///< mean over the edges at a node, in the original mesh
   std::vector<double> least_quality_;  ///< of each cell
   DistortionParameters parameters_;
 };
