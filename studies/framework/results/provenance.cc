@@ -66,6 +66,7 @@ Json describe_meshes(const RunFacts& facts) {
                       {"q_mean", mesh.quality.q_mean},
                       {"file", mesh.file},
                       {"sha256", mesh.sha256}});
+    if (!mesh.description.repeats.empty()) meshes.back()["repeats"] = mesh.description.repeats;
   }
   return meshes;
 }
