@@ -2,19 +2,14 @@
 #include "meshes/distortion/distort.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "meshes/distortion/counter_random.h"
+#include "meshes/distortion/node_moves.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/parallel.h"
-#include "smoothing/geometry/unit_normal.h"
-#include "smoothing/quality/hexahedron_mapping.h"
-#include "smoothing/quality/mean_ratio.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/simd/cells.h"
 
 namespace smoothfem {
 
@@ -29,18 +24,10 @@ void require_in_range(const DistortionParameters& p) {
                      std::to_string(p.n_candidates));
   if (p.n_sweeps < 1)
     throw InputError("the distortion needs at least 1 sweep, not " + std::to_string(p.n_sweeps));
+  if (!(p.least_quality >= 0.0 && p.least_quality < 1.0))
+    throw InputError("the distortion's least quality " + std::to_string(p.least_quality) +
+                     " is not between 0 and 1");
   if (!(p.tolerance > 0.0)) throw InputError("the distortion's tolerance must be positive");
-}
-
-/// Uniform in the unit ball. By rejection: sine and cosine differ between machines.
-template <int dim>
-Point<dim> point_in_unit_ball(SplitMix64& random) {
-  while (true) {
-    Point<dim> point;
-    for (int d = dim - 1; d >= 0; --d) point[d] = 2.0 * random.uniform() - 1.0;
-    // Here and below Eigen would sum in an order that depends on how it is compiled.
-    if (squared_length(vector_of(point)) <= 1.0) return point;
-  }
 }
 
 /// Fewer nodes of a level are not worth a thread; those of volume meshes take longer by far.
@@ -48,39 +35,27 @@ constexpr std::size_t least_nodes_per_thread(int dim) {
   return dim == 2 ? 64 : 4;
 }
 
-/// In a ball larger than the node's cells few points are valid; some nodes have hardly any.
-constexpr int tries_per_candidate = 20;
-
 template <int dim, int spacedim>
 class Distortion {
  public:
   Distortion(const Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters)
-      : mesh_(mesh),
-        original_(mesh.coordinates().begin(), mesh.coordinates().end()),
-        parameters_(parameters) {
-    const Topology& topology = mesh.topology();
-    edge_length_.resize(mesh.n_nodes(), 0.0);
-    for (const NodeIndex i : topology.free_nodes()) {
-      for (const NodeIndex j : topology.node_neighbours(i))
-        edge_length_[i] += length(vector_of(Point<spacedim>(original_[j] - original_[i])));
-      edge_length_[i] /= static_cast<double>(topology.node_neighbours(i).size());
-    }
-    levels_ = dependency_levels(topology);
-  }
+      : moves_(mesh, parameters),
+        n_sweeps_(parameters.n_sweeps),
+        levels_(dependency_levels(mesh.topology())) {}
 
   /// Moves all nodes within a radius and returns the mean quality that gives.
   double apply(double radius) {
-    std::copy(original_.begin(), original_.end(), mesh_.coordinates().begin());
-    for (int sweep = 0; sweep < parameters_.n_sweeps; ++sweep)
+    moves_.undo_all();
+    for (int sweep = 0; sweep < n_sweeps_; ++sweep)
       for (std::size_t level = 0; level < levels_.size(); ++level) {
         const auto nodes = levels_[level];
-        parallel_for_ranges(nodes.size(), least_nodes_per_thread(dim),
-                            [&](std::size_t first, std::size_t last) {
-                              for (const NodeIndex node : nodes.subspan(first, last - first))
-                                mesh_.coordinates()[node] = worst_candidate(node, sweep, radius);
-                            });
+        parallel_for_ranges(
+            nodes.size(), least_nodes_per_thread(dim), [&](std::size_t first, std::size_t last) {
+              for (const NodeIndex node : nodes.subspan(first, last - first))
+                moves_.mesh().coordinates()[node] = moves_.moved(node, sweep, radius);
+            });
       }
-    return mesh_quality(mesh_).q_mean;
+    return mesh_quality(moves_.mesh()).q_mean;
   }
 
   /// Moves further nodes, one after the other, until the mean quality, at present above the target,
@@ -88,15 +63,15 @@ class Distortion {
   /// form a convex set, because the Jacobian at each point is linear in the node's coordinates, so
   /// the way is valid (on surfaces nearly; it is looked at). False if the target is not reached.
   bool finish(double target, double radius) {
-    const auto n_cells = static_cast<double>(mesh_.n_cells());
-    double excess = (mesh_quality(mesh_).q_mean - target) * n_cells;
-    for (const NodeIndex node : mesh_.topology().free_nodes()) {
-      Point<spacedim>& x = mesh_.coordinates()[node];
-      const Point<spacedim> from = x, to = worst_candidate(node, parameters_.n_sweeps, radius);
-      const auto degree = static_cast<double>(mesh_.topology().node_cells(node).size());
-      const double before = quality_around(node);
+    const auto n_cells = static_cast<double>(moves_.mesh().n_cells());
+    double excess = (mesh_quality(moves_.mesh()).q_mean - target) * n_cells;
+    for (const NodeIndex node : moves_.mesh().topology().free_nodes()) {
+      Point<spacedim>& x = moves_.mesh().coordinates()[node];
+      const Point<spacedim> from = x, to = moves_.moved(node, n_sweeps_, radius);
+      const auto degree = static_cast<double>(moves_.mesh().topology().node_cells(node).size());
+      const double before = moves_.quality_around(node);
       x = to;
-      const double loss = degree * (before - quality_around(node));
+      const double loss = degree * (before - moves_.quality_around(node));
       if (loss < excess) {
         if (loss > 0.0)
           excess -= loss;
@@ -107,19 +82,21 @@ class Distortion {
       double low = 0.0, high = 1.0;
       for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
-        x = allowed_position<dim, spacedim>(mesh_, node, (1.0 - middle) * from + middle * to);
-        const double quality = quality_around(node);
+        x = allowed_position<dim, spacedim>(moves_.mesh(), node,
+                                            (1.0 - middle) * from + middle * to);
+        const double quality = moves_.quality_around(node);
         (quality > 0.0 && degree * (before - quality) < excess ? low : high) = middle;
       }
-      x = allowed_position<dim, spacedim>(mesh_, node, (1.0 - low) * from + low * to);
+      x = allowed_position<dim, spacedim>(moves_.mesh(), node, (1.0 - low) * from + low * to);
       return true;
     }
     return false;
   }
 
-  const Mesh<dim, spacedim>& mesh() const { return mesh_; }
+  const Mesh<dim, spacedim>& mesh() const { return moves_.mesh(); }
   void copy_to(Mesh<dim, spacedim>& mesh) const {
-    std::copy(mesh_.coordinates().begin(), mesh_.coordinates().end(), mesh.coordinates().begin());
+    const auto x = moves_.mesh().coordinates();
+    std::copy(x.begin(), x.end(), mesh.coordinates().begin());
   }
 
  private:
@@ -144,68 +121,8 @@ class Distortion {
     return rows;
   }
 
-  /// Of a node's candidates the valid one of lowest quality; where the node is if none is valid.
-  Point<spacedim> worst_candidate(NodeIndex node, int sweep, double radius) {
-    Point<spacedim>& x = mesh_.coordinates()[node];
-    const Point<spacedim> present = x;
-    Point<spacedim> worst = present;
-    double worst_quality = 2.0;  // above every mean ratio
-    SplitMix64 random = counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
-    const int n_tries = tries_per_candidate * parameters_.n_candidates;
-    for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
-      x = allowed_position<dim, spacedim>(
-          mesh_, node,
-          original_[node] + radius * edge_length_[node] * point_in_unit_ball<spacedim>(random));
-      const double quality = quality_around(node);
-      if (!(quality > 0.0)) continue;
-      ++n_valid;
-      if (quality < worst_quality) {
-        worst_quality = quality;
-        worst = x;
-      }
-    }
-    x = present;
-    return worst;
-  }
-
-  /// Cells have to be more than valid at their corners: finite elements are solved on distorted
-  /// hexahedra, and distorted surfaces are written to files.
-  bool is_folded(CellIndex cell) const {
-    if constexpr (dim == 3) {
-      const auto nodes = mesh_.topology().cell_nodes(cell);
-      if (nodes.size() != 8) return false;
-      std::array<Point<3>, 8> corners;
-      for (std::size_t k = 0; k < 8; ++k) corners[k] = mesh_.coordinates()[nodes[k]];
-      return !has_positive_mapping(corners);
-    } else if constexpr (spacedim > dim) {
-      // Valid also by its own mean normal: a file of the mesh tells no other.
-      bool valid = false;
-      with_corners<dim>(
-          mesh_.topology().cell_nodes(cell), mesh_.coordinates().data(),
-          [&](auto corners) { valid = mean_ratio(unit_normal(corners), corners) > 0.0; });
-      return !valid;
-    }
-    return false;
-  }
-
-  /// Mean quality of a node's cells; 0 if one is invalid or folded.
-  double quality_around(NodeIndex node) const {
-    double sum = 0.0;
-    const auto cells = mesh_.topology().node_cells(node);
-    for (const CellIndex cell : cells) {
-      const double quality = cell_mean_ratio(mesh_, cell);
-      if (!(quality > 0.0)) return 0.0;
-      sum += quality;
-    }
-    if (std::any_of(cells.begin(), cells.end(), [&](CellIndex cell) { return is_folded(cell); }))
-      return 0.0;
-    return sum / static_cast<double>(cells.size());
-  }
-
-  Mesh<dim, spacedim> mesh_;
-  std::vector<Point<spacedim>> original_;
-  std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
-  DistortionParameters parameters_;
+  NodeMoves<dim, spacedim> moves_;
+  int n_sweeps_;
   CompressedRows<NodeIndex> levels_;
 };
 

@@ -16,10 +16,27 @@ namespace {
 
 constexpr double arch_radius = 20.0, radius = 4.0, branch_radius = 2.4;
 constexpr double ascending = 25.0, descending = 60.0, branch_length = 16.0;
+constexpr double branch_foot = 0.8 * arch_radius;
+constexpr double blend_radius = 1.5;  ///< of the fillets where branches begin
 constexpr double boundary_edge = 0.854, inner_edge = 1.2;
 /// Thin against the edges: the prisms have a mean ratio of about 0.087, as in the thesis.
 constexpr double layer_height = 0.012;
 constexpr int n_layers = 6;
+
+/// Curves of the model where a branch meets the arch: they lie between the vessel's ends, and not
+/// in its plane of symmetry as the seams of the parts do.
+std::vector<int> branch_curves() {
+  gmsh::vectorpair curves;
+  gmsh::model::getEntities(curves, 1);
+  std::vector<int> found;
+  for (const auto& [dim, tag] : curves) {
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+    gmsh::model::getBoundingBox(dim, tag, x0, y0, z0, x1, y1, z1);
+    const bool is_at_branch = y0 > 0.5 * arch_radius && y1 < branch_foot + branch_length - radius;
+    if (is_at_branch && z1 - z0 > 0.5 * branch_radius) found.push_back(tag);
+  }
+  return found;
+}
 
 void build_geometry() {
   namespace occ = gmsh::model::occ;
@@ -27,11 +44,14 @@ void build_geometry() {
   const gmsh::vectorpair parts{
       {3, occ::addCylinder(arch_radius, 0, 0, 0, -ascending, 0, radius)},
       {3, occ::addCylinder(-arch_radius, 0, 0, 0, -descending, 0, radius)},
-      {3, occ::addCylinder(-6, 0.8 * arch_radius, 0, -3, branch_length, 0, branch_radius)},
-      {3, occ::addCylinder(6, 0.8 * arch_radius, 0, 3, branch_length, 0, branch_radius)}};
+      {3, occ::addCylinder(-6, branch_foot, 0, -3, branch_length, 0, branch_radius)},
+      {3, occ::addCylinder(6, branch_foot, 0, 3, branch_length, 0, branch_radius)}};
   gmsh::vectorpair whole;
   std::vector<gmsh::vectorpair> origin;
   occ::fuse({{3, arch}}, parts, whole, origin);
+  occ::synchronize();
+  gmsh::vectorpair blended;
+  occ::fillet({whole.front().second}, branch_curves(), {blend_radius}, blended);
   occ::synchronize();
 }
 
@@ -79,9 +99,10 @@ void append_layers(VolumeCells& mesh) {
   }
 }
 
-/// A vessel with an arch and two branches, filled with tetrahedra and wrapped in six layers of thin
-/// prisms: about 35,551 tetrahedra and 80,724 prisms (thesis, Section 5.4.3). Boundary nodes are
-/// fixed. Throws InputError if the edge scale is not 1.
+/// A vessel with an arch and two branches that begin in fillets, filled with tetrahedra and wrapped
+/// in six layers of thin prisms: about 35,551 tetrahedra and 80,724 prisms (thesis, Section 5.4.3).
+/// Its three ends are cut off flat, with sharp rims. Boundary nodes are fixed. Throws InputError if
+/// the edge scale is not 1.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("aorta", p.edge_scale, 1);
   VolumeCells mesh = tetrahedra();

@@ -83,4 +83,45 @@ inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radi
   return x;
 }
 
+/// Random steps of triangles a second time: from the documentation and with other formulas.
+inline std::vector<Point<2>> stepped_again(const PlanarMesh& mesh, double radius,
+                                           std::uint64_t seed, int n_sweeps) {
+  const Topology& topology = mesh.topology();
+  const std::vector<Point<2>> original = mesh.copied_coordinates();
+  std::vector<Point<2>> x = original;
+  const auto all_valid = [&](NodeIndex node) {
+    for (const CellIndex cell : topology.node_cells(node)) {
+      const auto t = topology.cell_nodes(cell);
+      const Point<2> u = x[t[1]] - x[t[0]], v = x[t[2]] - x[t[0]];
+      if (!(u.x() * v.y() > u.y() * v.x())) return false;
+    }
+    return true;
+  };
+  const auto coordinate = [](std::uint64_t& state) {
+    return 2.0 * std::ldexp(static_cast<double>(next_number(state) >> 11), -53) - 1.0;
+  };
+  for (int sweep = 0; sweep < n_sweeps; ++sweep)
+    for (const NodeIndex node : topology.free_nodes()) {
+      double mean_length = 0.0;
+      for (const NodeIndex other : topology.node_neighbours(node))
+        mean_length += std::sqrt((original[other] - original[node]).squaredNorm());
+      mean_length /= static_cast<double>(topology.node_neighbours(node).size());
+      std::uint64_t state =
+          first_number(first_number(first_number(seed) + node) + static_cast<std::uint64_t>(sweep));
+      double u = 0.0, v = 0.0;
+      do {  // the last coordinate comes first
+        v = coordinate(state);
+        u = coordinate(state);
+      } while (u * u + v * v > 1.0);
+      const double ball = radius * mean_length;
+      Point<2> step(ball * u, ball * v);
+      const Point<2> present = x[node];
+      int n_left = 60;
+      for (x[node] = present + step; !all_valid(node) && --n_left > 0; x[node] = present + step)
+        step *= 0.8;
+      if (n_left == 0) x[node] = present;
+    }
+  return x;
+}
+
 }  // namespace smoothfem

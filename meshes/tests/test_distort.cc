@@ -153,6 +153,19 @@ TEST(DistortOnAnyMachine, GivesTheBitsOfASecondImplementation) {
     }
 }
 
+TEST(DistortOnAnyMachine, GivesTheBitsOfASecondImplementationOfRandomSteps) {
+  const PlanarMesh original = grid(12, true);
+  for (const std::uint64_t seed : {1, 42})
+    for (const int n_sweeps : {1, 3}) {
+      PlanarMesh mesh = original;
+      distort_within(mesh, 0.8,
+                     {.seed = seed, .kind = DistortionKind::random_steps, .n_sweeps = n_sweeps});
+      const auto again = stepped_again(original, 0.8, seed, n_sweeps);
+      for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+        ASSERT_EQ(mesh.copied_coordinates()[i], again[i]) << i;
+    }
+}
+
 /// Four free nodes, whose bits are those of the machine that this was written on.
 TEST(DistortOnAnyMachine, GivesTheseBits) {
   const PlanarMesh original = grid(3, true);
@@ -186,6 +199,71 @@ TEST(DistortOnAnyMachine, FindsThisRadius) {
   EXPECT_NEAR(result.q_mean, 0.45, 1e-12);
 }
 
+TEST(RandomSteps, MeetTheTargetWithAValidMeshAndFixedBoundary) {
+  for (const bool triangles : {true, false}) {
+    const PlanarMesh original = grid(20, triangles);
+    PlanarMesh mesh = original;
+    distort(mesh, {.target_q_mean = 0.5, .kind = DistortionKind::random_steps, .n_sweeps = 10});
+    const MeshQuality quality = mesh_quality(mesh);
+    EXPECT_NEAR(quality.q_mean, 0.5, 1e-4);
+    EXPECT_EQ(quality.n_invalid, 0u);
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+      if (!mesh.topology().is_fixed(i)) continue;
+      EXPECT_EQ(mesh.copied_coordinates()[i], original.copied_coordinates()[i]);
+    }
+  }
+}
+
+/// Neighbours of a node that walked far have to follow it; with one step each they do not.
+TEST(RandomSteps, MoveNeighboursTogether) {
+  const auto correlation = [](const DistortionParameters& parameters) {
+    const PlanarMesh original = grid(40, true);
+    PlanarMesh mesh = original;
+    distort(mesh, parameters);
+    const Topology& topology = mesh.topology();
+    double of_neighbours = 0.0, of_nodes = 0.0, n_pairs = 0.0, n_nodes = 0.0;
+    std::vector<Point<2>> d;
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      d.push_back(mesh.coordinates()[i] - original.coordinates()[i]);
+    for (const NodeIndex i : topology.free_nodes()) {
+      of_nodes += d[i].squaredNorm();
+      ++n_nodes;
+      for (const NodeIndex j : topology.node_neighbours(i)) {
+        if (topology.is_fixed(j)) continue;
+        of_neighbours += d[i].dot(d[j]);
+        ++n_pairs;
+      }
+    }
+    return (of_neighbours / n_pairs) / (of_nodes / n_nodes);
+  };
+  EXPECT_GT(
+      correlation({.target_q_mean = 0.45, .kind = DistortionKind::random_steps, .n_sweeps = 10}),
+      0.1);
+  EXPECT_LT(correlation({.target_q_mean = 0.45}), 0.05);
+}
+
+TEST(Distort, LeavesNoCellBelowTheLeastQuality) {
+  for (const DistortionKind kind :
+       {DistortionKind::worst_candidate, DistortionKind::random_steps}) {
+    PlanarMesh free = grid(20, true), bounded = grid(20, true);
+    const DistortionParameters parameters{
+        .target_q_mean = 0.5, .kind = kind, .n_sweeps = 3, .least_quality = 0.1};
+    distort(bounded, parameters);
+    EXPECT_GE(mesh_quality(bounded).q_min, 0.1);
+    EXPECT_NEAR(mesh_quality(bounded).q_mean, 0.5, 1e-4);
+    distort(free, {.target_q_mean = 0.5, .kind = kind, .n_sweeps = 3});
+    EXPECT_LT(mesh_quality(free).q_min, 0.1);
+  }
+}
+
+/// Cells of the grid have a mean ratio of .866: below .9 from the beginning, they may not fall.
+TEST(Distort, DoesNotMakeCellsWorseThatAreBelowTheLeastQuality) {
+  PlanarMesh mesh = grid(6, true);
+  const double before = mesh_quality(mesh).q_min;
+  distort_within(mesh, 0.8, {.kind = DistortionKind::random_steps, .least_quality = 0.9});
+  EXPECT_GE(mesh_quality(mesh).q_min, before);
+}
+
 TEST(DistortErrors, SayWhatCanBeReached) {
   const PlanarMesh original = grid(6, false);
   PlanarMesh mesh = original;
@@ -199,6 +277,8 @@ TEST(DistortErrors, SayWhatCanBeReached) {
               HasSubstr("1.500000 is not between 0 and 1"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_candidates = 0}); }), HasSubstr("not 0"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_sweeps = 0}); }), HasSubstr("not 0"));
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.least_quality = 1.0}); }),
+              HasSubstr("least quality 1.000000 is not between 0 and 1"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.tolerance = 0.0}); }), HasSubstr("positive"));
 }
 
@@ -214,16 +294,19 @@ TEST(DistortErrors, AMeshWithoutFreeNodesKeepsItsQuality) {
 }
 
 TEST(Distort, DoesNotDependOnTheNumberOfThreads) {
-  const DistortionParameters parameters{.n_sweeps = 2};
-  std::vector<std::uint64_t> hashes;
-  for (const int threads : {1, 2, 5}) {
-    set_n_threads(threads);
-    PlanarMesh mesh = grid(40, true);
-    distort_within(mesh, 0.8, parameters);
-    hashes.push_back(hash(mesh));
+  for (const DistortionKind kind :
+       {DistortionKind::worst_candidate, DistortionKind::random_steps}) {
+    const DistortionParameters parameters{.kind = kind, .n_sweeps = 2};
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 5}) {
+      set_n_threads(threads);
+      PlanarMesh mesh = grid(40, true);
+      distort_within(mesh, 0.8, parameters);
+      hashes.push_back(hash(mesh));
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
   }
-  EXPECT_EQ(hashes[0], hashes[1]);
-  EXPECT_EQ(hashes[0], hashes[2]);
 }
 
 }  // namespace

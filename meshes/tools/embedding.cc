@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 
-#include "meshes/tools/gmsh_tetrahedra.h"
 #include "meshes/tools/unit_vector.h"
 
 namespace smoothfem {
@@ -33,7 +32,7 @@ CompressedRows<NodeIndex> append_pyramids(VolumeCells& mesh, const CompressedRow
 }
 
 void append_tetrahedra(VolumeCells& mesh, const std::vector<CompressedRows<NodeIndex>>& surfaces,
-                       double edge_length, const std::string& name) {
+                       double edge_length, const std::string& name, double optimization_threshold) {
   // Only the nodes of the surfaces take part: in their own numbers, and back.
   constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
   std::vector<NodeIndex> own(mesh.coordinates.size(), none), back;
@@ -55,7 +54,8 @@ void append_tetrahedra(VolumeCells& mesh, const std::vector<CompressedRows<NodeI
       rows.append(row);
     }
   }
-  const VolumeCells filling = fill_with_tetrahedra(name, points, renumbered, edge_length);
+  const VolumeCells filling =
+      fill_with_tetrahedra(name, points, renumbered, edge_length, optimization_threshold);
   for (std::size_t i = points.size(); i < filling.coordinates.size(); ++i) {
     back.push_back(static_cast<NodeIndex>(mesh.coordinates.size()));
     mesh.coordinates.push_back(filling.coordinates[i]);

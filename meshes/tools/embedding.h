@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "meshes/tools/gmsh_tetrahedra.h"
 #include "meshes/tools/mesh_cells.h"
 
 namespace smoothfem {
@@ -17,6 +18,7 @@ CompressedRows<NodeIndex> append_pyramids(VolumeCells& mesh, const CompressedRow
 /// Fills the space between closed surfaces of triangles between nodes of the mesh, the first around
 /// the others, with tetrahedra; see fill_with_tetrahedra.
 void append_tetrahedra(VolumeCells& mesh, const std::vector<CompressedRows<NodeIndex>>& surfaces,
-                       double edge_length, const std::string& name);
+                       double edge_length, const std::string& name,
+                       double optimization_threshold = usual_optimization_threshold);
 
 }  // namespace smoothfem

@@ -71,8 +71,9 @@ VolumeCells mesh_with_tetrahedra(const std::string& name,
 
 VolumeCells fill_with_tetrahedra(const std::string& name, const std::vector<Point<3>>& points,
                                  const std::vector<CompressedRows<NodeIndex>>& surfaces,
-                                 double edge_length) {
+                                 double edge_length, double optimization_threshold) {
   return mesh_with_tetrahedra(name, [&](GmshSession& session) {
+    session.set_option("Mesh.OptimizeThreshold", optimization_threshold);
     session.set_option("Mesh.CharacteristicLengthMax", edge_length);
     std::vector<int> loops;
     std::vector<bool> known(points.size(), false);

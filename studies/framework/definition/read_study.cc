@@ -61,8 +61,12 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
                  .edge_scale = p.get_double("edge scale"),
                  .distort_to_q_mean = p.get_double("distort to"),
                  .distort_within = p.get_double("distort within"),
+                 .distortion = p.get("distortion") == distortion_kind_names[1]
+                                   ? DistortionKind::random_steps
+                                   : DistortionKind::worst_candidate,
                  .distortion_candidates = static_cast<int>(p.get_integer("distortion candidates")),
                  .distortion_sweeps = static_cast<int>(p.get_integer("distortion sweeps")),
+                 .distortion_least_quality = p.get_double("distortion least quality"),
                  .seed = static_cast<std::uint64_t>(p.get_integer("seed"))};
   if (!mesh.file.empty() && mesh.file.is_relative()) mesh.file = folder / mesh.file;
   if (mesh.distort_to_q_mean > 0.0 && mesh.distort_within > 0.0)

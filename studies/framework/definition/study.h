@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fem/poisson_solver.h"
+#include "meshes/distortion/distort.h"
 #include "smoothing/loop/catalogue.h"
 #include "studies/framework/definition/study_header.h"
 
@@ -27,8 +28,10 @@ struct StudyMesh {
   double edge_scale = 1.0;         ///< of a generated mesh, times that of the study
   double distort_to_q_mean = 0.0;  ///< 0: not distorted
   double distort_within = 0.0;     ///< relative radius instead of a quality; 0: not distorted by it
+  DistortionKind distortion = DistortionKind::worst_candidate;
   int distortion_candidates = 10;  ///< see DistortionParameters
   int distortion_sweeps = 1;
+  double distortion_least_quality = 0.0;
   std::uint64_t seed = 1;
   std::string
       repeats;  ///< name of the mesh that this one is made like, with another seed; or empty

@@ -81,9 +81,17 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("distort within", "0", Patterns::Double(0.0),
                   "Instead: radius to distort the mesh within, in mean lengths of a node's edges. "
                   "Large meshes: the radius for a quality takes many trials.");
+  p.declare_entry(
+      "distortion", distortion_kind_names[0],
+      Patterns::Selection(std::string(distortion_kind_names[0]) + "|" + distortion_kind_names[1]),
+      "How a node moves: to the worst of some random positions around its own, or by a "
+      "random step from where it is, shortened until its cells are valid.");
   p.declare_entry("distortion candidates", std::to_string(default_candidates(dimension)),
-                  Patterns::Integer(1), "Random positions that a node chooses the worst from.");
+                  Patterns::Integer(1),
+                  "Random positions that a node chooses the worst from; steps have none.");
   p.declare_entry("distortion sweeps", "1", Patterns::Integer(1), "Times all nodes are moved.");
+  p.declare_entry("distortion least quality", "0", Patterns::Double(0.0, 1.0),
+                  "Mean ratio that no cell falls below by distortion.");
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
 }
 

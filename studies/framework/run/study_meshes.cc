@@ -51,7 +51,12 @@ std::string distortion_text(const StudyMesh& description) {
     text << ", distorted to q_mean " << description.distort_to_q_mean;
   if (description.distort_within > 0.0)
     text << ", distorted within radius " << description.distort_within;
-  if (is_distorted(description)) text << " with seed " << description.seed;
+  if (!is_distorted(description)) return {};
+  if (description.distortion == DistortionKind::random_steps)
+    text << " by " << description.distortion_sweeps << " sweeps of random steps";
+  if (description.distortion_least_quality > 0.0)
+    text << " not below " << description.distortion_least_quality;
+  text << " with seed " << description.seed;
   return text.str();
 }
 
@@ -81,8 +86,10 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
                           : read_valid_mesh<dim, spacedim>(source.file);
   if (source.published || !is_distorted(description)) return mesh;
   DistortionParameters parameters;
+  parameters.kind = description.distortion;
   parameters.n_candidates = description.distortion_candidates;
   parameters.n_sweeps = description.distortion_sweeps;
+  parameters.least_quality = description.distortion_least_quality;
   parameters.seed = description.seed;
   if (description.distort_within > 0.0) {
     distort_within(mesh, description.distort_within, parameters);
