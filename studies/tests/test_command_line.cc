@@ -421,7 +421,8 @@ TEST_F(CommandLine, AStudyOfSeveralSeedsHasEachOfThem) {
             "set timing runs = 1\n"
             "set seeds = 1, 2\nset record seeds = results\n"
             "subsection mesh grid\n set domain = nonuniform-grid\n set distort to = 0.5\nend\n"
-            "subsection thresholds\n set reference = laplace\nend\n");
+            "subsection solution\n set name = quadratic\nend\n"
+      "subsection thresholds\n set reference = laplace\nend\n");
   const Outcome outcome = smoothfem({"study", "my.prm"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const CsvTable summary(content_of(file("results/my/summary.csv")));
