@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 
+#include "meshes/bench/triad_bandwidth.h"
 #include "meshes/bench/volume_meshes.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
@@ -33,19 +34,6 @@ double median_seconds(int n, const auto& work) {
   for (int i = 0; i < n; ++i) all.push_back(seconds_of(work));
   std::nth_element(all.begin(), all.begin() + n / 2, all.end());
   return all[n / 2];
-}
-
-/// Bytes per second of a = b + s c on arrays too large for the cache, with the present threads.
-double triad_bandwidth() {
-  constexpr std::size_t n = 1 << 25;
-  std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
-  const double seconds = median_seconds(5, [&] {
-    parallel_for_ranges(n, n / 64, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) a[i] = b[i] + 3.0 * c[i];
-    });
-    benchmark::DoNotOptimize(a.data());
-  });
-  return 3.0 * sizeof(double) * n / seconds;
 }
 
 /// What a pass over the mesh cannot avoid: cells' nodes and where their rows begin, coordinates,

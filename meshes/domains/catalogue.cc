@@ -38,6 +38,11 @@ const std::string& Domain::elements_named(const std::string& wanted) const {
   return *found;
 }
 
+bool Domain::is_random(const std::string& wanted) const {
+  return std::find(random_elements.begin(), random_elements.end(), elements_named(wanted)) !=
+         random_elements.end();
+}
+
 AnyMesh Domain::generate(const DomainParameters& parameters) const {
   DomainParameters known = parameters;
   known.elements = elements_named(parameters.elements);

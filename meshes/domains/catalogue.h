@@ -24,7 +24,8 @@ struct Domain {
   int dimension;                      ///< of its meshes' cells: 2 or 3
   std::vector<std::string> elements;  ///< of element_names(), that it can be meshed with; the
                                       ///< default ones first
-  AnyMesh (*make)(const DomainParameters&);  ///< its `elements` are one of the domain's
+  std::vector<std::string> random_elements{};  ///< those of them whose meshes the seed changes
+  AnyMesh (*make)(const DomainParameters&);    ///< its `elements` are one of the domain's
 
   /// A valid mesh of the domain, whose boundary nodes are fixed (on surfaces: kept by constraints).
   /// Throws InputError for elements that the domain cannot be meshed with, and for an edge scale
@@ -34,6 +35,9 @@ struct Domain {
   /// The elements of a name, or, if it is empty, the default ones. Throws InputError that lists the
   /// domain's.
   const std::string& elements_named(const std::string& wanted) const;
+
+  /// Whether the seed changes meshes of these elements (a name, or empty).
+  bool is_random(const std::string& wanted) const;
 };
 
 /// Registers a domain when its file is loaded: one namespace-scope object at the end of each file

@@ -228,6 +228,7 @@ const RegisteredDomain registered(
      .description = "involute gear with 17 teeth and five holes, like that of Chapter 6",
      .dimension = 2,
      .elements = {"triangles", "quadrilaterals"},
+     .random_elements = {"triangles"},
      .make = generate});
 
 }  // namespace

@@ -93,6 +93,7 @@ const RegisteredDomain registered(
          "stand-in for Section 5.2.2's mesh: its counts of nodes, random inside, a simpler stem",
      .dimension = 3,
      .elements = {"tetrahedra"},
+     .random_elements = {"tetrahedra"},
      .make = generate});
 
 }  // namespace

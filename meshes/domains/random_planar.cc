@@ -172,6 +172,7 @@ const RegisteredDomain registered(
          "stand-ins for Section 5.1.1's meshes: their counts, on a wavy disc with nine holes",
      .dimension = 2,
      .elements = {"triangles", "quadrilaterals", "mixed"},
+     .random_elements = {"triangles", "mixed"},
      .make = generate});
 
 }  // namespace

@@ -82,6 +82,7 @@ const RegisteredDomain registered(
          "Section 5.2.1's ball: its 258 surface and 346 inner nodes, other random numbers",
      .dimension = 3,
      .elements = {"tetrahedra"},
+     .random_elements = {"tetrahedra"},
      .make = generate});
 
 }  // namespace

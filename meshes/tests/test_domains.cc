@@ -34,6 +34,36 @@ TEST(Domains, SayWhatTheyAre) {
   }
 }
 
+/// Coordinates of all nodes.
+std::vector<double> numbers_of(const AnyMesh& mesh) {
+  std::vector<double> numbers;
+  std::visit(
+      [&](const auto& any) {
+        for (const auto& point : any.coordinates())
+          numbers.insert(numbers.end(), point.data(), point.data() + point.size());
+      },
+      mesh);
+  return numbers;
+}
+std::vector<NodeIndex> cells_of_any(const AnyMesh& mesh) {
+  return std::visit([](const auto& any) { return any.topology().cells().entries(); }, mesh);
+}
+
+/// Those that take long to mesh are not random, and are left out.
+TEST(Domains, SayWhichElementsTheSeedChanges) {
+  for (const std::string name : {"gear", "random-planar", "sphere", "prosthesis", "subdivision",
+                                 "nonuniform-grid", "sweep", "ring"}) {
+    const Domain& domain = find_domain(name);
+    for (const auto& elements : domain.elements) {
+      SCOPED_TRACE(name + " of " + elements);
+      const AnyMesh one = domain.generate({.elements = elements, .seed = 1}),
+                    other = domain.generate({.elements = elements, .seed = 2});
+      EXPECT_EQ(numbers_of(one) != numbers_of(other) || cells_of_any(one) != cells_of_any(other),
+                domain.is_random(elements));
+    }
+  }
+}
+
 TEST(Domains, ThatAreNotThereAreRefusedWithTheNearestName) {
   EXPECT_THAT(
       input_error_of([] { find_domain("gaer"); }),

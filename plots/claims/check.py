@@ -8,6 +8,7 @@ import itertools
 import json
 import math
 import re
+import statistics
 from dataclasses import dataclass, replace
 
 from ..results.data_folder import thesis_folder
@@ -35,6 +36,7 @@ class Outcome:
     ours: str
     note: str = ""  # what our numbers show of why it may not hold
     guess: str = ""  # why that may be, as far as no run has tested it
+    seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
 
     @property
     def is_beside(self):
@@ -57,8 +59,10 @@ def read_claims(study):
 
 
 def check_claims(claims, results, printed):
-    """The outcome of each claim; `printed` as in make_tables."""
-    ours = Values(results.summary.records(), results.thresholds.records(), results.iterations)
+    """The outcome of each claim; `printed` as in make_tables. Where a study was repeated with several
+    seeds, a claim is judged by the median of each of its quantities."""
+    ours = [Values(each.summary.records(), each.thresholds.records(), each.iterations)
+            for each in (results, *results.repetitions)]
     rows = {content: table.rows for content, table in printed.items()}
     theirs = Values([row for content in rows if content != "thresholds" for row in rows[content]],
                     rows.get("thresholds", []))
@@ -68,14 +72,14 @@ def check_claims(claims, results, printed):
 
 
 def check_claim(claim, ours, theirs):
-    """The outcome of one claim: it holds if all of its checks hold."""
+    """The outcome of one claim: it holds if all of its checks hold. ours: of each seed."""
     if not claim["checks"]:
         return Outcome(claim, UNKNOWN, claim.get("printed", MISSING), claim["reason"])
     verdicts, printed, own = [], [], []
     for check in claim["checks"]:
         cases = cases_of(check)
         numbers = [number_of(check["quantity"], case, theirs) for case in cases]
-        found = [number_of(check["quantity"], case, ours) for case in cases]
+        found = [median_of(check["quantity"], case, ours) for case in cases]
         met = met_in(check, found, numbers)
         verdicts.append(verdict_of(met, check.get("at_least", len(cases))))
         printed.append(check.get("printed") or
@@ -83,14 +87,26 @@ def check_claim(claim, ours, theirs):
         own.append(shown(found, cases, met))
     worst = next(v for v in (FAILS, UNKNOWN, HOLDS) if v in verdicts)
     missing = claim.get("reason") if worst == UNKNOWN else None
+    seeds = ""
+    if len(ours) > 1:
+        alone = [check_claim(claim, [one], theirs).verdict for one in ours]
+        known = len(alone) - alone.count(UNKNOWN)
+        seeds = f"{alone.count(HOLDS)} of {known} seeds" if known > 1 else ""
     return Outcome(claim, worst, "; ".join(printed), missing or "; ".join(own),
-                   filled(claim.get("note", ""), ours, theirs), claim.get("guess", ""))
+                   filled(claim.get("note", ""), ours, theirs), claim.get("guess", ""), seeds)
+
+
+def median_of(quantity, case, values):
+    """The median of the quantity in one case over the seeds that have what it needs; None if none has."""
+    numbers = [number_of(quantity, case, of_seed) for of_seed in values]
+    numbers = [number for number in numbers if number is not None]
+    return statistics.median(numbers) if numbers else None
 
 
 def filled(note, ours, theirs):
     """A note with the numbers for which it has expressions in braces."""
     def number(match):
-        value = number_of(match[2], {}, theirs if match[1] else ours)
+        value = number_of(match[2], {}, theirs) if match[1] else median_of(match[2], {}, ours)
         return MISSING if value is None else written(value)
     return NUMBER_IN_NOTE.sub(number, note)
 

@@ -15,7 +15,7 @@ from ..tables.formats import escape_markdown
 from ..tables.number_format import MISSING
 from .agreement import agreement
 from .check import UNKNOWN, Outcome, check_claims, read_claims
-from .report import emphasized, known_reasons, totals
+from .report import known_reasons, totals, verdict_cell
 
 # The lines around the overview.
 BEGIN, END = "<!-- made by python3 -m plots.claims.overview -->", "<!-- end of what it made -->"
@@ -75,7 +75,7 @@ def overview(folders):
         for outcome in study.outcomes:
             cells = (outcome.claim["id"], outcome.claim["section"], outcome.claim["statement"])
             lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
-                         + f" | {emphasized(outcome.verdict)} |")
+                         + f" | {verdict_cell(outcome)} |")
         lines += known_reasons(study.outcomes) + [""]
     return "\n".join(lines)
 

@@ -22,7 +22,7 @@ def claims_as_markdown(outcomes, results):
         cells = (claim["id"], claim["section"], claim["statement"], criterion_of(claim),
                  outcome.printed, outcome.ours)
         lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
-                     + f" | {emphasized(outcome.verdict)} |")
+                     + f" | {verdict_cell(outcome)} |")
     lines += known_reasons(outcomes)
     return "\n".join(lines) + "\n"
 
@@ -47,6 +47,11 @@ def totals(outcomes):
     text = "Of " + counted([o for o in outcomes if not o.is_beside], "claim", "claims")
     beside = [o for o in outcomes if o.is_beside]
     return text + ("; of " + counted(beside, "later criterion", "later criteria") if beside else "")
+
+
+def verdict_cell(outcome):
+    """The verdict, and of how many seeds alone the claim holds."""
+    return emphasized(outcome.verdict) + (f" (holds for {outcome.seeds})" if outcome.seeds else "")
 
 
 def emphasized(verdict):
@@ -77,6 +82,10 @@ def caveats(results):
     if sizes:
         found.append(f"Meshes{f' of the scale `{scale}`' if scale else ''}: {', '.join(sizes)}. Errors, "
                      "condition numbers and times depend on the size.")
+    if results.seeds:
+        seeds = ", ".join(str(seed) for seed in results.seeds)
+        found.append(f"Repeated with the seeds {seeds}: {', '.join(results.repeated)}. Ours are medians over "
+                     "the seeds, and claims are judged by them.")
     own = [mesh for mesh in results.meshes if not results.is_published(mesh)]
     if own:
         found.append(f"Not the meshes of the thesis but stand-ins for them: {', '.join(own)}.")

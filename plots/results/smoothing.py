@@ -11,6 +11,7 @@ import numpy as np
 
 from .names import find_all
 from .rows import (ResultsError, Rows, entries, is_built_in, order_of, read_provenance, read_rows)
+from .seeds import by_seed
 
 # What tables and figures cannot do without; any other column may be absent and then counts as empty.
 REQUIRED_COLUMNS = {
@@ -55,6 +56,9 @@ class Results:
     iterations: Rows
     thresholds: Rows
     provenance: dict
+    seeds: tuple = ()  # of the study's repetitions, that of these results first; empty: there are none
+    repeated: tuple = ()  # the meshes that the seeds change
+    repetitions: tuple = ()  # Results of the other seeds
 
     @property
     def thesis_study(self):
@@ -90,7 +94,9 @@ class Results:
             return rows.where(np.isin(rows.text("mesh"), meshes)
                               & np.isin(rows.text("method"), (INITIAL, *methods)))
         return replace(self, methods=methods, meshes=meshes, summary=rows_of(self.summary),
-                       iterations=rows_of(self.iterations), thresholds=rows_of(self.thresholds))
+                       iterations=rows_of(self.iterations), thresholds=rows_of(self.thresholds),
+                       repeated=tuple(mesh for mesh in self.repeated if mesh in meshes),
+                       repetitions=tuple(other.restricted(methods, meshes) for other in self.repetitions))
 
     def result_record(self, rows):
         """Which of the rows of one mesh, method and degree is the record of the method's resulting
@@ -132,13 +138,13 @@ def read_results(folder):
     for key in ("meshes", "methods"):
         titles.update({e["name"]: str(e["title"]) for e in entries(provenance, key) if e.get("title")})
     methods = order_of(summary.text("method"), provenance, "methods")
-    return Results(
+    return by_seed(Results(
         folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
         meshes=order_of(summary.text("mesh"), provenance, "meshes"),
         methods=tuple(method for method in methods if method != INITIAL),
         degrees=tuple(sorted({degree for degree in summary.text("degree") if degree}, key=float)),
         titles=titles, summary=summary, iterations=iterations, thresholds=thresholds,
-        provenance=provenance)
+        provenance=provenance))
 
 
 def read_checked(path):

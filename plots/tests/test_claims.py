@@ -46,7 +46,7 @@ class Expressions(InFolder):
 class Verdicts(InFolder):
     def outcome(self, *checks):
         values = Values(ROWS, THRESHOLDS)
-        return check_claim({"checks": list(checks)}, values, Values([], []))
+        return check_claim({"checks": list(checks)}, [values], Values([], []))
 
     def test_holds_fails_unknown(self):
         factor = "e_max('tri', 'getme', 1) / e_max('tri', 'getme', 2)"
@@ -83,10 +83,10 @@ class Verdicts(InFolder):
         note = ("{e_max('tri', 'getme', 1) / 3}, not {printed q_min('tri', 'getme')} "
                 "or {e_max('quad', 'getme')}")
         theirs = Values([{"mesh": "tri", "method": "getme", "q_min": "0.25"}], [])
-        outcome = check_claim({"checks": [], "reason": "", "note": note}, Values(ROWS, []), theirs)
+        outcome = check_claim({"checks": [], "reason": "", "note": note}, [Values(ROWS, [])], theirs)
         self.assertEqual(outcome.note, "")  # it cannot be checked
         check = {"quantity": "1", "condition": "value == 2"}
-        outcome = check_claim({"checks": [check], "note": note}, Values(ROWS, []), theirs)
+        outcome = check_claim({"checks": [check], "note": note}, [Values(ROWS, [])], theirs)
         self.assertEqual(outcome.note, "0.667, not 0.25 or –")
 
 
@@ -230,7 +230,7 @@ class ClaimsOfTheThesis(InFolder):
     def test_what_is_guessed_is_called_a_guess(self):
         def reasons(**keys):
             claim = {"id": "X1", "checks": [{"quantity": "1", "condition": "value == 2"}], **keys}
-            return known_reasons([check_claim(claim, Values(ROWS, []), Values([], []))])[-1]
+            return known_reasons([check_claim(claim, [Values(ROWS, [])], Values([], []))])[-1]
         self.assertEqual(reasons(note="It is {q_min('tri', 'getme')}.", guess="Chance."),
                          "- X1: It is 0.5. Guess, tested by no run: Chance.")
         self.assertEqual(reasons(note="It is so."), "- X1: It is so.")
@@ -240,7 +240,7 @@ class ClaimsOfTheThesis(InFolder):
     def test_what_is_missing_stands_in_the_row(self):
         check = {"quantity": "n_cells('tri', 'getme')", "condition": "value > 0"}
         claim = {"id": "X1", "checks": [check], "reason": "missing: column `n_cells`"}
-        outcome = check_claim(claim, Values(ROWS, []), Values([], []))
+        outcome = check_claim(claim, [Values(ROWS, [])], Values([], []))
         self.assertEqual((outcome.verdict, outcome.ours), (UNKNOWN, claim["reason"]))
-        there = check_claim(claim, Values([{**ROWS[0], "n_cells": "3"}], []), Values([], []))
+        there = check_claim(claim, [Values([{**ROWS[0], "n_cells": "3"}], [])], Values([], []))
         self.assertEqual((there.verdict, there.ours), (HOLDS, "3"))

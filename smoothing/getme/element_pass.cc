@@ -83,12 +83,14 @@ Lanes weighted(Vector3<double> position, double weight) {
   return Lanes{weight * position.x, weight * position.y, weight * position.z, weight};
 }
 
-template <int dim, int spacedim, class Weighting>
+/// Fits: std::true_type or std::false_type in the plane, whether elements' steps are told sizes.
+template <int dim, int spacedim, class Weighting, class Fits = bool>
 struct Pass {
   const Mesh<dim, spacedim>& mesh;
   const ElementRegularization<dim, spacedim>& element;
   const NeighbourSizes<dim, spacedim>& sizes;  ///< up to date if the element's step needs them
   Weighting weighting;
+  Fits fits;
 
   /// sums[i] += w_j p'_i for the elements of a batch and their nodes where wanted(i). Returns their
   /// quality. The nodes of one kind of all elements, one element after the other, then the next
@@ -97,9 +99,7 @@ struct Pass {
   Lanes add(const CellBatch<n>& batch, const Wanted& wanted, double* sums) const {
     const auto corners = batch.template corners<dim>(mesh.coordinates().data());
     std::array<Vector<dim, Lanes>, n> transformed;
-    const Lanes size = element.fits_neighbours() ? sizes.of(batch) : Lanes{};
-    const Lanes quality = element.regularize(std::span<const Vector<dim, Lanes>, n>(corners),
-                                             std::span<Vector<dim, Lanes>, n>(transformed), size);
+    const Lanes quality = regularized(batch, corners, transformed);
     const Lanes weight = weighting.weight(batch.cells, quality);
     unrolled<n>([&](auto k) {
       const auto terms = weighted(weighting.chosen(quality, transformed[k], corners[k]), weight);
@@ -110,6 +110,18 @@ struct Pass {
     return quality;
   }
 
+  template <std::size_t n>
+  Lanes regularized(const CellBatch<n>& batch, const std::array<Vector<dim, Lanes>, n>& corners,
+                    std::array<Vector<dim, Lanes>, n>& transformed) const {
+    const Lanes size = fits ? sizes.of(batch) : Lanes{};
+    const std::span<const Vector<dim, Lanes>, n> from(corners);
+    const std::span<Vector<dim, Lanes>, n> to(transformed);
+    if constexpr (dim == 2)
+      return element.regularize(from, to, size, fits);
+    else
+      return element.regularize(from, to, size);
+  }
+
   /// The same for one polygon or cell of a surface.
   template <class Wanted>
   double add_cell(CellIndex cell, const Wanted& wanted, double* sums) const {
@@ -117,7 +129,7 @@ struct Pass {
     double quality = 0.0;
     with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
       with_result(corners, [&](auto transformed) {
-        const double size = element.fits_neighbours() ? sizes.of(nodes) : 0.0;
+        const double size = fits ? sizes.of(nodes) : 0.0;
         quality = regularize(element, upper_side(mesh, cell), corners, transformed, size);
         const double weight = weighting.weight(cell, quality);
         for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -130,9 +142,22 @@ struct Pass {
   }
 };
 
+/// Calls visit(fits): in the plane with a type of that value.
+template <int dim, int spacedim, class Visit>
+void with_scaling(bool fits, const Visit& visit) {
+  if constexpr (dim == 2 && spacedim == 2) {
+    if (fits)
+      visit(std::true_type{});
+    else
+      visit(std::false_type{});
+  } else {
+    visit(fits);
+  }
+}
+
 /// All cells of a block in their order; writes their quality.
-template <int dim, int spacedim, class Weighting>
-void add_block(const Pass<dim, spacedim, Weighting>& pass, const CellBlock& block,
+template <int dim, int spacedim, class Weighting, class Fits>
+void add_block(const Pass<dim, spacedim, Weighting, Fits>& pass, const CellBlock& block,
                double* cell_quality, double* sums) {
   const auto every_node = [](NodeIndex) { return true; };
   for_each_batch<dim, spacedim>(
@@ -142,9 +167,10 @@ void add_block(const Pass<dim, spacedim, Weighting>& pass, const CellBlock& bloc
 }
 
 /// Some cells, ascending, to the sums of marked nodes only. Their qualities are known.
-template <int dim, int spacedim, class Weighting>
-void add_to_marked(const Pass<dim, spacedim, Weighting>& pass, std::span<const CellIndex> cells,
-                   const std::vector<std::uint8_t>& marked, double* sums) {
+template <int dim, int spacedim, class Weighting, class Fits>
+void add_to_marked(const Pass<dim, spacedim, Weighting, Fits>& pass,
+                   std::span<const CellIndex> cells, const std::vector<std::uint8_t>& marked,
+                   double* sums) {
   const auto wanted = [&](NodeIndex i) { return marked[i] != 0; };
   for_each_batch<dim, spacedim>(
       pass.mesh.topology(), cells,
@@ -208,11 +234,13 @@ MeshQuality ElementPass<dim, spacedim>::transform_all(SmoothingState<dim, spaced
                                                       double eta) {
   const Topology& topology = state.mesh.topology();
   if (tables_->element->fits_neighbours()) tables_->sizes.update(state.mesh);
-  const Pass<dim, spacedim, QualityWeighting> pass{
-      state.mesh, *tables_->element, tables_->sizes, {eta}};
-  tables_->sums.compute([&](std::size_t b, double* sums) {
-    add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
-    tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
+  with_scaling<dim, spacedim>(tables_->element->fits_neighbours(), [&](auto fits) {
+    const Pass<dim, spacedim, QualityWeighting, decltype(fits)> pass{
+        state.mesh, *tables_->element, tables_->sizes, {eta}, fits};
+    tables_->sums.compute([&](std::size_t b, double* sums) {
+      add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
+      tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
+    });
   });
   return mesh_quality(tables_->qualities, topology.n_cells());
 }
@@ -241,7 +269,7 @@ MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spa
     if (marked_cells[c]) cells.push_back(c);
 
   const Pass<dim, spacedim, QualityWeighting> pass{
-      state.mesh, *tables_->element, tables_->sizes, {eta}};
+      state.mesh, *tables_->element, tables_->sizes, {eta}, tables_->element->fits_neighbours()};
   tables_->sums.compute_some(
       changed_sums, cells,
       [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
@@ -262,8 +290,11 @@ void ElementPass<dim, spacedim>::transform_some(const SmoothingState<dim, spaced
     else
       tables_->sizes.update(state.mesh, tables_->nodes_of(state.mesh.topology(), cells));
   }
-  const Pass<dim, spacedim, ThresholdWeighting> pass{
-      state.mesh, *tables_->element, tables_->sizes, {weights.data(), threshold}};
+  const Pass<dim, spacedim, ThresholdWeighting> pass{state.mesh,
+                                                     *tables_->element,
+                                                     tables_->sizes,
+                                                     {weights.data(), threshold},
+                                                     tables_->element->fits_neighbours()};
   auto& marked_nodes = tables_->marked_nodes;
   marked_nodes.assign(state.mesh.n_nodes(), 0);
   for (const NodeIndex i : nodes) marked_nodes[i] = 1;

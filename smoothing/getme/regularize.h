@@ -32,8 +32,15 @@ class ElementRegularization<2> {
   template <class Real, std::size_t extent>
   inline Real regularize(std::span<const Vector2<Real>, extent> polygon,
                          std::span<Vector2<Real>, extent> result, Real size = Real{}) const {
+    return regularize(polygon, result, size, fits_neighbours_);
+  }
+  /// The same for loops that know at compile time whether sizes are told: a polygon's step is so
+  /// short that asking each time would show. Fits: std::true_type or std::false_type.
+  template <class Real, std::size_t extent, class Fits>
+  inline Real regularize(std::span<const Vector2<Real>, extent> polygon,
+                         std::span<Vector2<Real>, extent> result, Real size, Fits fits) const {
     transformation_.apply(polygon, result);
-    if (fits_neighbours_)
+    if (fits)
       give_size<2>(polygon, size, result);
     else
       keep_mean_edge_length(polygon, result);

@@ -7,8 +7,8 @@
 #include "smoothing/optimization/node_terms.h"
 #include "smoothing/simd/cells.h"
 
-/// The shape objective of the cells of one node, as a function of its position, several cells of one
-/// kind at a time.
+/// The shape objective of the cells of one node, as a function of its position, several cells of
+/// one kind at a time.
 
 namespace smoothfem {
 

@@ -210,6 +210,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   /// is invalid, or if a facet there is beyond its bound.
   bool accept_or_undo(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     new_quality_.resize(touched_.size());
+    prefetch_corners(state.mesh.topology(), touched_, state.mesh.coordinates().data());
     const auto set_if_valid = [&](std::size_t position, double q) {
       new_quality_[position] = q;
       return q > 0.0;

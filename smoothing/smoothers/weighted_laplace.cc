@@ -60,6 +60,7 @@ class WeightedLaplace final : public Smoother<dim> {
   static Point<dim> movement(const Topology& topology, const Point<dim>* x, NodeIndex node) {
     WeightedCentroids<dim> centroids(x[node]);
     const auto cells = topology.node_cells(node);
+    prefetch_corners(topology, cells, x);  // nodes come in the mesh's order, whatever that is
     for_each_batch<dim>(
         topology, cells,
         [&]<std::size_t n>(const CellBatch<n>& batch) {

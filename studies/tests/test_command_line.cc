@@ -434,6 +434,31 @@ TEST_F(CommandLine, RunsAStudyOfOnesOwn) {
   for (const auto& row : summary.rows) EXPECT_LT(std::stod(row.at("e_max")), 1.0);
 }
 
+TEST_F(CommandLine, AStudyOfSeveralSeedsHasEachOfThem) {
+  file_with("my.prm",
+            "set dimension = 3\nset meshes = grid\nset methods = laplace, getme\nset degrees = 1\n"
+            "set timing runs = 1\n"
+            "set seeds = 1, 2\nset record seeds = results\n"
+            "subsection mesh grid\n set domain = nonuniform-grid\n set distort to = 0.5\nend\n"
+            "subsection thresholds\n set reference = laplace\nend\n");
+  const Outcome outcome = smoothfem({"study", "my.prm"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const CsvTable summary(content_of(file("results/my/summary.csv")));
+  const auto of = [&](const std::string& mesh, const std::string& method) {
+    return summary.select({{"mesh", mesh}, {"method", method}}).at(0).at("q_mean");
+  };
+  EXPECT_NE(of("grid", "initial"), of("grid.seed-2", "initial"));
+  EXPECT_NE(of("grid", "getme"), of("grid.seed-2", "getme"));
+  const CsvTable iterations(content_of(file("results/my/iterations.csv")));
+  EXPECT_GT(iterations.select({{"mesh", "grid"}, {"method", "getme"}}).size(), 4u);
+  EXPECT_LE(iterations.select({{"mesh", "grid.seed-2"}, {"method", "getme"}}).size(), 3u);
+  const CsvTable thresholds(content_of(file("results/my/thresholds.csv")));
+  EXPECT_FALSE(thresholds.select({{"mesh", "grid"}}).empty());
+  EXPECT_TRUE(thresholds.select({{"mesh", "grid.seed-2"}}).empty());
+  EXPECT_NE(content_of(file("results/my/provenance.json")).find("\"repeats\": \"grid\""),
+            std::string::npos);
+}
+
 TEST_F(CommandLine, QuietStudiesPrintNothing) {
   write_mesh(file("meshes/mine.vtk"), shaken_grid(3, 0.2));
   file_with("my.prm",

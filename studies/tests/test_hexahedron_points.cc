@@ -14,8 +14,7 @@ namespace smoothfem {
 namespace {
 
 VolumeMesh distorted_flange() {
-  const AnyMesh made =
-      find_domain("flange").generate({.elements = "hexahedra", .edge_scale = 2.8});
+  const AnyMesh made = find_domain("flange").generate({.elements = "hexahedra", .edge_scale = 2.8});
   VolumeMesh mesh = std::get<VolumeMesh>(made);
   distort(mesh, DistortionParameters{.target_q_mean = 0.4631});
   return mesh;
@@ -51,10 +50,9 @@ TEST_P(HexahedronPoints, ChosenOnesAgreeWithTwentyADirection) {
     const auto ours = chosen.solve(meshes[m], solution), exact = twenty.solve(meshes[m], solution);
     EXPECT_EQ(ours.status, "ok");
     EXPECT_GT(ours.most_points, 6);
-    for (const auto number :
-         {&SolutionRecord::condition_number, &SolutionRecord::e_max, &SolutionRecord::e_mean,
-          &SolutionRecord::e_l2, &SolutionRecord::e_h1, &SolutionRecord::l2_error,
-          &SolutionRecord::h1_error})
+    for (const auto number : {&SolutionRecord::condition_number, &SolutionRecord::e_max,
+                              &SolutionRecord::e_mean, &SolutionRecord::e_l2, &SolutionRecord::e_h1,
+                              &SolutionRecord::l2_error, &SolutionRecord::h1_error})
       EXPECT_NEAR(ours.*number / (exact.*number), 1.0, 1e-4) << "mesh " << m;
   }
 }

@@ -358,6 +358,44 @@ TEST_F(StudyFile, ParametersInForceAreThoseOfTheScale) {
   EXPECT_NE(message.find("the scale wrong has 'edge scale = 0.5'"), std::string::npos) << message;
 }
 
+TEST_F(StudyFile, SeedsRepeatWhatDependsOnChance) {
+  const auto path = file_with(
+      "own.prm",
+      "set meshes = ball, bent, plain\nset methods = getme\nset dimension = 3\nset degrees =\n"
+      "set seeds = 4, 2, 9\nset record seeds = results\nset scales = one\n"
+      "subsection mesh ball\n set domain = sphere\nend\n"
+      "subsection mesh bent\n set domain = flange\n set distort to = 0.5\nend\n"
+      "subsection mesh plain\n set domain = flange\n set seed = 7\nend\n"
+      "subsection scale one\n set seeds = 8\nend\n");
+  const Study study = read_study(path);
+  EXPECT_TRUE(study.only_results_of_seeds);
+  std::vector<std::tuple<std::string, std::uint64_t, std::string>> found;
+  for (const auto& mesh : study.meshes) found.emplace_back(mesh.name, mesh.seed, mesh.repeats);
+  EXPECT_THAT(found, testing::ElementsAre(
+                         std::tuple("ball", 4, ""), std::tuple("ball.seed-2", 2, "ball"),
+                         std::tuple("ball.seed-9", 9, "ball"), std::tuple("bent", 4, ""),
+                         std::tuple("bent.seed-2", 2, "bent"), std::tuple("bent.seed-9", 9, "bent"),
+                         std::tuple("plain", 7, "")));
+  EXPECT_EQ(read_study(path, "one").meshes.size(), 3u);
+  EXPECT_EQ(read_study(path, "one").meshes[1].seed, 8u);
+}
+
+TEST_F(StudyFile, SeedsThatAreNoneAreRefused) {
+  const auto message_of = [&](const std::string& lines) {
+    const auto path = file_with("own.prm", "set methods = getme\n" + lines +
+                                               "subsection mesh a\n set domain = gear\nend\n");
+    return checked(input_error_of([&] { read_study(path); }), path);
+  };
+  EXPECT_THAT(message_of("set meshes = a\nset seeds = 1, x\n"),
+              testing::HasSubstr("'x', which is no"));
+  EXPECT_THAT(message_of("set meshes = a\nset seeds = -1\n"),
+              testing::HasSubstr("'-1', which is no"));
+  EXPECT_THAT(message_of("set meshes = a\nset seeds = 1, 3, 1\n"),
+              testing::HasSubstr("has 1 twice"));
+  EXPECT_THAT(message_of("set meshes = a, a.seed-2\nset seeds = 1, 2\n"),
+              testing::HasSubstr("is called a.seed-2, which is another mesh"));
+}
+
 TEST(FindStudy, TakesNamesOfBuiltInStudiesAndPaths) {
   EXPECT_TRUE(std::filesystem::equivalent(find_study("gear"), gear_file));
   EXPECT_EQ(find_study(gear_file.string()), gear_file);

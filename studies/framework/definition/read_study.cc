@@ -4,6 +4,7 @@
 #include "smoothing/base/find_named.h"
 #include "studies/framework/definition/check_study.h"
 #include "studies/framework/definition/find_study.h"
+#include "studies/framework/definition/seeds.h"
 #include "studies/framework/definition/study.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/definition/study_keys.h"
@@ -106,6 +107,7 @@ std::vector<int> read_degrees(const std::string& list, const std::string& file) 
 
 void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
+  study.only_results_of_seeds = p.get("record seeds") == "results";
   study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
   study.record_warpage = p.get_bool("record warpage");
   for (const auto& item : split_list(p.get("count cells below")))
@@ -235,6 +237,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   for (const auto& mesh : meshes_taken(p, meshes, scale, file.string()))
     study.meshes.push_back(
         in_file(file, [&] { return read_mesh_section(p, mesh, file.parent_path()); }));
+  in_file(file, [&] { study.meshes = for_each_seed(study.meshes, read_seeds(p.get("seeds"))); });
   for (const auto& method : methods)
     study.methods.push_back(
         in_file(file, [&] { return read_method_section(p, dimensions, method); }));

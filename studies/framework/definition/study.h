@@ -30,6 +30,8 @@ struct StudyMesh {
   int distortion_candidates = 10;  ///< see DistortionParameters
   int distortion_sweeps = 1;
   std::uint64_t seed = 1;
+  std::string
+      repeats;  ///< name of the mesh that this one is made like, with another seed; or empty
 };
 
 /// Whether a mesh is changed after it has been read or generated.
@@ -77,6 +79,7 @@ struct Study {
   StudySolution solution;
   PoissonOptions finite_elements;  ///< its degree is not used
   StudyThresholds thresholds;
+  bool only_results_of_seeds = false;  ///< of StudyMesh::repeats: initial, resulting, last meshes
   RecordEvery record_every;     ///< initial and resulting mesh and the last of each method always
   int timing_runs = 1;          ///< smoothing times are medians over this many runs
   double edge_scale = 1.0;      ///< generated meshes: edges this much longer

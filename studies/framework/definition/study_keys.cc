@@ -128,6 +128,13 @@ void declare_problem(ParameterHandler& p) {
                   "always.");
   p.declare_entry("record stages every", "", stage_numbers(),
                   "The same for stages that are recorded otherwise: 'STAGE: k, ...'.");
+  p.declare_entry(
+      "seeds", "", Patterns::Anything(),
+      "Seeds, separated by commas: meshes that depend on one are made once for each, and "
+      "tables have medians. Empty: the meshes' own.");
+  p.declare_entry("record seeds", "all", Patterns::Selection("all|results"),
+                  "What is solved for the second and further seeds: as much as for the first, or "
+                  "initial, resulting and last meshes only, without thresholds.");
   p.declare_entry("timing runs", "3", Patterns::Integer(1),
                   "Smoothing times are medians over this many runs.");
   p.declare_entry("edge scale", "1", Patterns::Double(1.0),
@@ -187,6 +194,8 @@ void declare_scale(ParameterHandler& p, const std::string& name) {
                   "In place of the value above; 0: as it is.");
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Those of the list above to take; empty: all.");
+  p.declare_entry("seeds", "", Patterns::Anything(),
+                  "In place of the value above; empty: as it is.");
 }
 
 std::string study_template() {

@@ -20,6 +20,6 @@ void declare_scale(dealii::ParameterHandler& p, const std::string& name);
 
 /// What a scale may change, for apply_scale.
 inline const std::vector<std::string> scaled_numbers{"record every", "edge scale", "timing runs"};
-inline const std::vector<std::string> scaled_lists{"record stages every", "meshes"};
+inline const std::vector<std::string> scaled_lists{"record stages every", "meshes", "seeds"};
 
 }  // namespace smoothfem

@@ -9,6 +9,7 @@
 #include "fem/chosen_points.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/parallel.h"
+#include "studies/framework/definition/seeds.h"
 #include "studies/framework/results/folder_lock.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
@@ -133,6 +134,10 @@ class StudyRun {
     return record.stage + " " + std::to_string(record.iteration) + ", q_mean " + q_mean;
   }
 
+  bool is_of_results_only(const MeshFacts& mesh) const {
+    return study_.only_results_of_seeds && !mesh.description.repeats.empty();
+  }
+
   Trajectory trajectory_of(const PreparedMesh<dim, spacedim>& prepared, const StudyMethod& method,
                            const WatchIteration& watch) {
     const std::string name = Checkpoint::name(prepared.description.name, method.name);
@@ -140,7 +145,7 @@ class StudyRun {
     set_n_threads(method.threads > 0 ? method.threads
                                      : static_cast<int>(options_.smoothing_threads));
     const Trajectory trajectory = record_trajectory(
-        prepared.mesh, method, study_,
+        prepared.mesh, method, study_, is_of_results_only(prepared),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
         },
@@ -272,6 +277,15 @@ class StudyRun {
     return rows.size();
   }
 
+  /// Those of meshes of which results only are solved do not say when an error fell.
+  std::vector<IterationRow> rows_with_every_record() const {
+    auto rows = finished_rows(data_);
+    for (const auto& mesh : data_.meshes)
+      if (is_of_results_only(mesh))
+        std::erase_if(rows, [&](const auto& row) { return row.mesh == mesh.description.name; });
+    return rows;
+  }
+
   void write_results() {
     progress_.begin("Results", 0);
     write_iterations();
@@ -280,7 +294,7 @@ class StudyRun {
     const auto thresholds =
         study_.thresholds.reference.empty()
             ? std::vector<ThresholdRow>()
-            : reach_thresholds(finished_rows(data_), study_.thresholds.reference,
+            : reach_thresholds(rows_with_every_record(), study_.thresholds.reference,
                                study_.thresholds.margin);
     write_atomically(options_.out / "thresholds.csv",
                      thresholds_csv(study_.header.name, thresholds));
@@ -325,8 +339,10 @@ void run_study(const Study& study, const StudyOptions& options) {
                      " has planar meshes, whose records are shared among threads, not processes: "
                      "start it without mpirun");
   if (!options.ranks.is_root()) return serve_solves(study, options.ranks);
+  Study taken = study;
+  if (!options.mesh_dir.empty()) taken.meshes = without_published_repetitions(taken.meshes);
   with_dimensions(study.dimensions,
-                  [&]<int dim, int spacedim>() { StudyRun<dim, spacedim>(study, options).run(); });
+                  [&]<int dim, int spacedim>() { StudyRun<dim, spacedim>(taken, options).run(); });
 }
 
 }  // namespace smoothfem

@@ -71,7 +71,7 @@ template MeshWarpage warpage_of(const Mesh<2, 3>&);
 
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
-                             const Study& study,
+                             const Study& study, bool only_results,
                              const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
                              const WatchIteration& watch) {
   Trajectory trajectory;
@@ -86,7 +86,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
     times.emplace_back().add(record);
     if (study.record_warpage) trajectory.warpage_of_records.push_back(warpage_of(now));
     if (record.record == 0) return;
-    if (schedule.is_due(record)) {
+    if (!only_results && schedule.is_due(record)) {
       trajectory.snapshots.push_back(record.record);
       if (keeps_all) keep(record.record, now.coordinates());
     }
@@ -129,11 +129,11 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   return trajectory;
 }
 
-template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&,
+template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&, bool,
                                       const KeepSnapshot<2>&, const WatchIteration&);
-template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&,
+template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&, bool,
                                       const KeepSnapshot<3>&, const WatchIteration&);
-template Trajectory record_trajectory(const Mesh<2, 3>&, const StudyMethod&, const Study&,
+template Trajectory record_trajectory(const Mesh<2, 3>&, const StudyMethod&, const Study&, bool,
                                       const KeepSnapshot<3>&, const WatchIteration&);
 
 }  // namespace smoothfem

@@ -41,12 +41,13 @@ using WatchIteration = std::function<void(const IterationRecord&)>;
 
 /// Runs a method timing_runs times on copies of the mesh and keeps the median of the accumulated
 /// times of each record; the meshes are the same every time. Snapshots: every k-th record of each
-/// stage, the result and the last, as the study says; `keep` gets their meshes in any order, and
+/// stage, the result and the last, as the study says, or (only_results) the result and the last;
+/// `keep` gets their meshes in any order, and
 /// may get others too. A study that neither solves nor writes series needs the result's mesh only:
 /// then `keep` gets no other. What `keep` or `watch` throw ends it.
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
-                             const Study& study,
+                             const Study& study, bool only_results,
                              const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
                              const WatchIteration& watch);
 

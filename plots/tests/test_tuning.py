@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The search for parameters: ratios to the first method on half of the meshes, confirmed on the other."""
+
+import csv
+import math
+
+from plots.results.smoothing import read_results
+from plots.tests.synthetic_results import write_csv, write_results
+from plots.tests.test_read_results import InFolder
+from plots.tuning import candidates, geometric_mean, halves, main, report, winner
+
+METHODS = ("usual", "better", "slow", "invalid", "flat")
+MESHES = ("a", "b", "c", "d")
+
+
+class Tuning(InFolder):
+    def setUp(self):
+        super().setUp()
+        write_results(self.folder / "t", meshes=MESHES, methods=METHODS)
+        with open(self.folder / "t" / "summary.csv", newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        for row in rows:
+            method = row["method"]
+            error = {"usual": 1.0, "better": 0.5 if row["mesh"] in "ac" else 0.9}.get(method, 0.1)
+            row.update(l2_error=error, h1_error=error, smoothing_seconds=5 if method == "slow" else 2,
+                       n_invalid=1 if method == "invalid" and row["mesh"] == "a" else 0, q_mean=0.8,
+                       q_star_min=0.1 if method == "flat" else 0.4)
+        write_csv(self.folder / "t" / "summary.csv", list(rows[0]), rows)
+        self.results = read_results(self.folder / "t")
+
+    def test_meshes_take_turns(self):
+        self.assertEqual(halves(MESHES), (("a", "c"), ("b", "d")))
+
+    def test_ratios_are_to_the_first_method(self):
+        usual, better, slow, *_ = candidates(self.results, ("a", "b"))
+        self.assertEqual(usual.error, 1)
+        self.assertAlmostEqual(better.error, math.sqrt(0.5 * 0.9))
+        self.assertAlmostEqual(slow.ratios["smoothing_seconds"], 2.5)
+
+    def test_who_may_win(self):
+        found = candidates(self.results, ("a", "c"))
+        self.assertEqual([c.method for c in found if c.is_allowed], ["usual", "better"])
+        self.assertEqual(winner(found).method, "better")
+
+    def test_geometric_mean(self):
+        self.assertAlmostEqual(geometric_mean([1, 4]), 2)
+        self.assertEqual(geometric_mean([0, 4]), 0)
+        self.assertTrue(math.isnan(geometric_mean([math.nan, 4])))
+
+    def test_report(self):
+        text = report(self.results)
+        self.assertIn("**better**: errors 0.500 times as large, and 0.900 times on the other half: confirmed.", text)
+        self.assertEqual(text.count("(may not win)"), 3)
+        self.assertEqual(main([str(self.folder / "t")]), 0)
+        self.assertEqual(main([]), 2)
+        self.assertEqual(main([str(self.folder / "nowhere")]), 2)
