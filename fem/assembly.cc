@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/assembly.h"
 
+#include <cmath>
+#include <numeric>
+
 #include "fem/cell_integrals.h"
 
 namespace smoothfem {
@@ -36,22 +39,129 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
   }
 }
 
-/// b_i += integral of f phi_i over the cells of one element.
+/// Adds the integrals of the cells of one element, those whose points are chosen rule by rule:
+/// what becomes of a cell does not depend on the others.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
-void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCells& group,
-                         const std::vector<Point<dim>>& x,
-                         const ManufacturedSolution<dim>& solution,
-                         Eigen::VectorXd& right_hand_side) {
-  const QuadratureTable& table = group.element.errors;
-  for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
-    const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
+class CellAssembly {
+ public:
+  CellAssembly(const FiniteElementSpace<dim>& space, const ElementCells& group,
+               const std::vector<Point<dim>>& x, const Eigen::VectorXd& nodal_load,
+               PoissonSystem& system)
+      : space_(space), group_(group), x_(x), nodal_load_(nodal_load), system_(system) {}
+
+  void run() {
+    std::vector<std::size_t> cells(group_.n_cells());
+    std::iota(cells.begin(), cells.end(), std::size_t{0});
+    for (std::size_t level = 0; !cells.empty(); ++level) cells = add_settled(cells, level);
+  }
+
+ private:
+  using Integrals = CellIntegrals<n_dofs, Lanes>;
+
+  /// Returns the cells that need a finer rule.
+  std::vector<std::size_t> add_settled(const std::vector<std::size_t>& cells, std::size_t level) {
+    std::vector<std::size_t> others;
+    Integrals coarse, fine;
+    for (std::size_t first = 0; first < cells.size(); first += n_lanes) {
+      const ElementBatch<dim, n_dofs, n_vertices> batch(group_, x_, nodal_load_, cells, first);
+      if (level > 0)
+        coarse.template compute<dim, n_vertices>(group_.element, level - 1, batch.vertices,
+                                                 batch.load);
+      fine.template compute<dim, n_vertices>(group_.element, level, batch.vertices, batch.load);
+      for (std::size_t l = 0; l < batch.size; ++l) {
+        const std::size_t cell = batch.cells[l];
+        const bool is_folded = !(fine.smallest_determinant[l] > 0.0);
+        const std::size_t n_rules = group_.element.n_rules();
+        const double tolerance = chosen_points::tolerance_at(level, n_rules);
+        const bool is_settled =
+            is_folded || (level == 0 ? is_even(fine, l) : is_near(coarse, fine, l, tolerance));
+        if (!is_settled && level + 1 < n_rules) {
+          others.push_back(cell);
+          continue;
+        }
+        add_cell(space_, group_, cell, fine, l, system_);
+        if (cell >= group_.n_own) continue;
+        system_.n_folded_cells += is_folded;
+        if (n_rules > 1) system_.points.note(level, is_settled);
+      }
+    }
+    return others;
+  }
+
+  static bool is_even(const Integrals& integrals, std::size_t lane) {
+    return integrals.largest_determinant[lane] <=
+           chosen_points::even_determinants * integrals.smallest_determinant[lane];
+  }
+
+  static bool is_near(const Integrals& coarse, const Integrals& fine, std::size_t lane,
+                      double tolerance) {
+    double change = 0.0, square = 0.0;
+    for (std::size_t i = 0, p = 0; i < n_dofs; ++i)
+      for (std::size_t j = i; j < n_dofs; ++j, ++p) {
+        const double times = i == j ? 1.0 : 2.0, entry = fine.stiffness[p][lane],
+                     difference = entry - coarse.stiffness[p][lane];
+        change += times * difference * difference;
+        square += times * entry * entry;
+      }
+    return change <= tolerance * tolerance * square;
+  }
+
+  const FiniteElementSpace<dim>& space_;
+  const ElementCells& group_;
+  const std::vector<Point<dim>>& x_;
+  const Eigen::VectorXd& nodal_load_;
+  PoissonSystem& system_;
+};
+
+/// The integrals of f phi_i over a cell, and those of |f phi_i|.
+template <std::size_t n_dofs>
+struct CellLoad {
+  std::array<double, n_dofs> values{}, scales{};
+
+  template <int dim, std::size_t n_vertices>
+  CellLoad(const QuadratureTable& table,
+           const std::array<Vector<dim, double>, n_vertices>& vertices,
+           const ManufacturedSolution<dim>& solution) {
     for (std::size_t q = 0; q < table.n_points; ++q) {
       const auto mapped = map_point<dim, double>(table, q, vertices);
       const double f = solution.load(point_of(mapped.position)) * mapped.weight;
       for (std::size_t i = 0; i < n_dofs; ++i) {
-        const std::uint32_t row = group.dofs[cell * n_dofs + i];
-        if (row < space.n_own) right_hand_side[row] += f * table.shape[q * n_dofs + i];
+        values[i] += f * table.shape[q * n_dofs + i];
+        scales[i] += std::abs(f * table.shape[q * n_dofs + i]);
       }
+    }
+  }
+
+  bool is_near(const CellLoad& finer, double tolerance) const {
+    double change = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < n_dofs; ++i) {
+      change += (finer.values[i] - values[i]) * (finer.values[i] - values[i]);
+      square += finer.scales[i] * finer.scales[i];
+    }
+    return change <= tolerance * tolerance * square;
+  }
+};
+
+/// b_i += integral of f phi_i over the cells of one element.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCells& group,
+                         const std::vector<Point<dim>>& x,
+                         const ManufacturedSolution<dim>& solution, PoissonSystem& system) {
+  const ReferenceElement& element = group.element;
+  for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
+    const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
+    CellLoad<n_dofs> load(element.errors, vertices, solution);
+    bool is_settled = element.n_rules() == 1;
+    std::size_t level = 0;
+    while (!is_settled && level + 1 < element.n_rules()) {
+      const CellLoad<n_dofs> finer(element.rule(++level), vertices, solution);
+      is_settled = load.is_near(finer, chosen_points::tolerance_at(level, element.n_rules()));
+      load = finer;
+    }
+    if (element.n_rules() > 1 && cell < group.n_own) system.points.note(level, is_settled);
+    for (std::size_t i = 0; i < n_dofs; ++i) {
+      const std::uint32_t row = group.dofs[cell * n_dofs + i];
+      if (row < space.n_own) system.right_hand_side[row] += load.values[i];
     }
   }
 }
@@ -78,20 +188,11 @@ void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>
   system.matrix.coeffs().setZero();
   system.right_hand_side.setZero();
   system.n_folded_cells = 0;
+  system.points = {};
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
-    CellIntegrals<n_dofs, Lanes> integrals;
-    for (std::size_t first = 0; first < group.n_cells(); first += n_lanes) {
-      const ElementBatch<dim, n_dofs, n_vertices> batch(group, x, nodal_load, first);
-      integrals.template compute<dim, n_vertices>(group.element, batch.vertices, batch.load);
-      for (std::size_t l = 0; l < batch.size; ++l) {
-        add_cell(space, group, batch.cells[l], integrals, l, system);
-        if (batch.cells[l] < group.n_own && !(integrals.smallest_determinant[l] > 0.0))
-          ++system.n_folded_cells;
-      }
-    }
+    CellAssembly<dim, n_dofs, n_vertices>(space, group, x, nodal_load, system).run();
     if (load == Load::quadrature)
-      add_quadrature_load<dim, n_dofs, n_vertices>(space, group, x, solution,
-                                                   system.right_hand_side);
+      add_quadrature_load<dim, n_dofs, n_vertices>(space, group, x, solution, system);
   });
 }
 

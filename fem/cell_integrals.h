@@ -68,16 +68,18 @@ struct CellIntegrals {
   static constexpr std::size_t n_entries = n_dofs * (n_dofs + 1) / 2;
   std::array<Real, n_entries> stiffness;
   std::array<Real, n_dofs> load;
-  Real smallest_determinant;  ///< of the mapping, at the points where it was taken
+  /// Of the mapping, at the points where they were taken.
+  Real smallest_determinant, largest_determinant;
 
+  /// level: of the element's rules.
   template <int dim, std::size_t n_vertices>
-  [[gnu::flatten]] void compute(const ReferenceElement& element,
+  [[gnu::flatten]] void compute(const ReferenceElement& element, std::size_t level,
                                 const std::array<Vector<dim, Real>, n_vertices>& vertices,
                                 const std::array<Real, n_dofs>& f) {
     if constexpr (n_vertices == dim + 1)
       compute_affine<dim>(element, vertices, f);
     else
-      compute_by_quadrature<dim, n_vertices>(element, vertices, f);
+      compute_by_quadrature<dim, n_vertices>(element.rule(level), vertices, f);
   }
 
  private:
@@ -89,7 +91,7 @@ struct CellIntegrals {
     std::array<Vector<dim, Real>, dim> columns;
     for (int d = 0; d < dim; ++d) columns[d] = vertices[d + 1] - vertices[0];
     const Jacobian<dim, Real> jacobian(columns);
-    smallest_determinant = jacobian.determinant;
+    smallest_determinant = largest_determinant = jacobian.determinant;
     std::array<Real, dim*(dim + 1) / 2> metric;
     for (int a = 0, k = 0; a < dim; ++a)
       for (int b = a; b < dim; ++b, ++k)
@@ -111,18 +113,19 @@ struct CellIntegrals {
 
   /// Other cells: by quadrature.
   template <int dim, std::size_t n_vertices>
-  void compute_by_quadrature(const ReferenceElement& element,
+  void compute_by_quadrature(const QuadratureTable& table,
                              const std::array<Vector<dim, Real>, n_vertices>& vertices,
                              const std::array<Real, n_dofs>& f) {
-    const QuadratureTable& table = element.matrices;
     stiffness.fill(Real{});
     load.fill(Real{});
     smallest_determinant = Real{} + std::numeric_limits<double>::infinity();
+    largest_determinant = -smallest_determinant;
     for (std::size_t q = 0; q < table.n_points; ++q) {
       const auto mapped = map_point<dim, Real>(table, q, vertices);
       const Real determinant = mapped.jacobian.determinant;
       smallest_determinant =
           determinant < smallest_determinant ? determinant : smallest_determinant;
+      largest_determinant = determinant > largest_determinant ? determinant : largest_determinant;
       const double* shape = &table.shape[q * n_dofs];
       std::array<Vector<dim, Real>, n_dofs> gradients;
       Real f_here{};
@@ -149,13 +152,15 @@ struct ElementBatch {
   std::array<Vector<dim, Lanes>, n_vertices> vertices;
   std::array<Lanes, n_dofs> load;  ///< f at the dofs
 
-  /// x: local nodes' coordinates. nodal_load: f at all local dofs.
+  /// x: local nodes' coordinates. nodal_load: f at all local dofs. of_group: cells, of which the
+  /// batch takes those from `first` on.
   ElementBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
-               const Eigen::VectorXd& nodal_load, std::size_t first)
-      : size(std::min(n_lanes, group.n_cells() - first)) {
+               const Eigen::VectorXd& nodal_load, const std::vector<std::size_t>& of_group,
+               std::size_t first)
+      : size(std::min(n_lanes, of_group.size() - first)) {
     std::array<const NodeIndex*, n_lanes> rows;
     for (std::size_t l = 0; l < n_lanes; ++l) {
-      cells[l] = first + std::min(l, size - 1);
+      cells[l] = of_group[first + std::min(l, size - 1)];
       rows[l] = &group.vertices[cells[l] * n_vertices];
     }
     for (std::size_t v = 0; v < n_vertices; ++v)

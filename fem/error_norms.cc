@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/error_norms.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fem/cell_integrals.h"
@@ -9,15 +11,18 @@ namespace smoothfem {
 
 namespace {
 
-/// Integrals over cells of squares: of a function's values and of its gradients.
+/// Integrals over cells of squares: of the values and the gradients of I_h u - u_h, of u - u_h, and
+/// of u_h.
 struct SquareSums {
-  double values = 0.0;
-  double gradients = 0.0;
+  std::array<double, 6> sums{};
 
   template <class Gradient>
-  void add(double weight, double value, const Gradient& gradient) {
-    values += weight * value * value;
-    gradients += weight * squared_length(gradient);
+  void add(std::size_t first, double weight, double value, const Gradient& gradient) {
+    sums[first] += weight * value * value;
+    sums[first + 1] += weight * squared_length(gradient);
+  }
+  void add(const SquareSums& other) {
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += other.sums[k];
   }
 };
 
@@ -39,13 +44,18 @@ struct FunctionAtPoint {
   }
 };
 
-/// The cells of one element. nodal: of I_h u - u_h; true_error: of u - u_h.
-template <int dim, std::size_t n_dofs, std::size_t n_vertices>
-void add_cells(const ElementCells& group, const std::vector<Point<dim>>& x,
-               const ManufacturedSolution<dim>& solution, const Eigen::VectorXd& exact,
-               const Eigen::VectorXd& discrete, SquareSums& nodal, SquareSums& true_error) {
-  const QuadratureTable& table = group.element.errors;
-  for (std::size_t cell = 0; cell < group.n_own; ++cell) {
+/// What the norms are of, and their integrals over cells.
+template <int dim>
+struct Errors {
+  const FiniteElementSpace<dim>& space;
+  const std::vector<Point<dim>>& x;
+  const ManufacturedSolution<dim>& solution;
+  const Eigen::VectorXd &exact, &discrete;
+
+  /// Those of a cell, by one of the element's rules.
+  template <std::size_t n_dofs, std::size_t n_vertices>
+  void add_cell(const ElementCells& group, std::size_t cell, const QuadratureTable& table,
+                SquareSums& sums) const {
     const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
     std::array<double, n_dofs> difference, approximation;
     for (std::size_t i = 0; i < n_dofs; ++i) {
@@ -60,10 +70,72 @@ void add_cells(const ElementCells& group, const std::vector<Point<dim>>& x,
       const FunctionAtPoint<dim> e_h(difference, shape, shape_gradient, mapped);
       const FunctionAtPoint<dim> u_h(approximation, shape, shape_gradient, mapped);
       const auto u = solution.value_and_gradient(point_of(mapped.position));
-      nodal.add(mapped.weight, e_h.value, e_h.gradient);
-      true_error.add(mapped.weight, u.value - u_h.value, vector_of(u.gradient) - u_h.gradient);
+      sums.add(0, mapped.weight, e_h.value, e_h.gradient);
+      sums.add(2, mapped.weight, u.value - u_h.value, vector_of(u.gradient) - u_h.gradient);
+      sums.add(4, mapped.weight, u_h.value, u_h.gradient);
     }
   }
+
+  template <std::size_t n_dofs, std::size_t n_vertices>
+  SquareSums of_cell(const ElementCells& group, std::size_t cell, std::size_t level) const {
+    SquareSums sums;
+    add_cell<n_dofs, n_vertices>(group, cell, group.element.rule(level), sums);
+    return sums;
+  }
+};
+
+/// Whether a finer rule changes a cell's share of each sum little, relatively to the share itself
+/// or to the mean of those of all cells: then it changes the sum over all cells little, too. Errors
+/// of the size of rounding are not looked at.
+bool is_near(const SquareSums& coarse, const SquareSums& fine, const SquareSums& mean,
+             double tolerance) {
+  constexpr double rounding = 1e-24;  // of the squares
+  constexpr std::size_t n_errors = 4;
+  for (std::size_t k = 0; k < n_errors; ++k) {
+    const double of_u = mean.sums[n_errors + k % 2];
+    if (!(std::abs(fine.sums[k] - coarse.sums[k]) <=
+          tolerance * std::max(fine.sums[k], mean.sums[k]) + rounding * of_u))
+      return false;
+  }
+  return true;
+}
+
+/// The cells of this rank whose points are chosen. Collective.
+template <int dim>
+void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
+                               chosen_points::Use& points) {
+  SquareSums mean;
+  std::vector<SquareSums> of_cells;  // by the first rule
+  for_each_group(
+      errors.space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
+        if (group.element.n_rules() == 1) return;
+        for (std::size_t cell = 0; cell < group.n_own; ++cell) {
+          of_cells.push_back(errors.template of_cell<n_dofs, n_vertices>(group, cell, 0));
+          mean.add(of_cells.back());
+        }
+      });
+  errors.space.ranks.sum(mean.sums);
+  const auto n_cells = static_cast<double>(errors.space.ranks.sum(of_cells.size()));
+  if (!(n_cells > 0.0)) return;
+  for (double& sum : mean.sums) sum /= n_cells;
+  auto next = of_cells.begin();
+  for_each_group(
+      errors.space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
+        if (group.element.n_rules() == 1) return;
+        for (std::size_t cell = 0; cell < group.n_own; ++cell) {
+          SquareSums sums = *next++;
+          bool is_settled = false;
+          std::size_t level = 0;
+          while (!is_settled && level + 1 < group.element.n_rules()) {
+            const auto finer = errors.template of_cell<n_dofs, n_vertices>(group, cell, ++level);
+            is_settled = is_near(sums, finer, mean,
+                                 chosen_points::tolerance_at(level, group.element.n_rules()));
+            sums = finer;
+          }
+          points.note(level, is_settled);
+          total.add(sums);
+        }
+      });
 }
 
 }  // namespace
@@ -73,20 +145,26 @@ ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<P
                        const ManufacturedSolution<dim>& solution, const Eigen::VectorXd& exact,
                        const Eigen::VectorXd& discrete) {
   const auto n_own = static_cast<Eigen::Index>(space.n_own);
-  const auto errors = (exact.head(n_own) - discrete.head(n_own)).cwiseAbs();
-  SquareSums nodal, true_error;
+  const auto at_dofs = (exact.head(n_own) - discrete.head(n_own)).cwiseAbs();
+  const Errors<dim> errors{space, x, solution, exact, discrete};
+  SquareSums squares;
+  chosen_points::Use points;
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
-    add_cells<dim, n_dofs, n_vertices>(group, x, solution, exact, discrete, nodal, true_error);
+    if (group.element.n_rules() > 1) return;
+    for (std::size_t cell = 0; cell < group.n_own; ++cell)
+      errors.template add_cell<n_dofs, n_vertices>(group, cell, group.element.errors, squares);
   });
-  std::array sums{errors.sum(), nodal.values, nodal.gradients, true_error.values,
-                  true_error.gradients};
+  if constexpr (dim == 3) add_cells_by_chosen_rules(errors, squares, points);
+  const auto& of_cells = squares.sums;
+  std::array sums{at_dofs.sum(), of_cells[0], of_cells[1], of_cells[2], of_cells[3]};
   space.ranks.sum(sums);
-  return {.e_max = space.ranks.max(n_own > 0 ? errors.maxCoeff() : 0.0),
+  return {.e_max = space.ranks.max(n_own > 0 ? at_dofs.maxCoeff() : 0.0),
           .e_mean = sums[0] / static_cast<double>(space.n_free),
           .e_l2 = std::sqrt(sums[1]),
           .e_h1 = std::sqrt(sums[1] + sums[2]),
           .l2_error = std::sqrt(sums[3]),
-          .h1_error = std::sqrt(sums[3] + sums[4])};
+          .h1_error = std::sqrt(sums[3] + sums[4]),
+          .points = points};
 }
 
 template ErrorNorms error_norms(const FiniteElementSpace<2>&, const std::vector<Point<2>>&,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "fem/chosen_points.h"
 #include "fem/finite_element_space.h"
 #include "fem/manufactured_solution.h"
 
@@ -19,6 +20,7 @@ struct ErrorNorms {
   /// Norms of u - u_h itself, by quadrature: the textbook's errors.
   double l2_error = 0.0;
   double h1_error = 0.0;
+  chosen_points::Use points;  ///< of this rank's hexahedra
 };
 
 /// exact: u at all local dofs; discrete: u_h at all local dofs. x: coordinates of the local nodes

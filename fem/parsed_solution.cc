@@ -22,16 +22,28 @@ class CapturedParserMessages {
   CapturedParserMessages(const CapturedParserMessages&) = delete;
   CapturedParserMessages& operator=(const CapturedParserMessages&) = delete;
 
-  /// "Unexpected token ...", or nothing.
+  /// What is not understood and where, in our words; nothing if that was not said.
   std::string reason() const {
-    const std::string text = text_.str(), mark = "Message:  <";
-    const auto begin = text.find(mark);
-    const auto end = text.find(">\n", begin);
-    if (begin == std::string::npos || end == std::string::npos) return "";
-    return text.substr(begin + mark.size(), end - begin - mark.size());
+    const std::string token = entry("Token"), position = entry("Position");
+    const bool is_number =
+        !position.empty() && position.find_first_not_of("0123456789") == std::string::npos;
+    if (entry("Message").starts_with("Unexpected end")) return "it ends too early";
+    if (!is_number) return "";
+    const std::string where = " at character " + std::to_string(std::stoul(position) + 1);
+    return (token.empty() ? "what stands" + where : "'" + token + "'" + where) +
+           " is not understood";
   }
 
  private:
+  /// Lines are "Key: <value>".
+  std::string entry(const std::string& key) const {
+    const std::string text = text_.str();
+    const auto line = text.find(key + ":");
+    const auto begin = text.find('<', line), end = text.find(">\n", begin);
+    if (line == std::string::npos || end == std::string::npos) return "";
+    return text.substr(begin + 1, end - begin - 1);
+  }
+
   std::ostringstream text_;
   std::streambuf* before_;
 };

@@ -96,6 +96,18 @@ void record_errors(const ErrorNorms& norms, SolutionRecord& record) {
   record.h1_error = norms.h1_error;
 }
 
+/// Of hexahedra whose points were chosen. Collective.
+void record_points(const chosen_points::Use& of_matrix, const chosen_points::Use& of_errors,
+                   const Ranks& ranks, SolutionRecord& record) {
+  record.most_points = static_cast<int>(
+      ranks.max(static_cast<double>(std::max(of_matrix.most_points, of_errors.most_points))));
+  const std::size_t n = ranks.sum(std::max(of_matrix.n_unsettled, of_errors.n_unsettled));
+  if (n > 0)
+    add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") +
+                   " integrated with an error that may be above 1e-4",
+               record);
+}
+
 void record_conjugate_gradients(const ConjugateGradientsResult& cg, SolutionRecord& record) {
   record.cg_iterations = cg.iterations;
   record.cg_seconds = cg.seconds;
@@ -182,7 +194,9 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
 
   work.discrete = work.system.exact;
   work.discrete.head(work.free_solution.size()) = work.free_solution;
-  record_errors(error_norms(space, x, solution, work.system.exact, work.discrete), record);
+  const ErrorNorms norms = error_norms(space, x, solution, work.system.exact, work.discrete);
+  record_errors(norms, record);
+  record_points(work.system.points, norms.points, space.ranks, record);
   return record;
 }
 

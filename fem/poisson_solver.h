@@ -50,6 +50,8 @@ struct SolutionRecord {
   bool cg_converged = false;
   double e_max = 0.0, e_mean = 0.0, e_l2 = 0.0, e_h1 = 0.0;  ///< the thesis' protocol
   double l2_error = 0.0, h1_error = 0.0;                     ///< true errors by quadrature
+  /// Gauss points per direction of the hexahedron that needed most; 0 where none were chosen.
+  int most_points = 0;
   std::string status;  ///< "ok", or what is wrong with the numbers
 };
 

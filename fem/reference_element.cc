@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "fem/chosen_points.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
@@ -109,8 +110,16 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
     reference.affine = make_affine_table(reference.matrices, reference.n_dofs, dim);
     reference.errors = make_table<dim>(*element, *geometry, error_rule<dim>(degree));
   } else {
-    reference.matrices = make_table<dim>(*element, *geometry, dealii::QGauss<dim>(n_tensor_points));
+    const auto table = [&](int n_points) {
+      return make_table<dim>(*element, *geometry,
+                             dealii::QGauss<dim>(static_cast<unsigned int>(n_points)));
+    };
+    const bool is_chosen = n_tensor_points == 0;
+    reference.matrices = table(is_chosen ? chosen_points::ladder.front() : n_tensor_points);
     reference.errors = reference.matrices;
+    if (is_chosen)
+      for (std::size_t level = 1; level < chosen_points::ladder.size(); ++level)
+        reference.finer.push_back(table(chosen_points::ladder[level]));
   }
   return reference;
 }

@@ -36,13 +36,22 @@ struct ReferenceElement {
   AffineTable affine;        ///< simplices: stiffness, mass and load
   QuadratureTable matrices;  ///< other cells: stiffness, mass and load; all: load by quadrature
   QuadratureTable errors;    ///< for norms and errors
+  /// Rules for both with more and more points, for cells that need them (chosen_points.h); empty:
+  /// one rule is for all cells.
+  std::vector<QuadratureTable> finer{};
+
+  std::size_t n_rules() const { return 1 + finer.size(); }
+  /// In the order of their points; only 0 for simplices.
+  const QuadratureTable& rule(std::size_t level) const {
+    return level == 0 ? matrices : finer[level - 1];
+  }
 };
 
 /// Degree 1 or 2 on triangles (3/6 nodes), quadrilaterals (4/9), tetrahedra (4/10) or hexahedra
 /// (8/27). Simplices: matrices exact; errors by a rule of degree 11 on triangles, of degree 5 (for
 /// elements of degree 1) or 7 (degree 2) on tetrahedra. Other cells: tensor Gauss rule with
 /// n_tensor_points per direction for all; the stiffness of a distorted cell is rational, so no rule
-/// is exact.
+/// is exact. 0 points: those of chosen_points::ladder, of which each cell takes what it needs.
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
 
 }  // namespace smoothfem

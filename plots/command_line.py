@@ -64,7 +64,8 @@ def parse_study(arguments):
     parser.add_argument("--methods", type=names, default=(), help="with these methods only")
     parser.add_argument("--meshes", type=names, default=(), help="with these meshes only")
     parser.add_argument("--y", type=names, default=(), metavar="COLUMNS",
-                        help="draw these columns of iterations.csv, a row of panels each; without --only "
+                        help="draw these columns of iterations.csv, by their names or headings such as 'cond(A)', a row of panels "
+                        "each; without --only "
                         "nothing else is made")
     parser.add_argument("--x", default="", metavar="COLUMN",
                         help="the same against this column, not against the smoothing time")

@@ -126,7 +126,8 @@ struct Parts {
   PoissonSystem system;
 
   explicit Parts(const Case& c)
-      : space(make_finite_element_space(flange(c.type), c.degree, TensorPoints{}, ranks())),
+      : space(make_finite_element_space(flange(c.type), c.degree, TensorPoints{.hexahedron = 4},
+                                        ranks())),
         x(space->local_coordinates(coordinates_of(flange(c.type)))),
         system(make_system(*space)) {
     assemble();

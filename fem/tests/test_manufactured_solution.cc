@@ -126,7 +126,12 @@ TEST(ParsedSolution, SaysInOneSentenceWhatTheParserCouldNotRead) {
   testing::internal::CaptureStderr();
   EXPECT_THAT([] { parsed_solution<2>("exq(y)", "0 ; 0", "0", sample); },
               ThrowsMessage<InputError>(
-                  AllOf(HasSubstr("'value', 'exq(y)'"), HasSubstr("Unexpected token \"exq\""))));
+                  AllOf(HasSubstr("'value', 'exq(y)'"),
+                        HasSubstr("('exq' at character 1 is not understood): it needs"))));
+  EXPECT_THAT([] { parsed_solution<2>("x + y)", "1 ; 1", "0", sample); },
+              ThrowsMessage<InputError>(HasSubstr("')' at character 6 is not understood")));
+  EXPECT_THAT([] { parsed_solution<2>("x +", "1 ; 0", "0", sample); },
+              ThrowsMessage<InputError>(HasSubstr("(it ends too early)")));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 

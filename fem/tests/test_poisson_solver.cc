@@ -278,32 +278,60 @@ TEST(PoissonSolver, CubeOfEightHexahedraByHand) {
   EXPECT_NEAR(record.condition_number, 1.0, 1e-14);
 }
 
-/// Four Gauss points per direction on hexahedra beside eight: what that changes on a badly
-/// distorted box, relatively. The bounds are what was measured, rounded up.
-TEST(PoissonSolver, FourGaussPointsADirectionAreEnoughOnHexahedra) {
-  struct Bounds {
-    int degree;
-    double condition_number, e_max, norms;
-  };
-  const auto mesh = unit_cube(6, Cells::hexahedra, 0.5);
-  for (const Bounds& bounds : {Bounds{1, 1.7e-4, 1e-5, 3e-5}, Bounds{2, 1.7e-4, 6e-3, 2.4e-4}}) {
-    const auto solve = [&](int n_points) {
-      PoissonOptions options;
-      options.degree = bounds.degree;
-      options.tensor_points.hexahedron = n_points;
-      return PoissonSolver<3>(&mesh, options)
-          .solve(mesh.coordinates(), manufactured_solution<3>("volume"));
-    };
-    const auto four = solve(4), eight = solve(8);
-    const auto difference = [&](double SolutionRecord::*number) {
-      return std::abs(four.*number / (eight.*number) - 1.0);
-    };
-    EXPECT_LT(difference(&SolutionRecord::condition_number), bounds.condition_number);
-    EXPECT_LT(difference(&SolutionRecord::e_max), bounds.e_max);
-    for (const auto norm : {&SolutionRecord::e_l2, &SolutionRecord::e_h1, &SolutionRecord::l2_error,
-                            &SolutionRecord::h1_error})
-      EXPECT_LT(difference(norm), bounds.norms);
-  }
+/// Chosen Gauss points on hexahedra beside twenty per direction, on a badly distorted box and on
+/// one that is hardly distorted: every recorded number to 1e-4.
+TEST(PoissonSolver, ChosenGaussPointsAgreeWithTwentyADirectionOnHexahedra) {
+  for (const double distortion : {0.1, 0.5})
+    for (const int degree : {1, 2})
+      for (const bool galerkin : {false, true}) {
+        const auto mesh = unit_cube(5, Cells::hexahedra, distortion);
+        const auto solve = [&](int n_points) {
+          PoissonOptions options{.degree = degree, .galerkin_load = galerkin};
+          options.tensor_points.hexahedron = n_points;
+          options.cg_tolerance = 1e-10;
+          return PoissonSolver<3>(&mesh, options)
+              .solve(mesh.coordinates(), manufactured_solution<3>("volume"));
+        };
+        const auto chosen = solve(0), four = solve(4), twenty = solve(20);
+        EXPECT_EQ(chosen.status, "ok");
+        EXPECT_EQ(four.most_points, 0) << "they are given";
+        EXPECT_GE(chosen.most_points, 6) << "errors are looked at by two rules at least";
+        double change_of_four = 0.0;
+        for (const auto number :
+             {&SolutionRecord::condition_number, &SolutionRecord::lambda_min,
+              &SolutionRecord::lambda_max, &SolutionRecord::e_max, &SolutionRecord::e_mean,
+              &SolutionRecord::e_l2, &SolutionRecord::e_h1, &SolutionRecord::l2_error,
+              &SolutionRecord::h1_error}) {
+          const auto change = [&](const SolutionRecord& record) {
+            return std::abs(record.*number / (twenty.*number) - 1.0);
+          };
+          EXPECT_LT(change(chosen), 1e-4) << degree << ", " << distortion << ", " << galerkin;
+          change_of_four = std::max(change_of_four, change(four));
+        }
+        if (distortion > 0.4) {
+          EXPECT_GT(change_of_four, 1e-4) << "there was something to choose";
+        }
+      }
+}
+
+/// Of each cell alone, also of those that are taken for even and so see no second rule.
+TEST(PoissonSolver, StiffnessOfHexahedraWithChosenPointsIsThatOfTwentyADirection) {
+  for (const double distortion : {0.15, 0.3, 0.6})
+    for (const int degree : {1, 2}) {
+      const auto mesh = unit_cube(5, Cells::hexahedra, distortion);
+      const auto matrix = [&](int n_points) {
+        const auto space =
+            make_finite_element_space(&mesh, degree, TensorPoints{.hexahedron = n_points});
+        PoissonSystem system = make_system(*space);
+        assemble(*space, mesh.copied_coordinates(), manufactured_solution<3>("sine"), Load::nodal,
+                 system);
+        return system.matrix;
+      };
+      const SparseMatrix chosen = matrix(0), twenty = matrix(20);
+      for (Eigen::Index i = 0; i < twenty.rows(); ++i)
+        EXPECT_NEAR(chosen.coeff(i, i) / twenty.coeff(i, i), 1.0, 1e-4) << distortion;
+      EXPECT_LT((chosen - twenty).norm(), 1e-4 * twenty.norm());
+    }
 }
 
 TEST(PoissonSolver, RefusesPolygonsDegreesAndMeshesWithoutUnknowns) {

@@ -52,8 +52,9 @@ class MshGroups {
   }
 
   /// $Entities or $PartitionedEntities, whose text may be broken into lines anywhere.
+  /// points_have_boxes: as in version 4.0, where 4.1 has the coordinates alone.
   template <class Input>
-  void read_entities(Input& in, bool is_partitioned) {
+  void read_entities(Input& in, bool is_partitioned, bool points_have_boxes) {
     const auto integer = [&] {
       in.find_value("the end of the entities");
       return in.integer("entity");
@@ -78,7 +79,7 @@ class MshGroups {
           skip_integers(2);  // dimension and number of the whole entity
           skip_integers(count());
         }
-        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) {  // the point, or a box
+        for (int k = 0; k < (dimension == 0 && !points_have_boxes ? 3 : 6); ++k) {  // point or box
           in.find_value("the end of the entities");
           in.skip_number("a coordinate");
         }

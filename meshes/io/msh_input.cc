@@ -68,11 +68,8 @@ std::int64_t MshTextInput::signed_integer(const char* of, std::int64_t least, st
 // --- Binary --------------------------------------------------------------------------------------
 
 MshBinaryInput::MshBinaryInput(std::string path, std::string_view content, std::size_t begin,
-                               MshVersion version)
-    : path_(std::move(path)),
-      content_(content),
-      at_(begin),
-      is_version_4_(version == MshVersion::v4_1) {
+                               bool is_version_4)
+    : path_(std::move(path)), content_(content), at_(begin), is_version_4_(is_version_4) {
   constexpr std::int32_t one_swapped = 0x01000000;
   const auto one = take<std::int32_t>();
   if (one != 1 && one != one_swapped)

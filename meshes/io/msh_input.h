@@ -65,7 +65,7 @@ class MshTextInput {
 class MshBinaryInput {
  public:
   /// begin: of the number after the line with the version, by which the byte order shows.
-  MshBinaryInput(std::string path, std::string_view content, std::size_t begin, MshVersion version);
+  MshBinaryInput(std::string path, std::string_view content, std::size_t begin, bool is_version_4);
 
   std::size_t position() const { return at_; }
   [[noreturn]] void fail(const std::string& message) const { fail_at(at_, message); }

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshes/io/msh_groups.h"
@@ -32,13 +33,26 @@ std::vector<Value> in_order(const std::vector<Value>& values,
   return result;
 }
 
-/// In the first record of $Nodes and $Elements in version 4: the smallest and the largest tag, of
-/// which nothing depends here.
+/// The layouts of version 4.
+enum class MshVersion4 { v4_0, v4_1 };
+
+/// The end of the first record of $Nodes and $Elements: in version 4.1 the smallest and the largest
+/// tag, of which nothing depends here.
 template <class Input>
-void msh_skip_range(Input& in) {
-  for (const char* what : {"the smallest tag", "the largest tag"})
-    if (in.has_value()) in.count(what);
+void msh_end_of_totals(Input& in, MshVersion4 version) {
+  if (version == MshVersion4::v4_1)
+    for (const char* what : {"the smallest tag", "the largest tag"})
+      if (in.has_value()) in.count(what);
   in.end();
+}
+
+/// The dimension and the number of a block's entity, with which its first record begins: in this
+/// order in version 4.1, in the other one in 4.0.
+template <class Input>
+std::pair<int, int> msh_entity_of_block(Input& in, MshVersion4 version) {
+  const int first = in.integer("block"), second = in.integer("block");
+  if (version == MshVersion4::v4_0) return {second, first};
+  return {first, second};
 }
 
 template <class Input>
@@ -68,19 +82,34 @@ class MshNodes {
     sort(in);
   }
 
-  /// Version 4: blocks of tags and then of coordinates.
+  /// Version 4.0: blocks of nodes with tag and coordinates.
   template <class Input>
-  void read_4(Input& in) {
-    in.begin("the numbers of nodes");
-    const std::uint64_t n_blocks = in.count("the number of node blocks");
-    const std::uint64_t n_nodes = in.count("the number of nodes");
-    msh_skip_range(in);
-    for (std::uint64_t b = 0; b < n_blocks; ++b) {
-      in.begin("node block", b, n_blocks);
-      read_block(in);
-    }
-    msh_require_total(in, "nodes", tags.size(), n_nodes);
-    sort(in);
+  void read_4_0(Input& in) {
+    read_blocks(in, MshVersion4::v4_0, [&](std::uint64_t n, int n_parameters) {
+      for (std::uint64_t i = 0; i < n; ++i) {
+        in.begin("node", i, n);
+        add_tag(in);
+        add_point(in, n_parameters);
+        in.end();
+      }
+    });
+  }
+
+  /// Version 4.1: blocks of tags and then of coordinates.
+  template <class Input>
+  void read_4_1(Input& in) {
+    read_blocks(in, MshVersion4::v4_1, [&](std::uint64_t n, int n_parameters) {
+      for (std::uint64_t i = 0; i < n; ++i) {
+        in.begin("the tag of node", i, n);
+        add_tag(in);
+        in.end();
+      }
+      for (std::uint64_t i = 0; i < n; ++i) {
+        in.begin("the coordinates of node", i, n);
+        add_point(in, n_parameters);
+        in.end();
+      }
+    });
   }
 
   /// The node of a tag; nothing if there is none.
@@ -100,34 +129,34 @@ class MshNodes {
   }
 
   template <class Input>
-  void add_point(Input& in) {
+  void add_point(Input& in, int n_parameters = 0) {
     Point<3>& point = coordinates.emplace_back();
     point.x() = in.coordinate("the node's x coordinate");
     point.y() = in.coordinate("the node's y coordinate");
     point.z() = in.coordinate("the node's z coordinate");
+    for (int k = 0; k < n_parameters; ++k) in.skip_number("a parametric coordinate");
   }
 
+  /// read_nodes(n, n_parameters): those of a block, with so many parametric coordinates each.
   template <class Input>
-  void read_block(Input& in) {
-    const int dimension = in.integer("block");
-    if (dimension < 0 || dimension > 3)
-      in.fail("the entity's dimension is " + std::to_string(dimension) +
-              ", but must be from 0 to 3");
-    in.integer("block");  // the entity
-    const int n_parameters = in.integer("block") == 0 ? 0 : dimension;
-    const std::uint64_t n = in.count("the number of nodes in the block");
-    in.require_bytes(n, sizeof(std::uint64_t) + 3 * sizeof(double));
-    for (std::uint64_t i = 0; i < n; ++i) {
-      in.begin("the tag of node", i, n);
-      add_tag(in);
-      in.end();
+  void read_blocks(Input& in, MshVersion4 version, const auto& read_nodes) {
+    in.begin("the numbers of nodes");
+    const std::uint64_t n_blocks = in.count("the number of node blocks");
+    const std::uint64_t n_nodes = in.count("the number of nodes");
+    msh_end_of_totals(in, version);
+    for (std::uint64_t b = 0; b < n_blocks; ++b) {
+      in.begin("node block", b, n_blocks);
+      const int dimension = msh_entity_of_block(in, version).first;
+      if (dimension < 0 || dimension > 3)
+        in.fail("the entity's dimension is " + std::to_string(dimension) +
+                ", but must be from 0 to 3");
+      const int n_parameters = in.integer("block") == 0 ? 0 : dimension;
+      const std::uint64_t n = in.count("the number of nodes in the block");
+      in.require_bytes(n, sizeof(std::uint64_t) + 3 * sizeof(double));
+      read_nodes(n, n_parameters);
     }
-    for (std::uint64_t i = 0; i < n; ++i) {
-      in.begin("the coordinates of node", i, n);
-      add_point(in);
-      for (int k = 0; k < n_parameters; ++k) in.skip_number("a parametric coordinate");
-      in.end();
-    }
+    msh_require_total(in, "nodes", tags.size(), n_nodes);
+    sort(in);
   }
 
   /// By their tags, so that the order does not depend on the model's entities.

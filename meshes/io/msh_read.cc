@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -23,8 +24,9 @@ namespace {
 template <class Input>
 class MshReader {
  public:
-  MshReader(Input input, MshVersion version)
-      : in_(std::move(input)), is_version_4_(version == MshVersion::v4_1) {}
+  /// version: nothing for 2.
+  MshReader(Input input, std::optional<MshVersion4> version)
+      : in_(std::move(input)), version_4_(version) {}
 
   MeshParts parts() {
     in_.require_end("$MeshFormat");
@@ -47,19 +49,27 @@ class MshReader {
       in_.refuse("there is a second section " + section + "; save the mesh as one");
     if (section == "$PhysicalNames")
       groups_.read_names(in_);
-    else if (section == "$Entities" && is_version_4_)
-      groups_.read_entities(in_, false);
-    else if (section == "$PartitionedEntities" && is_version_4_)
-      groups_.read_entities(in_, true);
+    else if (version_4_ && (section == "$Entities" || section == "$PartitionedEntities"))
+      groups_.read_entities(in_, section == "$PartitionedEntities",
+                            *version_4_ == MshVersion4::v4_0);
     else if (section == "$Nodes")
-      is_version_4_ ? nodes_.read_4(in_) : nodes_.read_2(in_);
+      read_nodes();
     else if (section == "$Elements")
-      is_version_4_ ? read_elements_4() : read_elements_2();
+      version_4_ ? read_elements_4(*version_4_) : read_elements_2();
     else if (section == "$ParametricNodes")
       in_.refuse("the nodes have parametric coordinates; save the mesh without them");
     else
       return in_.skip_section(section);
     in_.require_end(section);
+  }
+
+  void read_nodes() {
+    if (!version_4_)
+      nodes_.read_2(in_);
+    else if (*version_4_ == MshVersion4::v4_0)
+      nodes_.read_4_0(in_);
+    else
+      nodes_.read_4_1(in_);
   }
 
   const MshElementType& known_type(int number) const {
@@ -101,15 +111,15 @@ class MshReader {
     add_element(tag, type, group);
   }
 
-  void read_elements_4() {
+  void read_elements_4(MshVersion4 version) {
     in_.begin("the numbers of elements");
     const std::uint64_t n_blocks = in_.count("the number of element blocks");
     const std::uint64_t n_elements = in_.count("the number of elements");
-    msh_skip_range(in_);
+    msh_end_of_totals(in_, version);
     std::uint64_t n_found = 0;
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       in_.begin("element block", b, n_blocks);
-      const int dimension = in_.integer("block"), entity = in_.integer("block");
+      const auto [dimension, entity] = msh_entity_of_block(in_, version);
       const MshElementType& type = known_type(in_.integer("block"));
       if (dimension != type.dimension)
         in_.fail("the block's entity has dimension " + std::to_string(dimension) +
@@ -167,12 +177,20 @@ class MshReader {
   }
 
   Input in_;
-  bool is_version_4_;
+  std::optional<MshVersion4> version_4_;
   std::set<std::string> seen_;
   MshGroups groups_;
   MshNodes nodes_;
   MeshParts parts_;
 };
+
+/// Nothing for version 2.
+std::optional<MshVersion4> version_of(const LineReader& reader, const std::string& word) {
+  if (word == "2.2" || word == "2.1" || word == "2.0" || word == "2") return std::nullopt;
+  if (word == "4.1") return MshVersion4::v4_1;
+  if (word == "4" || word == "4.0") return MshVersion4::v4_0;
+  reader.fail("the file has version " + in_quotes(word) + "; save it as version 4.1 or 2.2");
+}
 
 }  // namespace
 
@@ -184,21 +202,23 @@ MeshFile read_msh(const std::filesystem::path& path) {
     reader.fail("the first line is not '$MeshFormat'; this is not a Gmsh mesh file");
   reader.require_line("the format's version");
   const std::string word(reader.word());
-  const bool is_4_1 = word == "4.1";
-  if (!is_4_1 && word != "2.2" && word != "2.1" && word != "2" && word != "2.0")
-    reader.fail("the file has version " + in_quotes(word) + "; save it as version 4.1 or 2.2");
-  const MshVersion version = is_4_1 ? MshVersion::v4_1 : MshVersion::v2_2;
+  const std::optional<MshVersion4> version_4 = version_of(reader, word);
   const bool is_binary = reader.integer("the file type", 2) == 1;
   const std::uint64_t size = reader.integer("the size of numbers");
   if (is_binary && size != sizeof(double))
     reader.fail("the file's numbers have " + std::to_string(size) +
                 " bytes instead of 8; save it as text");
+  // Gmsh writes and reads none of these either.
+  if (is_binary && version_4 == MshVersion4::v4_0)
+    reader.fail("the file has version " + in_quotes(word) +
+                " and is binary; save it as text, or as version 4.1 or 2.2");
   MeshParts parts;
   if (is_binary) {
-    MshBinaryInput input(path.string(), content, content.size() - reader.rest().size(), version);
-    parts = MshReader(std::move(input), version).parts();
+    MshBinaryInput input(path.string(), content, content.size() - reader.rest().size(),
+                         version_4.has_value());
+    parts = MshReader(std::move(input), version_4).parts();
   } else {
-    parts = MshReader(MshTextInput(reader), version).parts();
+    parts = MshReader(MshTextInput(reader), version_4).parts();
   }
   drop_unused_nodes(parts);
   return assemble_mesh(path, std::move(parts));
@@ -206,16 +226,17 @@ MeshFile read_msh(const std::filesystem::path& path) {
 
 namespace {
 
-const RegisteredFormat registered({.name = "gmsh",
-                                   .extension = ".msh",
-                                   .description = "Gmsh 4.1 and 2.2, text or binary",
-                                   .holds_planar_meshes = true,
-                                   .holds_volume_meshes = true,
-                                   .holds_surface_meshes = true,
-                                   .holds_physical_names = true,
-                                   .holds_numbers = true,
-                                   .read = read_msh,
-                                   .write = write_msh});
+const RegisteredFormat registered(
+    {.name = "gmsh",
+     .extension = ".msh",
+     .description = "Gmsh 4.1 and 2.2, text or binary; reads 4.0 as text",
+     .holds_planar_meshes = true,
+     .holds_volume_meshes = true,
+     .holds_surface_meshes = true,
+     .holds_physical_names = true,
+     .holds_numbers = true,
+     .read = read_msh,
+     .write = write_msh});
 
 }  // namespace
 

@@ -113,6 +113,14 @@ std::string text_4(const std::string& right, const std::string& wrong) {
   return content.replace(content.find(right), right.size(), wrong);
 }
 
+std::string text_4_0(const std::string& right, const std::string& wrong) {
+  std::string content =
+      "$MeshFormat\n4 0 8\n$EndMeshFormat\n$Entities\n1 0 1 0\n1 0 0 0 0 0 0 0\n"
+      "3 0 0 0 1 1 0 1 6 0\n$EndEntities\n$Nodes\n1 3\n3 2 0 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+      "$EndNodes\n$Elements\n1 1\n3 2 2 1\n1 1 2 3\n$EndElements\n";
+  return content.replace(content.find(right), right.size(), wrong);
+}
+
 std::string text_2(const std::string& right, const std::string& wrong) {
   std::string content =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
@@ -140,6 +148,12 @@ INSTANTIATE_TEST_SUITE_P(
         {"nodes_4t", text_4("2 3 0 3", "2 3 0 1000000000")},
         {"element_blocks_4t", text_4("1 1 1 1\n", "1000000000 1 1 1\n")},
         {"elements_4t", text_4("2 3 2 1\n", "2 3 2 9223372036854775807\n")},
+        {"entities_4_0", text_4_0("1 0 1 0\n1", "1 0 1000000000 0\n1")},
+        {"groups_4_0", text_4_0("0 1 6 0", "0 1000000000 6 0")},
+        {"node_blocks_4_0", text_4_0("1 3\n3 2", "1000000000 3\n3 2")},
+        {"nodes_4_0", text_4_0("3 2 0 3", "3 2 0 1000000000")},
+        {"element_blocks_4_0", text_4_0("1 1\n3 2 2 1", "1000000000 1\n3 2 2 1")},
+        {"elements_4_0", text_4_0("3 2 2 1\n", "3 2 2 9223372036854775807\n")},
         {"nodes_2t", text_2("Nodes\n3", "Nodes\n1000000000")},
         {"elements_2t", text_2("Elements\n1", "Elements\n1000000000")},
         {"tags_2t", text_2("1 2 2 6", "1 2 1000000000 6")}}),
@@ -147,6 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(MshEncodings, RightCountsAreNotRefused) {
   EXPECT_EQ(read_planar(file_with("a.msh", text_4("0 1 0\n", "0 1 0\n"))).mesh.n_cells(), 1u);
+  EXPECT_EQ(read_planar(file_with("a.msh", text_4_0("3 0 1 0", "3 0 1 0"))).mesh.n_cells(), 1u);
   EXPECT_EQ(read_planar(file_with("a.msh", text_2("3 0 1 0", "3 0 1 0"))).mesh.n_cells(), 1u);
 }
 

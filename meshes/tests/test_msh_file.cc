@@ -60,6 +60,22 @@ const std::string head_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
 const std::string head_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
 const std::string nodes_4 = "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
 
+/// Version 4.0: a block is of an entity's number and dimension, a node has its tag and its
+/// coordinates in one line, and points have a box. Nodes 7 and 9 are of a curve, with a parametric
+/// coordinate; two triangles are of a surface in the group "sheet", one is of a surface in none.
+const std::string head_4_0 = "$MeshFormat\n4 0 8\n$EndMeshFormat\n";
+std::string sheet_4_0(const std::string& last_node = "9 1 1 0 .75",
+                      const std::string& last_element = "12 7 9 4") {
+  return head_4_0 +
+         "$PhysicalNames\n1\n2 6 \"sheet\"\n$EndPhysicalNames\n"
+         "$Entities\n1 1 2 0\n1 0 0 0 0 0 0 1 8\n5 1 0 0 1 1 0 0 2 1 -1\n"
+         "3 0 0 0 1 1 0 1 6 1 5\n4 0 0 0 1 1 0 0 1 5\n$EndEntities\n"
+         "$Nodes\n3 5\n3 2 0 2\n4 0 1 0\n2 0 0 0\n4 2 0 1\n5 .5 2 0\n5 1 1 2\n7 1 0 0 .25\n" +
+         last_node +
+         "\n$EndNodes\n$Elements\n3 4\n1 0 15 1\n1 2\n4 2 2 1\n20 4 9 5\n3 2 2 2\n11 2 7 4\n" +
+         last_element + "\n$EndElements\n";
+}
+
 /// Two triangles, the second in line 16, on nodes with gaps in their tags and one node of no cell.
 std::string square(const std::string& last_node = "9 0 1 0",
                    const std::string& last_element = "12 2 2 1 1 2 7 9") {
@@ -132,6 +148,45 @@ TEST_F(Msh, PartitionsAreReadWithTheGroupsOfTheirEntities) {
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{29, 27}));
 }
 
+TEST_F(Msh, Version4_0IsRead) {
+  for (const std::string version : {"4", "4.0"}) {
+    std::string content = sheet_4_0();
+    content.replace(content.find("\n4 0 8") + 1, 1, version);
+    const PlanarFile read = read_planar(file_with("a.msh", content));
+    const std::vector<Point<2>> expected = {{0, 0}, {0, 1}, {.5, 2}, {1, 0}, {1, 1}};
+    EXPECT_EQ(read.mesh.copied_coordinates(), expected);
+    EXPECT_EQ(read.mesh.topology().cells().entries(),
+              (std::vector<NodeIndex>{0, 3, 1, 3, 4, 1, 1, 4, 2}));
+    const MeshLabels& labels = read.mesh.topology().labels();
+    EXPECT_EQ(labels.cell_tags, (std::vector<int>{6, 6, 0}));
+    EXPECT_EQ(labels.cell_ids, (std::vector<std::size_t>{11, 12, 20}));
+    EXPECT_EQ(labels.node_ids, (std::vector<std::size_t>{2, 4, 5, 7, 9}));
+    EXPECT_EQ(labels.names, (decltype(labels.names){{{2, 6}, "sheet"}}));
+  }
+}
+
+TEST_F(Msh, PartitionsOfVersion4_0AreReadWithTheGroupsOfTheirEntities) {
+  const std::string partitions =
+      "$PartitionedEntities\n2\n0\n1 0 2 0\n7 0 1 2 1 2 0 0 0 0 0 0 1 4\n"
+      "1 2 5 1 1 0 0 0 1 1 0 1 8 0\n2 2 5 1 2 0 0 0 1 1 0 0 0\n$EndPartitionedEntities\n";
+  const PlanarFile read = read_planar(
+      file_with("a.msh", head_4_0 + partitions +
+                             "$Nodes\n1 4\n1 2 0 4\n4 0 1 0\n3 1 1 0\n2 1 0 0\n1 0 0 0\n$EndNodes\n"
+                             "$Elements\n2 2\n2 2 2 1\n2 1 3 4\n1 2 2 1\n1 1 2 3\n$EndElements\n"));
+  EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{8, 0}));
+  EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
+}
+
+/// Wherever the file is cut off, in the middle of a line or not.
+TEST_F(Msh, Version4_0IsRefusedWhereverItIsCutOff) {
+  const std::string content = sheet_4_0();
+  for (std::size_t size = 0; size + 1 < content.size(); ++size) {
+    const auto path = file_with("a.msh", content.substr(0, size));
+    EXPECT_THAT(input_error_of([&] { read_mesh(path); }), StartsWith(path.string() + ":"))
+        << content.substr(0, size);
+  }
+}
+
 TEST_F(Msh, OtherSectionsAreSkippedWhateverTheyAnnounce) {
   const std::string others =
       "$Comments\n$Nodes are below\n$EndComments\n$NodeData\n1\n\"x\"\n1\n0\n3\n0\n1\n1000000000\n"
@@ -200,7 +255,23 @@ INSTANTIATE_TEST_SUITE_P(
     Msh, BadMshFile,
     ::testing::Values(
         BadMsh{"other_file", "solid cube\n", ":1: the first line is not '$MeshFormat'"},
-        BadMsh{"version", "$MeshFormat\n4 0 8\n$EndMeshFormat\n", ":2: the file has version '4'"},
+        BadMsh{"version", "$MeshFormat\n3 0 8\n$EndMeshFormat\n", ":2: the file has version '3'"},
+        BadMsh{"binary_4_0", "$MeshFormat\n4 1 8\n",
+               ":2: the file has version '4' and is binary; save it as text, or as version 4.1"},
+        BadMsh{"few_nodes_4_0", head_4_0 + "$Nodes\n1 2\n3 2 0 2\n1 0 0 0\n$EndNodes\n",
+               ":8: the node's tag is '$EndNodes'"},
+        BadMsh{"total_of_nodes_4_0", head_4_0 + "$Nodes\n1 2\n3 2 0 1\n1 0 0 0\n$EndNodes\n",
+               "announces 2 nodes but has 1"},
+        BadMsh{"order_of_4_1_in_4_0", head_4_0 + "$Nodes\n1 1 1 1\n2 3 0 1\n1\n0 0 0\n$EndNodes\n",
+               ":5: unexpected '1' at the end of the line"},
+        BadMsh{"no_parameter_4_0", sheet_4_0("9 1 1 0"), "a parametric coordinate is missing"},
+        BadMsh{"missing_node_4_0", sheet_4_0("9 1 1 0 .75", "12 7 9 8"),
+               "element 12 names node 8, which the file does not have"},
+        BadMsh{"few_element_nodes_4_0", sheet_4_0("9 1 1 0 .75", "12 7 9"),
+               "element 12 has 2 nodes, but those of Gmsh's type 2 have 3"},
+        BadMsh{"node_tag_twice_4_0", sheet_4_0("7 1 1 0 .75"), "the node tag 7 appears twice"},
+        BadMsh{"dimension_of_nodes_4_0", head_4_0 + "$Nodes\n1 1\n2 4 0 1\n1 0 0 0\n$EndNodes\n",
+               ":6: the entity's dimension is 4, but must be from 0 to 3"},
         BadMsh{"no_nodes", head_2, "the file has no section $Nodes"},
         BadMsh{"no_elements", head_4 + nodes_4, "the file has no section $Elements"},
         BadMsh{"too_few_nodes", head_2 + "$Nodes\n3\n1 0 0 0\n$EndNodes\n",

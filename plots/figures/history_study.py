@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which histories belong to a study, and what they are called."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from ..results.names import no_such_name
+from ..results.names import find_column
 from ..results.request import TIME
 from ..results.rows import ResultsError
 from ..results.smoothing import number_columns
@@ -46,9 +48,11 @@ def plan_histories(results):
 def plan_requested_history(results, request):
     """The history that a user asks for; raises ResultsError for a column that is not there or holds
     no numbers."""
-    for name in filter(None, (*request.y, request.x)):
-        if name not in results.iterations.columns:
-            raise no_such_name("column", name, number_columns(results.iterations))
+    numbers = number_columns(results.iterations)
+    y, x = (tuple(find_column(name, results.iterations.columns, numbers) for name in names if name)
+            for names in (request.y, (request.x,)))
+    request = replace(request, y=y, x="".join(x))
+    for name in (*y, *x):
         if not np.isfinite(results.iterations.number(name)).any():
             raise ResultsError(f"{results.iterations.path}: column `{name}` has no numbers.")
     columns = request.y or main_columns(results)

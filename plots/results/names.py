@@ -6,18 +6,38 @@ import re
 from fnmatch import fnmatchcase
 
 from .rows import ResultsError
+from .symbols import symbol_of
 
 # What stands before the names of figures and tables: figure_6_4_history, table_5_11-5_12_smoothing.
 PREFIX = re.compile(r"^(figure|table)_((\d+_\d+-?)+_)?")
 
 
-def no_such_name(what, wanted, names):
-    """The error that refuses a name, in the words of the program's own."""
+def no_such_name(what, wanted, names, nearest=None):
+    """The error that refuses a name, in the words of the program's own. nearest: of the names; found
+    unless given."""
     if not names:
         return ResultsError(f"there is no {what} '{wanted}'; there is none to choose.")
-    nearest = difflib.get_close_matches(wanted, names, 1)
-    question = f"did you mean '{nearest[0]}'? " if nearest else ""
+    nearest = nearest or next(iter(difflib.get_close_matches(wanted, names, 1)), None)
+    question = f"did you mean '{nearest}'? " if nearest else ""
     return ResultsError(f"there is no {what} '{wanted}'; {question}choose one of {', '.join(names)}.")
+
+
+def find_column(wanted, columns, numbers):
+    """The column of that name, or of that heading: `cond(A)` and `cond` are `condition_number`. Raises
+    ResultsError with the nearest name, of those in `numbers`."""
+    if wanted in columns:
+        return wanted
+    headings = {}
+    for column in numbers:
+        text = symbol_of(column).text
+        for heading in (text, re.sub(r"\s*\(.*?\)", "", text)):
+            headings.setdefault(heading.casefold(), column)
+    known = wanted.casefold()
+    if known in headings:
+        return headings[known]
+    called = {**headings, **{name: name for name in numbers}}
+    nearest = difflib.get_close_matches(known, called, 1)
+    raise no_such_name("column", wanted, numbers, called[nearest[0]] if nearest else None)
 
 
 def find_all(what, wanted, names):

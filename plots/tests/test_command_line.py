@@ -79,7 +79,8 @@ class Options(CommandLine):
                               (("--methods", "getmee"), "method 'getmee'; did you mean 'getme'? choose one of getme"),
                               (("--meshes", "trii"), "mesh 'trii'; did you mean 'tri'? choose one of tri"),
                               (("--y", "e_maks"), "column 'e_maks'; did you mean 'e_max'? choose one of iteration, "),
-                              (("--x", "cg_itrations"), "column 'cg_itrations'; did you mean 'cg_iterations'?")):
+                              (("--x", "cg_itrations"), "column 'cg_itrations'; did you mean 'cg_iterations'?"),
+                              (("--y", "cnd(A)"), r"column 'cnd\(A\)'; did you mean 'condition_number'?")):
             self.assertRegex(self.refused(*options), "^there is no " + said.replace("?", r"\?"))
         self.assertIn("column `status` holds something that is not a number", self.refused("--y", "status"))
         self.assertIn("column `w_mean` has no numbers", self.refused("--y", "w_mean"))
@@ -101,6 +102,10 @@ class Options(CommandLine):
     def test_a_history_of_other_columns(self):
         self.assertEqual(self.made("--y", "q_min,cg_iterations", "--x", "iteration", "--format", "png")[0],
                          {f"history_q_min_cg_iterations_over_iteration_d{d}.png" for d in "12"})
+        self.assertEqual(self.made("--y", "cond(A),q*_min,e_L2", "--x", "Smoothing time", "--format", "png")[0],
+                         {f"history_condition_number_q_star_min_e_l2_over_smoothing_seconds_d{d}.png" for d in "12"})
+        self.assertEqual(self.made("--y", "Cond", "--format", "png")[0],
+                         {f"history_condition_number_d{d}.png" for d in "12"})
         self.assertEqual(self.made("--y", "q_min", "--log-x", "--format", "png")[0], {"history_q_min_log_x.png"})
         self.assertEqual(self.made("--log-y", "--only", "history_log_y*,errors", "--format", "png")[0],
                          {"history_log_y_d1.png", "history_log_y_d2.png", "table_6_3_errors.md",

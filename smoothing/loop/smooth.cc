@@ -99,7 +99,7 @@ class StageHistory {
 
   /// Why the stage ends after this iteration, or nothing if it goes on.
   std::optional<std::string> why_stop(const StoppingRule& rule, const StepReport& report,
-                                      double initial_q_star_min, double mean_edge_length) const {
+                                      double initial_q_star_min, double mean_edge_length) {
     using enum StoppingRule::Criterion;
     switch (rule.criterion) {
       case q_mean_gain:
@@ -117,7 +117,9 @@ class StageHistory {
       case result_stall: {
         const int patience = rule.patience_at(q_star_min_, initial_q_star_min);
         if (n_without_best_ >= patience)
-          return "there was no better mesh in " + iterations_text(patience);
+          return "there was no better mesh in " + iterations_text(patience) +
+                 below_start_text(rule, patience);
+        has_gone_on_ = has_gone_on_ || n_without_best_ >= rule.patience;
         [[fallthrough]];
       }
       case step_says_so:
@@ -128,10 +130,21 @@ class StageHistory {
   }
 
  private:
+  /// What patience_below_start, which is ours, has done.
+  std::string below_start_text(const StoppingRule& rule, int patience) const {
+    const std::string ours = " (patience_below_start, which the thesis does not have)";
+    if (patience > rule.patience)
+      return ", " + std::to_string(rule.patience_below_start) +
+             " times its patience, as q*_min is below that of the start" + ours;
+    if (has_gone_on_) return ", after more of them while q*_min was below that of the start" + ours;
+    return "";
+  }
+
   MeshQuality present_;
   double q_min_, q_star_min_, q_mean_;  ///< the highest ones
   double q_mean_gain_ = 0.0;            ///< of the last iteration
   int n_without_gain_ = 0, n_without_best_ = 0;
+  bool has_gone_on_ = false;  ///< past the patience, below the start
 };
 
 /// Over the edges of every cell: an inner edge counts once per cell, as in the thesis' stopping

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/optimization/sliding_nodes.h"
 
 namespace smoothfem {
 
@@ -27,8 +28,8 @@ struct UntangleResult {
   std::size_t n_invalid_after = 0;   ///< cells, in the best mesh that was found
   /// Invalid cells of that mesh, ascending: empty if it is valid.
   std::vector<CellIndex> invalid_cells;
-  /// Invalid cells without a free node: nothing can make them valid. If there are any nothing is
-  /// tried.
+  /// Invalid cells without a free node: nothing can make them valid as long as it has none. If
+  /// there are any nothing is tried.
   std::vector<CellIndex> fully_fixed_cells;
   int n_sweeps = 0;
   double seconds = 0.0;
@@ -41,7 +42,12 @@ struct UntangleResult {
 /// node, round the invalid cells; when all cells are valid some sweeps for the shape objective
 /// itself take them away from the edge of validity. Needs no start that is anything like valid. The
 /// same bits for every number of threads, the same result at every scale. dim = 2 or 3.
+///
+/// sliding: free nodes that stay on the boundary; of a volume mesh with constraints
+/// (with_sliding_boundary) they follow from these unless given. They go along it, and facets stay
+/// within their distance of the initial boundary: steps beyond are not taken.
 template <int dim>
-UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters = {});
+UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters = {},
+                        const SlidingNodes<dim>* sliding = nullptr);
 
 }  // namespace smoothfem

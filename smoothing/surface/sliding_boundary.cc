@@ -44,9 +44,7 @@ double mean_edge_length(const CompressedRows<NodeIndex>& facets, std::span<const
 
 VolumeMesh with_sliding_boundary(const VolumeMesh& mesh, const FeatureParameters& parameters,
                                  double slide_distance) {
-  if (!(slide_distance > 0.0))
-    throw InputError("the slide distance is " + std::to_string(slide_distance) +
-                     "; give a fraction of the boundary's mean edge length above 0");
+  require_slide_distance(slide_distance);
   const Topology& topology = mesh.topology();
   const SurfaceFacets boundary{topology.boundary_facets(), boundary_tags(topology), {}};
   auto constraints = std::make_shared<const SurfaceConstraints>(

@@ -151,6 +151,12 @@ bool SurfaceConstraints::keeps_bound(std::span<const Point<3>> coordinates,
                       [&](std::uint32_t f) { return is_out_of_bound(f, coordinates); });
 }
 
+void require_slide_distance(double slide_distance) {
+  if (!(slide_distance > 0.0))
+    throw InputError("the slide distance is " + std::to_string(slide_distance) +
+                     "; give a fraction of the boundary's mean edge length above 0");
+}
+
 SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point<3>> coordinates,
                               MeshLabels labels, std::optional<std::vector<bool>> fixed,
                               const FeatureParameters& parameters) {

@@ -62,6 +62,9 @@ class SurfaceConstraints final : public NodeConstraints {
   std::unique_ptr<const PieceIndex> triangles_, segments_;
 };
 
+/// Throws InputError unless it is above 0; infinity is.
+void require_slide_distance(double slide_distance);
+
 /// A mesh of the surface that these cells are, which its nodes never leave: its features follow
 /// from the parameters, tags of the cells and labelled edges. Corners are fixed, and the nodes that
 /// `fixed` names (one flag a node). Throws InputError as Topology and NodeConstraints do.

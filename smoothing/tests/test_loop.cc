@@ -356,6 +356,69 @@ TEST(Loop, PreparationsAreTimedApart) {
   EXPECT_GE(result.smoothing_seconds, records.back().smoothing_seconds);
 }
 
+/// Moves a node a little and leaves it there.
+class Spoiler final : public Smoother<2> {
+ public:
+  std::string_view name() const override { return "spoiler"; }
+  SmootherTraits traits() const override {
+    return {.quality_use = QualityUse::loop, .result = ResultMesh::last};
+  }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = 1};
+  }
+  StepReport step(SmoothingState<2>& state) override {
+    state.mesh.coordinates()[state.mesh.topology().free_nodes()[0]].x() += 0.3;
+    return {};
+  }
+};
+
+/// Makes no better mesh until an iteration of its own, which undoes the spoiler's.
+class Idler final : public Smoother<2> {
+ public:
+  explicit Idler(int patience_below_start, int mends_at = 0)
+      : patience_below_start_(patience_below_start), mends_at_(mends_at) {}
+  std::string_view name() const override { return "idler"; }
+  SmootherTraits traits() const override {
+    return {.quality_use = QualityUse::loop, .result = ResultMesh::best_q_star_min};
+  }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::result_stall,
+            .patience = 3,
+            .patience_below_start = patience_below_start_};
+  }
+  StepReport step(SmoothingState<2>& state) override {
+    if (++n_ == mends_at_)
+      state.mesh.coordinates()[state.mesh.topology().free_nodes()[0]].x() -= 0.3;
+    return {};
+  }
+
+ private:
+  int patience_below_start_, mends_at_, n_ = 0;
+};
+
+TEST(Loop, SaysWhenPatienceBelowTheStartWasTheRule) {
+  const auto last_stage = [](bool spoiled, auto... arguments) {
+    PlanarMesh mesh = test::grid_mesh(6, test::GridCells::quadrilaterals);
+    Method<2> method;
+    if (spoiled) method.stages.push_back(std::make_unique<Spoiler>());
+    method.stages.push_back(std::make_unique<Idler>(arguments...));
+    return smooth(mesh, method).stages.back();
+  };
+  const StageResult above = last_stage(false, 10), rule_of_thesis = last_stage(true, 1),
+                    below = last_stage(true, 10), recovered = last_stage(true, 10, 7);
+  EXPECT_EQ(above.iterations, 3u);
+  EXPECT_EQ(above.why_stopped, "there was no better mesh in 3 iterations");
+  EXPECT_EQ(rule_of_thesis.why_stopped, above.why_stopped);
+  EXPECT_EQ(below.iterations, 30u);
+  EXPECT_EQ(below.why_stopped,
+            "there was no better mesh in 30 iterations, 10 times its patience, as q*_min is below "
+            "that of the start (patience_below_start, which the thesis does not have)");
+  EXPECT_EQ(recovered.iterations, 10u);
+  EXPECT_THAT(recovered.why_stopped,
+              HasSubstr("no better mesh in 3 iterations, after more of them while q*_min was below "
+                        "that of the start (patience_below_start"));
+}
+
 /// Moves one node beyond its neighbours, again and again.
 class Tangler final : public Smoother<2> {
  public:

@@ -11,9 +11,8 @@
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
-#include "smoothing/optimization/untangle.h"
-#include "smoothing/surface/sliding_boundary.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/smooth_arguments.h"
 #include "studies/cli/standard_streams.h"
 #include "studies/framework/results/results.h"
 
@@ -21,16 +20,8 @@ namespace smoothfem {
 
 namespace {
 
-struct Arguments {
-  std::string in, out, from, to, method, preset, boundary, fix, log, series;
-  std::vector<std::string> settings;
-  std::optional<double> feature_angle, slide_distance;
-  int n_threads = 0;  ///< 0: as OpenMP finds them
-  bool untangle = false, fail_if_invalid = false, quiet = false;
-};
-
 template <int dim, int spacedim>
-Method<dim, spacedim> configured_method(const Arguments& arguments) {
+Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
   auto method = make_method<dim, spacedim>(arguments.method);
   if (!arguments.preset.empty()) apply_preset(find_preset(arguments.preset), method);
   for (const auto& setting : arguments.settings) {
@@ -44,25 +35,25 @@ Method<dim, spacedim> configured_method(const Arguments& arguments) {
 
 /// The mesh with the constraints that --boundary, --slide-distance and --feature-angle ask for.
 template <int dim, int spacedim>
-Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const Arguments& arguments) {
+Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
   if (arguments.slide_distance && arguments.boundary != "slide")
     throw InputError("--slide-distance is for '--boundary slide'; leave it out");
-  FeatureParameters features;
-  if (arguments.feature_angle) features.angle_degrees = *arguments.feature_angle;
+  const FeatureParameters features = features_of(arguments);
   if constexpr (spacedim > dim) {
     if (arguments.feature_angle) mesh = with_features(mesh, features);
   } else {
     if constexpr (dim == 3)
       if (arguments.boundary == "slide")
-        return with_sliding_boundary(mesh, features,
-                                     arguments.slide_distance.value_or(default_slide_distance));
-    if (arguments.feature_angle)
+        return with_sliding_boundary(mesh, features, slide_distance_of(arguments));
+    if (arguments.feature_angle && !slides_while_untangling<dim, spacedim>(arguments))
       throw InputError(
           "--feature-angle is for surface meshes and '--boundary slide'; leave it out");
   }
+  if (slides_while_untangling<dim, spacedim>(arguments)) return mesh;
   if (dim == 2 && !arguments.boundary.empty())
     throw InputError("--boundary is for volume meshes, but this is a " +
-                     std::string(mesh_kind_name(dim, spacedim)) + " mesh; leave it out");
+                     std::string(mesh_kind_name(dim, spacedim)) + " mesh; leave it out" +
+                     (spacedim == 2 ? ", or add --untangle" : ""));
   return mesh;
 }
 
@@ -81,7 +72,7 @@ void print_row(const char* when, const MeshQuality& q) {
 /// What the observer keeps: rows for the log, and meshes for the series as they come.
 class Recorder {
  public:
-  explicit Recorder(const Arguments& arguments) : arguments_(arguments) {
+  explicit Recorder(const SmoothArguments& arguments) : arguments_(arguments) {
     if (!arguments.series.empty()) series_.emplace(arguments.series);
   }
 
@@ -104,57 +95,10 @@ class Recorder {
   }
 
  private:
-  const Arguments& arguments_;
+  const SmoothArguments& arguments_;
   std::optional<VtuSeries> series_;
   std::vector<IterationRow> rows_;
 };
-
-/// Says honestly that untangling did not succeed, and where.
-[[noreturn]] void refuse(const std::string& path, const std::vector<std::size_t>& cell_ids,
-                         const UntangleResult& result) {
-  const bool hopeless = !result.fully_fixed_cells.empty();
-  const auto& cells = hopeless ? result.fully_fixed_cells : result.invalid_cells;
-  constexpr std::size_t n_named = 5;
-  std::string names;
-  for (std::size_t i = 0; i < std::min(n_named, cells.size()); ++i)
-    names += (i > 0 ? ", " : "") + std::to_string(cell_ids.empty() ? cells[i] : cell_ids[cells[i]]);
-  if (cells.size() > n_named) names += ", ...";
-  const std::string count = std::to_string(cells.size()) + " of " +
-                            std::to_string(result.n_invalid_before) + " invalid cells";
-  throw InputError(path + ": " + count +
-                   (hopeless ? " have only fixed nodes, so that nothing can mend them (cells " +
-                                   names + "); free some of their nodes with --fix"
-                             : " are left after untangling (cells " + names +
-                                   "); free more nodes with --fix or mend them by hand"));
-}
-
-/// Makes a tangled mesh valid if --untangle asks for it; otherwise refuses it where a stage needs a
-/// valid one.
-template <int dim, int spacedim>
-void make_valid(const Arguments& arguments, const Method<dim, spacedim>& method,
-                Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines) {
-  const bool needs_valid =
-      std::any_of(method.stages.begin(), method.stages.end(),
-                  [](const auto& stage) { return stage->traits().needs_valid_mesh; });
-  if (!arguments.untangle) {
-    if (needs_valid) require_valid(mesh, arguments.in, cell_lines);
-    return;
-  }
-  if constexpr (spacedim > dim) {
-    throw InputError(arguments.in +
-                     ": surface meshes cannot be untangled; smooth it without --untangle");
-  } else {
-    if (mesh.constraints())
-      throw InputError(
-          "--untangle moves nodes off a boundary on which they slide; untangle " + arguments.in +
-          " with a fixed boundary first, then smooth the result with --boundary slide");
-    const UntangleResult result = untangle(mesh);
-    if (!result.valid) refuse(arguments.in, mesh.topology().labels().cell_ids, result);
-    if (!arguments.quiet && result.n_invalid_before > 0)
-      std::printf("untangled %zu invalid cells in %.4g s\n", result.n_invalid_before,
-                  result.seconds);
-  }
-}
 
 struct Outcome {
   std::string method_title;
@@ -179,7 +123,7 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
 
 /// Methods without quality control may leave invalid cells.
 template <int dim, int spacedim>
-void look_at_invalid_cells(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
+void look_at_invalid_cells(const SmoothArguments& arguments, const Mesh<dim, spacedim>& mesh,
                            const MeshQuality& quality) {
   if (quality.n_invalid == 0) return;
   const std::string what = std::to_string(quality.n_invalid) + " of " +
@@ -193,7 +137,7 @@ void look_at_invalid_cells(const Arguments& arguments, const Mesh<dim, spacedim>
 }
 
 /// What the command writes must not take the place of its meshes.
-void require_different_files(const Arguments& arguments) {
+void require_different_files(const SmoothArguments& arguments) {
   namespace fs = std::filesystem;
   const auto is_same = [](const fs::path& a, const fs::path& b) {
     std::error_code ignored;  // of paths that lead nowhere, which are the same by name only
@@ -216,7 +160,7 @@ void require_different_files(const Arguments& arguments) {
 
 /// The method and its tables are gone afterwards: writing needs memory, too.
 template <int dim, int spacedim>
-Outcome smooth_by_method(Method<dim, spacedim> method, const Arguments& arguments,
+Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& arguments,
                          Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines,
                          Recorder& recorder) {
   make_valid(arguments, method, mesh, cell_lines);
@@ -228,7 +172,7 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const Arguments& argument
 }
 
 template <int dim, int spacedim>
-void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
+void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
                  const std::vector<std::size_t>& cell_lines) {
   auto method = configured_method<dim, spacedim>(arguments);
   const auto topology_of_file = mesh.shared_topology();
@@ -265,7 +209,7 @@ void smooth_mesh(const Arguments& arguments, Mesh<dim, spacedim> mesh,
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
 }
 
-void smooth_file(Arguments arguments) {
+void smooth_file(SmoothArguments arguments) {
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   const auto output = file_for_standard_output(arguments.out, arguments.to);
@@ -286,7 +230,7 @@ void smooth_file(Arguments arguments) {
 }  // namespace
 
 void add_smooth_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SmoothArguments>();
   auto* command = app.add_subcommand("smooth", "smooth a mesh file");
   command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
   command->add_option("-m,--method", arguments->method, "method (see 'list')")->required();
@@ -307,12 +251,14 @@ void add_smooth_command(CLI::App& app) {
   command
       ->add_option("--boundary", arguments->boundary,
                    "boundary nodes of volume meshes: fixed (unless given), or slide on the "
-                   "initial boundary, along its edges, corners staying")
+                   "initial boundary, along its edges, corners staying; those of planar "
+                   "meshes slide with --untangle")
       ->check(CLI::IsMember({"fixed", "slide"}));
   command->add_option("--slide-distance", arguments->slide_distance,
                       "facets of a sliding boundary come off the initial one by no more than this "
                       "fraction of its mean edge length (0.1 unless given; inf: no bound)");
-  command->add_flag("--untangle", arguments->untangle, "make a tangled mesh valid first");
+  command->add_flag("--untangle", arguments->untangle,
+                    "make a tangled mesh valid first; with --boundary slide also by sliding nodes");
   command->add_option("--threads", arguments->n_threads, "threads (all cores unless given)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--log", arguments->log, "CSV file with one row per iteration");

@@ -60,6 +60,25 @@ TEST_F(CommandLine, FormatsAreConvertedWithoutALossOfDigits) {
   EXPECT_EQ(content_of(file("d.mesh")), content_of(file("a.mesh")));
 }
 
+/// What comes in as Gmsh's version 4.0 goes out as 4.1.
+TEST_F(CommandLine, GmshFilesOfVersion4_0AreSmoothedAndDamagedOnesRefused) {
+  const std::string content =
+      "$MeshFormat\n4 0 8\n$EndMeshFormat\n$Nodes\n1 5\n1 2 0 5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 "
+      "0\n"
+      "5 .8 .7 0\n$EndNodes\n$Elements\n1 4\n1 2 2 4\n1 1 2 5\n2 2 3 5\n3 3 4 5\n4 4 1 5\n"
+      "$EndElements\n";
+  std::ofstream(file("in.msh")) << content;
+  const Outcome outcome = smoothfem({"smooth", "in.msh", "-m", "laplace", "-o", "out.msh"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(content_of(file("out.msh")).starts_with("$MeshFormat\n4.1 "));
+  EXPECT_EQ(read_planar(file("out.msh")).mesh.copied_coordinates()[4], Point<2>(.5, .5));
+  std::ofstream(file("damaged.msh")) << content.substr(0, content.find("3 3 4 5"));
+  const Outcome damaged = smoothfem({"quality", "damaged.msh"});
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_NE(damaged.err.find("the file ends before element 3 of 4"), std::string::npos)
+      << damaged.err;
+}
+
 TEST_F(CommandLine, SmoothWritesALogAndASeries) {
   write_mesh(file("in.mesh"), shaken_grid(6, 0.2));
   const Outcome outcome =

@@ -192,16 +192,19 @@ TEST_F(BadInput, TangledVolumeMesh) {
   std::swap(coordinates[0], coordinates[2]);
   write_mesh(file("hopeless.msh"), labelled(coordinates));
   for (const std::string method : {"getme", "laplace"})
-    expect_refused({"smooth", "hopeless.msh", "-m", method, "-o", "out.vtu", "--log", "log.csv",
-                    "--series", "series.pvd", "--untangle"},
-                   {"hopeless.msh: ",
-                    "2 of 2 invalid cells are left after untangling (cells 71, 72)", "--fix"});
+    expect_refused(
+        {"smooth", "hopeless.msh", "-m", method, "-o", "out.vtu", "--log", "log.csv", "--series",
+         "series.pvd", "--untangle"},
+        {"hopeless.msh: ",
+         "2 of 2 invalid cells are left after untangling (cells 71, 72, the first at (2, 0, 0)",
+         "--fix", "--boundary slide"});
   VolumeMesh flat = labelled(regular.copied_coordinates());
   flat = with_fixed_nodes(flat, std::vector<bool>(flat.n_nodes(), true));
   flat.coordinates()[13] = {1.0, 1.0, 2.5};
   write_mesh(file("fixed.inp"), flat);
   expect_refused({"smooth", "fixed.inp", "-m", "getme", "-o", "out.vtu", "--untangle"},
-                 {"4 of 4 invalid cells have only fixed nodes", "75, 76, 77, 78", "--fix"});
+                 {"4 of 4 invalid cells have only fixed nodes",
+                  "75, 76, 77, 78, the first at (0, 0, 1)", "--fix", "--boundary slide"});
   EXPECT_EQ(smoothfem({"smooth", "fixed.inp", "-m", "getme", "-o", "out.vtu", "--untangle", "--fix",
                        "boundary"})
                 .exit_code,

@@ -4,6 +4,7 @@
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "smoothing/tests/methods.h"
+#include "smoothing/tests/tangled_boundary.h"
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/command_line.h"
 
@@ -136,10 +137,54 @@ TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
     EXPECT_EQ(outcome.exit_code, 2);
     return outcome.err;
   };
-  EXPECT_THAT(refusal({"--boundary", "slide", "--untangle"}), HasSubstr("fixed boundary first"));
   EXPECT_THAT(refusal({"--slide-distance", "0.1"}), HasSubstr("is for '--boundary slide'"));
   EXPECT_THAT(refusal({"--boundary", "slide", "--slide-distance", "0"}),
               HasSubstr("mean edge length above 0"));
+}
+
+/// Tens of cells that are inverted, all with nodes of the boundary alone.
+TEST_F(CommandLine, UntanglesCellsThatHaveNodesOfASlidingBoundaryOnly) {
+  const VolumeMesh tangled = test::tangled_along_boundary(test::shell(test::BoxCells::hexahedra));
+  write_mesh(file("in.vtu"), tangled);
+  const std::string n_invalid = std::to_string(mesh_quality(tangled).n_invalid);
+  const std::vector<std::string> line{"smooth", "in.vtu",  "-m",        "getme",
+                                      "-o",     "out.vtu", "--untangle"};
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), line.begin(), line.end());
+    return smoothfem(options);
+  };
+  const Outcome fixed = with({});
+  EXPECT_EQ(fixed.exit_code, 2);
+  EXPECT_THAT(fixed.err,
+              HasSubstr(n_invalid + " of " + n_invalid + " invalid cells have only fixed nodes"));
+  EXPECT_THAT(fixed.err,
+              HasSubstr("let those of the boundary move along it with --boundary slide"));
+  EXPECT_FALSE(std::filesystem::exists(file("out.vtu")));
+  const Outcome outcome = with({"--boundary", "slide"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("untangled " + n_invalid + " invalid cells"));
+  EXPECT_THAT(outcome.out, HasSubstr("the boundary lies within "));
+  const auto mesh = std::get<VolumeMesh>(read_mesh(file("out.vtu")).mesh);
+  EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
+  const Outcome hindered = with({"--boundary", "slide", "--slide-distance", "1e-6"});
+  EXPECT_EQ(hindered.exit_code, 2);
+  EXPECT_THAT(hindered.err, HasSubstr("are left after untangling"));
+  EXPECT_THAT(hindered.err, HasSubstr("larger --slide-distance"));
+}
+
+TEST_F(CommandLine, UntanglesPlanarCellsThatHaveNodesOfASlidingBoundaryOnly) {
+  write_mesh(file("in.vtu"), test::strip(false, 0.45));
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"smooth", "in.vtu", "-m", "smart-laplace", "-o", "out.vtu"});
+    return smoothfem(options);
+  };
+  EXPECT_THAT(with({"--untangle"}).err, HasSubstr("--boundary slide"));
+  EXPECT_THAT(with({"--boundary", "slide"}).err, HasSubstr("or add --untangle"));
+  const Outcome outcome = with({"--untangle", "--boundary", "slide"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("the boundary lies within "));
+  EXPECT_EQ(mesh_quality(read_planar(file("out.vtu")).mesh).n_invalid, 0u);
+  EXPECT_EQ(with({"--untangle", "--boundary", "slide", "--fix", "boundary"}).exit_code, 2);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ TEST(GearStudy, IsTheExampleOfTheThesis) {
   EXPECT_EQ(study.solution.name, "gear");
   EXPECT_FALSE(study.finite_elements.galerkin_load);
   EXPECT_EQ(study.finite_elements.tensor_points.quadrilateral, 8);
+  EXPECT_EQ(study.finite_elements.tensor_points.hexahedron, 0) << "chosen for each cell";
   EXPECT_EQ(study.finite_elements.cg_tolerance, 1e-8);
   EXPECT_TRUE(study.finite_elements.boundary_in_norm);
   EXPECT_EQ(study.finite_elements.condition_number, ConditionNumberMethod::verified);

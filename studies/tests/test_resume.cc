@@ -120,6 +120,13 @@ TEST_F(Resume, VolumeStudiesKilledAtRandomMomentsEndWithTheSameRows) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   kill_and_go_on("volume.prm", "killed", 6, 0.5 * seconds);
   expect_same_but_for_times(file("unbroken"), file("killed"));
+  const auto points = [&](const std::string& out) {
+    const std::string text = content_of(file(out) / "provenance.json");
+    const auto begin = text.find("most_hexahedron_points");
+    return begin == std::string::npos ? "" : text.substr(begin, text.find('}', begin) - begin);
+  };
+  EXPECT_NE(points("unbroken"), "");
+  EXPECT_EQ(points("unbroken"), points("killed"));
 }
 
 /// Same text, or numbers that differ by no more than solvers' tolerances. Counts of CG depend

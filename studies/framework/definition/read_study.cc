@@ -38,6 +38,11 @@ ConditionNumberMethod condition_number_method(const std::string& text) {
                              : ConditionNumberMethod::verified;
 }
 
+/// 0: chosen by the program.
+int hexahedron_points(const std::string& text) {
+  return text == "auto" ? 0 : std::stoi(text);
+}
+
 /// "sequential: 10, ..."; deal.II has checked the numbers.
 std::map<std::string, int> stage_numbers(const std::string& text) {
   std::map<std::string, int> numbers;
@@ -120,7 +125,7 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
     const Subsection subsection(p, "finite elements");
     study.finite_elements.galerkin_load = p.get("load") == "quadrature";
     study.finite_elements.tensor_points = {static_cast<int>(p.get_integer("quadrilateral points")),
-                                           static_cast<int>(p.get_integer("hexahedron points"))};
+                                           hexahedron_points(p.get("hexahedron points"))};
     study.finite_elements.cg_tolerance = p.get_double("cg tolerance");
     study.finite_elements.boundary_in_norm = p.get_bool("boundary in norm");
     if (p.get_double("cg seconds") > 0.0)

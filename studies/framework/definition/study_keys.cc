@@ -24,6 +24,13 @@ std::string one_of(const std::vector<std::string>& names) {
   return choice;
 }
 
+std::string hexahedron_points() {
+  constexpr int most = 20;
+  std::vector<std::string> choices{"auto"};
+  for (int n = 1; n <= most; ++n) choices.push_back(std::to_string(n));
+  return one_of(choices);
+}
+
 /// The range of a parameter as deal.II checks it, which knows the line of a bad value.
 std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
   if (const auto* choice = std::get_if<Choice>(&parameter.value))
@@ -162,8 +169,9 @@ void declare_problem(ParameterHandler& p) {
                     "nodal: f interpolated (thesis); quadrature: Galerkin load.");
     p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
                     "Gauss points per direction on quadrilaterals.");
-    p.declare_entry("hexahedron points", "4", Patterns::Integer(1, 20),
-                    "Gauss points per direction on hexahedra.");
+    p.declare_entry("hexahedron points", "auto", Patterns::Selection(hexahedron_points()),
+                    "Gauss points per direction on hexahedra: 1 to 20, or auto: each cell takes 4 "
+                    "or as many as leave less than 1e-4.");
     p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "On |r| / |b|.");
     p.declare_entry("boundary in norm", "true", Patterns::Bool(),
                     "Take the boundary values into |b| (the thesis' counts do).");

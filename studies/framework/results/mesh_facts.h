@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "smoothing/quality/mesh_quality.h"
@@ -18,7 +19,10 @@ struct MeshFacts {
   std::string file{};      ///< with the mesh that smoothing starts from, in the folder of results
   bool published = false;  ///< read by --mesh-dir: comparable with printed values digit for digit
   std::string source_sha256;  ///< of the file it was read from; empty if it was generated
-  std::string sha256;         ///< of its text form in the results; empty until that is written
+  /// By degree: Gauss points per direction of the hexahedron that needed most, where they were
+  /// chosen.
+  std::map<int, int> most_points{};
+  std::string sha256;  ///< of its text form in the results; empty until that is written
 };
 
 }  // namespace smoothfem

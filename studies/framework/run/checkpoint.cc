@@ -37,7 +37,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, condi
                                    cg_iterations, jacobi_cg_iterations, amg_cg_iterations,
                                    cg_seconds, jacobi_cg_seconds, amg_setup_seconds, amg_cg_seconds,
                                    cg_converged, e_max, e_mean, e_l2, e_h1, l2_error, h1_error,
-                                   status)
+                                   most_points, status)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, seconds, eigenvectors)
 
 namespace {

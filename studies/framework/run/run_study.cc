@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "fem/chosen_points.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/parallel.h"
 #include "studies/framework/definition/seeds.h"
@@ -167,6 +168,23 @@ class StudyRun {
     progress_.begin("Finite elements", data_.tasks.size());
     run_tasks(open);
     progress_.end();
+    tell_points();
+  }
+
+  /// Gauss points of hexahedra, where they were chosen; of all records, those of earlier sessions
+  /// too.
+  void tell_points() {
+    for (const auto& task : data_.tasks) {
+      if (task.solution.most_points == 0) continue;
+      int& most = data_.meshes[task.job.mesh].most_points[study_.degrees[task.job.degree]];
+      most = std::max(most, task.solution.most_points);
+    }
+    for (const auto& mesh : data_.meshes)
+      for (const auto& [degree, most] : mesh.most_points)
+        progress_.say(
+            "Hexahedra of " + mesh.description.name + ", degree " + std::to_string(degree) + ": " +
+            std::to_string(chosen_points::ladder.front()) + " to " + std::to_string(most) +
+            " Gauss points per direction, each cell as many as it needs.");
   }
 
   /// Threads take tasks in any order: with the middle one of each job first, soon it is known what

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "smoothing/loop/catalogue.h"
+#include "smoothing/surface/sliding_boundary.h"
+
+namespace smoothfem {
+
+/// What the user gave to `smooth`.
+struct SmoothArguments {
+  std::string in, out, from, to, method, preset, boundary, fix, log, series;
+  std::vector<std::string> settings;
+  std::optional<double> feature_angle, slide_distance;
+  int n_threads = 0;  ///< 0: as OpenMP finds them
+  bool untangle = false, fail_if_invalid = false, quiet = false;
+};
+
+/// Planar boundaries slide only while a mesh is untangled.
+template <int dim, int spacedim>
+bool slides_while_untangling(const SmoothArguments& arguments) {
+  return dim == 2 && spacedim == 2 && arguments.boundary == "slide" && arguments.untangle;
+}
+
+inline FeatureParameters features_of(const SmoothArguments& arguments) {
+  FeatureParameters features;
+  if (arguments.feature_angle) features.angle_degrees = *arguments.feature_angle;
+  return features;
+}
+
+inline double slide_distance_of(const SmoothArguments& arguments) {
+  return arguments.slide_distance.value_or(default_slide_distance);
+}
+
+/// Makes a tangled mesh valid if --untangle asks for it; otherwise refuses it where a stage needs a
+/// valid one.
+template <int dim, int spacedim>
+void make_valid(const SmoothArguments& arguments, const Method<dim, spacedim>& method,
+                Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines);
+
+}  // namespace smoothfem
