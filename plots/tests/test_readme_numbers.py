@@ -14,7 +14,7 @@ from plots.results.smoothing import read_results
 CODE = r"```.*?```"
 # What has digits and is no measurement: names, and references to the thesis.
 NAMES = (r"`[^`]*`", r"\]\([^)]*\)", r"(?:Section|Table|Figure|Chapter)s? \d[\d.,]*(?: to \d[\d.]*| and \d)?", r"in 5\.2\.4",
-         r"Debian 12", r"x86-64", r"AVX2", r"GPL-3\.0", r"Gmsh 2\.2 and 4\.1", r"degree 1 and 2", r"d = 2", r"e_L2|e_H1",
+         r"Debian 12", r"x86-64", r"AVX2", r"GPL-3\.0", r"Gmsh 2\.2 and 4\.1", r"4\.0 is read", r"degree 1 and 2", r"d = 2", r"e_L2|e_H1",
          r"1/q", r"32 bits", r"exit code 2", r"2D", r"genus 9")
 
 
@@ -48,11 +48,12 @@ def expected():
     tri, quad = mesh("gear", "tri"), mesh("gear", "quad")
     angle = source("smoothing/surface/surface_features.h", r"angle_degrees = (\d+)")
     distance = source("smoothing/surface/sliding_boundary.h", r"default_slide_distance = ([.\d]+)")
+    patience = source("smoothing/smoothers/getme_sequential.cc", r"patience_below_start_ = (\d+)")
     return (f"(triangles: {tri['n_nodes']:,} nodes, {tri['n_cells']:,} cells; quadrilaterals: "
             f"{quad['n_nodes']:,} nodes, {quad['n_cells']:,} cells)",
             f"{mesh('pump', 'hex')['n_cells'] / 1e6:.1f} million hexahedra",
             f"The largest system in `results/reference` has {largest_system():,} degrees of freedom",
-            f"({angle} degrees)", f"({distance})",
+            f"({angle} degrees)", f"({distance})", f"`patience_below_start` ({patience}) times as many",
             f"{2**31 / 1e9:.0f} billion at most")
 
 
