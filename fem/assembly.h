@@ -24,7 +24,7 @@ struct PoissonSystem {
   /// Cells of this rank whose mapping is folded at a quadrature point: the corners of a hexahedron
   /// may all be fine while its inside is not, and then the matrix may be indefinite.
   std::size_t n_folded_cells = 0;
-  chosen_points::Use points;  ///< of this rank's hexahedra
+  chosen_points::Use points{};  ///< of this rank's hexahedra
 };
 
 /// A system with the space's pattern, to be filled again and again.

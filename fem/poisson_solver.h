@@ -25,7 +25,7 @@ enum class ConditionNumberMethod {
 struct PoissonOptions {
   int degree = 1;              ///< of the Lagrange elements: 1 or 2
   bool galerkin_load = false;  ///< load by quadrature in place of the thesis' nodal one
-  TensorPoints tensor_points;
+  TensorPoints tensor_points{};
   double cg_tolerance = 1e-8;  ///< on |r| / |b|
   /// Take the boundary values into |b|, as if their equations were identity rows of the full
   /// system.

@@ -13,7 +13,7 @@ _smoothfem() {
   if [ "$COMP_CWORD" -eq 1 ]; then
     words="$("$program" --help 2>/dev/null | sed -n '/^Subcommands/,$s/^  \([a-z][a-z]*\) .*/\1/p') plot --help --version"
   elif [[ $word == -* ]]; then
-    words=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null | grep -oE '(^|[ ,])--?[a-z][a-z-]*' | tr -d ' ,')
+    words=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null | grep -oE '^  (-[a-z],)?--?[a-z][a-z-]*' | tr -d ' ' | tr ',' '\n')
   else
     case $previous in
       -m|--method) words=$(_smoothfem_listed "$program" METHODS) ;;

@@ -77,7 +77,8 @@ def caveats(results):
     found += ["All numbers come from the CSV files of this folder; printed ones from the tables and the "
               "text of the thesis. A dash is a number that is not there."]
     sizes = [f"{entry['name']} ({entry['n_cells']:,} cells)"
-             for entry in entries(results.provenance, "meshes") if isinstance(entry.get("n_cells"), int)]
+             for entry in entries(results.provenance, "meshes")
+             if entry["name"] in results.meshes and isinstance(entry.get("n_cells"), int)]
     scale = results.provenance.get("scale") or ""
     if sizes:
         found.append(f"Meshes{f' of the scale `{scale}`' if scale else ''}: {', '.join(sizes)}. Errors, "

@@ -15,7 +15,9 @@ namespace {
 
 struct Arguments {
   std::string domain, out, to, elements;
-  double edge_scale = 1.0, distort_to = 0.0;
+  std::string distortion = distortion_kind_names[0];
+  double edge_scale = 1.0, distort_to = 0.0, least_quality = 0.0;
+  int sweeps = 1;
   std::uint64_t seed = 1;
   bool quiet = false;
 };
@@ -27,6 +29,10 @@ void distort_and_write(Mesh<dim, spacedim>& mesh, const Arguments& arguments) {
     parameters.target_q_mean = arguments.distort_to;
     parameters.seed = arguments.seed;
     parameters.n_candidates = default_candidates(dim);
+    parameters.n_sweeps = arguments.sweeps;
+    parameters.least_quality = arguments.least_quality;
+    if (arguments.distortion == distortion_kind_names[1])
+      parameters.kind = DistortionKind::random_steps;
     distort(mesh, parameters);
   }
   write_mesh(arguments.out, mesh);
@@ -66,6 +72,20 @@ void add_generate_command(CLI::App& app) {
                       joined(element_names()) + "; default: the domain's first (see list)");
   command->add_option("--edge-scale", arguments->edge_scale, "edges longer by this factor");
   command->add_option("--distort-to", arguments->distort_to, "mean quality to distort to");
+  command
+      ->add_option("--distortion", arguments->distortion,
+                   "how nodes are moved: " + std::string(distortion_kind_names[0]) +
+                       " (unless given) or " + distortion_kind_names[1])
+      ->check(CLI::IsMember(
+          std::vector<std::string>(distortion_kind_names.begin(), distortion_kind_names.end())));
+  command
+      ->add_option("--distortion-sweeps", arguments->sweeps,
+                   "times all nodes are moved (1 unless given)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--distortion-least-quality", arguments->least_quality,
+                   "mean ratio that distortion leaves every cell (0 unless given)")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--seed", arguments->seed, "seed of generation and distortion")
       ->check(CLI::NonNegativeNumber);
   command->callback([arguments] { generate(*arguments); });
