@@ -33,8 +33,7 @@ struct StudyMesh {
   int distortion_sweeps = 1;
   double distortion_least_quality = 0.0;
   std::uint64_t seed = 1;
-  std::string
-      repeats;  ///< name of the mesh that this one is made like, with another seed; or empty
+  std::string repeats{};  ///< the mesh that this one is, with another seed; or empty
 };
 
 /// Whether a mesh is changed after it has been read or generated.
