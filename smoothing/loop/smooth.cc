@@ -256,13 +256,14 @@ class SmoothingRun {
   /// Constraints know nodes by their numbers.
   void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
-    if (state_.mesh.constraints() || state_.mesh.n_nodes() < min_nodes) return;
+    // Sweeps in the mesh's own order are faster where nodes lie in that order, too (measured: .7 of
+    // the time for Laplace on 580,000 tetrahedra as Gmsh numbers them).
+    if (state_.mesh.constraints() || state_.mesh.n_nodes() < min_nodes ||
+        any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
+      return;
     if constexpr (dim == spacedim) {
       const ScopedTimer timer(preparation_seconds_);
-      const bool keeps_order =
-          any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; });
-      reordering_.emplace(state_.mesh.shared_topology(),
-                          keeps_order ? Topology::NumberOrder::before : Topology::NumberOrder::now);
+      reordering_.emplace(state_.mesh.shared_topology());
       state_.mesh = reordering_->apply(std::move(state_.mesh));
     }
   }
