@@ -25,6 +25,36 @@ inline std::uint64_t first_number(std::uint64_t state) {
   return next_number(state);
 }
 
+/// A random point of the unit disc; the last coordinate comes first.
+inline Point<2> point_of_disc(std::uint64_t& state) {
+  const auto coordinate = [&] {
+    return 2.0 * std::ldexp(static_cast<double>(next_number(state) >> 11), -53) - 1.0;
+  };
+  for (;;) {
+    const double v = coordinate();
+    const double u = coordinate();
+    if (u * u + v * v <= 1.0) return {u, v};
+  }
+}
+
+/// Calls visit(node, mean length of its edges, state of the generator): free nodes one after the
+/// other, sweep after sweep.
+inline void for_each_visit(const PlanarMesh& mesh, std::uint64_t seed, int n_sweeps,
+                           const auto& visit) {
+  const Topology& topology = mesh.topology();
+  const std::vector<Point<2>> x = mesh.copied_coordinates();
+  for (int sweep = 0; sweep < n_sweeps; ++sweep)
+    for (const NodeIndex node : topology.free_nodes()) {
+      double mean_length = 0.0;
+      for (const NodeIndex other : topology.node_neighbours(node))
+        mean_length += std::sqrt((x[other] - x[node]).squaredNorm());
+      mean_length /= static_cast<double>(topology.node_neighbours(node).size());
+      visit(node, mean_length,
+            first_number(first_number(first_number(seed) + node) +
+                         static_cast<std::uint64_t>(sweep)));
+    }
+}
+
 /// The distortion of triangles a second time, from its documentation and with other formulas:
 /// nodes one after the other, their numbers from the generator above.
 inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radius,
@@ -32,9 +62,6 @@ inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radi
   const Topology& topology = mesh.topology();
   const std::vector<Point<2>> original = mesh.copied_coordinates();
   std::vector<Point<2>> x = original;
-  const auto length = [&](NodeIndex a, NodeIndex b) {
-    return std::sqrt((original[b] - original[a]).squaredNorm());
-  };
   // Of a triangle, 2 sqrt(3) times twice its area over the sum of its squared sides; here without
   // the constants: only the order matters. At most 0 if one is invalid.
   const auto quality_around = [&](NodeIndex node) {
@@ -48,38 +75,22 @@ inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radi
     }
     return sum;
   };
-  const auto coordinate = [](std::uint64_t& state) {
-    return 2.0 * std::ldexp(static_cast<double>(next_number(state) >> 11), -53) - 1.0;
-  };
-  for (int sweep = 0; sweep < n_sweeps; ++sweep)
-    for (const NodeIndex node : topology.free_nodes()) {
-      double mean_length = 0.0;
-      for (const NodeIndex other : topology.node_neighbours(node))
-        mean_length += length(node, other);
-      mean_length /= static_cast<double>(topology.node_neighbours(node).size());
-      std::uint64_t state =
-          first_number(first_number(first_number(seed) + node) + static_cast<std::uint64_t>(sweep));
-      const Point<2> present = x[node];
-      Point<2> worst = present;
-      double worst_quality = std::numeric_limits<double>::infinity();
-      int n_valid = 0;
-      for (int i = 0; i < 20 * n_candidates && n_valid < n_candidates; ++i) {
-        double u = 0.0, v = 0.0;
-        do {  // the last coordinate comes first
-          v = coordinate(state);
-          u = coordinate(state);
-        } while (u * u + v * v > 1.0);
-        const double ball = radius * mean_length;
-        x[node] = {original[node].x() + ball * u, original[node].y() + ball * v};
-        const double quality = quality_around(node);
-        if (!(quality > 0.0)) continue;
-        ++n_valid;
-        if (quality >= worst_quality) continue;
-        worst_quality = quality;
-        worst = x[node];
-      }
-      x[node] = worst;
-    }
+  for_each_visit(mesh, seed, n_sweeps,
+                 [&](NodeIndex node, double mean_length, std::uint64_t state) {
+                   Point<2> worst = x[node];
+                   double worst_quality = std::numeric_limits<double>::infinity();
+                   int n_valid = 0;
+                   for (int i = 0; i < 20 * n_candidates && n_valid < n_candidates; ++i) {
+                     x[node] = original[node] + radius * mean_length * point_of_disc(state);
+                     const double quality = quality_around(node);
+                     if (!(quality > 0.0)) continue;
+                     ++n_valid;
+                     if (quality >= worst_quality) continue;
+                     worst_quality = quality;
+                     worst = x[node];
+                   }
+                   x[node] = worst;
+                 });
   return x;
 }
 
@@ -87,8 +98,7 @@ inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radi
 inline std::vector<Point<2>> stepped_again(const PlanarMesh& mesh, double radius,
                                            std::uint64_t seed, int n_sweeps) {
   const Topology& topology = mesh.topology();
-  const std::vector<Point<2>> original = mesh.copied_coordinates();
-  std::vector<Point<2>> x = original;
+  std::vector<Point<2>> x = mesh.copied_coordinates();
   const auto all_valid = [&](NodeIndex node) {
     for (const CellIndex cell : topology.node_cells(node)) {
       const auto t = topology.cell_nodes(cell);
@@ -97,30 +107,15 @@ inline std::vector<Point<2>> stepped_again(const PlanarMesh& mesh, double radius
     }
     return true;
   };
-  const auto coordinate = [](std::uint64_t& state) {
-    return 2.0 * std::ldexp(static_cast<double>(next_number(state) >> 11), -53) - 1.0;
-  };
-  for (int sweep = 0; sweep < n_sweeps; ++sweep)
-    for (const NodeIndex node : topology.free_nodes()) {
-      double mean_length = 0.0;
-      for (const NodeIndex other : topology.node_neighbours(node))
-        mean_length += std::sqrt((original[other] - original[node]).squaredNorm());
-      mean_length /= static_cast<double>(topology.node_neighbours(node).size());
-      std::uint64_t state =
-          first_number(first_number(first_number(seed) + node) + static_cast<std::uint64_t>(sweep));
-      double u = 0.0, v = 0.0;
-      do {  // the last coordinate comes first
-        v = coordinate(state);
-        u = coordinate(state);
-      } while (u * u + v * v > 1.0);
-      const double ball = radius * mean_length;
-      Point<2> step(ball * u, ball * v);
-      const Point<2> present = x[node];
-      int n_left = 60;
-      for (x[node] = present + step; !all_valid(node) && --n_left > 0; x[node] = present + step)
-        step *= 0.8;
-      if (n_left == 0) x[node] = present;
-    }
+  for_each_visit(
+      mesh, seed, n_sweeps, [&](NodeIndex node, double mean_length, std::uint64_t state) {
+        Point<2> step = radius * mean_length * point_of_disc(state);
+        const Point<2> present = x[node];
+        int n_left = 60;
+        for (x[node] = present + step; !all_valid(node) && --n_left > 0; x[node] = present + step)
+          step *= 0.8;
+        if (n_left == 0) x[node] = present;
+      });
   return x;
 }
 
