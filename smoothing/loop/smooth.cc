@@ -2,13 +2,13 @@
 #include "smoothing/loop/smooth.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "smoothing/base/scoped_timer.h"
 #include "smoothing/geometry/extreme_size.h"
+#include "smoothing/loop/best_mesh.h"
 #include "smoothing/loop/invalid_node_reset.h"
+#include "smoothing/loop/stage_history.h"
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/mesh/reordering.h"
 #include "smoothing/mesh/volume_elements.h"
@@ -16,136 +16,6 @@
 namespace smoothfem {
 
 namespace {
-
-/// Remembers the best mesh a stage has met, by the number its traits name.
-template <int spacedim>
-class BestMesh {
- public:
-  BestMesh(ResultMesh rule, std::span<const Point<spacedim>> coordinates,
-           const MeshQuality& quality, double score)
-      : rule_(rule) {
-    if (rule_ == ResultMesh::last) return;
-    best_ = number(quality, score);
-    coordinates_.assign(coordinates.begin(), coordinates.end());
-  }
-
-  /// True if this mesh, which the step has just reached, is the new best.
-  bool offer(std::span<const Point<spacedim>> coordinates, const MeshQuality& quality,
-             const StepReport& report) {
-    if (rule_ == ResultMesh::last) return false;
-    if (report.moved)
-      moved_since_best_.insert(moved_since_best_.end(), report.moved->begin(), report.moved->end());
-    else
-      all_moved_ = true;
-    if (quality.n_invalid > 0 || !(number(quality, report.score) > best_)) return false;
-    best_ = number(quality, report.score);
-    if (all_moved_)
-      std::copy(coordinates.begin(), coordinates.end(), coordinates_.begin());
-    else
-      for (const NodeIndex i : moved_since_best_) coordinates_[i] = coordinates[i];
-    moved_since_best_.clear();
-    all_moved_ = false;
-    return true;
-  }
-
-  /// Puts the best mesh in place of the last one.
-  template <class AnyMesh>
-  void restore(AnyMesh& mesh) {
-    if (rule_ != ResultMesh::last) mesh.swap_coordinates(coordinates_);
-  }
-
- private:
-  double number(const MeshQuality& quality, double score) const {
-    if (rule_ == ResultMesh::best_score) return score;
-    return rule_ == ResultMesh::best_q_mean ? quality.q_mean : quality.q_star_min;
-  }
-
-  ResultMesh rule_;
-  double best_ = 0.0;
-  std::vector<Point<spacedim>> coordinates_;
-  std::vector<NodeIndex> moved_since_best_;
-  bool all_moved_ = false;
-};
-
-std::string number_text(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
-std::string iterations_text(int n) {
-  return n == 1 ? "an iteration" : std::to_string(n) + " iterations";
-}
-
-/// What a stopping rule asks about the iterations of a stage so far.
-class StageHistory {
- public:
-  explicit StageHistory(const MeshQuality& initial)
-      : present_(initial),
-        q_min_(initial.q_min),
-        q_star_min_(initial.q_star_min),
-        q_mean_(initial.q_mean) {}
-
-  void add(const MeshQuality& quality, bool is_best) {
-    n_without_best_ = is_best ? 0 : n_without_best_ + 1;
-    const bool gain = quality.q_min > q_min_ || quality.q_mean > q_mean_;
-    n_without_gain_ = gain ? 0 : n_without_gain_ + 1;
-    q_min_ = std::max(q_min_, quality.q_min);
-    q_star_min_ = std::max(q_star_min_, quality.q_star_min);
-    q_mean_ = std::max(q_mean_, quality.q_mean);
-    q_mean_gain_ = quality.q_mean - present_.q_mean;
-    present_ = quality;
-  }
-
-  /// Why the stage ends after this iteration, or nothing if it goes on.
-  std::optional<std::string> why_stop(const StoppingRule& rule, const StepReport& report,
-                                      double initial_q_star_min, double mean_edge_length) {
-    using enum StoppingRule::Criterion;
-    switch (rule.criterion) {
-      case q_mean_gain:
-        if (q_mean_gain_ > rule.tolerance) return std::nullopt;
-        return "q_mean rose by no more than the tolerance " + number_text(rule.tolerance);
-      case q_mean_change:
-        if (std::abs(q_mean_gain_) <= rule.tolerance)
-          return "q_mean changed by no more than the tolerance " + number_text(rule.tolerance);
-        if (n_without_gain_ < rule.patience) return std::nullopt;
-        return "neither q_min nor q_mean was better than ever before in " +
-               iterations_text(rule.patience);
-      case max_displacement:
-        if (!(report.max_displacement < rule.tolerance * mean_edge_length)) return std::nullopt;
-        return "no node moved farther than " + number_text(rule.tolerance) + " mean edge lengths";
-      case result_stall: {
-        const int patience = rule.patience_at(q_star_min_, initial_q_star_min);
-        if (n_without_best_ >= patience)
-          return "there was no better mesh in " + iterations_text(patience) +
-                 below_start_text(rule, patience);
-        has_gone_on_ = has_gone_on_ || n_without_best_ >= rule.patience;
-        [[fallthrough]];
-      }
-      case step_says_so:
-        if (!report.converged) return std::nullopt;
-        return "it converged";
-    }
-    return std::nullopt;
-  }
-
- private:
-  /// What patience_below_start, which is ours, has done.
-  std::string below_start_text(const StoppingRule& rule, int patience) const {
-    const std::string ours = " (patience_below_start, which the thesis does not have)";
-    if (patience > rule.patience)
-      return ", " + std::to_string(rule.patience_below_start) +
-             " times its patience, as q*_min is below that of the start" + ours;
-    if (has_gone_on_) return ", after more of them while q*_min was below that of the start" + ours;
-    return "";
-  }
-
-  MeshQuality present_;
-  double q_min_, q_star_min_, q_mean_;  ///< the highest ones
-  double q_mean_gain_ = 0.0;            ///< of the last iteration
-  int n_without_gain_ = 0, n_without_best_ = 0;
-  bool has_gone_on_ = false;  ///< past the patience, below the start
-};
 
 /// Over the edges of every cell: an inner edge counts once per cell, as in the thesis' stopping
 /// rule.
@@ -187,12 +57,6 @@ class SmoothingRun {
 
   /// The initial quality costs a method time only if it looks at quality at all.
   void start(const Method<dim, spacedim>& method) {
-    if (any_stage(method, [](const auto& stage) {
-          return stage.stopping().criterion == StoppingRule::Criterion::max_displacement;
-        })) {
-      const ScopedTimer timer(preparation_seconds_);
-      mean_edge_length_ = mean_edge_length(state_.mesh);
-    }
     reorder(method);
     if (!reordering_) state_.mesh.topology().node_cells(0);  // of the mesh, and so no method's time
     double others_seconds = 0.0;
@@ -203,6 +67,12 @@ class SmoothingRun {
       evaluate_quality();
     }
     state_.initial_quality = quality_;
+    if (any_stage(method, [](const auto& stage) {
+          return stage.stopping().criterion == StoppingRule::Criterion::max_displacement;
+        })) {
+      const ScopedTimer timer(preparation_seconds_);
+      mean_edge_length_ = mean_edge_length(state_.mesh);
+    }
     observe("initial", 0, {});
   }
 

@@ -44,8 +44,8 @@ struct SmootherTraits {
   QualityUse quality_use = QualityUse::loop;
   ResultMesh result = ResultMesh::best_q_mean;
   bool needs_valid_mesh = true;
-  /// The step visits free_nodes() one after the other, so that its result depends on their order:
-  /// they, cells of nodes and neighbours come in the mesh's own order, whatever their numbers.
+  /// The step visits nodes one after the other, so that its result depends on their order: the mesh
+  /// keeps the order it has.
   bool needs_node_order = false;
   /// The step puts nodes only where allowed_position (smoothing/mesh/node_constraints.h) has them,
   /// and, unless the quality is evaluated by the loop, where keeps_facet_bound holds; other methods

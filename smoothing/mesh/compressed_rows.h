@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <string>
 #include <utility>
@@ -80,25 +79,17 @@ inline std::vector<RowOffset> row_offsets(std::vector<RowOffset> lengths) {
   return lengths;
 }
 
-/// For each number below n_numbers, the rows that have it as an entry, in the order of `order`: all
-/// rows, each once.
-template <class Order>
-CompressedRows<std::uint32_t> rows_by_entry(const CompressedRows<std::uint32_t>& rows,
-                                            std::size_t n_numbers, const Order& order) {
+/// For each number below n_numbers, the rows that have it as an entry, ascending.
+inline CompressedRows<std::uint32_t> rows_by_entry(const CompressedRows<std::uint32_t>& rows,
+                                                   std::size_t n_numbers) {
   std::vector<RowOffset> lengths(n_numbers + 1, 0);
   for (const std::uint32_t number : rows.entries()) ++lengths[number + 1];
   auto offsets = row_offsets(std::move(lengths));
   std::vector<std::uint32_t> entries(rows.n_entries());
   auto next = offsets;
-  for (const std::uint32_t row : order)
+  for (std::uint32_t row = 0; row < rows.size(); ++row)
     for (const std::uint32_t number : rows[row]) entries[next[number]++] = row;
   return {std::move(offsets), std::move(entries)};
-}
-/// The same, ascending.
-inline CompressedRows<std::uint32_t> rows_by_entry(const CompressedRows<std::uint32_t>& rows,
-                                                   std::size_t n_numbers) {
-  return rows_by_entry(rows, n_numbers,
-                       std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(rows.size())));
 }
 
 }  // namespace smoothfem

@@ -72,12 +72,11 @@ std::vector<CellIndex> cells_by_first_node(const Topology& topology,
 }  // namespace
 
 template <int dim>
-Reordering<dim>::Reordering(std::shared_ptr<const Topology> topology,
-                            Topology::NumberOrder number_order)
+Reordering<dim>::Reordering(std::shared_ptr<const Topology> topology)
     : old_topology_(std::move(topology)),
       node_order_(nodes_by_level(*old_topology_)),
-      topology_(old_topology_->reordered(
-          node_order_, cells_by_first_node(*old_topology_, node_order_), number_order)) {}
+      topology_(old_topology_->reordered(node_order_,
+                                         cells_by_first_node(*old_topology_, node_order_))) {}
 
 template <int dim>
 Mesh<dim> Reordering<dim>::apply(Mesh<dim> mesh) const {

@@ -15,8 +15,7 @@ namespace smoothfem {
 template <int dim>
 class Reordering {
  public:
-  explicit Reordering(std::shared_ptr<const Topology> topology,
-                      Topology::NumberOrder number_order = Topology::NumberOrder::now);
+  explicit Reordering(std::shared_ptr<const Topology> topology);
 
   /// A mesh of the topology given, in the new order. Takes no memory besides.
   Mesh<dim> apply(Mesh<dim> mesh) const;

@@ -217,15 +217,7 @@ void Topology::build_blocks() {
 }
 
 const CompressedRows<NodeIndex>& Topology::neighbours() const {
-  return node_neighbours_.get([this] {
-    auto rows = nodes_by_node(*this, cells_by_node());
-    if (node_before_.empty()) return rows;
-    return make_rows<NodeIndex>(n_nodes(), [&](std::size_t node, std::vector<NodeIndex>& row) {
-      row.assign(rows[node].begin(), rows[node].end());
-      std::sort(row.begin(), row.end(),
-                [&](NodeIndex a, NodeIndex b) { return node_before_[a] < node_before_[b]; });
-    });
-  });
+  return node_neighbours_.get([this] { return nodes_by_node(*this, cells_by_node()); });
 }
 
 std::vector<CellIndex> Topology::cells_around(std::span<const NodeIndex> nodes) const {
@@ -239,9 +231,8 @@ std::vector<CellIndex> Topology::cells_around(std::span<const NodeIndex> nodes) 
   return cells;
 }
 
-std::shared_ptr<const Topology> Topology::reordered(const std::vector<NodeIndex>& node_order,
-                                                    const std::vector<CellIndex>& cell_order,
-                                                    NumberOrder number_order) const {
+std::shared_ptr<const Topology> Topology::reordered(
+    const std::vector<NodeIndex>& node_order, const std::vector<CellIndex>& cell_order) const {
   std::vector<NodeIndex> new_node(n_nodes());
   for (NodeIndex i = 0; i < n_nodes(); ++i) new_node[node_order[i]] = i;
   std::shared_ptr<Topology> result(new Topology);
@@ -273,13 +264,6 @@ std::shared_ptr<const Topology> Topology::reordered(const std::vector<NodeIndex>
   }
   result->build_fixed(fixed);
   result->build_blocks();
-  if (number_order == NumberOrder::before) {
-    result->node_before_ = node_order;
-    result->cells_as_before_.resize(n_cells());
-    for (CellIndex c = 0; c < n_cells(); ++c) result->cells_as_before_[cell_order[c]] = c;
-    for (std::size_t i = 0; i < free_nodes_.size(); ++i)
-      result->free_nodes_[i] = new_node[free_nodes_[i]];
-  }
   return result;
 }
 

@@ -38,9 +38,8 @@ struct CellBlock {
 };
 
 /// The connectivity of a planar or a volume mesh: which nodes make which cell, and everything that
-/// follows from it alone. Immutable. Free nodes and all adjacency rows are sorted ascending, so
-/// sums over them have one order; in meshes that are reordered for the sake of memory only, they
-/// are sorted by the numbers of before (NumberOrder).
+/// follows from it alone. Immutable. All adjacency rows are sorted ascending, so sums over them
+/// have one order.
 class Topology {
  public:
   /// dim: 2 (cells with three and more nodes, counterclockwise) or 3 (4, 5, 6 or 8 nodes in the
@@ -83,23 +82,16 @@ class Topology {
 
   const MeshLabels& labels() const { return labels_; }
 
-  /// Whether free nodes, cells of nodes and neighbours follow the new numbers or those of before.
-  enum class NumberOrder { now, before };
-
   /// The same mesh in another order: node i and cell c of the result are the nodes node_order[i]
   /// and the cell cell_order[c] of this one. Nodes keep their order in their cell. Without labels.
   std::shared_ptr<const Topology> reordered(const std::vector<NodeIndex>& node_order,
-                                            const std::vector<CellIndex>& cell_order,
-                                            NumberOrder number_order = NumberOrder::now) const;
+                                            const std::vector<CellIndex>& cell_order) const;
 
  private:
   Topology() = default;
   void check_cells(std::size_t n_nodes) const;
   const CompressedRows<CellIndex>& cells_by_node() const {
-    return node_cells_.get([this] {
-      return cells_as_before_.empty() ? rows_by_entry(cells_, n_nodes())
-                                      : rows_by_entry(cells_, n_nodes(), cells_as_before_);
-    });
+    return node_cells_.get([this] { return rows_by_entry(cells_, n_nodes()); });
   }
   const CompressedRows<NodeIndex>& neighbours() const;
   void build_boundary(const CompressedRows<CellIndex>& node_cells);
@@ -110,10 +102,6 @@ class Topology {
   CompressedRows<NodeIndex> cells_;
   MeshLabels labels_;
   mutable TableOnDemand node_cells_, node_neighbours_;
-  /// Of meshes that are sorted by the numbers of before: the cells in that order, and the number of
-  /// each node. Empty in others.
-  std::vector<CellIndex> cells_as_before_;
-  std::vector<NodeIndex> node_before_;
   CompressedRows<NodeIndex> boundary_facets_;
   std::size_t n_facets_ = 0;
   std::vector<bool> on_boundary_;

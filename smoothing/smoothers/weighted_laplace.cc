@@ -50,10 +50,6 @@ class WeightedLaplace final : public Smoother<dim> {
   SmootherTraits traits() const override { return uncontrolled_sweeps; }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
-  void initialize(const SmoothingState<dim>& state) override {
-    state.mesh.topology().node_cells(0);  // the table is made before the first step
-  }
-
   StepReport step(SmoothingState<dim>& state) override {
     return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) {
       return movement(state.mesh.topology(), state.mesh.coordinates().data(), i);

@@ -448,8 +448,8 @@ TEST(Loop, CellsMadeInvalidAreCountedBeforeNodesArePutBack) {
   });
 }
 
-/// A mesh that is large enough to be smoothed in another order of memory, its nodes and cells
-/// numbered anyhow.
+/// A mesh that is large enough for other methods to reorder it, its nodes and cells numbered
+/// anyhow.
 VolumeMesh large_mesh_in_no_order(test::BoxCells kind) {
   VolumeMesh mesh = test::box_mesh(26, 26, 25, kind);
   test::distort(mesh, 0.3, 1);
@@ -468,7 +468,7 @@ VolumeMesh large_mesh_in_no_order(test::BoxCells kind) {
   return {mesh.topology().reordered(nodes, shuffled(mesh.n_cells(), 2)), std::move(coordinates)};
 }
 
-TEST(Loop, SweepsFollowTheMeshsOwnOrderWhereverNodesAreInMemory) {
+TEST(Loop, SweepsFollowTheMeshsOwnOrder) {
   for (const auto kind : {test::BoxCells::tetrahedra, test::BoxCells::hexahedra})
     for (const std::string name : {"laplace", "weighted-laplace"}) {
       SCOPED_TRACE(name);
@@ -482,33 +482,6 @@ TEST(Loop, SweepsFollowTheMeshsOwnOrderWhereverNodesAreInMemory) {
       smooth(mesh, method);
       EXPECT_EQ(mesh.copied_coordinates(), alone.mesh.copied_coordinates());
     }
-}
-
-TEST(Topology, ReorderedForMemoryOnlyKeepsTheOrderOfBefore) {
-  const VolumeMesh mesh = test::box_mesh(3, 4, 2, test::BoxCells::tetrahedra);
-  const Topology& old = mesh.topology();
-  std::vector<NodeIndex> nodes(old.n_nodes());
-  std::vector<CellIndex> cells(old.n_cells());
-  std::iota(nodes.rbegin(), nodes.rend(), 0U);  // last one first
-  std::iota(cells.rbegin(), cells.rend(), 0U);
-  const auto reordered = old.reordered(nodes, cells, Topology::NumberOrder::before);
-  const auto last_node = static_cast<NodeIndex>(old.n_nodes() - 1);
-  const auto last_cell = static_cast<CellIndex>(old.n_cells() - 1);
-  const auto turned = [](auto rows, std::uint32_t last) {
-    std::vector<std::uint32_t> numbers(rows.begin(), rows.end());
-    for (auto& number : numbers) number = last - number;
-    return numbers;
-  };
-  EXPECT_EQ(turned(reordered->free_nodes(), last_node), old.free_nodes());
-  for (NodeIndex i = 0; i <= last_node; ++i) {
-    const auto as_it_was = [](auto row) {
-      return std::vector<std::uint32_t>(row.begin(), row.end());
-    };
-    EXPECT_EQ(turned(reordered->node_cells(last_node - i), last_cell),
-              as_it_was(old.node_cells(i)));
-    EXPECT_EQ(turned(reordered->node_neighbours(last_node - i), last_node),
-              as_it_was(old.node_neighbours(i)));
-  }
 }
 
 }  // namespace

@@ -6,15 +6,12 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
-#include "meshes/io/vtu_series.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/preset.h"
-#include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "studies/cli/commands.h"
-#include "studies/cli/smooth_arguments.h"
+#include "studies/cli/smooth_report.h"
 #include "studies/cli/standard_streams.h"
-#include "studies/framework/results/results.h"
 
 namespace smoothfem {
 
@@ -65,76 +62,10 @@ Mesh<dim, spacedim> with_rule(Mesh<dim, spacedim> mesh, const std::string& rule)
   return with_fixed_nodes(std::move(mesh), std::move(fixed));
 }
 
-void print_row(const char* when, const MeshQuality& q) {
-  std::printf("%-8s %9.4f %9.4f %9.4f %9zu\n", when, q.q_min, q.q_star_min, q.q_mean, q.n_invalid);
-}
-
-/// What the observer keeps: rows for the log, and meshes for the series as they come.
-class Recorder {
- public:
-  explicit Recorder(const SmoothArguments& arguments) : arguments_(arguments) {
-    if (!arguments.series.empty()) series_.emplace(arguments.series);
-  }
-
-  template <int dim, int spacedim>
-  void observe(const IterationRecord& record, const Mesh<dim, spacedim>& mesh) {
-    rows_.push_back({.mesh = std::filesystem::path(arguments_.in).stem().string(),
-                     .method = arguments_.method,
-                     .iteration = record,
-                     .degree = 0,
-                     .solved = {},
-                     .status = record.quality.n_invalid > 0 ? "invalid mesh" : "not solved"});
-    if (!series_) return;
-    MeshFields fields;
-    fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
-    series_->add(static_cast<double>(record.record), mesh, fields);
-  }
-  bool records() const { return series_ || !arguments_.log.empty(); }
-  void write_log() const {
-    if (!arguments_.log.empty()) write_atomically(arguments_.log, iterations_csv("smooth", rows_));
-  }
-
- private:
-  const SmoothArguments& arguments_;
-  std::optional<VtuSeries> series_;
-  std::vector<IterationRow> rows_;
-};
-
 struct Outcome {
   std::string method_title;
   SmoothingResult smoothing;
 };
-
-/// Why each stage ended, and what a user should know of its last iteration.
-void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
-  for (const auto& stage : result.stages) {
-    std::printf("%s stopped after %zu: %s\n", stage.name.c_str(), stage.iterations,
-                stage.why_stopped.c_str());
-    const bool many = 20 * stage.n_last_reset > n_free_nodes;
-    if (many)
-      std::printf(
-          "  in its last iteration %zu of %zu free nodes were put back, as cells around "
-          "them became invalid\n",
-          stage.n_last_reset, n_free_nodes);
-  }
-  if (result.result_record == 0)
-    std::printf("the result is the initial mesh: no iteration has made a better one\n");
-}
-
-/// Methods without quality control may leave invalid cells.
-template <int dim, int spacedim>
-void look_at_invalid_cells(const SmoothArguments& arguments, const Mesh<dim, spacedim>& mesh,
-                           const MeshQuality& quality) {
-  if (quality.n_invalid == 0) return;
-  const std::string what = std::to_string(quality.n_invalid) + " of " +
-                           std::to_string(mesh.n_cells()) +
-                           " cells of the smoothed mesh are invalid";
-  const std::string method = "take a method that keeps cells valid, such as smart-laplace or getme";
-  if (arguments.fail_if_invalid)
-    throw InputError(what + ", so " + arguments.out + " is not written; " + method);
-  std::fprintf(stderr, "smoothfem: warning: %s; %s, and --fail-if-invalid to make it an error\n",
-               what.c_str(), method.c_str());
-}
 
 /// What the command writes must not take the place of its meshes.
 void require_different_files(const SmoothArguments& arguments) {
@@ -182,7 +113,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   Recorder recorder(arguments);
   const Outcome outcome =
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
-  look_at_invalid_cells(arguments, mesh, outcome.smoothing.quality);
+  look_at_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Files do not say that a boundary is one to slide on: its nodes are fixed there.
@@ -195,8 +126,8 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   recorder.write_log();
   if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
-  print_row("before", before);
-  print_row("after", outcome.smoothing.quality);
+  print_quality("before", before);
+  print_quality("after", outcome.smoothing.quality);
   std::printf(
       "%s: %s iterations in %.4g s, and %.4g s of preparation, on %d threads; written to %s\n",
       outcome.method_title.c_str(), outcome.smoothing.iterations_text().c_str(),

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "smoothing/loop/smoother.h"
+
+namespace smoothfem {
+
+/// Remembers the best mesh a stage has met, by the number its traits name.
+template <int spacedim>
+class BestMesh {
+ public:
+  BestMesh(ResultMesh rule, std::span<const Point<spacedim>> coordinates,
+           const MeshQuality& quality, double score)
+      : rule_(rule) {
+    if (rule_ == ResultMesh::last) return;
+    best_ = number(quality, score);
+    coordinates_.assign(coordinates.begin(), coordinates.end());
+  }
+
+  /// True if this mesh, which the step has just reached, is the new best.
+  bool offer(std::span<const Point<spacedim>> coordinates, const MeshQuality& quality,
+             const StepReport& report) {
+    if (rule_ == ResultMesh::last) return false;
+    if (report.moved)
+      moved_since_best_.insert(moved_since_best_.end(), report.moved->begin(), report.moved->end());
+    else
+      all_moved_ = true;
+    if (quality.n_invalid > 0 || !(number(quality, report.score) > best_)) return false;
+    best_ = number(quality, report.score);
+    if (all_moved_)
+      std::copy(coordinates.begin(), coordinates.end(), coordinates_.begin());
+    else
+      for (const NodeIndex i : moved_since_best_) coordinates_[i] = coordinates[i];
+    moved_since_best_.clear();
+    all_moved_ = false;
+    return true;
+  }
+
+  /// Puts the best mesh in place of the last one.
+  template <class AnyMesh>
+  void restore(AnyMesh& mesh) {
+    if (rule_ != ResultMesh::last) mesh.swap_coordinates(coordinates_);
+  }
+
+ private:
+  double number(const MeshQuality& quality, double score) const {
+    if (rule_ == ResultMesh::best_score) return score;
+    return rule_ == ResultMesh::best_q_mean ? quality.q_mean : quality.q_star_min;
+  }
+
+  ResultMesh rule_;
+  double best_ = 0.0;
+  std::vector<Point<spacedim>> coordinates_;
+  std::vector<NodeIndex> moved_since_best_;
+  bool all_moved_ = false;
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/loop/stage_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace smoothfem {
+
+namespace {
+
+std::string number_text(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+std::string iterations_text(int n) {
+  return n == 1 ? "an iteration" : std::to_string(n) + " iterations";
+}
+
+}  // namespace
+
+StageHistory::StageHistory(const MeshQuality& initial)
+    : present_(initial),
+      q_min_(initial.q_min),
+      q_star_min_(initial.q_star_min),
+      q_mean_(initial.q_mean) {}
+
+void StageHistory::add(const MeshQuality& quality, bool is_best) {
+  n_without_best_ = is_best ? 0 : n_without_best_ + 1;
+  const bool gain = quality.q_min > q_min_ || quality.q_mean > q_mean_;
+  n_without_gain_ = gain ? 0 : n_without_gain_ + 1;
+  q_min_ = std::max(q_min_, quality.q_min);
+  q_star_min_ = std::max(q_star_min_, quality.q_star_min);
+  q_mean_ = std::max(q_mean_, quality.q_mean);
+  q_mean_gain_ = quality.q_mean - present_.q_mean;
+  present_ = quality;
+}
+
+std::optional<std::string> StageHistory::why_stop(const StoppingRule& rule,
+                                                  const StepReport& report,
+                                                  double initial_q_star_min,
+                                                  double mean_edge_length) {
+  using enum StoppingRule::Criterion;
+  switch (rule.criterion) {
+    case q_mean_gain:
+      if (q_mean_gain_ > rule.tolerance) return std::nullopt;
+      return "q_mean rose by no more than the tolerance " + number_text(rule.tolerance);
+    case q_mean_change:
+      if (std::abs(q_mean_gain_) <= rule.tolerance)
+        return "q_mean changed by no more than the tolerance " + number_text(rule.tolerance);
+      if (n_without_gain_ < rule.patience) return std::nullopt;
+      return "neither q_min nor q_mean was better than ever before in " +
+             iterations_text(rule.patience);
+    case max_displacement:
+      if (!(report.max_displacement < rule.tolerance * mean_edge_length)) return std::nullopt;
+      return "no node moved farther than " + number_text(rule.tolerance) + " mean edge lengths";
+    case result_stall: {
+      const int patience = rule.patience_at(q_star_min_, initial_q_star_min);
+      if (n_without_best_ >= patience)
+        return "there was no better mesh in " + iterations_text(patience) +
+               below_start_text(rule, patience);
+      has_gone_on_ = has_gone_on_ || n_without_best_ >= rule.patience;
+      [[fallthrough]];
+    }
+    case step_says_so:
+      if (!report.converged) return std::nullopt;
+      return "it converged";
+  }
+  return std::nullopt;
+}
+
+/// What patience_below_start, which is ours, has done.
+std::string StageHistory::below_start_text(const StoppingRule& rule, int patience) const {
+  const std::string ours = " (patience_below_start, which the thesis does not have)";
+  if (patience > rule.patience)
+    return ", " + std::to_string(rule.patience_below_start) +
+           " times its patience, as q*_min is below that of the start" + ours;
+  if (has_gone_on_) return ", after more of them while q*_min was below that of the start" + ours;
+  return "";
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "meshes/io/vtu_series.h"
+#include "smoothing/loop/smooth.h"
+#include "studies/cli/smooth_arguments.h"
+#include "studies/framework/results/results.h"
+
+namespace smoothfem {
+
+/// What the observer keeps: rows for the log, and meshes for the series as they come.
+class Recorder {
+ public:
+  explicit Recorder(const SmoothArguments& arguments) : arguments_(arguments) {
+    if (!arguments.series.empty()) series_.emplace(arguments.series);
+  }
+
+  template <int dim, int spacedim>
+  void observe(const IterationRecord& record, const Mesh<dim, spacedim>& mesh) {
+    rows_.push_back({.mesh = std::filesystem::path(arguments_.in).stem().string(),
+                     .method = arguments_.method,
+                     .iteration = record,
+                     .degree = 0,
+                     .solved = {},
+                     .status = record.quality.n_invalid > 0 ? "invalid mesh" : "not solved"});
+    if (!series_) return;
+    MeshFields fields;
+    fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
+    series_->add(static_cast<double>(record.record), mesh, fields);
+  }
+  bool records() const { return series_ || !arguments_.log.empty(); }
+  void write_log() const;
+
+ private:
+  const SmoothArguments& arguments_;
+  std::optional<VtuSeries> series_;
+  std::vector<IterationRow> rows_;
+};
+
+/// Prints a line of the table of qualities.
+void print_quality(const char* when, const MeshQuality& quality);
+
+/// Prints why each stage ended, and what a user should know of its last iteration.
+void print_stages(const SmoothingResult& result, std::size_t n_free_nodes);
+
+/// Warns if a method without quality control has left invalid cells. Throws InputError instead if
+/// --fail-if-invalid asks for it.
+void look_at_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,
+                           std::size_t n_cells);
+
+}  // namespace smoothfem
