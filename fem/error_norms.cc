@@ -77,9 +77,10 @@ struct Errors {
   }
 
   template <std::size_t n_dofs, std::size_t n_vertices>
-  SquareSums of_cell(const ElementCells& group, std::size_t cell, std::size_t level) const {
+  SquareSums of_cell(const ElementCells& group, std::size_t cell,
+                     const QuadratureTable& table) const {
     SquareSums sums;
-    add_cell<n_dofs, n_vertices>(group, cell, group.element.rule(level), sums);
+    add_cell<n_dofs, n_vertices>(group, cell, table, sums);
     return sums;
   }
 };
@@ -110,7 +111,8 @@ void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
       errors.space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
         if (group.element.n_rules() == 1) return;
         for (std::size_t cell = 0; cell < group.n_own; ++cell) {
-          of_cells.push_back(errors.template of_cell<n_dofs, n_vertices>(group, cell, 0));
+          of_cells.push_back(
+              errors.template of_cell<n_dofs, n_vertices>(group, cell, group.element.rule(0)));
           mean.add(of_cells.back());
         }
       });
@@ -124,10 +126,13 @@ void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
         if (group.element.n_rules() == 1) return;
         for (std::size_t cell = 0; cell < group.n_own; ++cell) {
           SquareSums sums = *next++;
-          bool is_settled = false;
+          bool is_settled =
+              is_near(errors.template of_cell<n_dofs, n_vertices>(group, cell, group.element.check),
+                      sums, mean, chosen_points::check_tolerance);
           std::size_t level = 0;
           while (!is_settled && level + 1 < group.element.n_rules()) {
-            const auto finer = errors.template of_cell<n_dofs, n_vertices>(group, cell, ++level);
+            const auto finer = errors.template of_cell<n_dofs, n_vertices>(
+                group, cell, group.element.rule(++level));
             is_settled = is_near(sums, finer, mean,
                                  chosen_points::tolerance_at(level, group.element.n_rules()));
             sums = finer;

@@ -117,9 +117,11 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
     const bool is_chosen = n_tensor_points == 0;
     reference.matrices = table(is_chosen ? chosen_points::ladder.front() : n_tensor_points);
     reference.errors = reference.matrices;
-    if (is_chosen)
+    if (is_chosen) {
+      reference.check = table(chosen_points::check_points);
       for (std::size_t level = 1; level < chosen_points::ladder.size(); ++level)
         reference.finer.push_back(table(chosen_points::ladder[level]));
+    }
   }
   return reference;
 }

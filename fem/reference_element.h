@@ -39,6 +39,7 @@ struct ReferenceElement {
   /// Rules for both with more and more points, for cells that need them (chosen_points.h); empty:
   /// one rule is for all cells.
   std::vector<QuadratureTable> finer{};
+  QuadratureTable check{};  ///< where there are finer ones: a coarser rule, to judge the first by
 
   std::size_t n_rules() const { return 1 + finer.size(); }
   /// In the order of their points; only 0 for simplices.

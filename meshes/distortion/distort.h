@@ -25,8 +25,7 @@ enum class DistortionKind {
   worst_candidate,
   /// A random step from where it is at present, shortened until all its cells are valid; in several
   /// sweeps nodes walk away from the given mesh, and neighbours together. So the published
-  /// distorted
-  /// gears look: beside the same meshes smoothed and distorted anew to the same q_mean, more of
+  /// distorted gears look: beside the same meshes smoothed and distorted anew to the same q_mean, more of
   /// their cells are all but flat than the worst candidates leave, and displacements of neighbours
   /// correlate.
   random_steps,
@@ -60,10 +59,9 @@ struct DistortionResult {
 /// Node after node moves, n_sweeps times. Worst candidate: to that of n_candidates random points in
 /// a ball around its original position that keep all its cells valid, which has the worst mean
 /// quality of these cells; a node for which no such point turns up stays. Random steps: by a random
-/// vector in a ball, times .8 until all its cells are valid,
-/// and not after 60 trials. The ball's radius, relative to the
-/// mean length of the node's edges in the original mesh, is found by bisection; every radius sees
-/// the same random numbers.
+/// vector in a ball, times .8 until all its cells are valid, and not after 60 trials. The ball's
+/// radius, relative to the mean length of the node's edges in the original mesh, is found by
+/// bisection; every radius sees the same random numbers.
 /// Hexahedra keep a positive Jacobian inside, too (has_positive_mapping), because finite elements
 /// need it. On surface meshes the points in the ball are projected onto the surface or feature line
 /// first. The result is valid and depends only on mesh and parameters, not on machine and threads.
