@@ -85,9 +85,10 @@ TEST_P(EveryFormat, TargetsThatCannotBeWrittenAreNamed) {
 
 TEST_P(EveryFormat, AFullDiskIsNamedAndKeepsTheOldFile) {
   const auto path = file_with(target("a").filename(), "old");
+  const PlanarMesh mesh = mixed_mesh(false);  // clang's OpenMP begins with a file of its own
   const std::string message = [&] {
     const FullDisk disk(200);
-    return input_error_of([&] { write_mesh(path, mixed_mesh(false)); });
+    return input_error_of([&] { write_mesh(path, mesh); });
   }();
   EXPECT_THAT(message, ::testing::StartsWith("cannot write " + path.string() + ": "));
   EXPECT_EQ(content_of(path), "old");
