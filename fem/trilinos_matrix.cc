@@ -36,6 +36,7 @@ struct TrilinosMatrix::Trilinos {
  private:
   Epetra_CrsGraph graph_of(const SparseMatrix& pattern) const {
     std::vector<int> lengths;
+    lengths.reserve(static_cast<std::size_t>(pattern.rows()));
     const int* starts = pattern.outerIndexPtr();
     for (int i = 0; i < pattern.rows(); ++i) lengths.push_back(starts[i + 1] - starts[i]);
     Epetra_CrsGraph graph(Copy, rows, columns, lengths.data(), true);

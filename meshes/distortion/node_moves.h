@@ -111,13 +111,13 @@ class NodeMoves {
   /// From where the node is by a random vector, shortened until its cells are valid.
   Point<spacedim> stepped(NodeIndex node, int sweep, double radius) {
     Point<spacedim>& x = mesh_.coordinates()[node];
-    const Point<spacedim> present = x;
+    Point<spacedim> present = x;
     SplitMix64 random = random_for(node, sweep);
     Point<spacedim> step = radius * edge_length_[node] * point_in_unit_ball<spacedim>(random);
     for (int i = 0; i < most_shortenings; ++i, step *= step_shortening) {
       x = allowed_position<dim, spacedim>(mesh_, node, present + step);
       if (!(quality_around(node) > 0.0)) continue;
-      const Point<spacedim> there = x;
+      Point<spacedim> there = x;
       x = present;
       return there;
     }

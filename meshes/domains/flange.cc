@@ -34,6 +34,7 @@ Point<2> point_on(const Circle& circle, int i, int n) {
 
 std::vector<Circle> bolt_holes() {
   std::vector<Circle> holes;
+  holes.reserve(Shape::n_bolts);
   const Circle bolt_circle{Point<2>::Zero(), Shape::bolt_circle_radius};
   for (int i = 0; i < Shape::n_bolts; ++i)
     holes.push_back({point_on(bolt_circle, i, Shape::n_bolts), Shape::bolt_radius});
@@ -182,7 +183,7 @@ VolumeCells hexahedra(double edge_scale) {
   const double length = std::min(edge_scale * edge_length, longest);
   NearestCount nearest(n_cells / (edge_scale * edge_scale * edge_scale));
   for (int i = 0; i < most_tries && !nearest.is_close(); ++i) {
-    const double change = 0.01 * ((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0);
+    const double change = 0.01 * static_cast<double>((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0);
     nearest.offer(swept(footprint((1.0 + change) * length), nearest.n_wanted()));
   }
   return nearest.take();

@@ -189,8 +189,8 @@ GearParameters gear_of_the_thesis(ElementType type, double edge_scale) {
   require_edge_scale("gear", edge_scale, 10);
   GearParameters p;
   p.element_type = type;
-  p.n_boundary_edges =
-      2 * static_cast<std::size_t>(static_cast<double>(p.n_boundary_edges / 2) / edge_scale);
+  const std::size_t n_pairs = p.n_boundary_edges / 2;
+  p.n_boundary_edges = 2 * static_cast<std::size_t>(static_cast<double>(n_pairs) / edge_scale);
   const double n_cells = type == ElementType::quadrilateral ? 6229.0 : 14346.0;
   p.n_cells = static_cast<std::size_t>(n_cells / (edge_scale * edge_scale));
   return p;
