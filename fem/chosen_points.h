@@ -23,8 +23,9 @@ inline constexpr double tolerance = 1e-4;
 inline constexpr double last_tolerance = 2e-3;
 
 /// A look back, which costs less than one ahead: the first rule is enough for a cell's share of the
-/// errors if a rule of `check_points` changes it by no more than `check_tolerance`. By the rho^(-2
-/// n) above, the first rule's error is then no more than its power 4/3, which is `tolerance`.
+/// errors if a rule of `check_points` changes it by no more than `check_tolerance`. As errors fall
+/// like rho^(-2 n), that of the first rule is then no more than its power 4/3, which is
+/// `tolerance`.
 inline constexpr int check_points = 3;
 inline constexpr double check_tolerance = 1e-3;
 

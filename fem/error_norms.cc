@@ -125,14 +125,15 @@ void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
       errors.space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
         if (group.element.n_rules() == 1) return;
         for (std::size_t cell = 0; cell < group.n_own; ++cell) {
+          const auto sums_by = [&](const QuadratureTable& table) {
+            return errors.template of_cell<n_dofs, n_vertices>(group, cell, table);
+          };
           SquareSums sums = *next++;
           bool is_settled =
-              is_near(errors.template of_cell<n_dofs, n_vertices>(group, cell, group.element.check),
-                      sums, mean, chosen_points::check_tolerance);
+              is_near(sums_by(group.element.check), sums, mean, chosen_points::check_tolerance);
           std::size_t level = 0;
           while (!is_settled && level + 1 < group.element.n_rules()) {
-            const auto finer = errors.template of_cell<n_dofs, n_vertices>(
-                group, cell, group.element.rule(++level));
+            const SquareSums finer = sums_by(group.element.rule(++level));
             is_settled = is_near(sums, finer, mean,
                                  chosen_points::tolerance_at(level, group.element.n_rules()));
             sums = finer;

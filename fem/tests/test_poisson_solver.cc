@@ -295,7 +295,7 @@ TEST(PoissonSolver, ChosenGaussPointsAgreeWithTwentyADirectionOnHexahedra) {
         const auto chosen = solve(0), four = solve(4), twenty = solve(20);
         EXPECT_EQ(chosen.status, "ok");
         EXPECT_EQ(four.most_points, 0) << "they are given";
-        EXPECT_GE(chosen.most_points, 4) << "they are chosen";
+        EXPECT_GE(chosen.most_points, 6) << "some cell needs more than the first rule";
         double change_of_four = 0.0;
         for (const auto number :
              {&SolutionRecord::condition_number, &SolutionRecord::lambda_min,

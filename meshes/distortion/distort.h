@@ -26,9 +26,8 @@ enum class DistortionKind {
   /// A random step from where it is at present, shortened until all its cells are valid; in several
   /// sweeps nodes walk away from the given mesh, and neighbours together. So the published
   /// distorted gears look: beside the same meshes smoothed and distorted anew to the same q_mean,
-  /// more of
-  /// their cells are all but flat than the worst candidates leave, and displacements of neighbours
-  /// correlate.
+  /// more of their cells are all but flat than the worst candidates leave, and displacements of
+  /// neighbours correlate.
   random_steps,
 };
 
