@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/reference_element.h"
 
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -13,6 +14,15 @@
 namespace smoothfem {
 
 namespace {
+
+/// deal.II would start as many threads as the machine has, for tables that take no time, whatever
+/// --threads says. What runs in parallel here does so on threads of our own.
+void keep_deal_ii_on_this_thread() {
+  [[maybe_unused]] static const bool once = [] {
+    dealii::MultithreadInfo::set_thread_limit(1);
+    return true;
+  }();
+}
 
 bool is_simplex(ElementType type) {
   return type == ElementType::triangle || type == ElementType::tetrahedron;
@@ -129,6 +139,7 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
 }  // namespace
 
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points) {
+  keep_deal_ii_on_this_thread();
   return dimension_of(type) == 2 ? make_element<2>(type, degree, n_tensor_points)
                                  : make_element<3>(type, degree, n_tensor_points);
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "fem/assembly.h"
@@ -251,6 +252,17 @@ TEST_P(PoissonSolverTest, LimitsAreAStatusNotASilentCut) {
     EXPECT_EQ(stopped.cg_iterations, 1U);
     EXPECT_EQ(stopped.status, "CG stopped at its limit of time");
   });
+}
+
+TEST(PoissonSolver, StartsNoThreadsUnasked) {
+  const auto threads = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+  };
+  const auto mesh = unit_square(8, Cells::quadrilaterals, 0.1);
+  const auto before = threads();
+  PoissonSolver<2>(&mesh, {.degree = 2})
+      .solve(mesh.coordinates(), manufactured_solution<2>("quadratic"));
+  EXPECT_EQ(threads(), before);
 }
 
 TEST(PoissonSolver, SquareOfFourQuadrilateralsByHand) {

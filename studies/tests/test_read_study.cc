@@ -209,7 +209,8 @@ TEST_F(StudyFile, UnknownKeysAndSubsectionsAreFoundWithTheirLine) {
   expect_error_at(4, "set meshes = a\nsubsection mesh a\n set file = a.mesh\n set fil = b\nend\n",
                   "fil");
   expect_error_at(5, one_mesh + "subsection solutions\n set name = gear\nend\n", "solutions");
-  expect_error_at(5, one_mesh + "subsection mesh b\n set file = b.mesh\nend\n", "mesh b");
+  expect_error_at(5, one_mesh + "subsection mesh b\n set file = b.mesh\nend\n",
+                  "'set meshes' does not name 'b'");
   expect_error_at(7,
                   one_mesh +
                       "set methods = laplace\nsubsection method laplace\n"
@@ -219,6 +220,10 @@ TEST_F(StudyFile, UnknownKeysAndSubsectionsAreFoundWithTheirLine) {
 
 TEST_F(StudyFile, BadValuesAreFoundWithTheirLine) {
   expect_error_at(5, one_mesh + "set record every = often\n", "often");
+  expect_error_at(5, one_mesh + "subsection mesh gear-of-mine\nend\n",
+                  "'set meshes' does not name 'gear-of-mine', which has a subsection here; add it");
+  expect_error_at(5, one_mesh + "subsection method getme-of-mine\nend\n",
+                  "'set methods' does not name 'getme-of-mine'");
   expect_error_at(5, one_mesh + "set record every = 0\n", "record every");
   expect_error_at(5, one_mesh + "set edge scale = 0.5\n", "0.5");
   expect_error_at(5, one_mesh + "set write series = maybe\n", "maybe");

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "meshes/distortion/distort.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/run_study.h"
@@ -327,6 +328,42 @@ TEST_F(RunStudy, PublishedMeshesAreTakenAsTheyAre) {
   EXPECT_EQ(json.at("meshes").at(0).at("published"), true);
   EXPECT_EQ(json.at("meshes").at(0).at("n_cells"), 16);
   EXPECT_EQ(json.at("meshes").at(0).at("q_mean"), mesh_quality(shaken_grid(4, 0.1)).q_mean);
+}
+
+TEST_F(RunStudy, DistortsAsTheStudySays) {
+  const fs::path out = run(read_study(file_with("distorted.prm", R"(
+set meshes = steps, within
+set methods = laplace
+set degrees =
+set timing runs = 1
+subsection mesh steps
+  set file = grid.mesh
+  set distort to = 0.6
+  set distortion = random-steps
+  set distortion sweeps = 3
+  set distortion least quality = 0.2
+  set seed = 4
+end
+subsection mesh within
+  set file = grid.mesh
+  set distort within = 0.5
+  set distortion candidates = 3
+  set distortion least quality = 0.3
+end
+)")));
+  PlanarMesh steps = shaken_grid(5, 0.2), within = steps;
+  distort(steps, {.target_q_mean = 0.6,
+                  .seed = 4,
+                  .kind = DistortionKind::random_steps,
+                  .n_sweeps = 3,
+                  .least_quality = 0.2});
+  distort_within(within, 0.5, {.n_candidates = 3, .least_quality = 0.3});
+  const auto written = [&](const char* name) {
+    return std::get<PlanarMesh>(
+        read_mesh(out / "meshes" / (std::string(name) + "_initial.mesh")).mesh);
+  };
+  EXPECT_EQ(written("steps").copied_coordinates(), steps.copied_coordinates());
+  EXPECT_EQ(written("within").copied_coordinates(), within.copied_coordinates());
 }
 
 TEST_F(RunStudy, GeneratesDistortsAndSmoothsAGear) {

@@ -42,6 +42,19 @@ std::string no_such(const std::string& what, const std::string& wanted,
          "'smoothfem list --study-keys' shows the keys there are";
 }
 
+/// Subsections of meshes and methods are there for those that the study names.
+std::string no_such_subsection(const std::string& wanted, const std::vector<std::string>& names) {
+  for (const auto& [kind, list] : {std::pair{"mesh ", "meshes"}, {"method ", "methods"}}) {
+    if (!wanted.starts_with(kind)) continue;
+    const std::string nearest = nearest_name(wanted, names);
+    return "'set " + std::string(list) + "' does not name '" +
+           wanted.substr(std::string(kind).size()) + "', which has a subsection here; " +
+           (nearest.empty() ? "" : "did you mean '" + nearest + "'? if not, ") +
+           "add it to the list, or take the subsection out";
+  }
+  return no_such("subsection", wanted, names);
+}
+
 /// "from 1 to 20", "of at least 0" or nothing, from deal.II's bounds.
 std::string bounds_text(const std::string& lower, const std::string& upper) {
   const bool bounded_above = upper != "MAX_DOUBLE" && upper != "2147483647";
@@ -82,7 +95,7 @@ std::string in_our_words(const std::string& reason, const std::vector<std::strin
   if (matches("No entry with name <(.*)> was declared in the current subsection", match))
     return no_such("key", match[1], names_in(keys, false));
   if (matches("There is no such subsection to be entered: (.*)", match))
-    return no_such("subsection", match[1], names_in(keys, true));
+    return no_such_subsection(match[1], names_in(keys, true));
   if (matches(
           "The entry value (.*) for the entry named (.*) does not match the given pattern: (.*)",
           match))
