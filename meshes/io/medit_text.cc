@@ -147,6 +147,11 @@ class MeditReader {
     }
   }
 
+  void require_vertices(std::string_view section) const {
+    if (parts_.coordinates.empty())
+      reader_.fail("the section " + std::string(section) + " stands before Vertices");
+  }
+
   NodeIndex node() {
     const std::uint64_t number = integer("the node", parts_.coordinates.size() + 1);
     if (number == 0) reader_.fail("the node is 0, but nodes are counted from 1");
@@ -155,8 +160,7 @@ class MeditReader {
 
   void read_elements(const Section& section) {
     const std::size_t n = count(section.keyword);
-    if (parts_.coordinates.empty())
-      reader_.fail("the section " + std::string(section.keyword) + " stands before Vertices");
+    require_vertices(section.keyword);
     ElementList& elements = parts_.elements[section.dimension];
     std::array<NodeIndex, 8> nodes{};
     for (std::size_t e = 0; e < n; ++e) {
@@ -176,7 +180,8 @@ class MeditReader {
   }
 
   void read_required() {
-    parts_.fixed.emplace(parts_.coordinates.size(), false);
+    require_vertices("RequiredVertices");
+    if (!parts_.fixed) parts_.fixed.emplace(parts_.coordinates.size(), false);
     parts_.boundary_is_fixed_too = true;
     for (std::size_t n = count("RequiredVertices"); n > 0; --n) (*parts_.fixed)[node()] = true;
   }

@@ -70,6 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadText{"medit", "MeshVersionFormatted 1\nVertices\n", 2,
                 "the section Vertices stands before the dimension"},
+        BadText{"medit_required", "MeshVersionFormatted 2\nDimension 2\nRequiredVertices 1\n1\n", 3,
+                "the section RequiredVertices stands before Vertices"},
         BadText{"binary", std::string("\x7f\0ELF\1\n", 7), 1, "no mesh file of a known kind"},
         BadText{"title_only", title, 1, "ends before the section 'nodes'"},
         BadText{"junk_after_title", "planar_polygonal_mesh 2\n", 1, "unexpected '2'"},
