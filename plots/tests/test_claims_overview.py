@@ -30,8 +30,10 @@ class Overview(unittest.TestCase):
         self.assertEqual(sorted(o.claim["id"] for o in outcomes), sorted(c["id"] for c in claims))
         for outcome in outcomes:
             row, = [line for line in self.made.splitlines() if line.startswith(f"| {outcome.claim['id']} |")]
-            ending = {HOLDS: "| holds |", FAILS: "| **does not hold** |"}
-            self.assertTrue(row.endswith(ending.get(outcome.verdict, "| **cannot be checked** |")), row)
+            verdict = {HOLDS: "holds", FAILS: "**does not hold**"}.get(outcome.verdict, "**cannot be checked**")
+            shown, seeds = re.fullmatch(r".* \| ([^|(]*?)( \(holds for \d+ of \d+ seeds\))? \|", row).groups()
+            self.assertEqual(shown, verdict, row)
+            self.assertEqual(seeds is not None, bool(outcome.seeds), row)
 
     def test_totals(self):
         first = [o for study in self.studies for o in study.outcomes if "beside" not in o.claim]
