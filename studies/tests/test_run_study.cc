@@ -326,6 +326,7 @@ TEST_F(RunStudy, PublishedMeshesAreTakenAsTheyAre) {
   run_study(with_published, {.out = file("out"), .mesh_dir = file("published"), .quiet = true});
   const auto json = nlohmann::json::parse(content_of(file("out") / "provenance.json"));
   EXPECT_EQ(json.at("meshes").at(0).at("published"), true);
+  EXPECT_EQ(json.at("meshes").at(0).at("origin"), "p.mesh");
   EXPECT_EQ(json.at("meshes").at(0).at("n_cells"), 16);
   EXPECT_EQ(json.at("meshes").at(0).at("q_mean"), mesh_quality(shaken_grid(4, 0.1)).q_mean);
 }

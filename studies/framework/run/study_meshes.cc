@@ -39,7 +39,10 @@ struct Source {
   std::string generated{};   ///< the domain and its elements
   std::string distortion{};  ///< empty: as it is
 
-  std::string origin() const { return (file.empty() ? generated : file.string()) + distortion; }
+  /// A published mesh is known by its name; which folder it was found in is the machine's affair.
+  std::string origin() const {
+    return file.empty() || published ? setting() : file.string() + distortion;
+  }
   std::string setting() const {
     return (file.empty() ? generated : file.filename().string()) + distortion;
   }
