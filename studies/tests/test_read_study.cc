@@ -220,10 +220,6 @@ TEST_F(StudyFile, UnknownKeysAndSubsectionsAreFoundWithTheirLine) {
 
 TEST_F(StudyFile, BadValuesAreFoundWithTheirLine) {
   expect_error_at(5, one_mesh + "set record every = often\n", "often");
-  expect_error_at(5, one_mesh + "subsection mesh gear-of-mine\nend\n",
-                  "'set meshes' does not name 'gear-of-mine', which has a subsection here; add it");
-  expect_error_at(5, one_mesh + "subsection method getme-of-mine\nend\n",
-                  "'set methods' does not name 'getme-of-mine'");
   expect_error_at(5, one_mesh + "set record every = 0\n", "record every");
   expect_error_at(5, one_mesh + "set edge scale = 0.5\n", "0.5");
   expect_error_at(5, one_mesh + "set write series = maybe\n", "maybe");
@@ -239,6 +235,10 @@ TEST_F(StudyFile, MessagesSayWhatWouldBeRight) {
   expect_error_at(5, one_mesh + "set degree = 1\n",
                   "there is no key 'degree' here; did you mean 'degrees'?");
   expect_error_at(5, one_mesh + "subsection solutions\nend\n", "did you mean 'solution'?");
+  expect_error_at(5, one_mesh + "subsection mesh gear-of-mine\nend\n",
+                  "'set meshes' does not name 'gear-of-mine', which has a subsection here; add it");
+  expect_error_at(5, one_mesh + "subsection method getme-of-mine\nend\n",
+                  "'set methods' does not name 'getme-of-mine'");
   expect_error_at(5, one_mesh + "set record every = 0\n",
                   "record every = 0 is not allowed; it has to be a whole number of at least 1");
   expect_error_at(6, one_mesh + "subsection finite elements\n set cg tolerance = 2\nend\n",
