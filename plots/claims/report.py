@@ -59,13 +59,21 @@ def emphasized(verdict):
     return f"**{verdict}**" if verdict in (FAILS, UNKNOWN) else verdict
 
 
+def of_chance(outcome):
+    """What other seeds say of chance as a reason; nothing where there is one seed."""
+    if not outcome.seeds:
+        return ""
+    verdict = "is not the reason" if outcome.seeds.startswith("0 ") else "decides"
+    return f"Chance {verdict}: it holds for {outcome.seeds}."
+
+
 def known_reasons(outcomes):
     """What is known, and what is guessed, of why claims do not hold: lines below the table."""
     found = {}
     for outcome in outcomes:
         if outcome.verdict == FAILS:
             guess = as_guess(outcome.guess) if outcome.guess else ""
-            reason = " ".join(filter(None, (outcome.note, guess))) or "Reason not known."
+            reason = " ".join(filter(None, (outcome.note, of_chance(outcome), guess))) or "Reason not known."
             found.setdefault(reason, []).append(outcome.claim["id"])
     lines = [f"- {', '.join(ids)}: {escape_markdown(reason)}" for reason, ids in found.items()]
     return ["", "What is known of why claims do not hold, and what is guessed:", "", *lines] if lines else []

@@ -6,7 +6,7 @@ import math
 import re
 
 from plots.__main__ import main
-from plots.claims.check import (COARSE, FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, cases_of, check_claim,
+from plots.claims.check import (COARSE, FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, Outcome, cases_of, check_claim,
                                 check_claims, met_in, number_of, read_claims, verdict_of)
 from plots.claims.expressions import Missing, evaluate
 from plots.claims.report import claims_as_markdown, known_reasons
@@ -236,6 +236,14 @@ class ClaimsOfTheThesis(InFolder):
         self.assertEqual(reasons(note="It is so."), "- X1: It is so.")
         self.assertEqual(reasons(guess="Chance."), "- X1: Guess, tested by no run: Chance.")
         self.assertEqual(reasons(), "- X1: Reason not known.")
+
+    def test_seeds_say_whether_it_is_chance(self):
+        def reasons(seeds):
+            return known_reasons([Outcome({"id": "X1"}, FAILS, "", "", note="It is so.", seeds=seeds)])[-1]
+
+        self.assertEqual(reasons("0 of 3 seeds"), "- X1: It is so. Chance is not the reason: it holds for 0 of 3 seeds.")
+        self.assertEqual(reasons("2 of 5 seeds"), "- X1: It is so. Chance decides: it holds for 2 of 5 seeds.")
+        self.assertEqual(reasons(""), "- X1: It is so.")
 
     def test_what_is_missing_stands_in_the_row(self):
         check = {"quantity": "n_cells('tri', 'getme')", "condition": "value > 0"}
