@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "smoothing/base/find_named.h"
+#include "smoothing/loop/plugin.h"
 #include "studies/framework/definition/check_study.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/seeds.h"
@@ -81,10 +82,10 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 }
 
 StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
-                                const std::string& name) {
+                                const std::string& name, const std::string& type) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name,
-                     .type = p.get("type"),
+                     .type = type,
                      .title = p.get("title"),
                      .threads = static_cast<int>(p.get_integer("threads")),
                      .settings = {}};
@@ -93,7 +94,7 @@ StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
     for (const auto& parameter : defaults.parameters())
       if (p.get(parameter.name) != value_text(parameter))
         method.settings.emplace_back(parameter.name, p.get(parameter.name));
-    (void)method.make<dim, spacedim>();  // throws for values out of range
+    check_parameters(method.make<dim, spacedim>());  // and throws for values out of range
   });
   return method;
 }
@@ -210,6 +211,10 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   parse_study(lists, text, file, true);
   const auto meshes = split_list(lists.get("meshes"));
   const MeshDimensions dimensions = in_file(file, [&] { return read_dimensions(lists); });
+  in_file(file, [&] {
+    for (const std::filesystem::path plugin : split_list(lists.get("plugins")))
+      load_plugin(plugin.is_relative() ? file.parent_path() / plugin : plugin);
+  });
   const auto methods = method_labels(lists.get("methods"), dimensions);
   const auto scales = split_list(lists.get("scales"));
   require_scale(scale, scales, file.string());
@@ -221,6 +226,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   parse_study(types, text, file, true);
 
   ParameterHandler p;
+  std::map<std::string, std::string> type_of;
   declare_lists(p);
   declare_problem(p);
   for (const auto& name : scales) declare_scale(p, name);
@@ -230,13 +236,16 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
     {
       const Subsection subsection(types, "method " + method);
       type = types.get("type");
+      if (type == method && !types.get("command").empty()) type = "command";
     }
     in_file(file, [&] { declare_method(p, dimensions, method, type, lists.get("preset")); });
+    type_of[method] = type;
   }
   parse_study(p, text, file, false);
 
   Study study;
   study.header = read_header(p, file, scale);
+  study.folder = std::filesystem::absolute(file).parent_path();
   study.dimensions = dimensions;
   for (const auto& mesh : meshes_taken(p, meshes, scale, file.string()))
     study.meshes.push_back(
@@ -244,7 +253,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   in_file(file, [&] { study.meshes = for_each_seed(study.meshes, read_seeds(p.get("seeds"))); });
   for (const auto& method : methods)
     study.methods.push_back(
-        in_file(file, [&] { return read_method_section(p, dimensions, method); }));
+        in_file(file, [&] { return read_method_section(p, dimensions, method, type_of[method]); }));
   read_problem(p, file.string(), study);
   in_file(file, [&] { check_study(study); });
   return study;

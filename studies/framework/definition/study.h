@@ -41,12 +41,19 @@ inline bool is_distorted(const StudyMesh& mesh) {
   return mesh.distort_to_q_mean > 0.0 || mesh.distort_within > 0.0;
 }
 
+/// A file that a method comes from, which is not part of this program.
+struct MethodFile {
+  std::string name, sha256;
+};
+
 struct StudyMethod {
   std::string name;                                           ///< label in results
   std::string type;                                           ///< registered method
   std::string title;                                          ///< in tables and figures
   int threads = 0;                                            ///< 0: as StudyOptions says
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
+  std::vector<MethodFile> files{};  ///< programs, scripts, plugins: filled when the study runs
+  std::string version{};            ///< of the program, as it says
 
   /// The method with its settings.
   template <int dim, int spacedim = dim>
@@ -74,6 +81,7 @@ struct RecordEvery {
 /// A study as data: which meshes, which methods, which problem, what to record.
 struct Study {
   StudyHeader header;
+  std::filesystem::path folder{};  ///< of its file: other names are relative to it
   MeshDimensions dimensions;
   std::vector<StudyMesh> meshes;
   std::vector<StudyMethod> methods;

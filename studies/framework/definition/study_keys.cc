@@ -37,6 +37,8 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
     return std::make_unique<Patterns::Selection>(one_of(choice->names));
   if (std::holds_alternative<std::vector<double>*>(parameter.value))
     return std::make_unique<Patterns::List>(Patterns::Double(parameter.lower, parameter.upper), 1);
+  if (std::holds_alternative<std::string*>(parameter.value))
+    return std::make_unique<Patterns::Anything>();
   if (!std::holds_alternative<int*>(parameter.value))
     return std::make_unique<Patterns::Double>(parameter.lower, parameter.upper);
   constexpr double most = std::numeric_limits<int>::max();
@@ -62,6 +64,9 @@ void declare_lists(ParameterHandler& p) {
   p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
   p.declare_entry("surface", "false", Patterns::Bool(),
                   "Whether the meshes, of dimension 2, are surfaces in space; without degrees.");
+  p.declare_entry("plugins", "", Patterns::Anything(),
+                  "Shared libraries with methods of your own, relative to this file, separated by "
+                  "commas.");
   declare_scales(p);
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Labels of the meshes, separated by commas; each has a subsection 'mesh LABEL'.");
@@ -116,7 +121,10 @@ void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::s
                     const std::string& type, const std::string& preset) {
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
-  if (type.empty()) return;
+  if (type.empty()) {  // what says the type where it is not given
+    p.declare_entry("command", "", Patterns::Anything());
+    return;
+  }
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
     auto method = make_method<dim, spacedim>(type);
     declare_method_header(p, name == type ? method.info.title : name);

@@ -94,6 +94,9 @@ Json describe_methods(const RunFacts& facts) {
                          {"threads", entry.threads},
                          {"citation", method.info.source},
                          {"parameters", parameters}});
+      for (const auto& file : entry.files)
+        methods.back()["files"].push_back({{"name", file.name}, {"sha256", file.sha256}});
+      if (!entry.version.empty()) methods.back()["version"] = entry.version;
     }
   });
   return methods;
@@ -152,7 +155,7 @@ std::string provenance_json(const RunFacts& facts) {
   Json parameters;
   for (const auto& [key, value] : facts.study.parameters) parameters[key] = value;
   json["parameters"] = parameters;
-  json["settings"] = settings_of(facts.study, facts.meshes);
+  json["settings"] = settings_of(facts.study, facts.meshes, facts.methods);
   json["sessions"] = describe_sessions(facts);
   json["seconds"] = seconds_of(json["sessions"]);
   return json.dump(2) + "\n";
@@ -180,7 +183,8 @@ EarlierRun read_provenance(const std::filesystem::path& path) {
 }
 
 std::map<std::string, std::string> settings_of(const StudyHeader& study,
-                                               const std::vector<MeshFacts>& meshes) {
+                                               const std::vector<MeshFacts>& meshes,
+                                               const std::vector<StudyMethod>& methods) {
   std::map<std::string, std::string> settings(study.file_parameters.begin(),
                                               study.file_parameters.end());
   settings["--scale"] = study.scale;
@@ -189,6 +193,10 @@ std::map<std::string, std::string> settings_of(const StudyHeader& study,
     if (!mesh.source_sha256.empty())
       settings["content of mesh " + mesh.description.name] = mesh.source_sha256;
   }
+  if (meshes.empty()) return settings;
+  for (const auto& method : methods)
+    for (const auto& file : method.files)
+      settings["content of method " + method.name + ", " + file.name] = file.sha256;
   return settings;
 }
 
