@@ -2,12 +2,14 @@
 #include <algorithm>
 
 #include "smoothing/base/find_named.h"
+#include "smoothing/loop/method_scheme.h"
 #include "studies/framework/definition/check_study.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/seeds.h"
 #include "studies/framework/definition/study.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/definition/study_keys.h"
+#include "studies/framework/results/sha256.h"
 
 namespace smoothfem {
 
@@ -81,15 +83,18 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 }
 
 StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
-                                const std::string& name) {
+                                const std::string& name, const std::filesystem::path& folder) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name,
                      .type = p.get("type"),
                      .title = p.get("title"),
                      .threads = static_cast<int>(p.get_integer("threads")),
-                     .settings = {}};
+                     .settings = {},
+                     .folder = folder};
+  if (const auto in_file = method_in_file(method_name_in(folder, method.type)))
+    method.file_sha256 = sha256_of_file(in_file->file);
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
-    auto defaults = make_method<dim, spacedim>(method.type);
+    auto defaults = method.make<dim, spacedim>();
     for (const auto& parameter : defaults.parameters())
       if (p.get(parameter.name) != value_text(parameter))
         method.settings.emplace_back(parameter.name, p.get(parameter.name));
@@ -189,11 +194,18 @@ MeshDimensions read_dimensions(ParameterHandler& p) {
   return {cells, 3};
 }
 
+/// What the files of methods hold is part of what an earlier run that is to go on must have had.
+void add_method_files(const std::vector<StudyMethod>& methods, StudyParameters& parameters) {
+  for (const auto& method : methods)
+    if (!method.file_sha256.empty())
+      parameters.emplace_back("content of method " + method.name, method.file_sha256);
+}
+
 }  // namespace
 
 template <int dim, int spacedim>
 Method<dim, spacedim> StudyMethod::make() const {
-  auto method = make_method<dim, spacedim>(type);
+  auto method = make_method<dim, spacedim>(method_name_in(folder, type));
   for (const auto& [parameter, value] : settings) method.set(parameter, value);
   return method;
 }
@@ -231,7 +243,9 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
       const Subsection subsection(types, "method " + method);
       type = types.get("type");
     }
-    in_file(file, [&] { declare_method(p, dimensions, method, type, lists.get("preset")); });
+    in_file(file, [&] {
+      declare_method(p, dimensions, method, type, lists.get("preset"), file.parent_path());
+    });
   }
   parse_study(p, text, file, false);
 
@@ -243,8 +257,9 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
         in_file(file, [&] { return read_mesh_section(p, mesh, file.parent_path()); }));
   in_file(file, [&] { study.meshes = for_each_seed(study.meshes, read_seeds(p.get("seeds"))); });
   for (const auto& method : methods)
-    study.methods.push_back(
-        in_file(file, [&] { return read_method_section(p, dimensions, method); }));
+    study.methods.push_back(in_file(
+        file, [&] { return read_method_section(p, dimensions, method, file.parent_path()); }));
+  add_method_files(study.methods, study.header.file_parameters);
   read_problem(p, file.string(), study);
   in_file(file, [&] { check_study(study); });
   return study;

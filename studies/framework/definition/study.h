@@ -42,11 +42,13 @@ inline bool is_distorted(const StudyMesh& mesh) {
 }
 
 struct StudyMethod {
-  std::string name;                                           ///< label in results
-  std::string type;                                           ///< registered method
-  std::string title;                                          ///< in tables and figures
-  int threads = 0;                                            ///< 0: as StudyOptions says
+  std::string name;   ///< label in results
+  std::string type;   ///< registered method, or one in a file, as the study names it
+  std::string title;  ///< in tables and figures
+  int threads = 0;    ///< 0: as StudyOptions says
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
+  std::filesystem::path folder{};  ///< of the study file, which a method's file is relative to
+  std::string file_sha256{};       ///< of the file that the method is in, if it is in one
 
   /// The method with its settings.
   template <int dim, int spacedim = dim>
