@@ -16,6 +16,17 @@ endforeach()
 file(RELATIVE_PATH libexec_to_lib /${CMAKE_INSTALL_LIBEXECDIR}/smoothfem /${CMAKE_INSTALL_LIBDIR})
 set_target_properties(smoothfem PROPERTIES INSTALL_RPATH $ORIGIN/${libexec_to_lib})
 install(TARGETS smoothfem RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
+if(SMOOTHFEM_BUILD_PYTHON)
+  set(python_package lib/${SMOOTHFEM_PYTHON_PACKAGES}/smoothfem)
+  file(RELATIVE_PATH python_to_lib /${python_package} /${CMAKE_INSTALL_LIBDIR})
+  set_target_properties(smoothfem_python PROPERTIES INSTALL_RPATH $ORIGIN/${python_to_lib})
+  install(TARGETS smoothfem_python LIBRARY DESTINATION ${python_package} COMPONENT program)
+  install(TARGETS smoothfem_python_host LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+  install(DIRECTORY python/smoothfem/ DESTINATION ${python_package} COMPONENT program
+    FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  install(DIRECTORY python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+    FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
+endif()
 
 # Scripts and data.
 install(PROGRAMS launcher/smoothfem DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
@@ -75,6 +86,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
   "openmpi-bin, python3, python3-numpy, python3-matplotlib, python3-vtk9, python3-pyvirtualdisplay, xvfb")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-pandas")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Smooths meshes by GETMe, Laplacian variants and global optimization, and solves a Poisson problem after every iteration.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsmoothfem-dev)

@@ -75,6 +75,20 @@ class Installed(unittest.TestCase):
         self.assertEqual((refused.returncode, refused.stderr.count("\n")), (2, 1), refused.stderr)
         self.assertIn("did you mean 'history'?", refused.stderr)
 
+    def test_python_module(self):
+        """The installed one, which smooths as the installed program does, also by a smoother in Python."""
+        packages = self.prefix / "lib" / "python3" / "dist-packages"
+        self.smoothfem_run("generate", "gear", "-o", "py.vtu", "--edge-scale", "4", "--distort-to", "0.45")
+        (self.folder / "mine.py").write_text("class Mine:\n    def step(self, mesh):\n        mesh.points[mesh.free] *= 1 + 1e-9\n")
+        method = "python:mine.py:Mine"
+        self.smoothfem_run("smooth", "py.vtu", "-m", method, "-o", "theirs.vtu")
+        told = run(os.environ.get("SMOOTHFEM_PYTHON", "/usr/bin/python3"), "-B", "-c", "import smoothfem\n"
+                   f"mesh = smoothfem.read('py.vtu')\nsmoothfem.smooth(mesh, '{method}')\n"
+                   "same = smoothfem.read('theirs.vtu').points == mesh.points\nprint(smoothfem.__file__, same.all())",
+                   folder=self.folder, PYTHONPATH=packages).stdout
+        self.assertEqual(told.split(), [str(packages / "smoothfem" / "__init__.py"), "True"])
+        self.assertEqual(list(self.prefix.rglob("__pycache__")), [])
+
     def test_completion(self):
         script = self.prefix / "share" / "bash-completion" / "completions" / "smoothfem"
 

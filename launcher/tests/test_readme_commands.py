@@ -50,8 +50,11 @@ class ReadmeCommands(unittest.TestCase):
 
     @classmethod
     def write_files_of_users(cls):
-        """A study of one's own; a tangled mesh; groups of nodes for --fix."""
+        """A study and a smoother of one's own; a tangled mesh; groups of nodes for --fix."""
         shutil.copy(SOURCE / "studies" / "gear.prm", cls.folder / "my.prm")
+        text = (SOURCE / "README.md").read_text(encoding="utf-8")
+        smoother = next(code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "class Mine" in code)
+        (cls.folder / "mine.py").write_text(smoother)
         # Four quadrilaterals around a node that lies outside of them.
         points = [(x, y) for y in range(3) for x in range(3)]
         points[4] = (2.5, 1.0)

@@ -5,23 +5,19 @@
 #include <utility>
 
 #include "smoothing/base/registry.h"
+#include "smoothing/loop/method_scheme.h"
 
 namespace smoothfem {
 
 namespace {
 
-struct Entry {
-  std::string name;
-  MethodInfo info;
-  StageFactories factories;
-};
-
-Registry<Entry>& registry() {
-  static Registry<Entry> methods("method");
+Registry<MethodEntry>& registry() {
+  static Registry<MethodEntry> methods("method");
   return methods;
 }
 
-const Entry& entry(const std::string& name) {
+MethodEntry entry(const std::string& name) {
+  if (const auto in_file = method_in_file(name)) return make_entry(*in_file);
   return registry().find(name);
 }
 
@@ -79,9 +75,10 @@ bool keeps_constraints(const Method<dim, spacedim>& method) {
 
 template <int dim, int spacedim>
 bool takes_meshes(const std::string& method, bool with_constraints) {
-  const auto& make_stages = factory_of<dim, spacedim>(entry(method).factories);
-  return make_stages && (!with_constraints || keeps_constraints(Method<dim, spacedim>{
-                                                  entry(method).info, make_stages()}));
+  const MethodEntry found = entry(method);
+  const auto& make_stages = factory_of<dim, spacedim>(found.factories);
+  return make_stages &&
+         (!with_constraints || keeps_constraints(Method<dim, spacedim>{found.info, make_stages()}));
 }
 
 template <int dim, int spacedim>

@@ -58,6 +58,13 @@ struct StageFactories {
   std::function<Stages<2, 3>()> surface = {};
 };
 
+/// A method: what is said about it, and how to make it.
+struct MethodEntry {
+  std::string name;
+  MethodInfo info;
+  StageFactories factories;
+};
+
 /// Registers a method when its file is loaded: one namespace-scope object a method.
 struct RegisteredMethod {
   RegisteredMethod(MethodInfo info, StageFactories factories);
@@ -77,6 +84,9 @@ std::vector<MethodInfo> method_catalogue(bool also_those_with_needs = false);
 /// True if every stage keeps nodes where the constraints of a mesh have them (SmootherTraits).
 template <int dim, int spacedim>
 bool keeps_constraints(const Method<dim, spacedim>& method);
+
+/// In what follows, a method is given by its name among the registered ones, or as one in a file
+/// (method_scheme.h).
 
 /// True if the method takes meshes of this kind; with_constraints: also those whose nodes have to
 /// stay on a surface, as those of surface meshes and of sliding boundaries of volume meshes.

@@ -181,7 +181,8 @@ void add_smooth_command(CLI::App& app) {
   auto arguments = std::make_shared<SmoothArguments>();
   auto* command = app.add_subcommand("smooth", "smooth a mesh file");
   command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
-  command->add_option("-m,--method", arguments->method, "method (see 'list')")->required();
+  command->add_option("-m,--method", arguments->method, "method (see 'list'), or python:FILE:CLASS")
+      ->required();
   command->add_option("-o,--out", arguments->out, "mesh to write; - for standard output")
       ->required();
   command->add_option("--from", arguments->from, "format of standard input: msh, vtu, ...");

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "smoothing/base/find_named.h"
+#include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/plugin.h"
 #include "studies/framework/definition/check_study.h"
 #include "studies/framework/definition/find_study.h"
@@ -82,15 +83,17 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 }
 
 StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
-                                const std::string& name, const std::string& type) {
+                                const std::string& name, const std::string& type,
+                                const std::filesystem::path& folder) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name,
                      .type = type,
                      .title = p.get("title"),
                      .threads = static_cast<int>(p.get_integer("threads")),
-                     .settings = {}};
+                     .settings = {},
+                     .folder = folder};
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
-    auto defaults = make_method<dim, spacedim>(method.type);
+    auto defaults = method.make<dim, spacedim>();
     for (const auto& parameter : defaults.parameters())
       if (p.get(parameter.name) != value_text(parameter))
         method.settings.emplace_back(parameter.name, p.get(parameter.name));
@@ -194,7 +197,7 @@ MeshDimensions read_dimensions(ParameterHandler& p) {
 
 template <int dim, int spacedim>
 Method<dim, spacedim> StudyMethod::make() const {
-  auto method = make_method<dim, spacedim>(type);
+  auto method = make_method<dim, spacedim>(method_name_in(folder, type));
   for (const auto& [parameter, value] : settings) method.set(parameter, value);
   return method;
 }
@@ -238,7 +241,9 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
       type = types.get("type");
       if (type == method && !types.get("command").empty()) type = "command";
     }
-    in_file(file, [&] { declare_method(p, dimensions, method, type, lists.get("preset")); });
+    in_file(file, [&] {
+      declare_method(p, dimensions, method, type, lists.get("preset"), file.parent_path());
+    });
     type_of[method] = type;
   }
   parse_study(p, text, file, false);
@@ -252,8 +257,9 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
         in_file(file, [&] { return read_mesh_section(p, mesh, file.parent_path()); }));
   in_file(file, [&] { study.meshes = for_each_seed(study.meshes, read_seeds(p.get("seeds"))); });
   for (const auto& method : methods)
-    study.methods.push_back(
-        in_file(file, [&] { return read_method_section(p, dimensions, method, type_of[method]); }));
+    study.methods.push_back(in_file(file, [&] {
+      return read_method_section(p, dimensions, method, type_of[method], file.parent_path());
+    }));
   read_problem(p, file.string(), study);
   in_file(file, [&] { check_study(study); });
   return study;

@@ -47,11 +47,12 @@ struct MethodFile {
 };
 
 struct StudyMethod {
-  std::string name;                                           ///< label in results
-  std::string type;                                           ///< registered method
-  std::string title;                                          ///< in tables and figures
-  int threads = 0;                                            ///< 0: as StudyOptions says
+  std::string name;   ///< label in results
+  std::string type;   ///< registered method, or one in a file, as the study names it
+  std::string title;  ///< in tables and figures
+  int threads = 0;    ///< 0: as StudyOptions says
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
+  std::filesystem::path folder{};   ///< of the study file, which a method's file is relative to
   std::vector<MethodFile> files{};  ///< programs, scripts, plugins: filled when the study runs
   std::string version{};            ///< of the program, as it says
 

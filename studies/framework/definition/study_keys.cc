@@ -7,6 +7,7 @@
 
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
+#include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
 #include "studies/framework/definition/study.h"
 
@@ -16,6 +17,9 @@ namespace {
 
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
+
+constexpr const char* method_type_help =
+    "Registered method (see 'list'), or 'python:FILE:CLASS', the file relative to this one.";
 
 /// "a|b|c", as deal.II writes a choice.
 std::string one_of(const std::vector<std::string>& names) {
@@ -118,15 +122,16 @@ void declare_method_header(ParameterHandler& p, const std::string& title) {
 /// The parameters of a method are those it registers, with the defaults of a preset, if given, or
 /// its own.
 void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
-                    const std::string& type, const std::string& preset) {
+                    const std::string& type, const std::string& preset,
+                    const std::filesystem::path& folder) {
   const Subsection subsection(p, "method " + name);
-  p.declare_entry("type", name, Patterns::Anything(), "Registered method (see 'list').");
+  p.declare_entry("type", name, Patterns::Anything(), method_type_help);
   if (type.empty()) {  // what says the type where it is not given
     p.declare_entry("command", "", Patterns::Anything());
     return;
   }
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
-    auto method = make_method<dim, spacedim>(type);
+    auto method = make_method<dim, spacedim>(method_name_in(folder, type));
     declare_method_header(p, name == type ? method.info.title : name);
     if (!preset.empty() && has_parameters_for(find_preset(preset), method))
       apply_preset(find_preset(preset), method);
@@ -222,7 +227,7 @@ std::string study_template() {
   declare_mesh(p, 2, "LABEL");
   {
     const Subsection subsection(p, "method LABEL");
-    p.declare_entry("type", "LABEL", Patterns::Anything(), "Registered method (see 'list').");
+    p.declare_entry("type", "LABEL", Patterns::Anything(), method_type_help);
     declare_method_header(p, "LABEL");
   }
   return commented_keys(p);

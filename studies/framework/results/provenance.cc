@@ -12,6 +12,7 @@
 
 #include "smoothfem_commit.h"
 #include "smoothfem_versions.h"
+#include "smoothing/loop/method_scheme.h"
 #include "smoothing/simd/registers.h"
 
 namespace smoothfem {
@@ -80,6 +81,16 @@ Json json_value(const Parameter& parameter) {
   return value_text(parameter);
 }
 
+/// The type of a method without the folder of its file, if it is in one: where that was found is
+/// the machine's affair, what it holds is not.
+void describe_type(const StudyMethod& method, Json& json) {
+  json["type"] = method.type;
+  auto in_file = method_in_file(method.type);
+  if (!in_file) return;
+  in_file->file = in_file->file.filename();
+  json["type"] = in_file->name();
+}
+
 Json describe_methods(const RunFacts& facts) {
   Json methods = Json::array();
   with_dimensions(facts.dimensions, [&]<int dim, int spacedim>() {
@@ -90,10 +101,11 @@ Json describe_methods(const RunFacts& facts) {
         parameters[parameter.name] = json_value(parameter);
       methods.push_back({{"name", entry.name},
                          {"title", entry.title},
-                         {"type", entry.type},
+                         {"type", nullptr},
                          {"threads", entry.threads},
                          {"citation", method.info.source},
                          {"parameters", parameters}});
+      describe_type(entry, methods.back());
       for (const auto& file : entry.files)
         methods.back()["files"].push_back({{"name", file.name}, {"sha256", file.sha256}});
       if (!entry.version.empty()) methods.back()["version"] = entry.version;

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/stl.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "meshes/distortion/distort.h"
+#include "meshes/domains/catalogue.h"
+#include "meshes/io/mesh_file.h"
+#include "python/module/bind.h"
+#include "python/module/python_mesh.h"
+#include "smoothing/base/find_named.h"
+#include "smoothing/geometry/cell_size.h"
+#include "smoothing/quality/mesh_quality.h"
+
+namespace smoothfem {
+
+namespace {
+
+using Fields = std::map<std::string, std::vector<double>>;
+
+py::array_t<double> array_of(const std::vector<double>& numbers) {
+  return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+DistortionKind distortion_kind(const std::string& name) {
+  const std::vector<std::string> names(distortion_kind_names.begin(), distortion_kind_names.end());
+  return find_named("kind of distortion", name, names) == names[0] ? DistortionKind::worst_candidate
+                                                                   : DistortionKind::random_steps;
+}
+
+/// To a mean quality, or within a radius; the mesh stays as it is if that fails.
+double distort_mesh(PythonMesh& mesh, std::optional<double> q_mean, std::optional<double> radius,
+                    const std::string& kind, std::uint64_t seed, std::optional<int> candidates,
+                    int sweeps, double least_quality) {
+  if (q_mean.has_value() == radius.has_value())
+    throw InputError("distort needs q_mean or radius, and not both");
+  DistortionParameters parameters;
+  parameters.kind = distortion_kind(kind);
+  parameters.seed = seed;
+  parameters.n_sweeps = sweeps;
+  parameters.least_quality = least_quality;
+  if (q_mean) parameters.target_q_mean = *q_mean;
+  return mesh.visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& m) {
+    parameters.n_candidates = candidates.value_or(default_candidates(dim));
+    const py::gil_scoped_release others_may_run;
+    Mesh<dim, spacedim> work = m;  // arrays look at the memory of m
+    const double reached =
+        radius ? distort_within(work, *radius, parameters) : distort(work, parameters).q_mean;
+    m.set_coordinates(work.coordinates());
+    return reached;
+  });
+}
+
+template <int dim, int spacedim>
+std::vector<double> cell_sizes(const Mesh<dim, spacedim>& mesh) {
+  std::vector<double> sizes(mesh.n_cells());
+  if constexpr (dim == spacedim)
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c) sizes[c] = signed_cell_size(mesh, c);
+  else
+    throw InputError("the metric size is for planar and volume meshes, but this is a surface mesh");
+  return sizes;
+}
+
+template <int dim, int spacedim>
+std::vector<double> cell_numbers(const Mesh<dim, spacedim>& mesh, const std::string& metric) {
+  static const std::vector<std::string> metrics{"mean_ratio", "size"};
+  if (find_named("metric", metric, metrics) == "size") return cell_sizes(mesh);
+  return cell_mean_ratios(mesh);
+}
+
+py::array_t<double> quality(const PythonMesh& mesh, const std::string& metric) {
+  std::vector<double> numbers;
+  {
+    const py::gil_scoped_release others_may_run;
+    numbers = mesh.visit([&](const auto& m) { return cell_numbers(m, metric); });
+  }
+  return array_of(numbers);
+}
+
+std::string quality_text(const MeshQuality& q) {
+  char text[128];
+  std::snprintf(text, sizeof(text),
+                "Quality(q_min=%.6g, q_star_min=%.6g, q_mean=%.6g, n_invalid=%zu)", q.q_min,
+                q.q_star_min, q.q_mean, q.n_invalid);
+  return text;
+}
+
+}  // namespace
+
+void bind_files(py::module_& module) {
+  py::class_<MeshQuality>(module, "Quality",
+                          "Quality numbers of a mesh, from its cells' mean ratios.")
+      .def_readonly("q_min", &MeshQuality::q_min, "lowest of all cells")
+      .def_readonly("q_star_min", &MeshQuality::q_star_min,
+                    "lowest of the cells with at least one free node")
+      .def_readonly("q_mean", &MeshQuality::q_mean, "arithmetic mean over all cells")
+      .def_readonly("n_invalid", &MeshQuality::n_invalid, "number of cells with quality <= 0")
+      .def("__repr__", &quality_text);
+  module.def("read", [](const std::string& path) { return PythonMesh(read_mesh(path).mesh); });
+  module.def("write", [](const PythonMesh& mesh, const std::string& path, const Fields& cell,
+                         const Fields& point) {
+    mesh.visit([&](const auto& m) { write_mesh(path, m, {.cell = cell, .point = point}); });
+  });
+  module.def("domains", [] {
+    py::dict elements;
+    for (const Domain& domain : domains()) elements[domain.name.c_str()] = domain.elements;
+    return elements;
+  });
+  module.def("generate", [](const std::string& domain, const std::string& elements,
+                            double edge_scale, std::uint64_t seed) {
+    return PythonMesh(find_domain(domain).generate(
+        {.elements = elements, .edge_scale = edge_scale, .seed = seed}));
+  });
+  module.def("distort", &distort_mesh);
+  module.def("quality", &quality);
+  module.def("summary", [](const PythonMesh& mesh) {
+    const py::gil_scoped_release others_may_run;
+    return mesh.visit([](const auto& m) { return mesh_quality(m); });
+  });
+}
+
+}  // namespace smoothfem

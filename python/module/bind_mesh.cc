@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <optional>
+
+#include "python/module/bind.h"
+#include "python/module/python_mesh.h"
+#include "smoothing/surface/surface_constraints.h"
+
+namespace smoothfem {
+
+namespace {
+
+using Coordinates = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+bool has_whole_numbers(const py::array& array) {
+  return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
+}
+
+NodeIndex node_index(std::int64_t number, std::size_t cell) {
+  if (number < 0 || number > std::numeric_limits<NodeIndex>::max())
+    throw CellError(cell,
+                    "has the node number " + std::to_string(number) + "; nodes are counted from 0");
+  return static_cast<NodeIndex>(number);
+}
+
+/// One row of whole numbers.
+void append_row(CompressedRows<NodeIndex>& rows, const std::int64_t* numbers, std::size_t n) {
+  std::vector<NodeIndex> row(n);
+  for (std::size_t k = 0; k < n; ++k) row[k] = node_index(numbers[k], rows.size());
+  rows.append(row);
+}
+
+/// From a two-dimensional array, or any sequence of sequences.
+CompressedRows<NodeIndex> rows_of(const py::object& cells) {
+  using Numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+  CompressedRows<NodeIndex> rows;
+  if (py::isinstance<py::array>(cells)) {
+    const auto given = py::cast<py::array>(cells);
+    if (given.ndim() == 2 && has_whole_numbers(given)) {
+      const Numbers numbers(given);
+      const auto size = static_cast<std::size_t>(numbers.shape(1));
+      for (py::ssize_t c = 0; c < numbers.shape(0); ++c) append_row(rows, numbers.data(c, 0), size);
+      return rows;
+    }
+  }
+  for (const py::handle cell : cells) {
+    const auto given = py::array::ensure(cell);
+    if (!given || given.ndim() != 1 || !has_whole_numbers(given)) {
+      throw CellError(rows.size(), "is no sequence of whole numbers, those of its nodes");
+    }
+    const Numbers numbers(given);
+    append_row(rows, numbers.data(), static_cast<std::size_t>(numbers.size()));
+  }
+  return rows;
+}
+
+/// One flag a node, from flags or from numbers of nodes; none from None.
+std::optional<std::vector<bool>> flags_of(const py::object& given, std::size_t n_nodes) {
+  if (given.is_none()) return std::nullopt;
+  const auto fixed = py::array::ensure(given);
+  const bool is_row = fixed && fixed.ndim() == 1;
+  if (is_row && fixed.dtype().kind() == 'b' && static_cast<std::size_t>(fixed.size()) == n_nodes)
+    return py::cast<std::vector<bool>>(fixed.attr("tolist")());
+  if (!is_row || (!has_whole_numbers(fixed) && fixed.size() > 0))
+    throw InputError("fixed is an array of " + std::to_string(n_nodes) +
+                     " truth values, one a node, or of the numbers of the fixed nodes");
+  std::vector<bool> flags(n_nodes, false);
+  for (const py::handle entry : fixed) {
+    const auto node = py::cast<std::int64_t>(entry);
+    if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
+      throw InputError("fixed has the node number " + std::to_string(node) +
+                       ", but the mesh has the nodes 0 to " + std::to_string(n_nodes - 1));
+    flags[static_cast<std::size_t>(node)] = true;
+  }
+  return flags;
+}
+
+template <int spacedim>
+std::vector<Point<spacedim>> points_of(const Coordinates& array) {
+  std::vector<Point<spacedim>> points(static_cast<std::size_t>(array.shape(0)));
+  if (!points.empty()) std::copy_n(array.data(), array.size(), points.data()->data());
+  return points;
+}
+
+template <int dim>
+AnyMesh mesh_of(const Coordinates& points, CompressedRows<NodeIndex> cells,
+                std::optional<std::vector<bool>> fixed) {
+  const auto n_nodes = static_cast<std::size_t>(points.shape(0));
+  return Mesh<dim>(
+      std::make_shared<const Topology>(dim, n_nodes, std::move(cells), std::move(fixed)),
+      points_of<dim>(points));
+}
+
+PythonMesh make_mesh(const py::object& given, const py::object& cells, const py::object& fixed,
+                     std::optional<int> dim) {
+  const auto points = Coordinates::ensure(given);
+  if (!points || points.ndim() != 2 || (points.shape(1) != 2 && points.shape(1) != 3))
+    throw InputError("points is an array of n x 2 or n x 3 numbers");
+  const int spacedim = static_cast<int>(points.shape(1));
+  const int cell_dim = dim.value_or(spacedim);
+  if ((cell_dim != 2 && cell_dim != 3) || cell_dim > spacedim)
+    throw InputError("dim is the dimension of the cells: 2, or in space 3; it is given as " +
+                     std::to_string(cell_dim));
+  auto rows = rows_of(cells);
+  auto flags = flags_of(fixed, static_cast<std::size_t>(points.shape(0)));
+  if (cell_dim == 3) return PythonMesh(mesh_of<3>(points, std::move(rows), std::move(flags)));
+  if (spacedim == 2) return PythonMesh(mesh_of<2>(points, std::move(rows), std::move(flags)));
+  return PythonMesh(make_surface_mesh(std::move(rows), points_of<3>(points), {}, std::move(flags)));
+}
+
+PythonMesh copied(const PythonMesh& mesh) {
+  return mesh.visit([](const auto& m) { return PythonMesh(AnyMesh(m)); });
+}
+
+std::size_t address(const PythonMesh& mesh) {
+  return mesh.visit(
+      [](const auto& m) { return reinterpret_cast<std::size_t>(m.coordinates().data()); });
+}
+
+std::string description(const PythonMesh& mesh) {
+  return mesh.visit([]<int dim, int spacedim>(const Mesh<dim, spacedim>& m) {
+    return "<smoothfem.Mesh: " + std::string(mesh_kind_name(dim, spacedim)) + ", " +
+           std::to_string(m.n_nodes()) + " nodes, " + std::to_string(m.n_cells()) + " cells>";
+  });
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& module) {
+  const auto n_nodes = [](const PythonMesh& m) { return m.arrays().topology().n_nodes(); };
+  const auto n_cells = [](const PythonMesh& m) { return m.arrays().topology().n_cells(); };
+  const auto spacedim = [](const PythonMesh& m) {
+    return m.visit([]<int d, int s>(const Mesh<d, s>&) { return s; });
+  };
+  const auto kind = [](const PythonMesh& m) {
+    return m.visit([]<int d, int s>(const Mesh<d, s>&) { return mesh_kind_name(d, s); });
+  };
+  py::class_<PythonMesh, std::shared_ptr<PythonMesh>>(
+      module, "Mesh",
+      "A mesh: cells that never change, and points that do.\n\n"
+      "points: (n, 2) or (n, 3) finite numbers. cells: an array (n, k) or a sequence of sequences "
+      "of\n"
+      "node numbers, counted from 0; planar cells counterclockwise. fixed: the nodes that "
+      "smoothing\n"
+      "must not move, as numbers or as n truth values; those of the boundary unless given. dim: "
+      "of\n"
+      "the cells, 2 or 3, as many as the points have coordinates unless given; with points in "
+      "space\n"
+      "and dim=2 the mesh is a surface. Raises InputError that names the first cell that is none.")
+      .def(py::init(&make_mesh), py::arg("points"), py::arg("cells"), py::kw_only(),
+           py::arg("fixed") = py::none(), py::arg("dim") = py::none())
+      .def_property(
+          "points", [](const py::object& self) { return self.cast<PythonMesh&>().points(self); },
+          &PythonMesh::set_points,
+          "Coordinates, (n_nodes, spacedim): the memory of the mesh itself, to be read and "
+          "written.")
+      .def_property_readonly(
+          "cells", [](const PythonMesh& m) { return m.arrays().cells(); },
+          "Node numbers of each cell: (n_cells, k), or a tuple of arrays if cells differ; "
+          "read-only.")
+      .def_property_readonly(
+          "blocks", [](const PythonMesh& m) { return m.arrays().blocks().attr("copy")(); },
+          "Node numbers of the cells of each type: {'triangle': (n, 3), ...}; read-only.")
+      .def_property_readonly(
+          "free", [](const PythonMesh& m) { return m.arrays().free_nodes(); },
+          "Numbers of the nodes that smoothing may move, ascending; read-only.")
+      .def_property_readonly(
+          "fixed", [](const PythonMesh& m) { return m.arrays().fixed_nodes(); },
+          "Numbers of the nodes that stay, ascending; read-only.")
+      .def_property_readonly("n_nodes", n_nodes)
+      .def_property_readonly("n_cells", n_cells)
+      .def_property_readonly(
+          "dim", [](const PythonMesh& m) { return m.arrays().topology().dimension(); },
+          "Dimension of the cells: 2 or 3.")
+      .def_property_readonly("spacedim", spacedim, "Coordinates of a point: 2 or 3.")
+      .def_property_readonly("kind", kind, "'planar', 'volume' or 'surface'.")
+      .def("copy", &copied, "A mesh of the same cells with points of its own.")
+      .def("__copy__", &copied)
+      .def("__deepcopy__", [](const PythonMesh& m, const py::dict&) { return copied(m); })
+      .def("__repr__", &description);
+  module.def("address", &address, py::arg("mesh"), "Where the coordinates of the mesh are.");
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/stl.h>
+
+#include "python/module/bind.h"
+#include "python/module/interruptible.h"
+#include "python/module/python_mesh.h"
+#include "python/module/python_smoother.h"
+#include "smoothing/base/find_named.h"
+#include "smoothing/base/parallel.h"
+#include "smoothing/loop/preset.h"
+#include "smoothing/loop/python_methods.h"
+#include "smoothing/loop/smooth.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// What smooth() gives to Python.
+struct Result : SmoothingResult {
+  std::string method;
+  std::vector<IterationRecord> history;
+};
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// method: a name, or the definition of a smoother in Python.
+template <int dim, int spacedim>
+Method<dim, spacedim> configured_method(const py::object& method, const std::string& preset,
+                                        const Settings& settings) {
+  const auto made = [&]() -> Method<dim, spacedim> {
+    if (py::isinstance<py::str>(method))
+      return make_method<dim, spacedim>(py::cast<std::string>(method));
+    const MethodEntry entry = method_of_definition(method);
+    if constexpr (dim == 2 && spacedim == 2)
+      return {entry.info, entry.factories.planar()};
+    else if constexpr (dim == 3)
+      return {entry.info, entry.factories.volume()};
+    else
+      throw InputError("method " + entry.name + " does not take surface meshes");
+  };
+  Method<dim, spacedim> configured = made();
+  if (!preset.empty()) apply_preset(find_preset(preset), configured);
+  for (const auto& [name, value] : settings) configured.set(name, value);
+  return configured;
+}
+
+/// Another number of threads for as long as this lives; 0: as it is.
+class Threads {
+ public:
+  explicit Threads(int n) : before_(n_threads()) {
+    if (n > 0) set_n_threads(n);
+  }
+  ~Threads() { set_n_threads(before_); }
+  Threads(const Threads&) = delete;
+
+ private:
+  int before_;
+};
+
+/// The GIL must be held; others may run meanwhile. Python's arrays look at the memory of `mesh`, so
+/// that another one is smoothed, whose points come back into it.
+template <int dim, int spacedim>
+Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                       const std::function<void(const IterationRecord&)>& callback,
+                       bool keep_history) {
+  Result result;
+  result.method = method.info.name;
+  for (auto& stage : method.stages)
+    stage = std::make_unique<Interruptible<dim, spacedim>>(std::move(stage));
+  Observer<dim, spacedim> observer;  // none unless needed: it costs a pass over all cells
+  if (keep_history || callback)
+    observer = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
+      if (keep_history) result.history.push_back(record);
+      if (!callback) return;
+      const py::gil_scoped_acquire gil;
+      mesh.set_coordinates(now.coordinates());
+      callback(record);
+    };
+  const py::gil_scoped_release others_may_run;
+  Mesh<dim, spacedim> work(mesh.shared_topology(), mesh.copied_coordinates(),
+                           mesh.shared_constraints());
+  try {
+    static_cast<SmoothingResult&>(result) = smooth(work, method, observer);
+  } catch (...) {
+    mesh.set_coordinates(work.coordinates());
+    throw;
+  }
+  mesh.set_coordinates(work.coordinates());
+  return result;
+}
+
+Result smooth_mesh(const py::object& object, const py::object& method, const py::object& callback,
+                   const std::string& preset, const Settings& settings, bool history, int threads) {
+  const Threads of_this_call(threads);
+  std::function<void(const IterationRecord&)> call;
+  if (!callback.is_none()) call = [&](const IterationRecord& record) { callback(record, object); };
+  return object.cast<PythonMesh&>().visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& mesh) {
+    auto configured = configured_method<dim, spacedim>(method, preset, settings);
+    return smooth_in_place(mesh, configured, call, history);
+  });
+}
+
+/// Numbers as numbers, everything else as its text.
+py::object python_value(const Parameter& parameter) {
+  if (const auto* number = std::get_if<double*>(&parameter.value)) return py::float_(**number);
+  if (const auto* number = std::get_if<int*>(&parameter.value)) return py::int_(**number);
+  return py::str(value_text(parameter));
+}
+
+/// name -> (default, description, range)
+py::dict parameters_of(const py::object& method, const std::string& kind) {
+  const std::map<std::string, MeshDimensions> kinds{
+      {"planar", {2, 2}}, {"volume", {3, 3}}, {"surface", {2, 3}}};
+  const auto& [name, dimensions] =
+      find_named("kind of mesh", kind, kinds, [](const auto& entry) { return entry.first; });
+  return with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+    auto made = configured_method<dim, spacedim>(method, {}, {});
+    py::dict parameters;
+    for (const auto& parameter : made.parameters())
+      parameters[parameter.name.c_str()] =
+          py::make_tuple(python_value(parameter), parameter.description, range_text(parameter));
+    return parameters;
+  });
+}
+
+/// name -> (title, description, source, kinds of meshes)
+py::dict methods() {
+  py::dict all;
+  for (const auto& info : method_catalogue())
+    all[info.name.c_str()] =
+        py::make_tuple(info.title, info.description, info.source, mesh_kinds(info.name));
+  return all;
+}
+
+void bind_results(py::module_& module) {
+  py::class_<IterationRecord>(module, "Iteration", "One iteration; record 0 is the initial mesh.")
+      .def_readonly("record", &IterationRecord::record, "0, 1, 2, ...")
+      .def_readonly("stage", &IterationRecord::stage, "smoother that ran; 'initial' for record 0")
+      .def_readonly("iteration", &IterationRecord::iteration,
+                    "within the stage, in the method's own count")
+      .def_readonly("smoothing_seconds", &IterationRecord::smoothing_seconds,
+                    "of the stages' main loops so far, without the callback's time")
+      .def_readonly("preparation_seconds", &IterationRecord::preparation_seconds,
+                    "before them: order of the nodes, tables, the initial quality")
+      .def_readonly("quality", &IterationRecord::quality)
+      .def_readonly("n_made_invalid", &IterationRecord::n_made_invalid,
+                    "cells that the step made invalid, before nodes were put back; or None")
+      .def_readonly("n_reset", &IterationRecord::n_reset, "nodes put back");
+  py::class_<StageResult>(module, "Stage", "What one stage of a method did.")
+      .def_readonly("name", &StageResult::name)
+      .def_readonly("iterations", &StageResult::iterations, "in the method's own count")
+      .def_readonly("why_stopped", &StageResult::why_stopped)
+      .def_readonly("n_last_reset", &StageResult::n_last_reset,
+                    "nodes put back in the last iteration");
+  py::class_<Result>(module, "Result", "What smooth() did.")
+      .def_readonly("method", &Result::method, "name of the method")
+      .def_readonly("stages", &Result::stages)
+      .def_property_readonly("iterations", &Result::iterations_text,
+                             "one number a stage, as in the thesis: '40/2800'")
+      .def_readonly("smoothing_seconds", &Result::smoothing_seconds, "of the stages' main loops")
+      .def_readonly("preparation_seconds", &Result::preparation_seconds,
+                    "of what comes before each: order of the nodes, tables, qualities")
+      .def_readonly("quality", &Result::quality, "of the resulting mesh")
+      .def_readonly("result_record", &Result::result_record,
+                    "number of the iteration whose mesh is the result")
+      .def_readonly("history", &Result::history, "the iterations, the initial mesh first")
+      .def("__repr__", [](const Result& r) {
+        return "<smoothfem.Result: " + r.method + ", " + r.iterations_text() + " iterations>";
+      });
+}
+
+}  // namespace
+
+void bind_smoothing(py::module_& module) {
+  bind_results(module);
+  module.def("smooth", &smooth_mesh);
+  module.def("methods", &methods);
+  module.def("parameters", &parameters_of);
+  module.def("started_python", &started_python);
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "smoothing/loop/smoother.h"
+
+namespace smoothfem {
+
+/// A stage that asks Python before each step whether a signal has come: Ctrl-C then ends the run by
+/// KeyboardInterrupt. Only so often that it costs nothing.
+template <int dim, int spacedim>
+class Interruptible final : public Smoother<dim, spacedim> {
+ public:
+  explicit Interruptible(std::unique_ptr<Smoother<dim, spacedim>> stage)
+      : stage_(std::move(stage)) {}
+
+  std::string_view name() const override { return stage_->name(); }
+  Parameters parameters() override { return stage_->parameters(); }
+  SmootherTraits traits() const override { return stage_->traits(); }
+  StoppingRule stopping() const override { return stage_->stopping(); }
+  void initialize(const SmoothingState<dim, spacedim>& state) override {
+    stage_->initialize(state);
+  }
+  double initial_score() const override { return stage_->initial_score(); }
+
+  StepReport step(SmoothingState<dim, spacedim>& state) override {
+    constexpr auto interval = std::chrono::milliseconds(50);
+    if (const auto now = Clock::now(); now - asked_ >= interval) {
+      asked_ = now;
+      const pybind11::gil_scoped_acquire gil;
+      if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+    }
+    return stage_->step(state);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::unique_ptr<Smoother<dim, spacedim>> stage_;
+  Clock::time_point asked_{};
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "python/module/python_mesh.h"
+
+#include <map>
+#include <string>
+
+namespace smoothfem {
+
+namespace {
+
+using Shape = std::vector<py::ssize_t>;
+
+py::array read_only(py::array array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+/// Node numbers that belong to the topology, which the array keeps.
+py::array view_of(const std::shared_ptr<const Topology>& topology, const NodeIndex* numbers,
+                  const Shape& shape) {
+  using Owner = std::shared_ptr<const Topology>;
+  const py::capsule owner(new Owner(topology), [](void* p) { delete static_cast<Owner*>(p); });
+  return read_only(py::array_t<NodeIndex>(shape, numbers, owner));
+}
+
+py::array copy_of(const std::vector<NodeIndex>& numbers, const Shape& shape) {
+  return read_only(py::array_t<NodeIndex>(shape, numbers.data()));
+}
+
+py::ssize_t signed_size(std::size_t n) {
+  return static_cast<py::ssize_t>(n);
+}
+
+/// The number of nodes that every cell has; 0 if they differ.
+std::size_t common_cell_size(const CompressedRows<NodeIndex>& cells) {
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (cells[c].size() != cells[0].size()) return 0;
+  return cells.empty() ? 0 : cells[0].size();
+}
+
+std::string block_name(int dim, std::size_t n_nodes) {
+  const ElementType type = element_type(dim, n_nodes);
+  return type == ElementType::polygon ? std::to_string(n_nodes) + "-gon"
+                                      : std::string(name_of(type));
+}
+
+}  // namespace
+
+const py::object& TopologyArrays::cells() {
+  if (cells_) return cells_;
+  const auto& rows = topology_->cells();
+  if (const std::size_t size = common_cell_size(rows); size > 0) {
+    cells_ =
+        view_of(topology_, rows.entries().data(), {signed_size(rows.size()), signed_size(size)});
+  } else {
+    py::tuple arrays(rows.size());
+    for (std::size_t c = 0; c < rows.size(); ++c)
+      arrays[c] = view_of(topology_, rows[c].data(), {signed_size(rows[c].size())});
+    cells_ = arrays;
+  }
+  return cells_;
+}
+
+const py::dict& TopologyArrays::blocks() {
+  if (!blocks_.empty()) return blocks_;
+  const auto& rows = topology_->cells();
+  if (const std::size_t size = common_cell_size(rows); size > 0) {
+    blocks_[block_name(topology_->dimension(), size).c_str()] = cells();
+    return blocks_;
+  }
+  std::map<std::size_t, std::vector<NodeIndex>> by_size;
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    by_size[rows[c].size()].insert(by_size[rows[c].size()].end(), rows[c].begin(), rows[c].end());
+  for (const auto& [size, numbers] : by_size)
+    blocks_[block_name(topology_->dimension(), size).c_str()] =
+        copy_of(numbers, {signed_size(numbers.size() / size), signed_size(size)});
+  return blocks_;
+}
+
+const py::array& TopologyArrays::free_nodes() {
+  const auto& nodes = topology_->free_nodes();
+  if (!free_.size()) free_ = view_of(topology_, nodes.data(), {signed_size(nodes.size())});
+  return free_;
+}
+
+const py::array& TopologyArrays::fixed_nodes() {
+  if (fixed_.size()) return fixed_;
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex i = 0; i < topology_->n_nodes(); ++i)
+    if (topology_->is_fixed(i)) nodes.push_back(i);
+  fixed_ = copy_of(nodes, {signed_size(nodes.size())});
+  return fixed_;
+}
+
+struct PythonMesh::Kept {
+  std::variant<std::monostate, std::vector<Point<2>>, std::vector<Point<3>>> points;
+};
+
+PythonMesh::PythonMesh(AnyMesh mesh)
+    : own_(std::make_unique<AnyMesh>(std::move(mesh))),
+      mesh_(std::visit([](auto& m) { return Reference(&m); }, *own_)),
+      arrays_(std::make_shared<TopologyArrays>(
+          visit([](const auto& m) { return m.shared_topology(); }))) {}
+
+PythonMesh::PythonMesh(Reference lent, std::shared_ptr<TopologyArrays> arrays, bool writable)
+    : mesh_(lent), arrays_(std::move(arrays)), writable_(writable) {}
+
+py::array PythonMesh::points(const py::object& self) {
+  return visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& mesh) -> py::array {
+    const Shape shape{signed_size(mesh.n_nodes()), spacedim};
+    double* const numbers = mesh.coordinates().data()->data();
+    if (!writable_) return read_only(py::array_t<double>(shape, numbers));
+    if (own_) return py::array_t<double>(shape, numbers, self);
+    if (!kept_) {
+      kept_ = new Kept;
+      const py::capsule keeper(kept_, [](void* p) { delete static_cast<Kept*>(p); });
+      lent_points_ = py::array_t<double>(shape, numbers, keeper);
+    }
+    return lent_points_;
+  });
+}
+
+void PythonMesh::set_points(const py::object& points) {
+  visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& mesh) {
+    if (!writable_) throw InputError("the points of this mesh are not to be changed here");
+    using Coordinates = py::array_t<double, py::array::c_style | py::array::forcecast>;
+    const auto numbers = Coordinates::ensure(points);
+    if (!numbers || numbers.ndim() != 2 || numbers.shape(0) != signed_size(mesh.n_nodes()) ||
+        numbers.shape(1) != spacedim)
+      throw InputError("the points of this mesh are an array of " + std::to_string(mesh.n_nodes()) +
+                       " x " + std::to_string(spacedim) + " numbers");
+    std::vector<Point<spacedim>> copied(mesh.n_nodes());
+    std::copy_n(numbers.data(), numbers.size(), copied.data()->data());
+    require_finite(copied);
+    mesh.set_coordinates(copied);
+  });
+}
+
+bool PythonMesh::give_back() {
+  const bool in_use = kept_ != nullptr && Py_REFCNT(lent_points_.ptr()) > 1;
+  if (in_use)
+    visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& mesh) {
+      auto points = mesh.copied_coordinates();
+      mesh.swap_coordinates(points);
+      kept_->points = std::move(points);
+    });
+  lent_points_ = py::array();
+  kept_ = nullptr;
+  std::visit([](auto*& mesh) { mesh = nullptr; }, mesh_);
+  return in_use;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes of the Python module: made of arrays, seen as arrays, read and written."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from .built import MESHES, QUADRILATERALS, SQUARE, address, distorted, smoothfem
+
+
+class Meshes(unittest.TestCase):
+    def test_from_arrays(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        self.assertEqual((mesh.n_nodes, mesh.n_cells, mesh.dim, mesh.spacedim, mesh.kind), (9, 4, 2, 2, "planar"))
+        np.testing.assert_array_equal(mesh.points, SQUARE)
+        np.testing.assert_array_equal(mesh.cells, QUADRILATERALS)
+        np.testing.assert_array_equal(mesh.free, [4])
+        np.testing.assert_array_equal(mesh.fixed, [0, 1, 2, 3, 5, 6, 7, 8])
+        lists = smoothfem.Mesh(SQUARE.tolist(), QUADRILATERALS.tolist())
+        np.testing.assert_array_equal(lists.points, SQUARE)
+        np.testing.assert_array_equal(lists.cells, QUADRILATERALS)
+        self.assertEqual(repr(mesh), "<smoothfem.Mesh: planar, 9 nodes, 4 cells>")
+
+    def test_mixed_cells_have_blocks(self):
+        cells = [[0, 1, 4, 3], [1, 2, 4], [2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]]
+        mesh = smoothfem.Mesh(SQUARE, cells)
+        self.assertEqual([list(cell) for cell in mesh.cells], cells)
+        self.assertEqual(sorted(mesh.blocks), ["quadrilateral", "triangle"])
+        np.testing.assert_array_equal(mesh.blocks["triangle"], [[1, 2, 4], [2, 5, 4]])
+        np.testing.assert_array_equal(mesh.blocks["quadrilateral"], [cells[0], cells[3], cells[4]])
+
+    def test_volume_and_surface(self):
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+        self.assertEqual(smoothfem.Mesh(corners, [[0, 1, 2, 3]]).kind, "volume")
+        roof = np.column_stack([SQUARE, 0.1 * SQUARE[:, 0] ** 2])
+        surface = smoothfem.Mesh(roof, QUADRILATERALS, dim=2)
+        self.assertEqual((surface.kind, surface.dim, surface.spacedim), ("surface", 2, 3))
+
+    def test_fixed_nodes_by_flags_or_numbers(self):
+        flags = np.zeros(9, dtype=bool)
+        flags[[0, 2, 6, 8]] = True
+        for fixed in (flags, [0, 2, 6, 8]):
+            np.testing.assert_array_equal(smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=fixed).fixed, [0, 2, 6, 8])
+
+    def test_points_are_the_memory_of_the_mesh(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        self.assertEqual(address(mesh), smoothfem._core.address(mesh))
+        before = smoothfem.quality(mesh)
+        mesh.points[4] = 1.5, 1.5
+        self.assertFalse(np.array_equal(smoothfem.quality(mesh), before))
+        mesh.points += 1.0
+        mesh.points = SQUARE
+        np.testing.assert_array_equal(mesh.points, SQUARE)
+        self.assertEqual(address(mesh), smoothfem._core.address(mesh))
+
+    def test_points_outlive_their_mesh(self):
+        points = smoothfem.Mesh(SQUARE, QUADRILATERALS).points
+        np.testing.assert_array_equal(points, SQUARE)
+
+    def test_numbers_are_read_only(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        for numbers in (mesh.cells, mesh.free, mesh.fixed, mesh.blocks["quadrilateral"]):
+            with self.assertRaises(ValueError):
+                numbers.flat[0] = 0
+        mesh.blocks.clear()
+        self.assertEqual(list(mesh.blocks), ["quadrilateral"])
+
+    def test_copies_are_independent(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        other = mesh.copy()
+        other.points[4] = 1.2, 1.2
+        np.testing.assert_array_equal(mesh.points, SQUARE)
+
+    def test_refuses_what_is_no_mesh(self):
+        inner = SQUARE.copy()
+        inner[4, 0] = np.nan
+        for sentence, make in (
+                ("n x 2 or n x 3", lambda: smoothfem.Mesh(SQUARE[:, :1], QUADRILATERALS)),
+                ("node 4 has a coordinate", lambda: smoothfem.Mesh(inner, QUADRILATERALS)),
+                ("cell 0 has the node number -1", lambda: smoothfem.Mesh(SQUARE, -QUADRILATERALS[:, ::-1] + 2)),
+                ("cell 1 is no sequence of whole numbers", lambda: smoothfem.Mesh(SQUARE, [[0, 1, 4], [0.5, 1, 4]])),
+                ("cell 0", lambda: smoothfem.Mesh(SQUARE, [[0, 1, 9]])),
+                ("nodes 0 to 8", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=[9])),
+                ("one a node", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=[True])),
+                ("dimension of the cells", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, dim=3))):
+            with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
+                make()
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        with self.assertRaisesRegex(smoothfem.InputError, "9 x 2 numbers"):
+            mesh.points = SQUARE[:3]
+        with self.assertRaisesRegex(smoothfem.InputError, "node 4"):
+            mesh.points = inner
+        self.assertTrue(issubclass(smoothfem.InputError, ValueError))
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_come_back_as_they_were(self):
+        for elements in MESHES:
+            with self.subTest(elements):
+                mesh = distorted(elements)
+                smoothfem.write(mesh, self.folder / "m.vtu", cell={"q": smoothfem.quality(mesh)})
+                again = smoothfem.read(self.folder / "m.vtu")
+                np.testing.assert_array_equal(again.points, mesh.points)
+                np.testing.assert_array_equal(again.cells, mesh.cells)
+                self.assertIn(b'"q"', (self.folder / "m.vtu").read_bytes())
+
+    def test_refused_in_a_sentence(self):
+        with self.assertRaisesRegex(smoothfem.InputError, "nothing.vtu"):
+            smoothfem.read(self.folder / "nothing.vtu")
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        with self.assertRaises(smoothfem.InputError):
+            smoothfem.write(mesh, self.folder / "m.doc")
+        with self.assertRaises(smoothfem.InputError):
+            smoothfem.write(mesh, self.folder / "m.vtu", cell={"q": [1.0]})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python module: quality, smoothing, finite elements, what is there to choose; README's lines."""
+
+import contextlib
+import io
+import os
+import re
+import signal
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from .built import MESHES, PROGRAM, QUADRILATERALS, SOURCE, SQUARE, address, distorted, run, smoothfem
+
+
+class QualityAndDistortion(unittest.TestCase):
+    def test_quality_of_cells_and_meshes(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        np.testing.assert_allclose(smoothfem.quality(mesh), 1.0)
+        np.testing.assert_allclose(smoothfem.quality(mesh, "size"), 1.0)
+        mesh.points[4] = 2.5, 2.5
+        summary, cells = smoothfem.summary(mesh), smoothfem.quality(mesh)
+        self.assertEqual((summary.q_min, summary.n_invalid), (0.0, np.count_nonzero(cells <= 0)))
+        self.assertAlmostEqual(summary.q_mean, cells.mean(), 15)
+        self.assertRegex(repr(summary), r"^Quality\(q_min=0, ")
+        with self.assertRaisesRegex(smoothfem.InputError, "did you mean 'mean_ratio'"):
+            smoothfem.quality(mesh, "mean_rato")
+
+    def test_distortion(self):
+        mesh = smoothfem.generate("gear", elements="triangles", edge_scale=4)
+        where, before = address(mesh), mesh.points.copy()
+        self.assertAlmostEqual(smoothfem.distort(mesh, 0.5), 0.5, 3)
+        self.assertAlmostEqual(smoothfem.summary(mesh).q_mean, 0.5, 3)
+        self.assertEqual(address(mesh), where)
+        np.testing.assert_array_equal(mesh.points[mesh.fixed], before[mesh.fixed])
+        after = mesh.points.copy()
+        for refused in ({"q_mean": 2.0}, {}, {"q_mean": 0.5, "radius": 0.1}, {"q_mean": 0.4, "kind": "none"}):
+            with self.subTest(refused), self.assertRaises(smoothfem.InputError):
+                smoothfem.distort(mesh, **refused)
+        np.testing.assert_array_equal(mesh.points, after)
+        reached = smoothfem.distort(mesh, radius=0.9, sweeps=3)
+        self.assertLess(reached, 0.45)
+        self.assertEqual(smoothfem.summary(mesh).q_mean, reached)
+
+    def test_generated_as_by_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run(PROGRAM, "generate", "gear", "-o", "g.vtu", "--elements", "quadrilaterals", "--edge-scale", "3",
+                "--distort-to", "0.5", folder=folder)
+            theirs = smoothfem.read(Path(folder) / "g.vtu")
+        np.testing.assert_array_equal(theirs.points, distorted("quadrilaterals").points)
+        with self.assertRaisesRegex(smoothfem.InputError, "did you mean 'gear'"):
+            smoothfem.generate("gaer")
+
+
+class WhatThereIs(unittest.TestCase):
+    def test_methods_and_their_parameters(self):
+        methods = smoothfem.methods()
+        self.assertIn("planar", methods["getme"]["meshes"])
+        for name, about in methods.items():
+            for kind in ("planar", "volume"):
+                if kind in about["meshes"]:
+                    self.assertIn("description", next(iter(smoothfem.parameters(name, kind).values())))
+        self.assertEqual(smoothfem.parameters("laplace")["tolerance"]["default"], 0.01)
+        with self.assertRaisesRegex(smoothfem.InputError, "choose one of planar"):
+            smoothfem.parameters("laplace", "flat")
+
+    def test_domains_and_problems(self):
+        self.assertIn("hexahedra", smoothfem.domains()["flange"])
+        self.assertIn("gear", smoothfem.problems(2))
+        self.assertTrue(smoothfem.problems(3))
+
+
+class Smoothing(unittest.TestCase):
+    def test_same_bits_as_the_program(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for elements in MESHES:
+                mesh = distorted(elements)
+                smoothfem.write(mesh, folder / "in.vtu")
+                for method in ("getme", "smart-laplace"):
+                    with self.subTest(elements=elements, method=method):
+                        told = run(PROGRAM, "smooth", "in.vtu", "-m", method, "-o", "out.vtu", folder=folder).stdout
+                        mine = mesh.copy()
+                        result = smoothfem.smooth(mine, method)
+                        theirs = smoothfem.read(folder / "out.vtu")
+                        self.assertFalse(np.array_equal(mine.points, mesh.points))
+                        np.testing.assert_array_equal(mine.points, theirs.points)
+                        self.assertIn(f": {result.iterations} iterations in ", told)
+
+    def test_result(self):
+        mesh = distorted("triangles")
+        where = address(mesh)
+        result = smoothfem.smooth(mesh, "getme", sequential={"patience": 3}, threads=1)
+        self.assertEqual(address(mesh), where)
+        self.assertEqual(smoothfem._core.address(mesh), where)
+        self.assertEqual([stage.name for stage in result.stages], ["simultaneous", "sequential"])
+        self.assertEqual(result.iterations, "/".join(str(stage.iterations) for stage in result.stages))
+        self.assertEqual(result.quality.q_mean, smoothfem.summary(mesh).q_mean)
+        self.assertEqual([i.record for i in result.history], list(range(len(result.history))))
+        self.assertEqual(result.history[0].stage, "initial")
+        self.assertGreater(result.smoothing_seconds, 0.0)
+        self.assertIn(result.quality.q_min, [i.quality.q_min for i in result.history])
+        self.assertEqual(smoothfem.smooth(mesh, "laplace", history=False).history, [])
+
+    def test_parameters_are_the_methods_own(self):
+        mesh = distorted("triangles")
+        self.assertEqual(smoothfem.smooth(mesh.copy(), "laplace", tolerance=0.0, max_iterations=np.int64(3)).iterations, "3")
+        for wrong, sentence in (({"tolerance": -1}, "outside its range"), ({"tolerence": 1}, "did you mean 'tolerance'"),
+                                ({"max_iterations": 2.5}, "whole number")):
+            with self.subTest(wrong), self.assertRaisesRegex(smoothfem.InputError, sentence):
+                smoothfem.smooth(mesh, "laplace", **wrong)
+        with self.assertRaisesRegex(smoothfem.InputError, "there is no method"):
+            smoothfem.smooth(mesh, "lapalce")
+        with self.assertRaisesRegex(smoothfem.InputError, "there is no preset"):
+            smoothfem.smooth(mesh, "getme", preset="none")
+
+    def test_callback_sees_every_mesh(self):
+        mesh, seen = distorted("quadrilaterals"), []
+        initial = mesh.points.copy()
+
+        def look(iteration, now):
+            self.assertIs(now, mesh)
+            seen.append((iteration.record, smoothfem.summary(now).q_mean == iteration.quality.q_mean, now.points.copy()))
+
+        result = smoothfem.smooth(mesh, "smart-laplace", look)
+        self.assertEqual([record for record, _, _ in seen], list(range(len(result.history))))
+        self.assertTrue(all(same for _, same, _ in seen))
+        np.testing.assert_array_equal(seen[0][2], initial)
+        np.testing.assert_array_equal(seen[result.result_record][2], mesh.points)
+
+    def test_exception_of_the_callback_is_passed_on(self):
+        mesh = distorted("triangles")
+        seen = []
+
+        def stop(iteration, now):
+            seen.append(now.points.copy())
+            if iteration.record == 2:
+                raise LookupError("enough")
+
+        with self.assertRaisesRegex(LookupError, "^'?enough"):
+            smoothfem.smooth(mesh, "laplace", stop)
+        self.assertEqual(len(seen), 3)
+        np.testing.assert_array_equal(mesh.points, seen[-1])
+
+    def test_ctrl_c_ends_it(self):
+        mesh = distorted("tetrahedra")
+        # A test that is started in the background may have been told to ignore it.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        with self.assertRaises(KeyboardInterrupt):
+            threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+            # Would take hours.
+            smoothfem.smooth(mesh, "laplace", tolerance=0.0, max_iterations=10**9)
+
+    def test_other_threads_run_meanwhile(self):
+        mesh, counted = distorted("tetrahedra"), []
+        thread = threading.Thread(target=lambda: smoothfem.smooth(mesh, "smart-laplace", tolerance=-1, max_iterations=20,
+                                                                  history=False))
+        thread.start()
+        while thread.is_alive():
+            counted.append(None)
+            time.sleep(0.001)
+        self.assertGreater(len(counted), 3)
+
+    def test_refuses_what_cannot_be_smoothed(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        mesh.points[4] = np.nan, 1.0
+        with self.assertRaisesRegex(smoothfem.InputError, "node 4"):
+            smoothfem.smooth(mesh, "laplace")
+        mesh.points[4] = 2.5, 2.5
+        with self.assertRaisesRegex(smoothfem.InputError, "invalid"):
+            smoothfem.smooth(mesh, "getme")
+        with self.assertRaisesRegex(smoothfem.InputError, "name or a class"):
+            smoothfem.smooth(mesh, 3)
+
+
+class Solving(unittest.TestCase):
+    def test_known_solution(self):
+        mesh = smoothfem.generate("gear", elements="triangles", edge_scale=4)
+        linear, quadratic = (smoothfem.solve(mesh, ("x^2 + y", "2*x ; 1", "-2"), degree, cg_tolerance=1e-13)
+                             for degree in (1, 2))
+        self.assertTrue(linear["cg_converged"] and linear["status"] == "ok")
+        self.assertGreater(linear["l2_error"], 1e-6)
+        self.assertLess(quadratic["l2_error"], 1e-9 * linear["l2_error"])  # u is in the space
+        self.assertGreater(linear["condition_number"], 1.0)
+
+    def test_in_space(self):
+        mesh = smoothfem.generate("flange", elements="tetrahedra", edge_scale=4)
+        record = smoothfem.solve(mesh, next(iter(smoothfem.problems(3))), condition_number="lanczos", multigrid=True)
+        self.assertTrue(record["cg_converged"])
+        self.assertLess(record["amg_cg_iterations"], record["cg_iterations"])
+
+    def test_refusals(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        for sentence, words in (("degree 3", ("gear", 3)), ("there is no", ("gaer",))):
+            with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
+                smoothfem.solve(mesh, *words)
+        mesh.points[4] = 2.5, 2.5
+        with self.assertRaisesRegex(smoothfem.InputError, "invalid"):
+            smoothfem.solve(mesh, "gear")
+
+
+class Readme(unittest.TestCase):
+    def test_lines_do_what_they_say(self):
+        text = (SOURCE / "README.md").read_text(encoding="utf-8")
+        code = next(code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "import smoothfem" in code)
+        self.addCleanup(os.chdir, os.getcwd())
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            names = {}
+            with contextlib.redirect_stdout(io.StringIO()) as told:
+                exec(compile(code, "README.md", "exec"), names)  # the text is the repository's own
+            np.testing.assert_array_equal(smoothfem.read("out.vtu").points, names["mesh"].points)
+        self.assertRegex(told.getvalue(), r"^\d+/\d+ Quality\(q_min=0\.\d")
+
+
+if __name__ == "__main__":
+    unittest.main()

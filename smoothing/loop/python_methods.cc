@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/loop/python_methods.h"
+
+#include <dlfcn.h>
+
+#include <atomic>
+#include <mutex>
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* host_name = "libsmoothfem_python_host.so";
+constexpr const char* start_name = "smoothfem_start_python";
+
+std::atomic<MethodEntry (*)(const MethodInFile&)> maker{nullptr};
+std::atomic<bool> started{false};
+
+/// Beside this library or above it: copies of it for other processors lie in folders of their own.
+fs::path host_path() {
+  Dl_info library{};
+  dladdr(reinterpret_cast<const void*>(&set_python_methods), &library);
+  const fs::path own = fs::weakly_canonical(library.dli_fname ? library.dli_fname : "");
+  for (fs::path above = own.parent_path(); above.has_relative_path(); above = above.parent_path())
+    if (fs::exists(above / host_name)) return above / host_name;
+  throw InputError("methods written in Python need " + std::string(host_name) +
+                   ", which is not beside " + own.string() + "; install smoothfem anew");
+}
+
+/// Global: modules such as numpy's take the interpreter's functions from whoever has them.
+void start_python() {
+  const fs::path path = host_path();
+  void* const host = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (host == nullptr)
+    throw InputError("methods written in Python need libpython, but " + std::string(dlerror()) +
+                     "; on Debian: apt install libpython3-dev python3-numpy");
+  const auto start = reinterpret_cast<const char* (*)()>(dlsym(host, start_name));
+  started = true;
+  const char* why_not = start ? start() : "the library has no function to start it";
+  if (why_not == nullptr && maker == nullptr) why_not = "the package smoothfem is another one";
+  if (why_not != nullptr) {
+    started = false;
+    throw InputError("Python cannot be started for methods written in it: " + std::string(why_not));
+  }
+}
+
+MethodEntry make_python_method(const MethodInFile& method) {
+  static std::mutex mutex;
+  {
+    const std::lock_guard lock(mutex);
+    if (maker == nullptr) start_python();
+  }
+  return maker.load()(method);
+}
+
+const RegisteredScheme registered({.name = "python", .make = make_python_method});
+
+}  // namespace
+
+void set_python_methods(MethodEntry (*make)(const MethodInFile&)) {
+  maker = make;
+}
+
+bool started_python() {
+  return started;
+}
+
+}  // namespace smoothfem
