@@ -6,6 +6,7 @@
 #include "meshes/external/child_process.h"
 #include "meshes/external/command_line.h"
 #include "meshes/external/returned_mesh.h"
+#include "meshes/external/text_vtk.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/number_text.h"
 #include "smoothing/base/interruption.h"
@@ -36,7 +37,7 @@ struct CommandParameters {
          "mesh files (without {out} it changes {in}), {iterations} is how many it shall do, "
          "{folder} the folder that names of files are relative to",
          &command},
-        {"format", "of {in}: vtk, vtu, msh, mesh or inp", &format},
+        {"format", "of {in}: vtk (legacy, as text), vtu, msh (text), mesh or inp", &format},
         {"out_format", "of {out}; empty: that of {in}", &out_format},
         {"files", "files to copy beside {in}, separated by commas", &files},
         {"max_iterations", "{iterations} is this at most, in the last run", &max_iterations, 1.0,
@@ -120,8 +121,7 @@ class CommandSmoother final : public Smoother<dim> {
   }
 
   StoppingRule stopping() const override {
-    return {.criterion = StoppingRule::Criterion::step_says_so,
-            .max_iterations = std::max(p_.max_iterations, p_.repeat)};
+    return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = n_records()};
   }
 
   SmootherOrigin origin() override {
@@ -149,7 +149,7 @@ class CommandSmoother final : public Smoother<dim> {
   StepReport step(SmoothingState<dim>& state) override {
     if (!p_.series.empty()) return next_of_series(state);
     const bool counts = has_placeholder(p_.command, "iterations");
-    const int n = counts ? next_count() : n_done_ + 1;
+    const int n = counts ? count_after(n_done_) : n_done_ + 1;
     const ScratchFolder scratch;
     const Run made = run_on(counts ? *initial_ : state.mesh, counts ? n : 1, scratch.path());
     const auto points =
@@ -158,7 +158,7 @@ class CommandSmoother final : public Smoother<dim> {
     // Runs of so many iterations begin at the initial mesh, others where the one before ended.
     seconds_ = counts ? time : seconds_ + time;
     wall_seconds_ = counts ? made.wall_seconds : wall_seconds_ + made.wall_seconds;
-    return report(state, points, n, n >= (counts ? p_.max_iterations : p_.repeat));
+    return report(state, points, n, false);
   }
 
  private:
@@ -174,9 +174,18 @@ class CommandSmoother final : public Smoother<dim> {
             .wall_seconds = wall_seconds_};
   }
 
-  int next_count() const {
-    const int next = p_.every > 0 ? n_done_ + p_.every : std::max(1, 2 * n_done_);
+  int count_after(int n) const {
+    const int next = p_.every > 0 ? n + p_.every : std::max(1, 2 * n);
     return std::min(next, p_.max_iterations);
+  }
+
+  /// Those of a series are known when it is there, and may be fewer.
+  int n_records() const {
+    if (!p_.series.empty()) return p_.max_iterations;
+    if (!has_placeholder(p_.command, "iterations")) return p_.repeat;
+    int n_records = 0;
+    for (int n = 0; n < p_.max_iterations; n = count_after(n)) ++n_records;
+    return n_records;
   }
 
   /// All files of the series come from one run, at the first step.
@@ -229,7 +238,7 @@ class CommandSmoother final : public Smoother<dim> {
     const bool counts = has_placeholder(p_.command, "iterations");
     if (p_.startup_command.empty() && !counts) return 0.0;
     const ScratchFolder scratch;
-    write_mesh(scratch.path() / p_.in(), *initial_);
+    write_given(scratch.path() / p_.in(), *initial_);
     copy_files(scratch.path());
     const Run idle = run(filled_in(p_.startup_command.empty() ? p_.command : p_.startup_command, 0),
                          scratch.path());
@@ -238,7 +247,7 @@ class CommandSmoother final : public Smoother<dim> {
 
   /// Throws SmootherFailure unless the program ended well.
   Run run_on(const Mesh<dim>& mesh, int n_iterations, const fs::path& folder) {
-    write_mesh(folder / p_.in(), mesh);
+    write_given(folder / p_.in(), mesh);
     copy_files(folder);
     (void)program();
     Run made = run(filled_in(p_.command, n_iterations), folder);
@@ -250,6 +259,14 @@ class CommandSmoother final : public Smoother<dim> {
     if (made.exit_code != 0)
       throw SmootherFailure("it ended with exit code " + std::to_string(made.exit_code) + said());
     return made;
+  }
+
+  /// Text where the format has such a form: most programs read that.
+  void write_given(const fs::path& path, const Mesh<dim>& mesh) const {
+    if (p_.format == "vtk")
+      write_text_vtk(path, mesh);
+    else
+      write_mesh(path, mesh, {}, {.msh_binary = false});
   }
 
   Run run(const std::string& command, const fs::path& folder) {

@@ -9,6 +9,7 @@
 #include "meshes/external/child_process.h"
 #include "meshes/external/command_line.h"
 #include "meshes/external/returned_mesh.h"
+#include "meshes/external/text_vtk.h"
 #include "meshes/tests/labelled_box.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/loop/smoother.h"
@@ -112,6 +113,22 @@ std::string refusal(const std::filesystem::path& path, const Mesh<dim>& given) {
     return failure.what();
   }
   return "";
+}
+
+TEST_F(ExternalProgram, TextOfVtkIsReadBackWithAllBits) {
+  const PlanarMesh planar = mixed_mesh(true);
+  write_text_vtk(file("planar.vtk"), planar);
+  EXPECT_EQ(read_planar(file("planar.vtk")).mesh.copied_coordinates(), planar.copied_coordinates());
+  EXPECT_EQ(read_planar(file("planar.vtk")).mesh.topology().cells(), planar.topology().cells());
+  EXPECT_EQ(read_planar(file("planar.vtk")).mesh.topology().free_nodes(),
+            planar.topology().free_nodes());
+  for (const auto kind : {test::BoxCells::tetrahedra, test::BoxCells::hexahedra,
+                          test::BoxCells::prisms, test::BoxCells::pyramids}) {
+    const VolumeMesh box = test::box_mesh(2, 2, 2, kind);
+    write_text_vtk(file("box.vtk"), box);
+    EXPECT_EQ(read_volume(file("box.vtk")).copied_coordinates(), box.copied_coordinates());
+    EXPECT_EQ(read_volume(file("box.vtk")).topology().cells(), box.topology().cells());
+  }
 }
 
 PlanarMesh with_cells(const PlanarMesh& mesh, CompressedRows<NodeIndex> cells) {
