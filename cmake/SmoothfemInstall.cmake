@@ -17,12 +17,11 @@ file(RELATIVE_PATH libexec_to_lib /${CMAKE_INSTALL_LIBEXECDIR}/smoothfem /${CMAK
 set_target_properties(smoothfem PROPERTIES INSTALL_RPATH $ORIGIN/${libexec_to_lib})
 install(TARGETS smoothfem RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
 if(SMOOTHFEM_BUILD_PYTHON)
-  set(python_package lib/${SMOOTHFEM_PYTHON_PACKAGES}/smoothfem)
-  file(RELATIVE_PATH python_to_lib /${python_package} /${CMAKE_INSTALL_LIBDIR})
+  file(RELATIVE_PATH python_to_lib /${SMOOTHFEM_PYTHON_PACKAGE} /${CMAKE_INSTALL_LIBDIR})
   set_target_properties(smoothfem_python PROPERTIES INSTALL_RPATH $ORIGIN/${python_to_lib})
-  install(TARGETS smoothfem_python LIBRARY DESTINATION ${python_package} COMPONENT program)
+  install(TARGETS smoothfem_python LIBRARY DESTINATION ${SMOOTHFEM_PYTHON_PACKAGE} COMPONENT program)
   install(TARGETS smoothfem_python_host LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
-  install(DIRECTORY python/smoothfem/ DESTINATION ${python_package} COMPONENT program
+  install(DIRECTORY python/smoothfem/ DESTINATION ${SMOOTHFEM_PYTHON_PACKAGE} COMPONENT program
     FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   install(DIRECTORY python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
     FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)

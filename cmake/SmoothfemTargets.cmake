@@ -4,6 +4,7 @@
 # Built as it will be installed: below one folder, with the data beside the programs.
 include(GNUInstallDirs)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(SMOOTHFEM_PYTHON_PACKAGE lib/python3/dist-packages/smoothfem)  # as Debian's python3 has its packages
 set(SMOOTHFEM_LIBEXEC ${PROJECT_BINARY_DIR}/libexec/smoothfem)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/bin ${SMOOTHFEM_LIBEXEC} ${PROJECT_BINARY_DIR}/share)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/share/smoothfem SYMBOLIC)

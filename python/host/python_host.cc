@@ -40,8 +40,9 @@ PyStatus start_interpreter() {
   return status;
 }
 
-/// Loads the package, which makes the methods known. Its folder comes first for that moment only.
+/// Loads numpy, which all methods need, and the package, which makes the methods known. Its folder comes first for that moment only.
 void import_package(const std::string& folder) {
+  py::module_::import("numpy");
   auto path = py::module_::import("sys").attr("path");
   path.attr("insert")(0, folder);
   py::module_::import("smoothfem");

@@ -163,7 +163,8 @@ void bind_results(py::module_& module) {
       .def_readonly("quality", &Result::quality, "of the resulting mesh")
       .def_readonly("result_record", &Result::result_record,
                     "number of the iteration whose mesh is the result")
-      .def_readonly("history", &Result::history, "the iterations, the initial mesh first")
+      .def_readonly("history", &Result::history,
+                    "the iterations, the initial mesh first, if asked for")
       .def("__repr__", [](const Result& r) {
         return "<smoothfem.Result: " + r.method + ", " + r.iterations_text() + " iterations>";
       });

@@ -92,14 +92,14 @@ def parameters(method, kind="planar"):
     return {name: dict(zip(keys, entry)) for name, entry in _core.parameters(_method(method), kind).items()}
 
 
-def smooth(mesh, method, callback=None, *, preset="", history=True, threads=0, **parameters):
+def smooth(mesh, method, callback=None, *, preset="", history=False, threads=0, **parameters):
     """Smooths a mesh in place, and returns a Result: stages, iterations, times, quality, history.
 
     method: a name of methods(), "python:FILE:CLASS", or a class with step(self, mesh). callback(iteration,
     mesh) is called for the initial mesh and after each iteration, with mesh.points as they are then; what it
     changes in them is lost, its time does not count, and an exception in it ends the run and is passed on.
     preset: parameters of an experiment in the literature, "thesis-6.3". history: whether the result has a
-    record of each iteration, which takes a look at every cell. threads: all cores unless given; the result
+    record of each iteration, each of which takes a look at every cell. threads: all cores unless given; the result
     does not depend on it. parameters: of the method, as rho=0.5, with _ for -; those of a stage in a dict:
     sequential={"patience": 5}.
 

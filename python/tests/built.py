@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The package smoothfem as it was built, the program, and small meshes."""
 
+import itertools
 import sys
 
 import numpy as np
@@ -29,10 +30,39 @@ def distorted(elements):
     return mesh
 
 
+def grid(elements, n=6):
+    """A square or a cube of such cells with its inner nodes moved at random: all Laplacian smoothing of it
+    is valid."""
+    dim = 2 if elements in ("triangles", "quadrilaterals") else 3
+    numbers = np.arange((n + 1) ** dim).reshape((n + 1,) * dim)
+    points = np.stack(np.meshgrid(*[np.arange(n + 1.0)] * dim, indexing="ij"), axis=-1)
+    inner = (slice(1, -1),) * dim
+    points[inner] += np.random.default_rng(1).uniform(-0.15, 0.15, points[inner].shape)
+
+    def corners(*steps):
+        return numbers[tuple(slice(step, n + step) for step in steps)].ravel()
+
+    if dim == 2:
+        a, b, c, d = (corners(*steps) for steps in ((0, 0), (1, 0), (1, 1), (0, 1)))
+        cells = [(a, b, c, d)] if elements == "quadrilaterals" else [(a, b, c), (a, c, d)]
+    elif elements == "hexahedra":
+        lower = ((0, 0), (1, 0), (1, 1), (0, 1))
+        cells = [tuple(corners(*steps, z) for z in (0, 1) for steps in lower)]
+    else:  # six around a diagonal, along the edges in every order
+        cells = []
+        for order in itertools.permutations(range(3)):
+            path = [np.zeros(3, dtype=int)]
+            for axis in order:
+                path.append(path[-1] + np.eye(3, dtype=int)[axis])
+            tetrahedron = [corners(*steps) for steps in path]
+            cells.append(tetrahedron if np.linalg.det(np.eye(3)[list(order)]) > 0 else tetrahedron[:2] + tetrahedron[:1:-1])
+    return smoothfem.Mesh(points.reshape(-1, dim), np.concatenate([np.stack(cell, axis=1) for cell in cells]))
+
+
 def address(mesh):
     """Where NumPy sees the coordinates."""
     return mesh.points.__array_interface__["data"][0]
 
 
-__all__ = ["EXAMPLES", "MESHES", "PACKAGES", "PROGRAM", "QUADRILATERALS", "SOURCE", "SQUARE", "address", "distorted", "run",
+__all__ = ["EXAMPLES", "MESHES", "PACKAGES", "PROGRAM", "QUADRILATERALS", "SOURCE", "SQUARE", "address", "distorted", "grid", "run",
            "smoothfem"]

@@ -38,7 +38,7 @@ class Laplace:
 
 class Returning:
     title = "Returned points"
-    patience = 2
+    tolerance = -1.0
     max_iterations = 3
 
     def step(self, mesh):

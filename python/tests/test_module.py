@@ -94,7 +94,7 @@ class Smoothing(unittest.TestCase):
     def test_result(self):
         mesh = distorted("triangles")
         where = address(mesh)
-        result = smoothfem.smooth(mesh, "getme", sequential={"patience": 3}, threads=1)
+        result = smoothfem.smooth(mesh, "getme", sequential={"patience": 3}, threads=1, history=True)
         self.assertEqual(address(mesh), where)
         self.assertEqual(smoothfem._core.address(mesh), where)
         self.assertEqual([stage.name for stage in result.stages], ["simultaneous", "sequential"])
@@ -104,7 +104,7 @@ class Smoothing(unittest.TestCase):
         self.assertEqual(result.history[0].stage, "initial")
         self.assertGreater(result.smoothing_seconds, 0.0)
         self.assertIn(result.quality.q_min, [i.quality.q_min for i in result.history])
-        self.assertEqual(smoothfem.smooth(mesh, "laplace", history=False).history, [])
+        self.assertEqual(smoothfem.smooth(mesh, "laplace").history, [])
 
     def test_parameters_are_the_methods_own(self):
         mesh = distorted("triangles")
@@ -126,7 +126,7 @@ class Smoothing(unittest.TestCase):
             self.assertIs(now, mesh)
             seen.append((iteration.record, smoothfem.summary(now).q_mean == iteration.quality.q_mean, now.points.copy()))
 
-        result = smoothfem.smooth(mesh, "smart-laplace", look)
+        result = smoothfem.smooth(mesh, "smart-laplace", look, history=True)
         self.assertEqual([record for record, _, _ in seen], list(range(len(result.history))))
         self.assertTrue(all(same for _, same, _ in seen))
         np.testing.assert_array_equal(seen[0][2], initial)
@@ -157,8 +157,7 @@ class Smoothing(unittest.TestCase):
 
     def test_other_threads_run_meanwhile(self):
         mesh, counted = distorted("tetrahedra"), []
-        thread = threading.Thread(target=lambda: smoothfem.smooth(mesh, "smart-laplace", tolerance=-1, max_iterations=20,
-                                                                  history=False))
+        thread = threading.Thread(target=lambda: smoothfem.smooth(mesh, "smart-laplace", tolerance=-1, max_iterations=20))
         thread.start()
         while thread.is_alive():
             counted.append(None)
