@@ -23,7 +23,7 @@ if(SMOOTHFEM_BUILD_PYTHON)
   install(TARGETS smoothfem_python_host LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
   install(DIRECTORY python/smoothfem/ DESTINATION ${SMOOTHFEM_PYTHON_PACKAGE} COMPONENT program
     FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
-  install(DIRECTORY python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+  install(DIRECTORY python/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/python COMPONENT program
     FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 endif()
 
