@@ -40,7 +40,8 @@ PyStatus start_interpreter() {
   return status;
 }
 
-/// Loads numpy, which all methods need, and the package, which makes the methods known. Its folder comes first for that moment only.
+/// Loads numpy, which all methods need, and the package, which makes the methods known. Its folder
+/// comes first for that moment only.
 void import_package(const std::string& folder) {
   py::module_::import("numpy");
   auto path = py::module_::import("sys").attr("path");
