@@ -282,6 +282,44 @@ TEST_F(StudyFile, UnknownNamesAreRefused) {
                "getme");
 }
 
+TEST_F(StudyFile, AFormulaIsASolutionWithoutAName) {
+  const auto solution = [&](const std::string& keys) {
+    return read_study(file_with("a.prm", one_mesh + "subsection solution\n" + keys + "end\n"));
+  };
+  EXPECT_EQ(solution("").solution.name, "gear");
+  const Study own = solution(
+      "set u = sin(x)\nset diffusivity = 2, x ; x, 2\n"
+      "set natural = group outlet, 7\n");
+  EXPECT_EQ(own.solution.name, "expression");
+  EXPECT_EQ(own.solution.u, "sin(x)");
+  EXPECT_EQ(own.solution.diffusivity, "2, x ; x, 2");
+  EXPECT_EQ(own.finite_elements.natural_groups, (std::vector<std::string>{"outlet", "7"}));
+  EXPECT_EQ(solution("set natural = a, b\n").finite_elements.natural_groups,
+            (std::vector<std::string>{"a", "b"}));
+  const auto has = [](const Study& study, const std::string& key, const std::string& value) {
+    return std::count(study.header.parameters.begin(), study.header.parameters.end(),
+                      std::pair{key, value}) == 1;
+  };
+  EXPECT_TRUE(has(own, "solution/u", "sin(x)"));
+  EXPECT_TRUE(has(own, "solution/name", "expression"));
+  EXPECT_TRUE(has(own, "solution/diffusivity", "2, x ; x, 2"));
+  EXPECT_TRUE(has(own, "solution/natural", "group outlet, 7"));
+  // Results from before these keys go on.
+  for (const auto& [key, value] : solution("set name = sine\n").header.parameters)
+    EXPECT_TRUE(key != "solution/u" && key != "solution/natural" && key != "solution/diffusivity");
+}
+
+TEST_F(StudyFile, ASolutionIsGivenInOneWayOnly) {
+  const auto expect = [&](const std::string& keys, const std::string& part) {
+    expect_error(one_mesh + "subsection solution\n" + keys + "end\n", part);
+  };
+  expect("set name = sine\nset u = x\n", "has the name 'sine' and the formula 'u'");
+  expect("set u = x\nset load = 0\n", "both 'u' and 'load'");
+  expect("set u = x\nset value = x\n", "both 'u' and 'value'");
+  expect("set name = sine\nset diffusivity = 2\n", "give its formula as 'u' instead");
+  expect("set diffusivity = 2\n", "give its formula as 'u' instead");
+}
+
 TEST_F(StudyFile, LabelsThatWouldBreakFilesAreRefused) {
   expect_error("set meshes = a b\nsubsection mesh a b\n set file = a.mesh\nend\n", "'a b'");
   expect_error("set meshes = ../a\nsubsection mesh ../a\n set file = a.mesh\nend\n", "'../a'");

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "meshes/distortion/distort.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/tests/volume_meshes.h"
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/run_study.h"
 #include "studies/framework/run/study_meshes.h"
@@ -235,6 +238,92 @@ end
     EXPECT_EQ(row.at("status"), "ok");
     EXPECT_LT(std::stod(row.at("e_max")), 1e-10);
     EXPECT_LT(std::stod(row.at("h1_error")), 1e-10);
+  }
+}
+
+/// The grid of the other tests in a file that knows groups: sides of x = 0 are "left", others
+/// "rest".
+void write_grid_with_groups(const fs::path& path) {
+  const PlanarMesh grid = shaken_grid(5, 0.2);
+  MeshLabels labels;
+  labels.names = {{{1, 1}, "left"}, {{1, 2}, "rest"}};
+  const Topology& topology = grid.topology();
+  for (std::size_t f = 0; f < topology.boundary_facets().size(); ++f) {
+    const auto side = topology.boundary_facets()[f];
+    labels.facets.append(side);
+    labels.facet_tags.push_back(
+        grid.coordinates()[side[0]].x() == 0.0 && grid.coordinates()[side[1]].x() == 0.0 ? 1 : 2);
+  }
+  write_mesh(path, PlanarMesh(std::make_shared<const Topology>(2, grid.n_nodes(), topology.cells(),
+                                                               std::nullopt, std::move(labels)),
+                              grid.copied_coordinates()));
+}
+
+TEST_F(RunStudy, AFormulaWithDiffusivityAndNaturalConditionsIsFoundToRoundOff) {
+  write_grid_with_groups(file("groups.msh"));
+  const auto own = [&](const std::string& more) {
+    return read_study(file_with("own.prm",
+                                "set meshes = grid\nset methods = laplace, getme\n"
+                                "set timing runs = 1\nset degrees = 2\n"
+                                "subsection mesh grid\n set file = groups.msh\nend\n"
+                                "subsection finite elements\n set cg tolerance = 1e-13\nend\n"
+                                "subsection solution\n set u = x*x - 2*x*y + 3*y\n" +
+                                    more + "end\n"));
+  };
+  const fs::path out = run(own("set diffusivity = 2, 1 ; 1, 3\nset natural = group rest\n"));
+  const auto rows = table(out, "summary.csv").rows;
+  EXPECT_EQ(rows.size(), 3u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_EQ(row.at("n_dofs"), "121");
+    EXPECT_EQ(row.at("n_free"), "110") << "all but the 11 on the left side";
+    EXPECT_LT(std::stod(row.at("e_max")), 1e-10);
+    EXPECT_LT(std::stod(row.at("h1_error")), 1e-10);
+  }
+  const auto json = nlohmann::json::parse(content_of(out / "provenance.json"));
+  EXPECT_THAT(json.dump(),
+              testing::AllOf(testing::HasSubstr("x*x - 2*x*y + 3*y"),
+                             testing::HasSubstr("2, 1 ; 1, 3"), testing::HasSubstr("group rest")));
+  // Another problem is no continuation of this one.
+  EXPECT_NE(input_error_of([&] { run(own("set natural = group rest\n")); }), "");
+  const auto refused = [&](const std::string& more) {
+    return input_error_of([&] { run(own(more), "refused"); });
+  };
+  EXPECT_THAT(refused("set natural = nowhere\n"),
+              testing::HasSubstr("the mesh has the groups 1 (left), 2 (rest)"));
+  EXPECT_THAT(refused("set natural = left, rest\n"), testing::HasSubstr("out of 'natural'"));
+  EXPECT_THAT(refused("set diffusivity = if(x < 2.5, 1, 2)\n"), testing::HasSubstr("flux across"));
+  EXPECT_THAT(refused("set diffusivity = x - 2\n"), testing::HasSubstr("not positive definite"));
+  EXPECT_EQ(files_in(file("refused")), std::set<std::string>{});
+}
+
+TEST_F(RunStudy, AFormulaGivesTheNumbersOfTheNamedSolution) {
+  const std::string own = "subsection solution\n set u = 40*sin((x+1)*(y-1)/2) + 60\nend\n";
+  const auto named = table(run(study(), "named"), "summary.csv").rows;
+  const auto derived = table(run(study(own), "derived"), "summary.csv").rows;
+  ASSERT_EQ(named.size(), derived.size());
+  for (std::size_t r = 0; r < named.size(); ++r) {
+    EXPECT_EQ(named[r].at("cg_iterations"), derived[r].at("cg_iterations"));
+    for (const std::string column : {"e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error"}) {
+      const double expected = std::stod(named[r].at(column));
+      EXPECT_NEAR(std::stod(derived[r].at(column)), expected, 1e-9 * expected) << column;
+    }
+  }
+}
+
+TEST_F(RunStudy, AMeshOfAllTypesOfVolumeCellsIsSolvedOn) {
+  write_mesh(file("box.vtu"), test::box_mesh(3, 3, 6, test::BoxCells::mixed));
+  const auto own = read_study(
+      file_with("box.prm",
+                "set dimension = 3\nset meshes = box\nset methods = laplace\nset timing runs = 1\n"
+                "set degrees = 1\nsubsection mesh box\n set file = box.vtu\nend\n"
+                "subsection solution\n set u = 1 + 2*x - 3*y + z/2\n set diffusivity = 2\nend\n"
+                "subsection finite elements\n set cg tolerance = 1e-13\nend\n"));
+  const auto rows = table(run(own), "summary.csv").rows;
+  EXPECT_EQ(rows.size(), 2u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_LT(std::stod(row.at("e_max")), 1e-10);
   }
 }
 

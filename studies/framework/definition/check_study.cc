@@ -22,6 +22,22 @@ void check_names(const Study& study) {
     if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
 }
 
+/// A solution is given in one way only.
+void check_solution(const StudySolution& solution) {
+  if (!solution.u.empty() && solution.name != "expression")
+    throw InputError("the solution has the name '" + solution.name +
+                     "' and the formula 'u'; take one of them out");
+  for (const auto& [key, text] : {std::pair{"value", solution.value},
+                                  {"gradient", solution.gradient},
+                                  {"load", solution.load}})
+    if (!solution.u.empty() && !text.empty())
+      throw InputError("the solution has both 'u' and '" + std::string(key) +
+                       "'; what follows from 'u' is derived, so take '" + key + "' out");
+  if (!solution.diffusivity.empty() && solution.name != "expression")
+    throw InputError("the solution '" + solution.name +
+                     "' is one without a diffusivity; give its formula as 'u' instead");
+}
+
 /// Stages that are recorded in their own way belong to one of the methods.
 void check_stages(const Study& study) {
   std::vector<std::string> known;
@@ -61,6 +77,7 @@ void check_labels(std::vector<std::string> labels, const std::string& what,
 
 void check_study(const Study& study) {
   check_names(study);
+  check_solution(study.solution);
   check_stages(study);
   check_thresholds(study);
 }

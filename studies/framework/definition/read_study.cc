@@ -113,6 +113,25 @@ std::vector<int> read_degrees(const std::string& list, const std::string& file) 
   return degrees;
 }
 
+/// A study that names no solution has its own, or else the gear's.
+void name_solution(ParameterHandler& p) {
+  const Subsection subsection(p, "solution");
+  if (p.get("name").empty())
+    p.set("name",
+          std::string(p.get("u").empty() && p.get("value").empty() ? "gear" : "expression"));
+}
+
+/// "group NAME, NAME, ..." or the names alone.
+std::vector<std::string> read_groups(const std::string& text) {
+  auto groups = split_list(text);
+  if (groups.empty()) return groups;
+  auto& first = groups.front();
+  if (first.starts_with("group ") || first.starts_with("group="))
+    first.erase(0,
+                std::min(first.find_first_not_of(" =", std::string("group").size()), first.size()));
+  return groups;
+}
+
 void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
   study.only_results_of_seeds = p.get("record seeds") == "results";
@@ -123,7 +142,9 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.write_series = p.get_bool("write series");
   {
     const Subsection subsection(p, "solution");
-    study.solution = {p.get("name"), p.get("value"), p.get("gradient"), p.get("load")};
+    study.solution = {p.get("name"), p.get("value"), p.get("gradient"),
+                      p.get("load"), p.get("u"),     p.get("diffusivity")};
+    study.finite_elements.natural_groups = read_groups(p.get("natural"));
   }
   {
     const Subsection subsection(p, "finite elements");
@@ -158,13 +179,16 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
   return taken;
 }
 
-/// Which reader a file is for goes without saying; so results from before there were kinds, and
-/// surfaces, go on.
+/// Which reader a file is for goes without saying; so results from before there were kinds,
+/// surfaces, derived solutions, diffusivities and natural conditions go on.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
   std::erase_if(parameters, [](const auto& entry) {
     return entry.first == "kind" ||
-           entry == std::pair<std::string, std::string>{"surface", "false"};
+           entry == std::pair<std::string, std::string>{"surface", "false"} ||
+           (entry.second.empty() &&
+            (entry.first == "solution/u" || entry.first == "solution/diffusivity" ||
+             entry.first == "solution/natural"));
   });
   return parameters;
 }
@@ -247,6 +271,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
     type_of[method] = type;
   }
   parse_study(p, text, file, false);
+  name_solution(p);
 
   Study study;
   study.header = read_header(p, file, scale);

@@ -61,10 +61,12 @@ struct StudyMethod {
   Method<dim, spacedim> make() const;
 };
 
-/// Where the manufactured solution comes from: a name, or expressions.
+/// Where the manufactured solution comes from: a name, one formula, or expressions of all parts.
 struct StudySolution {
-  std::string name;
+  std::string name;  ///< "expression": the others say it
   std::string value, gradient, load;
+  std::string u;            ///< in place of the three
+  std::string diffusivity;  ///< empty: the identity
 };
 
 /// When error thresholds count as reached (thesis, Table 6.4).

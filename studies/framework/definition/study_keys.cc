@@ -169,12 +169,23 @@ void declare_problem(ParameterHandler& p) {
                   "Write each method's meshes as a VTU series (.pvd).");
   {
     const Subsection subsection(p, "solution");
-    p.declare_entry("name", "gear", Patterns::Anything(),
-                    "Solution (see 'list'), or 'expression' for the three below.");
-    p.declare_entry("value", "", Patterns::Anything(), "u as an expression in x and y (and z).");
+    p.declare_entry("name", "", Patterns::Anything(),
+                    "Solution (see 'list'), or 'expression' for the formulas below; empty: "
+                    "'expression' where there are any, else 'gear'.");
+    p.declare_entry("u", "", Patterns::Anything(),
+                    "u as a formula in x and y (and z), pieces by 'if(x < 0.5, a, b)'; its "
+                    "gradient and f are derived.");
+    p.declare_entry("diffusivity", "", Patterns::Anything(),
+                    "A of -div(A grad u) = f: one formula, or 'a11, a12 ; a21, a22' (in space 3 "
+                    "rows of 3), symmetric and positive definite; empty: 1.");
+    p.declare_entry("natural", "", Patterns::Anything(),
+                    "Parts of the boundary where A grad u . n is given instead of u: 'group NAME, "
+                    "...', with the names or tags of the mesh file; empty: none.");
+    p.declare_entry("value", "", Patterns::Anything(),
+                    "In place of 'u', without deriving: u as an expression in x and y (and z).");
     p.declare_entry("gradient", "", Patterns::Anything(),
                     "Its gradient: 'u_x ; u_y' (and '; u_z').");
-    p.declare_entry("load", "", Patterns::Anything(), "f = -laplace(u).");
+    p.declare_entry("load", "", Patterns::Anything(), "f = -laplace(u), or -div(A grad u).");
   }
   {
     const Subsection subsection(p, "finite elements");
@@ -183,8 +194,8 @@ void declare_problem(ParameterHandler& p) {
     p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
                     "Gauss points per direction on quadrilaterals.");
     p.declare_entry("hexahedron points", "auto", Patterns::Selection(hexahedron_points()),
-                    "Gauss points per direction on hexahedra: 1 to 20, or auto: each cell takes 4 "
-                    "or as many as leave less than 1e-4.");
+                    "Gauss points per direction on hexahedra (pyramids, prisms): 1 to 20, or auto: "
+                    "each cell takes 4 or as many as leave less than 1e-4.");
     p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "On |r| / |b|.");
     p.declare_entry("boundary in norm", "true", Patterns::Bool(),
                     "Take the boundary values into |b| (the thesis' counts do).");

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "fem/check_pieces.h"
 #include "fem/chosen_points.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
@@ -93,7 +94,10 @@ class StudyRun {
     std::vector<Point<spacedim>> sample;
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
       sample.push_back(points[i]);
-    return study_solution<spacedim>(study_.solution, sample);
+    auto solution = study_solution<spacedim>(study_.solution, sample);
+    if constexpr (dim == spacedim)
+      for (const auto& prepared : data_.meshes) check_pieces(solution, prepared.mesh);
+    return solution;
   }
 
   /// The provenance first: results of an earlier run are then not taken for those of this one.
@@ -200,10 +204,10 @@ class StudyRun {
     }
     for (const auto& mesh : data_.meshes)
       for (const auto& [degree, most] : mesh.most_points)
-        progress_.say(
-            "Hexahedra of " + mesh.description.name + ", degree " + std::to_string(degree) + ": " +
-            std::to_string(chosen_points::ladder.front()) + " to " + std::to_string(most) +
-            " Gauss points per direction, each cell as many as it needs.");
+        progress_.say("Cells of " + mesh.description.name + ", degree " + std::to_string(degree) +
+                      ": " + std::to_string(chosen_points::ladder.front()) + " to " +
+                      std::to_string(most) +
+                      " Gauss points per direction, each cell as many as it needs.");
   }
 
   /// Tasks that are not done, those first that tell soon what all the others cost. Of volume meshes

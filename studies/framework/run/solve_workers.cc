@@ -109,7 +109,9 @@ template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
                                          std::span<const Point<dim>> sample) {
   if (solution.name != "expression") return manufactured_solution<dim>(solution.name);
-  return parsed_solution<dim>(solution.value, solution.gradient, solution.load, sample);
+  if (!solution.u.empty()) return derived_solution<dim>(solution.u, solution.diffusivity, sample);
+  return parsed_solution<dim>(solution.value, solution.gradient, solution.load, sample,
+                              solution.diffusivity);
 }
 template ManufacturedSolution<2> study_solution(const StudySolution&, std::span<const Point<2>>);
 template ManufacturedSolution<3> study_solution(const StudySolution&, std::span<const Point<3>>);
