@@ -23,7 +23,7 @@ if(SMOOTHFEM_BUILD_PYTHON)
   install(TARGETS smoothfem_python_host LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
   install(DIRECTORY python/smoothfem/ DESTINATION ${SMOOTHFEM_PYTHON_PACKAGE} COMPONENT program
     FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
-  install(DIRECTORY python/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+  install(DIRECTORY python/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/python COMPONENT program
     FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 endif()
 
@@ -43,6 +43,11 @@ install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/studie
 install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem COMPONENT program
   FILES_MATCHING PATTERN "*.py" PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)
 
+install(DIRECTORY adapters DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem COMPONENT program
+  USE_SOURCE_PERMISSIONS)
+install(DIRECTORY launcher/new_smoother DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/launcher COMPONENT program
+  USE_SOURCE_PERMISSIONS)
+
 # Headers: all that a smoother of one's own may want to include, and what reads, generates and solves.
 foreach(folder base geometry getme laplacian loop mesh optimization polygons quality simd surface transformations)
   file(GLOB headers CONFIGURE_DEPENDS smoothing/${folder}/*.h)
@@ -55,6 +60,8 @@ foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)
 endforeach()
+# The build tree, too, can be found by find_package.
+export(EXPORT smoothfem NAMESPACE smoothfem:: FILE ${PROJECT_BINARY_DIR}/smoothfem.cmake)
 install(EXPORT smoothfem NAMESPACE smoothfem:: DESTINATION ${package_folder} COMPONENT development)
 configure_package_config_file(cmake/smoothfemConfig.cmake.in ${PROJECT_BINARY_DIR}/smoothfemConfig.cmake
   INSTALL_DESTINATION ${package_folder})

@@ -32,6 +32,7 @@ function(smoothfem_add_library name)
     INSTALL_RPATH $ORIGIN)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/smoothfem>)
   target_link_libraries(${target} PRIVATE smoothfem_options)
 endfunction()

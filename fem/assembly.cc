@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "fem/cell_integrals.h"
+#include "fem/natural_load.h"
 
 namespace smoothfem {
 
@@ -41,13 +42,18 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
 
 /// Adds the integrals of the cells of one element, those whose points are chosen rule by rule:
 /// what becomes of a cell does not depend on the others.
-template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+template <int dim, std::size_t n_dofs, std::size_t n_vertices, class AnyDiffusivity>
 class CellAssembly {
  public:
   CellAssembly(const FiniteElementSpace<dim>& space, const ElementCells& group,
                const std::vector<Point<dim>>& x, const Eigen::VectorXd& nodal_load,
-               PoissonSystem& system)
-      : space_(space), group_(group), x_(x), nodal_load_(nodal_load), system_(system) {}
+               const AnyDiffusivity& diffusivity, PoissonSystem& system)
+      : space_(space),
+        group_(group),
+        x_(x),
+        nodal_load_(nodal_load),
+        diffusivity_(diffusivity),
+        system_(system) {}
 
   void run() {
     std::vector<std::size_t> cells(group_.n_cells());
@@ -57,6 +63,7 @@ class CellAssembly {
 
  private:
   using Integrals = CellIntegrals<n_dofs, Lanes>;
+  static constexpr bool is_constant = std::is_same_v<AnyDiffusivity, IdentityDiffusivity>;
 
   /// Returns the cells that need a finer rule.
   std::vector<std::size_t> add_settled(const std::vector<std::size_t>& cells, std::size_t level) {
@@ -66,15 +73,17 @@ class CellAssembly {
       const ElementBatch<dim, n_dofs, n_vertices> batch(group_, x_, nodal_load_, cells, first);
       if (level > 0)
         coarse.template compute<dim, n_vertices>(group_.element, level - 1, batch.vertices,
-                                                 batch.load);
-      fine.template compute<dim, n_vertices>(group_.element, level, batch.vertices, batch.load);
+                                                 batch.load, diffusivity_);
+      fine.template compute<dim, n_vertices>(group_.element, level, batch.vertices, batch.load,
+                                             diffusivity_);
       for (std::size_t l = 0; l < batch.size; ++l) {
         const std::size_t cell = batch.cells[l];
         const bool is_folded = !(fine.smallest_determinant[l] > 0.0);
         const std::size_t n_rules = group_.element.n_rules();
         const double tolerance = chosen_points::tolerance_at(level, n_rules);
-        const bool is_settled =
-            is_folded || (level == 0 ? is_even(fine, l) : is_near(coarse, fine, l, tolerance));
+        // Even determinants say nothing of a diffusivity.
+        const bool is_settled = is_folded || (level == 0 ? is_constant && is_even(fine, l)
+                                                         : is_near(coarse, fine, l, tolerance));
         if (!is_settled && level + 1 < n_rules) {
           others.push_back(cell);
           continue;
@@ -110,6 +119,7 @@ class CellAssembly {
   const ElementCells& group_;
   const std::vector<Point<dim>>& x_;
   const Eigen::VectorXd& nodal_load_;
+  const AnyDiffusivity& diffusivity_;
   PoissonSystem& system_;
 };
 
@@ -190,10 +200,19 @@ void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>
   system.n_folded_cells = 0;
   system.points = {};
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
-    CellAssembly<dim, n_dofs, n_vertices>(space, group, x, nodal_load, system).run();
+    const auto run = [&]<class AnyDiffusivity>(const AnyDiffusivity& diffusivity) {
+      CellAssembly<dim, n_dofs, n_vertices, AnyDiffusivity>(space, group, x, nodal_load,
+                                                            diffusivity, system)
+          .run();
+    };
+    if (solution.diffusivity)
+      run(VariableDiffusivity<dim>{solution.diffusivity});
+    else
+      run(IdentityDiffusivity{});
     if (load == Load::quadrature)
       add_quadrature_load<dim, n_dofs, n_vertices>(space, group, x, solution, system);
   });
+  add_natural_load(space, x, solution, system.right_hand_side);
 }
 
 #define SMOOTHFEM_INSTANTIATE(dim)                                                       \

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "fem/cell_diffusivity.h"
 #include "fem/finite_element_space.h"
 #include "smoothing/simd/cells.h"
 
@@ -72,14 +73,15 @@ struct CellIntegrals {
   Real smallest_determinant, largest_determinant;
 
   /// level: of the element's rules.
-  template <int dim, std::size_t n_vertices>
+  template <int dim, std::size_t n_vertices, class AnyDiffusivity>
   [[gnu::flatten]] void compute(const ReferenceElement& element, std::size_t level,
                                 const std::array<Vector<dim, Real>, n_vertices>& vertices,
-                                const std::array<Real, n_dofs>& f) {
-    if constexpr (n_vertices == dim + 1)
+                                const std::array<Real, n_dofs>& f,
+                                const AnyDiffusivity& diffusivity) {
+    if constexpr (n_vertices == dim + 1 && std::is_same_v<AnyDiffusivity, IdentityDiffusivity>)
       compute_affine<dim>(element, vertices, f);
     else
-      compute_by_quadrature<dim, n_vertices>(element.rule(level), vertices, f);
+      compute_by_quadrature<dim, n_vertices>(element.rule(level), vertices, f, diffusivity);
   }
 
  private:
@@ -111,11 +113,11 @@ struct CellIntegrals {
       }
   }
 
-  /// Other cells: by quadrature.
-  template <int dim, std::size_t n_vertices>
+  /// Other cells, and where the diffusivity varies: by quadrature.
+  template <int dim, std::size_t n_vertices, class AnyDiffusivity>
   void compute_by_quadrature(const QuadratureTable& table,
                              const std::array<Vector<dim, Real>, n_vertices>& vertices,
-                             const std::array<Real, n_dofs>& f) {
+                             const std::array<Real, n_dofs>& f, const AnyDiffusivity& diffusivity) {
     stiffness.fill(Real{});
     load.fill(Real{});
     smallest_determinant = Real{} + std::numeric_limits<double>::infinity();
@@ -134,8 +136,9 @@ struct CellIntegrals {
         f_here += shape[i] * f[i];
       }
       const Real weighted_f = mapped.weight * f_here;
+      const auto tensor = diffusivity.at(mapped.position);
       for (std::size_t i = 0, p = 0; i < n_dofs; ++i) {
-        const auto weighted_gradient = mapped.weight * gradients[i];
+        const auto weighted_gradient = tensor * (mapped.weight * gradients[i]);
         load[i] += shape[i] * weighted_f;
         for (std::size_t j = i; j < n_dofs; ++j, ++p)
           stiffness[p] += dot(weighted_gradient, gradients[j]);
@@ -187,11 +190,22 @@ std::array<Vector<dim, double>, n_vertices> cell_vertices(const ElementCells& gr
 template <int dim, class Visit>
 void for_each_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
   constexpr std::size_t n_simplex = dim + 1, n_tensor = dim == 2 ? 4 : 8;
+  [[maybe_unused]] constexpr std::size_t n_pyramid = 5, n_prism = 6;
   for (const auto& group : space.groups) {
-    const bool simplex = group.element.n_vertices == n_simplex;
-    if (simplex && space.degree == 1)
+    const std::size_t n_vertices = group.element.n_vertices;
+    if constexpr (dim == 3) {
+      if (n_vertices == n_pyramid) {
+        visit.template operator()<n_pyramid, n_pyramid>(group);
+        continue;
+      }
+      if (n_vertices == n_prism) {
+        visit.template operator()<n_prism, n_prism>(group);
+        continue;
+      }
+    }
+    if (n_vertices == n_simplex && space.degree == 1)
       visit.template operator()<n_simplex, n_simplex>(group);
-    else if (simplex)
+    else if (n_vertices == n_simplex)
       visit.template operator()<dim == 2 ? 6 : 10, n_simplex>(group);
     else if (space.degree == 1)
       visit.template operator()<n_tensor, n_tensor>(group);

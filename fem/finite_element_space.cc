@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fem/natural_load.h"
 #include "fem/numbered_dofs.h"
 
 namespace smoothfem {
@@ -119,20 +120,22 @@ std::vector<Point<dim>> FiniteElementSpace<dim>::dof_points(
 
 template <int dim>
 std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
-    const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks) {
+    const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks,
+    const std::vector<std::string>& natural_groups) {
   if (degree != 1 && degree != 2)
     throw InputError("finite elements of degree " + std::to_string(degree) +
                      " are not available; choose 1 or 2");
   auto space = std::make_shared<FiniteElementSpace<dim>>();
   space->degree = degree;
   space->ranks = ranks;
-  number_dofs(mesh, tensor_points, *space);
+  const NaturalBoundary natural = number_dofs(mesh, tensor_points, natural_groups, *space);
   if (space->n_free == 0)
     throw InputError(
         "no unknown is left for the finite element solution: every node of the mesh is on its "
         "boundary, so refine the mesh or take degree 2");
   space->nodes_of_ranks = ranks.gather(space->nodes);
   locate_dofs(*space);
+  find_natural_facets(natural, *space);
   build_pattern(*space);
   find_entries(*space);
   return space;
@@ -140,11 +143,9 @@ std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
 
 template struct FiniteElementSpace<2>;
 template struct FiniteElementSpace<3>;
-template std::shared_ptr<const FiniteElementSpace<2>> make_finite_element_space(const Mesh<2>*, int,
-                                                                                const TensorPoints&,
-                                                                                const Ranks&);
-template std::shared_ptr<const FiniteElementSpace<3>> make_finite_element_space(const Mesh<3>*, int,
-                                                                                const TensorPoints&,
-                                                                                const Ranks&);
+template std::shared_ptr<const FiniteElementSpace<2>> make_finite_element_space(
+    const Mesh<2>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&);
+template std::shared_ptr<const FiniteElementSpace<3>> make_finite_element_space(
+    const Mesh<3>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&);
 
 }  // namespace smoothfem

@@ -2,11 +2,11 @@
 #include "fem/numbered_dofs.h"
 
 #include <algorithm>
-#include <exception>
 #include <numeric>
 
 #include "fem/distributed_dofs.h"
 #include "fem/distributed_mesh.h"
+#include "fem/nodal_dofs.h"
 
 namespace smoothfem {
 
@@ -18,9 +18,12 @@ constexpr auto absent = FiniteElementSpace<2>::absent;
 template <int dim>
 class SpaceReader {
  public:
-  SpaceReader(const dealii::DoFHandler<dim>& dofs, bool vertices_hold_numbers,
-              FiniteElementSpace<dim>& space)
-      : dofs_(dofs), vertices_hold_numbers_(vertices_hold_numbers), space_(space) {
+  SpaceReader(const dealii::DoFHandler<dim>& dofs, const NaturalBoundary& natural,
+              bool vertices_hold_numbers, FiniteElementSpace<dim>& space)
+      : dofs_(dofs),
+        natural_(natural),
+        vertices_hold_numbers_(vertices_hold_numbers),
+        space_(space) {
     const auto& own = dofs.locally_owned_dofs();  // contiguous
     n_own_dofs_ = own.n_elements();
     first_ = n_own_dofs_ > 0 ? own.nth_index_in_set(0) : 0;
@@ -103,13 +106,27 @@ class SpaceReader {
     return dofs;
   }
 
+  /// The mesh's number of a cell's node.
+  NodeIndex mesh_node(const Cell& cell, unsigned int v) const {
+    return vertices_hold_numbers_ ? static_cast<NodeIndex>(cell->vertex(v)[0])
+                                  : static_cast<NodeIndex>(cell->vertex_index(v));
+  }
+
+  bool is_natural(const Cell& cell, unsigned int face) const {
+    if (natural_.empty()) return false;
+    std::vector<NodeIndex> nodes;
+    for (const unsigned int k : cell->face(face)->vertex_indices())
+      nodes.push_back(mesh_node(cell, cell->reference_cell().face_to_cell_vertices(face, k, 1)));
+    return natural_.contains(std::move(nodes));
+  }
+
   /// A cell of another rank may have faces that only seem to be on the boundary, because nothing
   /// is known behind them; but those have no own dof.
   std::vector<bool> own_boundary_dofs() const {
     std::vector<bool> on_boundary(n_own_dofs_, false);
     const auto mark = [&](const Cell& cell, const std::vector<Index>& indices) {
       for (const unsigned int f : cell->face_indices()) {
-        if (!cell->face(f)->at_boundary()) continue;
+        if (!cell->face(f)->at_boundary() || is_natural(cell, f)) continue;
         for (const unsigned int i : face_dofs(group_of(cell).element, cell, f))
           if (is_own(indices[i])) on_boundary[indices[i] - first_] = true;
       }
@@ -170,7 +187,7 @@ class SpaceReader {
     auto& local = local_nodes_[cell->vertex_index(v)];
     if (local == absent) {
       local = static_cast<std::uint32_t>(space_.nodes.size());
-      space_.nodes.push_back(static_cast<NodeIndex>(cell->vertex(v)[0]));
+      space_.nodes.push_back(mesh_node(cell, v));
     }
     return local;
   }
@@ -197,6 +214,7 @@ class SpaceReader {
   }
 
   const dealii::DoFHandler<dim>& dofs_;
+  const NaturalBoundary& natural_;
   bool vertices_hold_numbers_;
   FiniteElementSpace<dim>& space_;
   Index first_ = 0;
@@ -209,63 +227,51 @@ class SpaceReader {
 
 }  // namespace
 
-template <int dim>
-void require_finite_elements(const Topology& topology) {
-  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
-    const ElementType type = topology.cell_type(c);
-    if (type == ElementType::polygon)
-      throw CellError(c, "has " + std::to_string(topology.cell_nodes(c).size()) +
-                             " nodes; finite elements are solved on triangles and quadrilaterals "
-                             "only, so split the polygons first");
-    if (type == ElementType::pyramid || type == ElementType::prism)
-      throw CellError(c, "is a " + std::string(name_of(type)) +
-                             "; finite elements are solved on meshes of tetrahedra or of "
-                             "hexahedra only, so split the cells to tetrahedra first");
-    if (dim == 3 && type != topology.cell_type(0))
-      throw CellError(c, "is a " + std::string(name_of(type)) +
-                             " among cells of another type; "
-                             "finite elements are solved on meshes of tetrahedra or of hexahedra "
-                             "only");
-  }
-}
-
-template void require_finite_elements<2>(const Topology&);
-template void require_finite_elements<3>(const Topology&);
-
 namespace {
 
-/// The root alone sees what is wrong with a mesh, but all have to stop: the others would wait for
-/// it for ever.
+/// Whether deal.II can number the dofs: it crashes on volume meshes of several types of cells.
 template <int dim>
-void require_on_all_ranks(const Mesh<dim>* mesh, const Ranks& ranks) {
-  std::exception_ptr error;
-  try {
-    if (mesh != nullptr) require_finite_elements<dim>(mesh->topology());
-  } catch (const InputError&) {
-    error = std::current_exception();
+bool is_for_deal_ii(const Mesh<dim>* mesh, const Ranks& ranks) {
+  bool is = true;
+  if (dim == 3 && mesh != nullptr) {
+    const Topology& topology = mesh->topology();
+    const ElementType first = topology.cell_type(0);
+    is = first == ElementType::tetrahedron || first == ElementType::hexahedron;
+    for (CellIndex c = 1; is && c < topology.n_cells(); ++c) is = topology.cell_type(c) == first;
   }
-  bool refused = error != nullptr;
-  ranks.broadcast(refused);
-  if (error) std::rethrow_exception(error);
-  if (refused) throw InputError("the mesh cannot be solved on; the first process says why");
+  ranks.broadcast(is);
+  return is;
 }
 
 }  // namespace
 
 template <int dim>
-void number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,
-                 FiniteElementSpace<dim>& space) {
-  require_on_all_ranks(mesh, space.ranks);
+NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,
+                            const std::vector<std::string>& natural_groups,
+                            FiniteElementSpace<dim>& space) {
+  require_on_all_ranks<dim>(mesh == nullptr ? nullptr : &mesh->topology(), space.degree,
+                            natural_groups, space.ranks);
+  NaturalBoundary natural(mesh == nullptr ? nullptr : &mesh->topology(), natural_groups,
+                          space.ranks);
+  if constexpr (dim == 3)
+    if (!is_for_deal_ii(mesh, space.ranks)) {
+      number_nodal_dofs(mesh == nullptr ? nullptr : &mesh->topology(), tensor_points, natural,
+                        space);
+      return natural;
+    }
   const int n_points = dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron;
   for (const ElementType type : element_types<dim>)
     space.groups.emplace_back().element = make_reference_element(type, space.degree, n_points);
   const auto triangulation = make_triangulation(mesh, space.ranks);
   dealii::DoFHandler<dim> dofs(*triangulation);
   distribute_dofs(dofs, space.degree);
-  SpaceReader<dim>(dofs, space.ranks.size() > 1, space).read();
+  SpaceReader<dim>(dofs, natural, space.ranks.size() > 1, space).read();
+  return natural;
 }
 
-template void number_dofs(const Mesh<2>*, const TensorPoints&, FiniteElementSpace<2>&);
-template void number_dofs(const Mesh<3>*, const TensorPoints&, FiniteElementSpace<3>&);
+template NaturalBoundary number_dofs(const Mesh<2>*, const TensorPoints&,
+                                     const std::vector<std::string>&, FiniteElementSpace<2>&);
+template NaturalBoundary number_dofs(const Mesh<3>*, const TensorPoints&,
+                                     const std::vector<std::string>&, FiniteElementSpace<3>&);
 
 }  // namespace smoothfem

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/function_parser.h>
 
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <mutex>
 #include <sstream>
 
+#include "fem/check_solution.h"
+#include "fem/diffusivity_formulas.h"
 #include "fem/manufactured_solution.h"
 
 namespace smoothfem {
@@ -89,60 +90,13 @@ class Expression {
   std::shared_ptr<std::mutex> lock_;
 };
 
-template <int dim>
-std::string point_text(const Point<dim>& p) {
-  std::string text;
-  for (int d = 0; d < dim; ++d) text += (d == 0 ? "(" : ", ") + std::to_string(p[d]);
-  return text + ")";
-}
-
-/// Outside of a formula's domain its derivatives say nothing.
-template <int dim>
-void check_finite(const ManufacturedSolution<dim>& s, std::span<const Point<dim>> sample) {
-  for (const auto& p : sample) {
-    const auto [value, gradient] = s.value_and_gradient(p);
-    const char* key = !std::isfinite(value)       ? "value"
-                      : !gradient.allFinite()     ? "gradient"
-                      : !std::isfinite(s.load(p)) ? "load"
-                                                  : nullptr;
-    if (key != nullptr)
-      throw InputError("the solution's '" + std::string(key) + "' is not a finite number at " +
-                       point_text(p) + ", a node of the mesh: take a formula that is");
-  }
-}
-
-/// Central differences of u against the given derivatives. Their error at this step is some 1e-6 of
-/// the size of the third and fourth derivatives; a wrong sign or factor is off by far more.
-template <int dim>
-void check_derivatives(const ManufacturedSolution<dim>& s, std::span<const Point<dim>> sample) {
-  constexpr double h = 1e-3, allowed = 1e-2;
-  for (const auto& p : sample) {
-    const double u = s.value(p);
-    Point<dim> slope;
-    double laplacian = 0.0;
-    for (int d = 0; d < dim; ++d) {
-      const Point<dim> step = h * Point<dim>::Unit(d);
-      const double ahead = s.value(p + step), behind = s.value(p - step);
-      slope[d] = (ahead - behind) / (2 * h);
-      laplacian += (ahead + behind - 2 * u) / (h * h);
-    }
-    const double round_off = 1e-15 * std::abs(u) / (h * h);
-    const std::string at = " at " + point_text(p);
-    if (!((s.value_and_gradient(p).gradient - slope).norm() <= allowed * (slope.norm() + 1.0)))
-      throw InputError("the gradient given for the solution is not that of its value" + at +
-                       ": correct 'gradient' or 'value'");
-    if (!(std::abs(s.load(p) + laplacian) <= allowed * (std::abs(laplacian) + 1.0) + round_off))
-      throw InputError("the load given for the solution is not -laplace(value)" + at +
-                       ": there it should be near " + std::to_string(-laplacian));
-  }
-}
-
 }  // namespace
 
 template <int dim>
 ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::string& gradient,
                                           const std::string& load,
-                                          std::span<const Point<dim>> sample) {
+                                          std::span<const Point<dim>> sample,
+                                          const std::string& diffusivity) {
   const Expression<dim> u("value", value, 1), grad("gradient", gradient, dim), f("load", load, 1);
   ManufacturedSolution<dim> solution{
       .name = "expression",
@@ -155,14 +109,16 @@ ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::s
         return {u.component(p, 0), slope};
       },
       .load = [f](const Point<dim>& p) { return f.component(p, 0); }};
-  check_finite(solution, sample);
-  check_derivatives(solution, sample);
+  if (!diffusivity.empty()) add_diffusivity(DiffusivityFormulas<dim>(diffusivity), solution);
+  check_solution(solution, {"'value'", "'gradient'", "'load'"}, sample);
   return solution;
 }
 
 template ManufacturedSolution<2> parsed_solution(const std::string&, const std::string&,
-                                                 const std::string&, std::span<const Point<2>>);
+                                                 const std::string&, std::span<const Point<2>>,
+                                                 const std::string&);
 template ManufacturedSolution<3> parsed_solution(const std::string&, const std::string&,
-                                                 const std::string&, std::span<const Point<3>>);
+                                                 const std::string&, std::span<const Point<3>>,
+                                                 const std::string&);
 
 }  // namespace smoothfem

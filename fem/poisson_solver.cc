@@ -53,7 +53,8 @@ PoissonSolver<dim>::PoissonSolver(const Mesh<dim>* mesh, const PoissonOptions& o
                                   const Ranks& ranks)
     : options_(options),
       work_(std::make_unique<Workspace>(
-          make_finite_element_space(mesh, options.degree, options.tensor_points, ranks),
+          make_finite_element_space(mesh, options.degree, options.tensor_points, ranks,
+                                    options.natural_groups),
           mesh == nullptr ? 0 : mesh->n_nodes())) {}
 
 template <int dim>

@@ -25,6 +25,7 @@ enum class ConditionNumberMethod {
 struct PoissonOptions {
   int degree = 1;              ///< of the Lagrange elements: 1 or 2
   bool galerkin_load = false;  ///< load by quadrature in place of the thesis' nodal one
+  std::vector<std::string> natural_groups{};  ///< see make_finite_element_space
   TensorPoints tensor_points{};
   double cg_tolerance = 1e-8;  ///< on |r| / |b|
   /// Take the boundary values into |b|, as if their equations were identity rows of the full
@@ -55,7 +56,8 @@ struct SolutionRecord {
   std::string status;  ///< "ok", or what is wrong with the numbers
 };
 
-/// Solves -laplace(u) = f with Dirichlet boundary values for meshes of one topology. What depends
+/// Solves -div(A grad u) = f with Dirichlet boundary values, and natural ones on the groups of the
+/// options, for meshes of one topology. What depends
 /// on the topology alone is done once, at construction; copies share it, and are independent in all
 /// else, so each thread takes its own. Several processes share the work; all calls are collective.
 template <int dim>

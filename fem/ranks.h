@@ -40,6 +40,15 @@ class Ranks {
     static_assert(std::is_trivially_copyable_v<T>);
     broadcast_bytes(&value, sizeof(T));
   }
+  /// The root's values, as many as it has, to all.
+  template <class T>
+  void broadcast(std::vector<T>& values) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::size_t n_values = values.size();
+    broadcast(n_values);
+    values.resize(n_values);
+    broadcast_bytes(values.data(), n_values * sizeof(T));
+  }
   /// All ranks' values one after the other, on the root; empty elsewhere.
   template <class T>
   std::vector<T> gather(const std::vector<T>& values) const {

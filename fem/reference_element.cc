@@ -3,8 +3,10 @@
 
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_pyramid_p.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_wedge_p.h>
 
 #include <memory>
 
@@ -28,9 +30,14 @@ bool is_simplex(ElementType type) {
   return type == ElementType::triangle || type == ElementType::tetrahedron;
 }
 
+/// Pyramids and prisms: degree 1 only.
 template <int dim>
 std::unique_ptr<dealii::FiniteElement<dim>> lagrange_element(ElementType type, int degree) {
   if (is_simplex(type)) return std::make_unique<dealii::FE_SimplexP<dim>>(degree);
+  if constexpr (dim == 3) {
+    if (type == ElementType::pyramid) return std::make_unique<dealii::FE_PyramidP<3>>(degree);
+    if (type == ElementType::prism) return std::make_unique<dealii::FE_WedgeP<3>>(degree);
+  }
   return std::make_unique<dealii::FE_Q<dim>>(degree);
 }
 
@@ -93,12 +100,55 @@ dealii::Quadrature<dim> matrix_rule() {
   return dealii::QGaussSimplex<dim>(3);
 }
 
+/// On cells that are no simplices: Gauss points in each direction, in those of pyramid and prism
+/// from a cube that is squeezed to the cell. There the factor by which it is squeezed takes one
+/// point more, with which the rule is exact for the same polynomials as on a cube. (The gradients
+/// of the pyramid's rational shape functions are polynomials in the cube's coordinates.)
+template <int dim>
+dealii::Quadrature<dim> gauss_rule(ElementType type, unsigned int n_points) {
+  if constexpr (dim == 3) {
+    if (type == ElementType::pyramid || type == ElementType::prism) {
+      const dealii::QGauss<1> plain(n_points), squeezed(n_points + 1);
+      const bool pyramid = type == ElementType::pyramid;
+      std::vector<dealii::Point<3>> points;
+      std::vector<double> weights;
+      for (unsigned int c = 0; c < squeezed.size(); ++c)
+        for (unsigned int b = 0; b < plain.size(); ++b)
+          for (unsigned int a = 0; a < plain.size(); ++a) {
+            const double x = plain.point(a)[0], y = plain.point(b)[0], z = squeezed.point(c)[0];
+            const double width = 1.0 - z;
+            const double weight = squeezed.weight(c) * plain.weight(b) * plain.weight(a) * width;
+            // The pyramid's base is [-1, 1]^2; the prism's triangle lies in the first two
+            // directions.
+            if (pyramid)
+              points.emplace_back(width * (2.0 * x - 1.0), width * (2.0 * y - 1.0), z);
+            else
+              points.emplace_back(width * x, z, y);
+            weights.push_back(pyramid ? 4.0 * width * weight : weight);
+          }
+      return {points, weights};
+    }
+  }
+  return dealii::QGauss<dim>(n_points);
+}
+
 template <int dim>
 dealii::Quadrature<dim> error_rule(int degree) {
   if constexpr (dim == 2)
     return dealii::QWitherdenVincentSimplex<2>(6);  // degree 11
   else
     return dealii::QWitherdenVincentSimplex<3>(degree == 1 ? 3 : 4);  // degree 5 or 7
+}
+
+/// Geometry shape functions at the support points of the element's dofs.
+template <int dim>
+std::vector<double> support_of(const dealii::FiniteElement<dim>& element,
+                               const dealii::FiniteElement<dim>& geometry) {
+  std::vector<double> support;
+  for (const auto& point : element.get_unit_support_points())
+    for (unsigned int v = 0; v < geometry.n_dofs_per_cell(); ++v)
+      support.push_back(geometry.shape_value(v, point));
+  return support;
 }
 
 template <int dim>
@@ -108,13 +158,10 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
   ReferenceElement reference{.type = type,
                              .n_vertices = geometry->n_dofs_per_cell(),
                              .n_dofs = element->n_dofs_per_cell(),
-                             .support = {},
+                             .support = support_of(*element, *geometry),
                              .affine = {},
                              .matrices = {},
                              .errors = {}};
-  for (const auto& point : element->get_unit_support_points())
-    for (unsigned int v = 0; v < geometry->n_dofs_per_cell(); ++v)
-      reference.support.push_back(geometry->shape_value(v, point));
   if (is_simplex(type)) {
     reference.matrices = make_table<dim>(*element, *geometry, matrix_rule<dim>());
     reference.affine = make_affine_table(reference.matrices, reference.n_dofs, dim);
@@ -122,7 +169,7 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
   } else {
     const auto table = [&](int n_points) {
       return make_table<dim>(*element, *geometry,
-                             dealii::QGauss<dim>(static_cast<unsigned int>(n_points)));
+                             gauss_rule<dim>(type, static_cast<unsigned int>(n_points)));
     };
     const bool is_chosen = n_tensor_points == 0;
     reference.matrices = table(is_chosen ? chosen_points::ladder.front() : n_tensor_points);
@@ -136,7 +183,33 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
   return reference;
 }
 
+/// dim: of the facet.
+template <int dim>
+FacetElement make_facet(bool simplex, int degree) {
+  const auto lagrange = [&](int of_degree) -> std::unique_ptr<dealii::FiniteElement<dim>> {
+    if (simplex) return std::make_unique<dealii::FE_SimplexP<dim>>(of_degree);
+    return std::make_unique<dealii::FE_Q<dim>>(of_degree);
+  };
+  constexpr unsigned int n_points = 8;
+  const auto element = lagrange(degree), geometry = lagrange(1);
+  FacetElement facet{.n_vertices = geometry->n_dofs_per_cell(),
+                     .n_dofs = element->n_dofs_per_cell(),
+                     .support = support_of(*element, *geometry),
+                     .rule = {}};
+  if constexpr (dim == 2)
+    facet.rule = make_table<2>(*element, *geometry,
+                               simplex ? error_rule<2>(degree) : dealii::QGauss<2>(n_points));
+  else
+    facet.rule = make_table<1>(*element, *geometry, dealii::QGauss<1>(n_points));
+  return facet;
+}
+
 }  // namespace
+
+FacetElement make_facet_element(std::size_t n_vertices, int degree) {
+  keep_deal_ii_on_this_thread();
+  return n_vertices == 2 ? make_facet<1>(false, degree) : make_facet<2>(n_vertices == 3, degree);
+}
 
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points) {
   keep_deal_ii_on_this_thread();

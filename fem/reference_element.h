@@ -48,11 +48,23 @@ struct ReferenceElement {
   }
 };
 
+/// A facet of cells as an element of its own: what the cells' shape functions are on it.
+struct FacetElement {
+  std::size_t n_vertices = 0;  ///< 2: an edge; 3, 4: a triangle or quadrilateral in space
+  std::size_t n_dofs = 0;
+  std::vector<double> support;  ///< as that of ReferenceElement
+  QuadratureTable rule;         ///< 8 Gauss points per direction; degree 11 on triangles
+};
+
 /// Degree 1 or 2 on triangles (3/6 nodes), quadrilaterals (4/9), tetrahedra (4/10) or hexahedra
-/// (8/27). Simplices: matrices exact; errors by a rule of degree 11 on triangles, of degree 5 (for
-/// elements of degree 1) or 7 (degree 2) on tetrahedra. Other cells: tensor Gauss rule with
-/// n_tensor_points per direction for all; the stiffness of a distorted cell is rational, so no rule
-/// is exact. 0 points: those of chosen_points::ladder, of which each cell takes what it needs.
+/// (8/27), degree 1 on pyramids and prisms. Simplices: matrices exact; errors by a rule of degree
+/// 11 on triangles, of degree 5 (for elements of degree 1) or 7 (degree 2) on tetrahedra. Other
+/// cells: tensor Gauss rule with n_tensor_points per direction for all; the stiffness of a
+/// distorted cell is rational, so no rule is exact; pyramids and prisms: the same squeezed. 0
+/// points: those of chosen_points::ladder, of which each cell takes what it needs.
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
+
+/// n_vertices: 2, 3 or 4; degree: 1 or 2.
+FacetElement make_facet_element(std::size_t n_vertices, int degree);
 
 }  // namespace smoothfem

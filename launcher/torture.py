@@ -22,7 +22,7 @@ import time
 from pathlib import Path
 
 MESH_FORMATS = (".vtu", ".vtk", ".msh", ".mesh", ".inp")
-TIMES = {"smoothing_seconds", "preparation_seconds", "reference_preparation_seconds",
+TIMES = {"smoothing_seconds", "preparation_seconds", "wall_seconds", "reference_preparation_seconds",
          "method_preparation_seconds", "cg_seconds", "jacobi_cg_seconds", "amg_setup_seconds", "amg_cg_seconds",
          "reference_seconds", "method_seconds", "speedup", "peak_memory_gib"}
 

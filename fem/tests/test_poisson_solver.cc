@@ -109,7 +109,10 @@ TEST_P(PoissonSolverTest, TrueErrorsFallWithTheExpectedOrders) {
       l2.push_back(record.l2_error);
       h1.push_back(record.h1_error);
     });
-  for (std::size_t i = 0; i + 1 < l2.size(); ++i) {
+  // In the coarsest mixed volume mesh a fifth of the layers are tetrahedra, in the next one twice
+  // as many, in the last one hardly more.
+  const std::size_t first = GetParam().cells == Cells::mixed_volume ? 1 : 0;
+  for (std::size_t i = first; i + 1 < l2.size(); ++i) {
     EXPECT_NEAR(std::log2(l2[i] / l2[i + 1]), degree + 1, 0.3);
     EXPECT_NEAR(std::log2(h1[i] / h1[i + 1]), degree, 0.2);
   }
@@ -368,17 +371,18 @@ TEST(PoissonSolver, RefusesPolygonsDegreesAndMeshesWithoutUnknowns) {
 TEST(PoissonSolver, NamesTheCellsThatItCannotBeSolvedOn) {
   const auto make = [](test::BoxCells kind) {
     const auto mesh = test::box_mesh(2, 2, 4, kind);
-    const PoissonSolver<3> solver(&mesh, PoissonOptions{});
+    const PoissonSolver<3> solver(&mesh, PoissonOptions{.degree = 2});
   };
-  EXPECT_THAT([&] { make(test::BoxCells::pyramids); },
-              ThrowsMessage<InputError>(HasSubstr("pyramid")));
+  EXPECT_THAT(
+      [&] { make(test::BoxCells::pyramids); },
+      ThrowsMessage<InputError>(HasSubstr("cell 0 is a pyramid; finite elements of degree 2")));
   EXPECT_THAT([&] { make(test::BoxCells::prisms); }, ThrowsMessage<InputError>(HasSubstr("prism")));
   EXPECT_THAT([&] { make(test::BoxCells::mixed); }, ThrowsMessage<InputError>(HasSubstr("prism")));
 }
 
 TEST(PoissonSolver, NamesTheFirstCellOfAnotherType) {
-  // A cube, and on its top a tetrahedron over half of the face: tetrahedra and hexahedra do not
-  // go together.
+  // A cube, and on its top a tetrahedron over half of the face: quadratic tetrahedra and hexahedra
+  // do not go together.
   auto mesh = test::box_mesh(1, 1, 1, test::BoxCells::hexahedra);
   auto points = mesh.copied_coordinates();
   points.emplace_back(2.0, 2.0, 2.0);
@@ -387,7 +391,7 @@ TEST(PoissonSolver, NamesTheFirstCellOfAnotherType) {
   EXPECT_THAT(
       [&] {
         const auto both = test::make_volume_mesh(points, cells);
-        const PoissonSolver<3> solver(&both, PoissonOptions{});
+        const PoissonSolver<3> solver(&both, PoissonOptions{.degree = 2});
       },
       ThrowsMessage<InputError>(HasSubstr("tetrahedron among cells of another type")));
 }

@@ -91,6 +91,21 @@ TEST_P(SeveralRanksTest, RecordAndNodalErrorsAreThoseOfOneProcess) {
     });
 }
 
+TEST_P(SeveralRanksTest, OwnProblemsAreThoseOfOneProcess) {
+  GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& plain) {
+    const auto mesh = with_groups(plain);
+    const auto solution = dim == 2
+                              ? derived_solution<dim>("sin(2*x)*y^2", "2, x/2 ; x/2, 1 + y", {})
+                              : derived_solution<dim>("sin(2*x)*y^2 + z", "1 + x*y", {});
+    auto natural = options();
+    natural.natural_groups = {"right", "side"};
+    const auto record =
+        PoissonSolver<dim>(on_root(mesh), natural, all_ranks()).solve(mesh.coordinates(), solution);
+    if (!all_ranks().is_root()) return;
+    expect_same(record, PoissonSolver<dim>(&mesh, natural).solve(mesh.coordinates(), solution));
+  });
+}
+
 TEST_P(SeveralRanksTest, AllRanksHaveTheSameRecord) {
   GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto record = PoissonSolver<dim>(on_root(mesh), options(), all_ranks())
@@ -144,13 +159,19 @@ TEST(SeveralRanks, LimitOfTimeStopsAllRanksTogether) {
 }
 
 TEST(SeveralRanks, AllRanksRefuseTogether) {
-  const auto make = [](const VolumeMesh& mesh) {
-    const PoissonSolver<3> solver(on_root(mesh), PoissonOptions{}, all_ranks());
+  const auto make = [](const VolumeMesh& mesh, int degree,
+                       const std::vector<std::string>& natural = {}) {
+    const PoissonOptions options{.degree = degree, .natural_groups = natural};
+    const PoissonSolver<3> solver(on_root(mesh), options, all_ranks());
   };
-  EXPECT_THAT([&] { make(unit_cube(1, Cells::tetrahedra, 0.0)); },
+  EXPECT_THAT([&] { make(unit_cube(1, Cells::tetrahedra, 0.0), 1); },
               ThrowsMessage<InputError>(HasSubstr("no unknown")));
-  EXPECT_THROW(make(test::box_mesh(2, 2, 2, test::BoxCells::pyramids)), InputError);
-  EXPECT_THROW(make(test::box_mesh(2, 2, 4, test::BoxCells::mixed)), InputError);
+  EXPECT_THAT([&] { make(unit_cube(1, Cells::prisms, 0.0), 1); },
+              ThrowsMessage<InputError>(HasSubstr("no unknown")));
+  EXPECT_THROW(make(test::box_mesh(2, 2, 2, test::BoxCells::pyramids), 2), InputError);
+  EXPECT_THROW(make(test::box_mesh(2, 2, 4, test::BoxCells::mixed), 2), InputError);
+  EXPECT_THROW(make(unit_cube(3, Cells::hexahedra, 0.0), 1, {"nowhere"}), InputError);
+  EXPECT_THROW(make(with_groups(unit_cube(3, Cells::prisms, 0.0)), 1, {"1", "2", "3"}), InputError);
 }
 
 }  // namespace

@@ -7,7 +7,16 @@
 
 namespace smoothfem {
 
-enum class Cells { triangles, quadrilaterals, mixed, tetrahedra, hexahedra };
+enum class Cells {
+  triangles,
+  quadrilaterals,
+  mixed,
+  tetrahedra,
+  hexahedra,
+  pyramids,
+  prisms,
+  mixed_volume
+};
 
 constexpr int dimension_of(Cells cells) {
   return cells >= Cells::tetrahedra ? 3 : 2;
@@ -42,13 +51,18 @@ inline PlanarMesh unit_square(std::size_t n, Cells kind, double amount) {
   return {std::make_shared<Topology>(2, n_nodes, std::move(cells)), std::move(points)};
 }
 
-/// n x n x n cubes on [0, 1]^3, each one hexahedron or six tetrahedra. Inner nodes are moved at
-/// random, by up to `amount` edge lengths in each direction.
+/// n x n x n cubes on [0, 1]^3, each one hexahedron, six tetrahedra or pyramids, or two prisms;
+/// mixed: layers of each. Inner nodes are moved at random, by up to `amount` edge lengths in each
+/// direction.
 inline VolumeMesh unit_cube(std::size_t n, Cells kind, double amount) {
   const auto size = static_cast<std::uint32_t>(n);
-  VolumeMesh mesh = test::box_mesh(
-      size, size, size,
-      kind == Cells::tetrahedra ? test::BoxCells::tetrahedra : test::BoxCells::hexahedra);
+  using test::BoxCells;
+  VolumeMesh mesh = test::box_mesh(size, size, size,
+                                   kind == Cells::tetrahedra  ? BoxCells::tetrahedra
+                                   : kind == Cells::hexahedra ? BoxCells::hexahedra
+                                   : kind == Cells::pyramids  ? BoxCells::pyramids
+                                   : kind == Cells::prisms    ? BoxCells::prisms
+                                                              : BoxCells::mixed);
   if (amount > 0.0) test::distort(mesh, amount, 1);
   for (auto& p : mesh.coordinates()) p /= static_cast<double>(n);
   return mesh;
@@ -61,6 +75,28 @@ Mesh<dim> unit_mesh(std::size_t n, Cells kind, double amount) {
     return unit_square(n, kind, amount);
   else
     return unit_cube(n, kind, amount);
+}
+
+/// The same mesh with each facet of the boundary in a group: "left" where x = 0, "right" where
+/// x = 1, else "side", with the tags 1, 2 and 3.
+template <int dim>
+Mesh<dim> with_groups(const Mesh<dim>& mesh) {
+  const Topology& topology = mesh.topology();
+  MeshLabels labels;
+  labels.names = {{{dim - 1, 1}, "left"}, {{dim - 1, 2}, "right"}, {{dim - 1, 3}, "side"}};
+  for (std::size_t f = 0; f < topology.boundary_facets().size(); ++f) {
+    const auto facet = topology.boundary_facets()[f];
+    const auto all_at = [&](double x) {
+      return std::all_of(facet.begin(), facet.end(), [&](NodeIndex node) {
+        return std::abs(mesh.coordinates()[node].x() - x) < 1e-12;
+      });
+    };
+    labels.facets.append(facet);
+    labels.facet_tags.push_back(all_at(0.0) ? 1 : all_at(1.0) ? 2 : 3);
+  }
+  return {std::make_shared<const Topology>(dim, mesh.n_nodes(), topology.cells(), std::nullopt,
+                                           std::move(labels)),
+          mesh.copied_coordinates()};
 }
 
 /// An element of finite elements, for tests with this parameter.
@@ -80,19 +116,22 @@ struct Case {
 
 /// For ParamInfo, and for what a failure prints.
 inline std::string name_of(const Case& c) {
-  const char* cells[] = {"triangles", "quadrilaterals", "mixed", "tetrahedra", "hexahedra"};
+  const char* cells[] = {"triangles", "quadrilaterals", "mixed",  "tetrahedra",
+                         "hexahedra", "pyramids",       "prisms", "mixed_volume"};
   return std::string(cells[static_cast<int>(c.cells)]) + "_degree_" + std::to_string(c.degree);
 }
 inline void PrintTo(const Case& c, std::ostream* out) {
   *out << name_of(c);
 }
 
-/// Every kind of cells with both degrees.
+/// Every kind of cells with every degree that it can have.
 inline std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const Cells cells :
        {Cells::triangles, Cells::quadrilaterals, Cells::mixed, Cells::tetrahedra, Cells::hexahedra})
     for (const int degree : {1, 2}) cases.push_back({cells, degree});
+  for (const Cells cells : {Cells::pyramids, Cells::prisms, Cells::mixed_volume})
+    cases.push_back({cells, 1});
   return cases;
 }
 

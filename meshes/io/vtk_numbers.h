@@ -30,7 +30,7 @@ std::optional<VtkNumber> vtk_number(const std::array<VtkNumberName, n>& names,
   return found->type;
 }
 
-/// visit.operator()<T>() with the type of C++.
+/// `visit.operator()<T>()` with the type of C++.
 template <class Visit>
 decltype(auto) with_vtk_number(VtkNumber type, const Visit& visit) {
   switch (type) {

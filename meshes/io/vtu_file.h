@@ -20,7 +20,7 @@
 
 namespace smoothfem {
 
-/// An element <DataArray>.
+/// An element `<DataArray>`.
 struct VtuArray {
   std::string_view name, type, format;
   std::uint64_t n_components = 1;
@@ -30,7 +30,8 @@ struct VtuArray {
   std::size_t position = 0;    ///< in the file
 };
 
-/// Those below one element: <Points>, <Cells>, <PointData>, <CellData> or <FieldData>.
+/// Those below one element: `<Points>`, `<Cells>`, `<PointData>`,
+/// `<CellData>` or `<FieldData>`.
 using VtuSection = std::vector<VtuArray>;
 
 struct VtuPiece {

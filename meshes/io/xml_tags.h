@@ -10,7 +10,7 @@
 
 namespace smoothfem {
 
-/// <name a="1" b="2">, </name> or <name/>, as they stand in the text.
+/// `<name a="1" b="2">`, `</name>` or `<name/>`, as they stand in the text.
 struct XmlTag {
   std::string_view name;
   std::vector<std::pair<std::string_view, std::string_view>> attributes;

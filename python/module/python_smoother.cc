@@ -13,7 +13,7 @@ namespace {
 /// A parameter that a class declares.
 struct DeclaredParameter {
   std::string name, description;
-  std::variant<double, int> value;
+  std::variant<double, int, std::string> value;
 };
 
 /// Objects of Python that are let go of with the GIL held.
@@ -42,7 +42,7 @@ decltype(auto) with_python(const Call& call) {
     return call();
   } catch (const py::error_already_set& error) {
     if (!started_python()) throw;
-    throw InputError(py::cast<std::string>(py::str(error.value())));
+    throw SmootherFailure(py::cast<std::string>(py::str(error.value())));
   }
 }
 
@@ -61,7 +61,9 @@ class PythonSmoother final : public Smoother<dim> {
       const auto [name, value, reason] =
           py::cast<std::tuple<std::string, py::object, std::string>>(entry);
       DeclaredParameter declared{name, reason, 0.0};
-      if (py::isinstance<py::int_>(value))
+      if (py::isinstance<py::str>(value))
+        declared.value = py::cast<std::string>(value);
+      else if (py::isinstance<py::int_>(value))
         declared.value = py::cast<int>(value);
       else
         declared.value = py::cast<double>(value);
@@ -75,6 +77,14 @@ class PythonSmoother final : public Smoother<dim> {
   std::string_view name() const override { return name_; }
   SmootherTraits traits() const override { return {.needs_node_order = true}; }
   StoppingRule stopping() const override { return stopping_.rule(); }
+
+  SmootherOrigin origin() override {
+    return with_python([&] {
+      const py::object path = python_.definition.attr("path");
+      return path.is_none() ? SmootherOrigin{}
+                            : SmootherOrigin{.files = {py::cast<std::string>(path)}, .version = {}};
+    });
+  }
 
   Parameters parameters() override {
     Parameters all;
@@ -109,9 +119,9 @@ class PythonSmoother final : public Smoother<dim> {
       GivenBack given_back(*lent);
       python_.run.attr("step")(lent);
       if (given_back.now())
-        throw InputError(name_ +
-                         ": step keeps mesh.points, or a part of it, for later; keep a copy, "
-                         "mesh.points.copy(), and take mesh.points anew in each step");
+        throw SmootherFailure(name_ +
+                              ": step keeps mesh.points, or a part of it, for later; keep a copy, "
+                              "mesh.points.copy(), and take mesh.points anew in each step");
     });
     return {};
   }

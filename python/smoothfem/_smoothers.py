@@ -74,8 +74,8 @@ class Definition:
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", str(name)) or name in STOPPING or hasattr(self.cls, name):
             raise InputError(f"{self.name}: a parameter cannot be called '{name}'; take another name, of letters, "
                              "digits and _, that the class has not")
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise InputError(f"{self.name}: parameter {name} has the default {value!r}; it has to be a number")
+        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+            raise InputError(f"{self.name}: parameter {name} has the default {value!r}; it has to be a number or a text")
         return name, value, str(reason)
 
     def _number(self, key, value, kind):

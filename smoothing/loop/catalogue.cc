@@ -23,14 +23,33 @@ MethodEntry entry(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+std::filesystem::path& present_library() {
+  static std::filesystem::path library;
+  return library;
+}
+
+}  // namespace
+
+LibraryOfMethods::LibraryOfMethods(const std::filesystem::path& library) {
+  present_library() = library;
+}
+
+LibraryOfMethods::~LibraryOfMethods() {
+  present_library().clear();
+}
+
 RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
   std::string name = info.name;
+  info.library = present_library();
   registry().add({std::move(name), std::move(info), std::move(factories)});
 }
 
-std::vector<MethodInfo> method_catalogue() {
+std::vector<MethodInfo> method_catalogue(bool also_those_with_needs) {
   std::vector<MethodInfo> infos;
-  for (const auto& entry : registry().all()) infos.push_back(entry.info);
+  for (const auto& entry : registry().all())
+    if (also_those_with_needs || !entry.info.needs_parameters) infos.push_back(entry.info);
   return infos;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "smoothing/loop/plugin_abi.h"
 #include "smoothing/loop/smoother.h"
 
 namespace smoothfem {
@@ -16,6 +18,9 @@ struct MethodInfo {
   std::string title;        ///< in tables and figures
   std::string description;  ///< one sentence
   std::string source;       ///< thesis section or paper
+  /// Whether it says nothing without parameters that users give it: then it is not one of "all".
+  bool needs_parameters = false;
+  std::filesystem::path library = {};  ///< the plugin that registered it; empty: this program
 };
 
 template <int dim, int spacedim = dim>
@@ -32,6 +37,18 @@ struct Method {
   /// Sets one parameter by that name; throws InputError.
   void set(const std::string& name, const std::string& value);
 };
+
+/// Throws InputError where parameters do not go together.
+template <int dim, int spacedim>
+void check_parameters(const Method<dim, spacedim>& method) {
+  for (const auto& stage : method.stages) stage->check_parameters();
+}
+
+/// Tells all stages where their files are.
+template <int dim, int spacedim>
+void use_folders(Method<dim, spacedim>& method, const SmootherFolders& folders) {
+  for (auto& stage : method.stages) stage->use_folders(folders);
+}
 
 /// How to make the stages of a method for planar, volume and surface meshes; empty where it takes
 /// none of these.
@@ -53,8 +70,16 @@ struct RegisteredMethod {
   RegisteredMethod(MethodInfo info, StageFactories factories);
 };
 
-/// All registered methods, sorted by name.
-std::vector<MethodInfo> method_catalogue();
+/// As long as it lives, methods that register themselves are those of this library.
+class LibraryOfMethods {
+ public:
+  explicit LibraryOfMethods(const std::filesystem::path& library);
+  ~LibraryOfMethods();
+  LibraryOfMethods(const LibraryOfMethods&) = delete;
+};
+
+/// The registered methods that can do without parameters, or all there are, sorted by name.
+std::vector<MethodInfo> method_catalogue(bool also_those_with_needs = false);
 
 /// True if every stage keeps nodes where the constraints of a mesh have them (SmootherTraits).
 template <int dim, int spacedim>

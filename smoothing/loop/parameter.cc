@@ -38,6 +38,7 @@ std::string value_text(const Parameter& parameter) {
     return text;
   }
   if (const auto* whole = std::get_if<int*>(&parameter.value)) return number_text(**whole);
+  if (const auto* text = std::get_if<std::string*>(&parameter.value)) return **text;
   return number_text(*std::get<double*>(parameter.value));
 }
 
@@ -103,6 +104,8 @@ void set_value(const Parameter& parameter, const std::string& text, const std::s
           *target.index = position_of(target, text, what);
         else if constexpr (std::is_same_v<Target, std::vector<double>*>)
           *target = numbers_in_range(parameter, text, what);
+        else if constexpr (std::is_same_v<Target, std::string*>)
+          *target = text;
         else
           *target = number_in_range<std::remove_pointer_t<Target>>(parameter, text, what);
       },

@@ -19,8 +19,8 @@ struct Choice {
 struct Parameter {
   std::string name;         ///< as users write it, e.g. "lambda"
   std::string description;  ///< meaning, unit and source in one sentence
-  /// Lists are written with commas: "1, 0.25, 0".
-  std::variant<double*, int*, Choice, std::vector<double>*> value;
+  /// Lists are written with commas: "1, 0.25, 0". Text is taken as it is.
+  std::variant<double*, int*, Choice, std::vector<double>*, std::string*> value;
   double lower = -std::numeric_limits<double>::infinity();  ///< smallest number allowed
   double upper = std::numeric_limits<double>::infinity();   ///< largest number allowed
   bool excludes_lower = false;  ///< only larger numbers than `lower` are allowed

@@ -89,6 +89,7 @@ class SmoothingRun {
       best.emplace(traits.result, state_.mesh.coordinates(), quality_, smoother.initial_score());
     }
     StageHistory history(quality_);
+    const double begin_seconds = seconds_;
     for (int i = 0; i < stopping.max_iterations; ++i) {
       StepReport report;
       bool is_best;
@@ -98,6 +99,7 @@ class SmoothingRun {
         is_best = best->offer(state_.mesh.coordinates(), quality_, report);
         if (is_best || traits.result == ResultMesh::last) result_record_ = n_records_;
       }
+      if (report.stage_seconds) seconds_ = begin_seconds + *report.stage_seconds;
       complete_quality(traits, report);
       result.iterations += report.n_counted;
       observe(result.name, result.iterations, report);
@@ -189,8 +191,8 @@ class SmoothingRun {
 
   void observe(const std::string& stage, std::size_t iteration, const StepReport& report) {
     if (observer_)
-      observer_({n_records_, stage, iteration, seconds_, preparation_seconds_, quality_,
-                 report.n_made_invalid, report.n_reset},
+      observer_({n_records_, stage, iteration, seconds_, preparation_seconds_, report.wall_seconds,
+                 quality_, report.n_made_invalid, report.n_reset},
                 users_view());
     ++n_records_;
   }

@@ -19,7 +19,8 @@ struct IterationRecord {
   std::string stage;             ///< smoother that ran; "initial" for record 0
   std::size_t iteration = 0;     ///< within the stage, in the method's own count
   double smoothing_seconds = 0;  ///< of the stages' main loops so far, without the observers' time
-  double preparation_seconds = 0;  ///< before them: reordering, tables, the initial quality
+  double preparation_seconds = 0;      ///< before them: reordering, tables, the initial quality
+  std::optional<double> wall_seconds;  ///< see StepReport
   MeshQuality quality;
   /// Cells that the step made invalid, before nodes were put back; of methods that do that.
   std::optional<std::size_t> n_made_invalid;

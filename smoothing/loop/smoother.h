@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -69,6 +71,30 @@ struct StepReport {
   /// The nodes that the step has moved, where these are few; otherwise nothing. Valid until the
   /// next step.
   std::optional<std::span<const NodeIndex>> moved = {};
+  /// The stage's time up to here, of steps that know it better than a clock around them: of another
+  /// program, without its start and its files.
+  std::optional<double> stage_seconds = {};
+  /// Of the program run that this mesh comes from, from its start to its end.
+  std::optional<double> wall_seconds = {};
+};
+
+/// A method has failed on a mesh, as programs may that are not this one: its row says why, and
+/// studies go on with the others.
+class SmootherFailure : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Where smoothers that use files find and leave them.
+struct SmootherFolders {
+  std::filesystem::path given = ".";  ///< names of files that users give are relative to this one
+  std::filesystem::path log = {};     ///< file for what another program prints; empty: none
+};
+
+/// Where a smoother comes from that is not part of this program: for the provenance.
+struct SmootherOrigin {
+  std::vector<std::filesystem::path> files = {};  ///< programs, scripts, libraries
+  std::string version = {};                       ///< as it says itself; may be empty
 };
 
 /// One way to move the free nodes of a mesh. A new method is one file with a class template over
@@ -87,6 +113,15 @@ class Smoother {
 
   /// Called once before the first step; what depends on the topology alone belongs here.
   virtual void initialize(const SmoothingState<dim, spacedim>& /*state*/) {}
+
+  /// Throws InputError where parameters do not go together; called when all are set.
+  virtual void check_parameters() const {}
+
+  /// Called before all others by whoever runs studies or commands.
+  virtual void use_folders(const SmootherFolders& /*folders*/) {}
+
+  /// Asked for when a study begins; may start a program to ask for its version.
+  virtual SmootherOrigin origin() { return {}; }
 
   /// Score of the mesh given to initialize, for ResultMesh::best_score.
   virtual double initial_score() const { return 0.0; }

@@ -26,8 +26,8 @@ inline void require_countable(std::size_t n_entries) {
                      " are possible: take a smaller mesh");
 }
 
-/// Rows of different lengths in two arrays (CSR): row i is entries[offsets[i]] ..
-/// entries[offsets[i+1]]. Valid after default construction (no rows).
+/// Rows of different lengths in two arrays (CSR): row i is entries[offsets[i]] to
+/// entries[offsets[i+1] - 1]. Valid after default construction (no rows).
 template <class T>
 class CompressedRows {
  public:

@@ -126,7 +126,7 @@ struct MeshDimensions {
   int cells = 2, space = 2;
 };
 
-/// visit.operator()<dim, spacedim>() for dimensions that are known only now.
+/// `visit.operator()<dim, spacedim>()` for dimensions that are known only now.
 template <class Visit>
 decltype(auto) with_dimensions(MeshDimensions dimensions, const Visit& visit) {
   if (dimensions.cells == 3) return visit.template operator()<3, 3>();
@@ -134,7 +134,7 @@ decltype(auto) with_dimensions(MeshDimensions dimensions, const Visit& visit) {
                                : visit.template operator()<2, 2>();
 }
 
-/// visit.operator()<dim>() for a dimension that is known only now: 2 or 3.
+/// `visit.operator()<dim>()` for a dimension that is known only now: 2 or 3.
 template <class Visit>
 decltype(auto) with_dimension(int dim, const Visit& visit) {
   return dim == 2 ? visit.template operator()<2>() : visit.template operator()<3>();

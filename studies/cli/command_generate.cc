@@ -88,6 +88,9 @@ void add_generate_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--seed", arguments->seed, "seed of generation and distortion")
       ->check(CLI::NonNegativeNumber);
+  add_examples(*command,
+               {"smoothfem generate gear --elements quadrilaterals --distort-to 0.418 -o gear.msh",
+                "smoothfem generate flange --elements hexahedra -o flange.vtu"});
   command->callback([arguments] { generate(*arguments); });
 }
 

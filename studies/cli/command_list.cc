@@ -53,7 +53,7 @@ void list_parameters(const std::string& method) {
 
 void list_methods() {
   std::printf("METHODS (smooth -m NAME, 'methods' in study files)\n");
-  for (const auto& info : method_catalogue()) {
+  for (const auto& info : method_catalogue(true)) {
     std::printf("\n  %s: %s\n      %s. Source: %s.\n      Meshes: %s.\n", info.name.c_str(),
                 info.title.c_str(), info.description.c_str(), info.source.c_str(),
                 joined(mesh_kinds(info.name)).c_str());
@@ -102,6 +102,8 @@ void add_list_command(CLI::App& app) {
   command->add_option("--studies", arguments->studies,
                       "folder with study files (those that come with the program unless given)");
   command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");
+  add_plugin_option(*command);
+  add_examples(*command, {"smoothfem list", "smoothfem list --study-keys"});
   command->callback([arguments] {
     if (arguments->study_keys) {
       for (const auto& kind : study_kinds())

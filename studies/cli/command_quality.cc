@@ -232,6 +232,8 @@ void add_quality_command(CLI::App& app) {
                       "bad are invalid cells (unless given), and those of lower mean ratio than "
                       "this");
   command->add_flag("--json", arguments->json, "as JSON");
+  add_examples(*command,
+               {"smoothfem quality in.vtu", "smoothfem quality in.vtu --mark bad.vtu --below 0.2"});
   command->callback([arguments] { report_quality(*arguments); });
 }
 

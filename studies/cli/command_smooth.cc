@@ -9,6 +9,7 @@
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/quality/bad_places.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/smooth_report.h"
 #include "studies/cli/standard_streams.h"
@@ -27,6 +28,7 @@ Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
       throw InputError("--set needs key=value, but is given as '" + setting + "'");
     method.set(setting.substr(0, equals), setting.substr(equals + 1));
   }
+  check_parameters(method);
   return method;
 }
 
@@ -59,6 +61,15 @@ template <int dim, int spacedim>
 Mesh<dim, spacedim> with_rule(Mesh<dim, spacedim> mesh, const std::string& rule) {
   if (rule.empty()) return mesh;
   auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule(rule));
+  return with_fixed_nodes(std::move(mesh), std::move(fixed));
+}
+
+/// --only-below: the nodes that are not near a bad cell are fixed, too.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_bad_places_free(Mesh<dim, spacedim> mesh,
+                                         const SmoothArguments& arguments) {
+  if (!arguments.only_below) return mesh;
+  auto fixed = fixed_away_from_bad_cells(mesh, *arguments.only_below, arguments.rings);
   return with_fixed_nodes(std::move(mesh), std::move(fixed));
 }
 
@@ -99,7 +110,12 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
       observer;  // none without --log and --series: it costs a pass over all cells
   if (recorder.records())
     observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
-  return {method.info.title, smooth(mesh, method, observer)};
+  use_folders(method, {});
+  try {
+    return {method.info.title, smooth(mesh, method, observer)};
+  } catch (const SmootherFailure& failure) {
+    throw InputError("the method " + method.info.name + " failed: " + failure.what());
+  }
 }
 
 template <int dim, int spacedim>
@@ -109,6 +125,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
+  mesh = with_bad_places_free(std::move(mesh), arguments);
   const MeshQuality before = mesh_quality(mesh);
   Recorder recorder(arguments);
   const Outcome outcome =
@@ -118,7 +135,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Files do not say that a boundary is one to slide on: its nodes are fixed there.
   write_mesh(arguments.out,
-             arguments.boundary == "slide"
+             arguments.boundary == "slide" || arguments.only_below
                  ? Mesh<dim, spacedim>(topology_of_file, mesh.copied_coordinates(),
                                        mesh.shared_constraints())
                  : mesh,
@@ -195,9 +212,24 @@ void add_smooth_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   command->add_option("--log", arguments->log, "CSV file with one row per iteration");
   command->add_option("--series", arguments->series, "VTU series (.pvd) with every iteration");
+  command
+      ->add_option(
+          "--only-below", arguments->only_below,
+          "smooth only where cells have a lower mean ratio than this; all other nodes stay")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--rings", arguments->rings,
+                   "with --only-below: rings of cells around the bad ones whose nodes move, too")
+      ->check(CLI::Range(0, 1000));
   command->add_flag("--fail-if-invalid", arguments->fail_if_invalid,
                     "write nothing and exit with 2 if the smoothed mesh has invalid cells");
   command->add_flag("--quiet", arguments->quiet, "print nothing but warnings");
+  add_plugin_option(*command);
+  add_examples(
+      *command,
+      {"smoothfem smooth in.vtu -m getme -o out.vtu",
+       "smoothfem smooth in.msh -m getme-simultaneous --set lambda=0.4 -o out.msh --log rows.csv",
+       "smoothfem smooth in.mesh -m smart-laplace --only-below 0.3 -o out.mesh"});
   command->callback([arguments] { smooth_file(*arguments); });
 }
 

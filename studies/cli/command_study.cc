@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <mpi.h>
 
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include <thread>
 
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/interruption.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/kinds/study_kinds.h"
@@ -29,11 +29,9 @@ struct Arguments {
   StudyOptions options;
 };
 
-std::atomic<bool> interrupted{false};
-
 /// A study stops at the next good place; a second Ctrl-C ends the process at once.
 void on_interrupt(int signal) {
-  interrupted = true;
+  interruption() = true;
   std::signal(signal, SIG_DFL);
 }
 
@@ -64,7 +62,7 @@ void run(Arguments& arguments, std::optional<Mpi>& mpi) {
   if (options.ranks.is_root()) {
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
-    options.interrupted = &interrupted;
+    options.interrupted = &interruption();
   } else {  // the root ends the run
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
@@ -136,9 +134,14 @@ void add_study_command(CLI::App& app) {
   command->add_flag("--force", arguments->options.force,
                     "start anew; the folder of an earlier run is kept under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");
+  command->add_flag("--dry-run", arguments->options.dry_run,
+                    "only say what would run, about how long, and what memory and disk it takes");
   command->add_flag(
       "--print-ranks", arguments->print_ranks,
       "only print the number of processes that this study runs fastest with on this machine");
+  add_plugin_option(*command);
+  add_examples(*command, {"smoothfem study gear --quick", "smoothfem study my.prm --dry-run",
+                          "smoothfem study gear --plugin ./libmine.so"});
   command->callback([arguments] {
     if (arguments->list) return list_studies();
     if (arguments->quick && !arguments->scale.empty() && arguments->scale != "quick")

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace smoothfem {
 
@@ -11,5 +13,12 @@ void add_quality_command(CLI::App& app);
 void add_study_command(CLI::App& app);
 void add_generate_command(CLI::App& app);
 void add_list_command(CLI::App& app);
+void add_new_smoother_command(CLI::App& app);
+
+/// --plugin, which loads libraries of methods before the command runs.
+void add_plugin_option(CLI::App& command);
+
+/// Command lines that its help ends with.
+void add_examples(CLI::App& command, const std::vector<std::string>& lines);
 
 }  // namespace smoothfem

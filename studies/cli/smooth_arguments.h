@@ -14,7 +14,8 @@ namespace smoothfem {
 struct SmoothArguments {
   std::string in, out, from, to, method, preset, boundary, fix, log, series;
   std::vector<std::string> settings;
-  std::optional<double> feature_angle, slide_distance;
+  std::optional<double> feature_angle, slide_distance, only_below;
+  int rings = 2;      ///< of cells around those that only_below names
   int n_threads = 0;  ///< 0: as OpenMP finds them
   bool untangle = false, fail_if_invalid = false, quiet = false;
 };

@@ -61,6 +61,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
   row.iteration.n_reset = 4;
   row.iteration.n_made_invalid = 5;
   row.iteration.preparation_seconds = 0.25;
+  row.iteration.wall_seconds = 0.5;
   row.warpage = MeshWarpage{.max = 0.75, .mean = 0.125, .n_faces = 3};
   row.solved = full_record();
   const auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
@@ -71,6 +72,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                         {"iteration", "3"},
                                         {"smoothing_seconds", "0.1"},
                                         {"preparation_seconds", "0.25"},
+                                        {"wall_seconds", "0.5"},
                                         {"q_min", "0.1"},
                                         {"q_star_min", "0.2"},
                                         {"n_invalid", "0"},

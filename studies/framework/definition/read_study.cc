@@ -3,13 +3,13 @@
 
 #include "smoothing/base/find_named.h"
 #include "smoothing/loop/method_scheme.h"
+#include "smoothing/loop/plugin.h"
 #include "studies/framework/definition/check_study.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/seeds.h"
 #include "studies/framework/definition/study.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/definition/study_keys.h"
-#include "studies/framework/results/sha256.h"
 
 namespace smoothfem {
 
@@ -83,22 +83,21 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 }
 
 StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
-                                const std::string& name, const std::filesystem::path& folder) {
+                                const std::string& name, const std::string& type,
+                                const std::filesystem::path& folder) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name,
-                     .type = p.get("type"),
+                     .type = type,
                      .title = p.get("title"),
                      .threads = static_cast<int>(p.get_integer("threads")),
                      .settings = {},
                      .folder = folder};
-  if (const auto in_file = method_in_file(method_name_in(folder, method.type)))
-    method.file_sha256 = sha256_of_file(in_file->file);
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
     auto defaults = method.make<dim, spacedim>();
     for (const auto& parameter : defaults.parameters())
       if (p.get(parameter.name) != value_text(parameter))
         method.settings.emplace_back(parameter.name, p.get(parameter.name));
-    (void)method.make<dim, spacedim>();  // throws for values out of range
+    check_parameters(method.make<dim, spacedim>());  // and throws for values out of range
   });
   return method;
 }
@@ -194,13 +193,6 @@ MeshDimensions read_dimensions(ParameterHandler& p) {
   return {cells, 3};
 }
 
-/// What the files of methods hold is part of what an earlier run that is to go on must have had.
-void add_method_files(const std::vector<StudyMethod>& methods, StudyParameters& parameters) {
-  for (const auto& method : methods)
-    if (!method.file_sha256.empty())
-      parameters.emplace_back("content of method " + method.name, method.file_sha256);
-}
-
 }  // namespace
 
 template <int dim, int spacedim>
@@ -222,6 +214,10 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   parse_study(lists, text, file, true);
   const auto meshes = split_list(lists.get("meshes"));
   const MeshDimensions dimensions = in_file(file, [&] { return read_dimensions(lists); });
+  in_file(file, [&] {
+    for (const std::filesystem::path plugin : split_list(lists.get("plugins")))
+      load_plugin(plugin.is_relative() ? file.parent_path() / plugin : plugin);
+  });
   const auto methods = method_labels(lists.get("methods"), dimensions);
   const auto scales = split_list(lists.get("scales"));
   require_scale(scale, scales, file.string());
@@ -233,6 +229,7 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   parse_study(types, text, file, true);
 
   ParameterHandler p;
+  std::map<std::string, std::string> type_of;
   declare_lists(p);
   declare_problem(p);
   for (const auto& name : scales) declare_scale(p, name);
@@ -242,24 +239,27 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
     {
       const Subsection subsection(types, "method " + method);
       type = types.get("type");
+      if (type == method && !types.get("command").empty()) type = "command";
     }
     in_file(file, [&] {
       declare_method(p, dimensions, method, type, lists.get("preset"), file.parent_path());
     });
+    type_of[method] = type;
   }
   parse_study(p, text, file, false);
 
   Study study;
   study.header = read_header(p, file, scale);
+  study.folder = std::filesystem::absolute(file).parent_path();
   study.dimensions = dimensions;
   for (const auto& mesh : meshes_taken(p, meshes, scale, file.string()))
     study.meshes.push_back(
         in_file(file, [&] { return read_mesh_section(p, mesh, file.parent_path()); }));
   in_file(file, [&] { study.meshes = for_each_seed(study.meshes, read_seeds(p.get("seeds"))); });
   for (const auto& method : methods)
-    study.methods.push_back(in_file(
-        file, [&] { return read_method_section(p, dimensions, method, file.parent_path()); }));
-  add_method_files(study.methods, study.header.file_parameters);
+    study.methods.push_back(in_file(file, [&] {
+      return read_method_section(p, dimensions, method, type_of[method], file.parent_path());
+    }));
   read_problem(p, file.string(), study);
   in_file(file, [&] { check_study(study); });
   return study;

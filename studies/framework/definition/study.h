@@ -41,14 +41,20 @@ inline bool is_distorted(const StudyMesh& mesh) {
   return mesh.distort_to_q_mean > 0.0 || mesh.distort_within > 0.0;
 }
 
+/// A file that a method comes from, which is not part of this program.
+struct MethodFile {
+  std::string name, sha256;
+};
+
 struct StudyMethod {
   std::string name;   ///< label in results
   std::string type;   ///< registered method, or one in a file, as the study names it
   std::string title;  ///< in tables and figures
   int threads = 0;    ///< 0: as StudyOptions says
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
-  std::filesystem::path folder{};  ///< of the study file, which a method's file is relative to
-  std::string file_sha256{};       ///< of the file that the method is in, if it is in one
+  std::filesystem::path folder{};   ///< of the study file, which a method's file is relative to
+  std::vector<MethodFile> files{};  ///< programs, scripts, plugins: filled when the study runs
+  std::string version{};            ///< of the program, as it says
 
   /// The method with its settings.
   template <int dim, int spacedim = dim>
@@ -76,6 +82,7 @@ struct RecordEvery {
 /// A study as data: which meshes, which methods, which problem, what to record.
 struct Study {
   StudyHeader header;
+  std::filesystem::path folder{};  ///< of its file: other names are relative to it
   MeshDimensions dimensions;
   std::vector<StudyMesh> meshes;
   std::vector<StudyMethod> methods;

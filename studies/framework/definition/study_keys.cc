@@ -41,6 +41,8 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
     return std::make_unique<Patterns::Selection>(one_of(choice->names));
   if (std::holds_alternative<std::vector<double>*>(parameter.value))
     return std::make_unique<Patterns::List>(Patterns::Double(parameter.lower, parameter.upper), 1);
+  if (std::holds_alternative<std::string*>(parameter.value))
+    return std::make_unique<Patterns::Anything>();
   if (!std::holds_alternative<int*>(parameter.value))
     return std::make_unique<Patterns::Double>(parameter.lower, parameter.upper);
   constexpr double most = std::numeric_limits<int>::max();
@@ -66,6 +68,9 @@ void declare_lists(ParameterHandler& p) {
   p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
   p.declare_entry("surface", "false", Patterns::Bool(),
                   "Whether the meshes, of dimension 2, are surfaces in space; without degrees.");
+  p.declare_entry("plugins", "", Patterns::Anything(),
+                  "Shared libraries with methods of your own, relative to this file, separated by "
+                  "commas.");
   declare_scales(p);
   p.declare_entry("meshes", "", Patterns::Anything(),
                   "Labels of the meshes, separated by commas; each has a subsection 'mesh LABEL'.");
@@ -121,7 +126,10 @@ void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::s
                     const std::filesystem::path& folder) {
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), method_type_help);
-  if (type.empty()) return;
+  if (type.empty()) {  // what says the type where it is not given
+    p.declare_entry("command", "", Patterns::Anything());
+    return;
+  }
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
     auto method = make_method<dim, spacedim>(method_name_in(folder, type));
     declare_method_header(p, name == type ? method.info.title : name);

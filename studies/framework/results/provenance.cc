@@ -89,8 +89,6 @@ void describe_type(const StudyMethod& method, Json& json) {
   if (!in_file) return;
   in_file->file = in_file->file.filename();
   json["type"] = in_file->name();
-  json["file"] = in_file->file;
-  json["sha256"] = method.file_sha256;
 }
 
 Json describe_methods(const RunFacts& facts) {
@@ -108,6 +106,9 @@ Json describe_methods(const RunFacts& facts) {
                          {"citation", method.info.source},
                          {"parameters", parameters}});
       describe_type(entry, methods.back());
+      for (const auto& file : entry.files)
+        methods.back()["files"].push_back({{"name", file.name}, {"sha256", file.sha256}});
+      if (!entry.version.empty()) methods.back()["version"] = entry.version;
     }
   });
   return methods;
@@ -166,7 +167,7 @@ std::string provenance_json(const RunFacts& facts) {
   Json parameters;
   for (const auto& [key, value] : facts.study.parameters) parameters[key] = value;
   json["parameters"] = parameters;
-  json["settings"] = settings_of(facts.study, facts.meshes);
+  json["settings"] = settings_of(facts.study, facts.meshes, facts.methods);
   json["sessions"] = describe_sessions(facts);
   json["seconds"] = seconds_of(json["sessions"]);
   return json.dump(2) + "\n";
@@ -194,7 +195,8 @@ EarlierRun read_provenance(const std::filesystem::path& path) {
 }
 
 std::map<std::string, std::string> settings_of(const StudyHeader& study,
-                                               const std::vector<MeshFacts>& meshes) {
+                                               const std::vector<MeshFacts>& meshes,
+                                               const std::vector<StudyMethod>& methods) {
   std::map<std::string, std::string> settings(study.file_parameters.begin(),
                                               study.file_parameters.end());
   settings["--scale"] = study.scale;
@@ -203,6 +205,10 @@ std::map<std::string, std::string> settings_of(const StudyHeader& study,
     if (!mesh.source_sha256.empty())
       settings["content of mesh " + mesh.description.name] = mesh.source_sha256;
   }
+  if (meshes.empty()) return settings;
+  for (const auto& method : methods)
+    for (const auto& file : method.files)
+      settings["content of method " + method.name + ", " + file.name] = file.sha256;
   return settings;
 }
 

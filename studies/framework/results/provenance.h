@@ -44,9 +44,11 @@ struct EarlierRun {
 /// Throws InputError if the file is not a provenance; an empty status if there is none.
 EarlierRun read_provenance(const std::filesystem::path& path);
 
-/// The same settings of this run; without `meshes` their sources are not among them yet.
+/// The same settings of this run; without `meshes` neither their sources nor the files of methods
+/// are among them yet.
 std::map<std::string, std::string> settings_of(const StudyHeader& study,
-                                               const std::vector<MeshFacts>& meshes);
+                                               const std::vector<MeshFacts>& meshes,
+                                               const std::vector<StudyMethod>& methods);
 
 /// The present time (UTC), as in provenance.json.
 std::string now_utc();

@@ -134,12 +134,13 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows) {
   CsvText csv(
       std::string("study,mesh,method,stage,iteration,smoothing_seconds,preparation_seconds,"
-                  "q_min,q_star_min,q_mean,n_invalid,n_made_invalid,n_reset,w_max,w_mean,") +
+                  "wall_seconds,q_min,q_star_min,q_mean,n_invalid,n_made_invalid,n_reset,w_max,"
+                  "w_mean,") +
       solution_columns);
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iteration.stage);
     csv.integer(row.iteration.iteration).number(row.iteration.smoothing_seconds);
-    csv.number(row.iteration.preparation_seconds);
+    csv.number(row.iteration.preparation_seconds).number(row.iteration.wall_seconds);
     add_quality(csv, row.iteration.quality);
     if (row.iteration.n_made_invalid)
       csv.integer(*row.iteration.n_made_invalid);
@@ -155,8 +156,8 @@ std::string iterations_csv(const std::string& study, const std::vector<Iteration
 
 std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows) {
   CsvText csv(
-      std::string("study,mesh,method,iterations,smoothing_seconds,preparation_seconds,q_min,"
-                  "q_star_min,q_mean,n_invalid,w_max,w_mean,peak_memory_gib,") +
+      std::string("study,mesh,method,iterations,smoothing_seconds,preparation_seconds,"
+                  "wall_seconds,q_min,q_star_min,q_mean,n_invalid,w_max,w_mean,peak_memory_gib,") +
       solution_columns + (rows.empty() ? "" : count_columns(rows.front().cells_below)));
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iterations);
@@ -164,6 +165,7 @@ std::string summary_csv(const std::string& study, const std::vector<SummaryRow>&
       csv.field("").field("");
     else
       csv.number(row.smoothing_seconds).number(row.preparation_seconds);
+    csv.number(row.wall_seconds);
     add_quality(csv, row.quality);
     add_warpage(csv, row.warpage);
     csv.number(row.peak_memory_gib);

@@ -28,6 +28,7 @@ struct SummaryRow {
   std::string iterations{};  ///< "40/2800"; empty for the initial mesh
   double smoothing_seconds = 0.0;
   double preparation_seconds = 0.0;
+  std::optional<double> wall_seconds{};  ///< of the program run that made it, if one did
   MeshQuality quality{};
   std::vector<CellsBelow> cells_below{};    ///< for the same thresholds in all rows
   std::optional<MeshWarpage> warpage{};     ///< of volume meshes

@@ -49,9 +49,10 @@ void make_results_folder(const fs::path& folder, std::optional<FolderLock>& lock
 }
 
 void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
-                           const std::vector<MeshFacts>& meshes, const fs::path& folder) {
+                           const std::vector<MeshFacts>& meshes,
+                           const std::vector<StudyMethod>& methods, const fs::path& folder) {
   if (earlier.status.empty()) return;
-  auto settings = settings_of(study, meshes);
+  auto settings = settings_of(study, meshes, methods);
   std::string differences;
   int n_differences = 0;
   const auto note = [&](const std::string& key, const std::string& then, const std::string& now) {
@@ -63,8 +64,9 @@ void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
       differences += "; and more";
   };
   for (const auto& [key, then] : earlier.settings) {
-    const bool of_mesh = key.find(" of mesh ") != std::string::npos;
-    if (of_mesh && meshes.empty()) continue;
+    const bool of_file =
+        key.find(" of mesh ") != std::string::npos || key.starts_with("content of method ");
+    if (of_file && meshes.empty()) continue;
     if (settings[key] != then) note(key, then, settings[key]);
   }
   for (const auto& [key, now] : settings)

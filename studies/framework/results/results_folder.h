@@ -27,6 +27,7 @@ void make_results_folder(const std::filesystem::path& folder, std::optional<Fold
 /// meshes: empty as long as nothing is known of them.
 void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
                            const std::vector<MeshFacts>& meshes,
+                           const std::vector<StudyMethod>& methods,
                            const std::filesystem::path& folder);
 
 }  // namespace smoothfem

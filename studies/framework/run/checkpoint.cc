@@ -28,10 +28,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshQuality, q_min, q_star_min, q_mean, n_inv
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CellsBelow, threshold, n, n_star)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshWarpage, max, mean, n_faces)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(IterationRecord, record, stage, iteration, smoothing_seconds,
-                                   preparation_seconds, quality, n_made_invalid, n_reset)
+                                   preparation_seconds, wall_seconds, quality, n_made_invalid,
+                                   n_reset)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record, iterations_text,
-                                   smoothing_seconds, preparation_seconds, quality, cells_below,
-                                   warpage, warpage_of_records, peak_memory_gib)
+                                   smoothing_seconds, preparation_seconds, wall_seconds, quality,
+                                   cells_below, warpage, warpage_of_records, peak_memory_gib,
+                                   failure)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, condition_number,
                                    lambda_min, lambda_max, condition_method, condition_residual,
                                    cg_iterations, jacobi_cg_iterations, amg_cg_iterations,

@@ -8,15 +8,18 @@
 
 #include "fem/chosen_points.h"
 #include "meshes/io/atomic_file.h"
+#include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
 #include "studies/framework/definition/seeds.h"
 #include "studies/framework/results/folder_lock.h"
+#include "studies/framework/results/method_files.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
 #include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
 #include "studies/framework/run/solve_workers.h"
 #include "studies/framework/run/study_data.h"
+#include "studies/framework/run/study_plan.h"
 
 namespace smoothfem {
 
@@ -43,10 +46,10 @@ class StudyRun {
     lock_.emplace(options_.out);
     if (options_.force) rename_existing(options_.out);
     earlier_ = read_provenance(options_.out / "provenance.json");
-    require_same_settings(earlier_, study_.header, {}, options_.out);
+    require_same_settings(earlier_, study_.header, {}, {}, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
-      require_same_settings(earlier_, study_.header, mesh_facts(), options_.out);
+      require_same_settings(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
       if (!study_.degrees.empty()) data_.solution = make_solution();
     });
     if (earlier_.status == "complete") {
@@ -109,7 +112,17 @@ class StudyRun {
     write_provenance("running");  // now with the checksums
   }
 
+  /// A smoother that waits for another program sees the interruption by itself.
   void smooth_meshes() {
+    try {
+      smooth_all();
+    } catch (const Interrupted&) {
+      stop_if_interrupted();
+      throw;
+    }
+  }
+
+  void smooth_all() {
     progress_.begin("Smoothing", data_.meshes.size() * study_.methods.size());
     std::size_t done = 0;
     for (const auto& prepared : data_.meshes) {
@@ -145,25 +158,31 @@ class StudyRun {
     set_n_threads(method.threads > 0 ? method.threads
                                      : static_cast<int>(options_.smoothing_threads));
     const Trajectory trajectory = record_trajectory(
-        prepared.mesh, method, study_, is_of_results_only(prepared),
+        prepared.mesh, method, study_, is_of_results_only(prepared), folders_of(name),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
         },
         watch);
     data_.checkpoint.save(name, trajectory);
+    if (!trajectory.failure.empty())
+      progress_.say(prepared.description.name + ", " + method.title +
+                    " failed: " + trajectory.failure + ".");
     return trajectory;
   }
 
+  /// trajectory: its name.
+  SmootherFolders folders_of(const std::string& trajectory) const {
+    return {study_.folder,
+            std::filesystem::absolute(options_.out) / "logs" / (trajectory + ".log")};
+  }
+
   void solve() {
-    std::vector<SolveTask*> open;
     for (auto& task : data_.tasks)
-      if (task.done) {
+      if (task.done)
         costs_.add(data_.kind_of(task), task.seconds);
-      } else {
-        open.push_back(&task);
+      else
         costs_.expect(data_.kind_of(task));
-      }
-    if (dim == 2) put_telling_ones_first(open);
+    const std::vector<SolveTask*> open = open_tasks();
     announce(open.size());
     progress_.begin("Finite elements", data_.tasks.size());
     run_tasks(open);
@@ -187,17 +206,25 @@ class StudyRun {
             " Gauss points per direction, each cell as many as it needs.");
   }
 
-  /// Threads take tasks in any order: with the middle one of each job first, soon it is known what
-  /// the others cost. Several processes go from record to record of a job.
-  static void put_telling_ones_first(std::vector<SolveTask*>& tasks) {
+  /// Tasks that are not done, those first that tell soon what all the others cost. Of volume meshes
+  /// verified condition numbers go from record to record of a job, whose order then has to be that
+  /// of the records.
+  std::vector<SolveTask*> open_tasks() {
+    const bool any_order =
+        dim == 2 || study_.finite_elements.condition_number != ConditionNumberMethod::verified;
     std::vector<SolveTask*> first, others;
-    for (std::size_t begin = 0, end = 0; begin < tasks.size(); begin = end) {
-      while (end < tasks.size() && &tasks[end]->job == &tasks[begin]->job) ++end;
-      const std::size_t middle = begin + (end - begin) / 2;
-      for (std::size_t i = begin; i < end; ++i) (i == middle ? first : others).push_back(tasks[i]);
+    for (auto begin = data_.tasks.begin(); begin != data_.tasks.end();) {
+      const SolveJob& job = begin->job;
+      const auto telling = telling_records(job.n_tasks);
+      for (std::size_t i = 0; i < job.n_tasks; ++i, ++begin) {
+        if (begin->done) continue;
+        const bool tells =
+            any_order && std::find(telling.begin(), telling.end(), i) != telling.end();
+        (tells ? first : others).push_back(&*begin);
+      }
     }
-    tasks = std::move(first);
-    tasks.insert(tasks.end(), others.begin(), others.end());
+    first.insert(first.end(), others.begin(), others.end());
+    return first;
   }
 
   /// What is to come, before the first of it.
@@ -338,9 +365,12 @@ void run_study(const Study& study, const StudyOptions& options) {
     throw InputError("the study " + study.header.name +
                      " has planar meshes, whose records are shared among threads, not processes: "
                      "start it without mpirun");
-  if (!options.ranks.is_root()) return serve_solves(study, options.ranks);
+  if (!options.ranks.is_root())
+    return options.dry_run ? void() : serve_solves(study, options.ranks);
   Study taken = study;
+  note_files(taken);
   if (!options.mesh_dir.empty()) taken.meshes = without_published_repetitions(taken.meshes);
+  if (options.dry_run) return print_plan(taken, options);
   with_dimensions(study.dimensions,
                   [&]<int dim, int spacedim>() { StudyRun<dim, spacedim>(taken, options).run(); });
 }

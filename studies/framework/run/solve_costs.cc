@@ -3,14 +3,29 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <iterator>
 
 namespace smoothfem {
 
 void SolveCosts::add(const SolveKind& kind, double seconds) {
-  auto& known = known_.try_emplace(kind.key(), Known{kind}).first->second;
-  ++known.n;
-  known.seconds += seconds;
+  known_.try_emplace(kind.key(), Known{kind}).first->second.seconds[kind.record] = seconds;
   fitted_ = false;
+}
+
+double SolveCosts::Known::mean() const {
+  double sum = 0.0;
+  for (const auto& [record, value] : seconds) sum += value;
+  return sum / static_cast<double>(seconds.size());
+}
+
+double SolveCosts::Known::at(std::size_t record) const {
+  const auto after = seconds.lower_bound(record);
+  if (after == seconds.begin()) return after->second;
+  const auto before = std::prev(after);
+  if (after == seconds.end()) return before->second;
+  const double share = static_cast<double>(record - before->first) /
+                       static_cast<double>(after->first - before->first);
+  return before->second + share * (after->second - before->second);
 }
 
 /// Logarithm of the seconds that a system of this size takes on a common machine.
@@ -47,8 +62,8 @@ void SolveCosts::fit() const {
   for (const auto& [effect, column] : columns)
     normal(column, column) = std::pow(scatter / expected.at(effect.first), 2);
   for (const auto& [key, known] : known_) {
-    const double count = static_cast<double>(known.n);
-    const double excess = std::log(std::max(known.seconds / count, 1e-9)) - base(known.kind);
+    const double count = static_cast<double>(known.seconds.size());
+    const double excess = std::log(std::max(known.mean(), 1e-9)) - base(known.kind);
     const auto effects = effects_of(known.kind);
     for (const Effect& a : effects) {
       right(columns.at(a)) += count * excess;
@@ -62,7 +77,7 @@ void SolveCosts::fit() const {
 
 double SolveCosts::expected(const SolveKind& kind) const {
   const auto known = known_.find(kind.key());
-  if (known != known_.end()) return known->second.seconds / static_cast<double>(known->second.n);
+  if (known != known_.end()) return known->second.at(kind.record);
   fit();
   double logarithm = base(kind);
   for (const Effect& effect : effects_of(kind)) {
@@ -74,8 +89,13 @@ double SolveCosts::expected(const SolveKind& kind) const {
 
 double SolveCosts::seconds_to_come() const {
   double seconds = 0.0;
-  for (const auto& [key, open] : open_)
-    seconds += static_cast<double>(open.second) * expected(open.first);
+  for (const auto& [key, open] : open_) {
+    SolveKind kind = open.first;
+    for (const std::size_t record : open.second) {
+      kind.record = record;
+      seconds += expected(kind);
+    }
+  }
   return seconds;
 }
 

@@ -44,12 +44,13 @@ void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::si
                     warpage, outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
 }
 
+/// failure: why the row has no result; empty if it has one.
 void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
-                    std::vector<SummaryRow>& rows) {
+                    const std::string& failure, std::vector<SummaryRow>& rows) {
   for (auto& outcome : outcomes(study, tasks, row.quality.n_invalid > 0)) {
     row.degree = outcome.degree;
-    row.solved = std::move(outcome.solved);
-    row.status = std::move(outcome.status);
+    row.solved = failure.empty() ? std::move(outcome.solved) : std::nullopt;
+    row.status = failure.empty() ? std::move(outcome.status) : "failed: " + failure;
     rows.push_back(row);
   }
 }
@@ -183,7 +184,8 @@ SolveKind StudyData<dim, spacedim>::kind_of(const SolveTask& task) const {
           .is_result = task.is_result,
           .n_nodes = static_cast<double>(meshes[job.mesh].mesh.n_nodes()),
           .dimension = dim,
-          .polynomial_degree = study.degrees[job.degree]};
+          .polynomial_degree = study.degrees[job.degree],
+          .record = task.record};
 }
 
 template <int dim, int spacedim>
@@ -233,7 +235,7 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
                     .quality = data.meshes[m].quality,
                     .cells_below = count_cells_below(data.meshes[m].mesh, data.study.count_below),
                     .warpage = warpage_of(data.meshes[m].mesh)},
-                   data.mesh_tasks[m].initial, rows);
+                   data.mesh_tasks[m].initial, "", rows);
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
       const auto& trajectory = data.trajectories[m][k];
       append_summary(data.study,
@@ -242,11 +244,12 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
                       .iterations = trajectory.iterations_text,
                       .smoothing_seconds = trajectory.smoothing_seconds,
                       .preparation_seconds = trajectory.preparation_seconds,
+                      .wall_seconds = trajectory.wall_seconds,
                       .quality = trajectory.quality,
                       .cells_below = trajectory.cells_below,
                       .warpage = trajectory.warpage,
                       .peak_memory_gib = trajectory.peak_memory_gib},
-                     result_tasks(data, m, k), rows);
+                     result_tasks(data, m, k), trajectory.failure, rows);
     }
   }
   return rows;

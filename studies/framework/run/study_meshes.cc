@@ -113,14 +113,17 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   // The text format of planar and volume meshes knows no surfaces.
   const std::string initial =
       "meshes/" + description.name + "_initial" + (dim == spacedim ? ".mesh" : ".vtk");
-  const bool as_read = !source.file.empty() && (source.published || !is_distorted(description));
+  // Nor does it know groups of the boundary.
+  const bool again = (!source.file.empty() && (source.published || !is_distorted(description))) ||
+                     !study.finite_elements.natural_groups.empty();
   Mesh<dim, spacedim> mesh =
-      dim == spacedim && !as_read && !earlier.empty() && std::filesystem::exists(earlier / initial)
+      dim == spacedim && !again && !earlier.empty() && std::filesystem::exists(earlier / initial)
           ? read_valid_mesh<dim, spacedim>(earlier / initial)
           : make_mesh<dim, spacedim>(description, source,
                                      study.edge_scale * description.edge_scale);
   if (!study.degrees.empty()) {
-    require_finite_elements<dim>(mesh.topology());
+    for (const int degree : study.degrees)
+      require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
     if (const int exponent = extreme_exponent(std::as_const(mesh).coordinates()); exponent != 0)
       throw InputError("mesh " + description.name + " is about 2^" + std::to_string(exponent) +
                        " wide, where finite elements leave the range of numbers; scale it to an "

@@ -14,6 +14,7 @@ struct StudyOptions {
   std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
   bool force = false;              ///< start anew; the folder of an earlier run is renamed
   bool quiet = false;
+  bool dry_run = false;        ///< say what would be done, and do nothing
   unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
   unsigned int smoothing_threads = 1;
   Ranks ranks{};  ///< that share the finite elements of volume meshes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/table_study.h"
 
+#include <cstdio>
 #include <cstdlib>
 
 #include "meshes/io/atomic_file.h"
@@ -17,6 +18,12 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
   if (options.ranks.size() > 1)
     throw InputError("the study " + study.name +
                      " has no work for several processes: start it without mpirun");
+  if (options.dry_run) {
+    std::printf("%s\n\nTables, of no meshes, in %s; nothing has been written:\n",
+                study.title.c_str(), options.out.c_str());
+    for (const auto& table : tables) std::printf("  %s\n", table.file.c_str());
+    return;
+  }
   require_writable(options.out);
   if (!options.mesh_dir.empty())
     throw InputError("--mesh-dir is given, but the study " + study.name +
@@ -24,7 +31,7 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
   std::optional<FolderLock> lock(options.out);
   if (options.force) rename_existing(options.out);
   const EarlierRun earlier = read_provenance(options.out / "provenance.json");
-  require_same_settings(earlier, study, {}, options.out);
+  require_same_settings(earlier, study, {}, {}, options.out);
 
   Progress progress(options.quiet);
   if (earlier.status == "complete") {

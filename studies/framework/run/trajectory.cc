@@ -71,7 +71,7 @@ template MeshWarpage warpage_of(const Mesh<2, 3>&);
 
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
-                             const Study& study, bool only_results,
+                             const Study& study, bool only_results, const SmootherFolders& folders,
                              const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
                              const WatchIteration& watch) {
   Trajectory trajectory;
@@ -95,10 +95,19 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   const PeakMemory memory;
   Mesh<dim, spacedim> smoothed = mesh;
   auto first = method.make<dim, spacedim>();
-  const SmoothingResult result = smooth(smoothed, first, record_all);
+  use_folders(first, folders);
+  SmoothingResult result;
+  try {
+    result = smooth(smoothed, first, record_all);
+  } catch (const SmootherFailure& failure) {
+    trajectory.failure = failure.what();
+    smoothed = mesh;
+    result.quality = trajectory.records.front().quality;
+  }
   totals.add(result);
-  trajectory.iterations_text = result.iterations_text();
+  trajectory.iterations_text = trajectory.failure.empty() ? result.iterations_text() : "0";
   trajectory.quality = result.quality;
+  trajectory.wall_seconds = trajectory.records[result.result_record].wall_seconds;
   trajectory.cells_below = count_cells_below(smoothed, study.count_below);
   trajectory.warpage = warpage_of(smoothed);
   trajectory.peak_memory_gib = memory.gib();
@@ -115,9 +124,11 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   if (!keeps_all && trajectory.result_record > 0)
     keep(trajectory.result_record, smoothed.coordinates());
 
-  for (int run = 1; run < study.timing_runs; ++run) {
+  const int timing_runs = trajectory.failure.empty() ? study.timing_runs : 1;
+  for (int run = 1; run < timing_runs; ++run) {
     Mesh<dim, spacedim> again = mesh;
     auto made = method.make<dim, spacedim>();
+    use_folders(made, folders);
     totals.add(smooth(again, made, [&](const IterationRecord& record, const auto&) {
       watch(record);
       times[record.record].add(record);
@@ -130,10 +141,13 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
 }
 
 template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&, bool,
-                                      const KeepSnapshot<2>&, const WatchIteration&);
+                                      const SmootherFolders&, const KeepSnapshot<2>&,
+                                      const WatchIteration&);
 template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&, bool,
-                                      const KeepSnapshot<3>&, const WatchIteration&);
+                                      const SmootherFolders&, const KeepSnapshot<3>&,
+                                      const WatchIteration&);
 template Trajectory record_trajectory(const Mesh<2, 3>&, const StudyMethod&, const Study&, bool,
-                                      const KeepSnapshot<3>&, const WatchIteration&);
+                                      const SmootherFolders&, const KeepSnapshot<3>&,
+                                      const WatchIteration&);
 
 }  // namespace smoothfem

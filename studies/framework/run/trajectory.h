@@ -20,11 +20,15 @@ struct Trajectory {
   std::string iterations_text;         ///< "40/2800"
   double smoothing_seconds = 0.0;      ///< of the whole run
   double preparation_seconds = 0.0;    ///< the same
+  std::optional<double> wall_seconds;  ///< of the result, see StepReport
   MeshQuality quality;                 ///< of the result
   std::vector<CellsBelow> cells_below;          ///< of the result
   MeshWarpage warpage;                          ///< of the result; planar meshes: none
   std::vector<MeshWarpage> warpage_of_records;  ///< one per record, or empty
   double peak_memory_gib = 0.0;  ///< of the process, the study's other meshes included
+  /// Why the method failed; empty if it did not. Its result is then the initial mesh, and the
+  /// records are those before.
+  std::string failure;
 };
 
 /// Warpage of the quadrilateral faces of a volume mesh; others have none.
@@ -44,10 +48,11 @@ using WatchIteration = std::function<void(const IterationRecord&)>;
 /// stage, the result and the last, as the study says, or (only_results) the result and the last;
 /// `keep` gets their meshes in any order, and
 /// may get others too. A study that neither solves nor writes series needs the result's mesh only:
-/// then `keep` gets no other. What `keep` or `watch` throw ends it.
+/// then `keep` gets no other. What `keep` or `watch` throw ends it; a method that fails is a
+/// trajectory with a `failure`. folders: of the method's files.
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
-                             const Study& study, bool only_results,
+                             const Study& study, bool only_results, const SmootherFolders& folders,
                              const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
                              const WatchIteration& watch);
 

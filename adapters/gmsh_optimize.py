@@ -1,0 +1,32 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""gmsh_optimize.py IN OUT METHOD ITERATIONS: Gmsh's smoothers and optimizers on a .msh file.
+
+METHOD: Laplace2D, Relocate2D, Relocate3D, or `default`, Gmsh's optimizer of tetrahedra, which swaps and
+collapses edges: its meshes are refused where it does. Needs python3-gmsh."""
+
+import sys
+import time
+
+import gmsh
+
+
+def main(source, target, method, n_iterations):
+    """Prints the time of the optimizer alone."""
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.option.setNumber("Mesh.Renumber", 0)  # nodes keep their numbers
+    gmsh.option.setNumber("Mesh.SaveAll", 1)
+    gmsh.open(source)
+    gmsh.model.mesh.createTopology()  # without curves and surfaces, boundary nodes would be inner ones
+    if gmsh.model.getDimension() == 2:
+        gmsh.model.mesh.createGeometry()  # nodes of surfaces move in their parameters
+    start = time.perf_counter()
+    if int(n_iterations) > 0:
+        gmsh.model.mesh.optimize("" if method == "default" else method, force=True, niter=int(n_iterations))
+    print(f"time {time.perf_counter() - start:.9f} s")
+    gmsh.write(target)
+    gmsh.finalize()
+
+
+main(*sys.argv[1:])

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Smoothing of planar triangles by a neural network: each free node moves to where the network sees the best
+place for it in the polygon of its neighbours (Guo et al., NN-Smoothing). The weights are yours: give the path of a
+TorchScript file (`torch.jit.save`), which holds a function and no program of somebody else's; pickles are not
+loaded. Needs torch, which Debian 12 does not have.
+
+    subsection method nn
+      set type    = python:nn_smoothing.py:NeuralNetwork
+      set weights = FOLDER
+    end
+
+FOLDER has a file N.pt for each number N of neighbours: from N x 2 coordinates, the node's polygon counterclockwise
+moved and scaled into the unit square, to the 2 coordinates of the node in it."""
+
+from pathlib import Path
+
+import numpy as np
+
+
+class NeuralNetwork:
+    """Each free node moves to where a network places it among its neighbours."""
+
+    title = "Neural network"
+    parameters = {"weights": ("weights", "folder of the networks, a TorchScript file N.pt for N neighbours")}
+
+    def initialize(self, mesh):
+        """The rings of neighbours, counterclockwise, and the networks for their sizes."""
+        import torch  # only where this is used
+
+        if list(mesh.blocks) != ["triangle"]:
+            raise ValueError("meshes of triangles only")
+        follower = {}
+        for a, b, c in mesh.blocks["triangle"].tolist():
+            for node, first, second in ((a, b, c), (b, c, a), (c, a, b)):
+                follower.setdefault(node, {})[first] = second
+        self.rings = {}
+        for node in mesh.free.tolist():
+            ring = [next(iter(follower[node]))]
+            while (following := follower[node][ring[-1]]) != ring[0]:
+                ring.append(following)
+            self.rings[node] = ring
+        sizes = {len(ring) for ring in self.rings.values()}
+        self.networks = {n: torch.jit.load(str(Path(self.weights) / f"{n}.pt")) for n in sizes
+                         if (Path(self.weights) / f"{n}.pt").exists()}
+        self.tensor = torch.as_tensor
+
+    def step(self, mesh):
+        """One after the other; nodes with a number of neighbours that no network is for stay."""
+        for node, ring in self.rings.items():
+            if len(ring) not in self.networks:
+                continue
+            polygon = mesh.points[ring]
+            corner, size = polygon.min(axis=0), np.ptp(polygon, axis=0).max()
+            placed = self.networks[len(ring)](self.tensor((polygon - corner) / size).float()[None])
+            mesh.points[node] = corner + size * placed.detach().numpy().reshape(2)

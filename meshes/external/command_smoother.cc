@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <numeric>
+#include <regex>
+
+#include "meshes/external/child_process.h"
+#include "meshes/external/command_line.h"
+#include "meshes/external/returned_mesh.h"
+#include "meshes/external/text_vtk.h"
+#include "meshes/io/mesh_file.h"
+#include "meshes/io/number_text.h"
+#include "smoothing/base/interruption.h"
+#include "smoothing/loop/catalogue.h"
+
+namespace smoothfem {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string number_text(double number) {
+  std::string text;
+  append_number(text, number);
+  return text;
+}
+
+/// What users say about a command.
+struct CommandParameters {
+  std::string command, format = "vtk", out_format, files, series, time_pattern, startup_command,
+                       version_command;
+  int max_iterations = 64, every = 0, repeat = 1;
+  double time_unit = 1.0, timeout = 3600.0;
+
+  Parameters list() {
+    return {
+        {"command",
+         "the program and its options, run by /bin/sh in an empty folder; {in} and {out} are its "
+         "mesh files (without {out} it changes {in}), {iterations} is how many it shall do, "
+         "{folder} the folder that names of files are relative to",
+         &command},
+        {"format", "of {in}: vtk (legacy, as text), vtu, msh (text), mesh or inp", &format},
+        {"out_format", "of {out}; empty: that of {in}", &out_format},
+        {"files", "files to copy beside {in}, separated by commas", &files},
+        {"max_iterations", "{iterations} is this at most, in the last run", &max_iterations, 1.0,
+         1e6},
+        {"every",
+         "runs anew with {iterations} = 1, 2, 4, 8, ... if 0, otherwise with each multiple of this",
+         &every, 0.0, 1e6},
+        {"series",
+         "the files of one run that leaves a mesh after each iteration: a name with {iteration}, "
+         "which begins with 1",
+         &series},
+        {"repeat",
+         "without {iterations} and a series: how many times to run, each time on what the run "
+         "before has made",
+         &repeat, 1.0, 1e6},
+        {"time_pattern",
+         "regular expression whose first group is the time that the program prints; without it "
+         "the time is that of the clock, less what a run of startup_command takes",
+         &time_pattern},
+        {"time_unit", "seconds in a unit of that time: 0.001 for milliseconds", &time_unit, 0.0,
+         1e6, true},
+        {"startup_command",
+         "the same program doing nothing; empty: with {iterations} = 0, if the command has that",
+         &startup_command},
+        {"version_command", "prints the program's version, for the provenance", &version_command},
+        {"timeout", "longest time of a run, in seconds", &timeout, 0.0, 1e9, true}};
+  }
+
+  std::string file_out_format() const { return out_format.empty() ? format : out_format; }
+  std::string in() const { return "in." + format; }
+  std::string out() const {
+    return has_placeholder(command, "out") ? "out." + file_out_format() : in();
+  }
+
+  /// Throws InputError where they say nothing that can be run.
+  void check() const {
+    const std::string needs = ", such as 'set command = mmg3d_O3 -noinsert -noswap {in} {out}'";
+    if (command.empty()) throw InputError("the method command needs a command" + needs);
+    if (!has_placeholder(command, "in"))
+      throw InputError("the command '" + command + "' has no {in} for the file of its mesh" +
+                       needs);
+    for (const auto& extension : {format, file_out_format()})
+      require_mesh_path("mesh." + extension);
+    const bool counts = has_placeholder(command, "iterations");
+    if (!series.empty() && !has_placeholder(series, "iteration"))
+      throw InputError("the series '" + series +
+                       "' has no {iteration}, which is 1, 2, 3, ... in names such as "
+                       "step_{iteration}.vtk");
+    if (repeat > 1 && (counts || !series.empty()))
+      throw InputError("a command with {iterations} or a series is not repeated; leave repeat out");
+    try {
+      const std::regex pattern(time_pattern);
+      if (!time_pattern.empty() && pattern.mark_count() == 0)
+        throw InputError("the time_pattern '" + time_pattern +
+                         "' has no group; put what stands for the number into brackets, as in "
+                         "'time: ([0-9.]+)'");
+    } catch (const std::regex_error&) {
+      throw InputError("the time_pattern '" + time_pattern +
+                       "' is no regular expression; write one such as 'time: ([0-9.]+)'");
+    }
+  }
+};
+
+/// Another program as a smoother: it gets the mesh in a file and leaves one in which nothing but
+/// the nodes' places differ. Each record is what the program makes of the initial mesh in so many
+/// iterations, by a run of its own, or a file of one run's series, or (repeat) what it makes of the
+/// record before.
+template <int dim>
+class CommandSmoother final : public Smoother<dim> {
+ public:
+  std::string_view name() const override { return "command"; }
+  Parameters parameters() override { return p_.list(); }
+  void check_parameters() const override { p_.check(); }
+  void use_folders(const SmootherFolders& folders) override { folders_ = folders; }
+
+  SmootherTraits traits() const override {
+    return {.quality_use = QualityUse::none,
+            .result = ResultMesh::last,
+            .needs_valid_mesh = false,
+            .needs_node_order = true};  // files have the user's order
+  }
+
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = n_records()};
+  }
+
+  SmootherOrigin origin() override {
+    SmootherOrigin origin;
+    origin.files.push_back(program());
+    for (const auto& file : given_files()) origin.files.push_back(file);
+    if (!p_.version_command.empty()) {
+      const ScratchFolder scratch;
+      const CommandEnd end = run(p_.version_command, scratch.path());
+      std::istringstream lines(end.output);
+      std::getline(lines, origin.version);
+    }
+    return origin;
+  }
+
+  void initialize(const SmoothingState<dim>& state) override {
+    p_.check();
+    initial_.emplace(state.mesh);
+    n_done_ = 0;
+    seconds_ = wall_seconds_ = 0.0;
+    series_.reset();
+    startup_seconds_.reset();
+  }
+
+  StepReport step(SmoothingState<dim>& state) override {
+    if (!p_.series.empty()) return next_of_series(state);
+    const bool counts = has_placeholder(p_.command, "iterations");
+    const int n = counts ? count_after(n_done_) : n_done_ + 1;
+    const ScratchFolder scratch;
+    const Run made = run_on(counts ? *initial_ : state.mesh, counts ? n : 1, scratch.path());
+    const auto points =
+        returned_coordinates<dim>(present_file(scratch.path(), p_.out()), *initial_);
+    const double time = method_seconds(made, last_time(made.output));
+    // Runs of so many iterations begin at the initial mesh, others where the one before ended.
+    seconds_ = counts ? time : seconds_ + time;
+    wall_seconds_ = counts ? made.wall_seconds : wall_seconds_ + made.wall_seconds;
+    return report(state, points, n, false);
+  }
+
+ private:
+  using Run = CommandEnd;
+
+  StepReport report(SmoothingState<dim>& state, const std::vector<Point<dim>>& points, int n,
+                    bool is_last) {
+    state.mesh.set_coordinates(points);
+    const int n_before = std::exchange(n_done_, n);
+    return {.n_counted = static_cast<std::size_t>(n - n_before),
+            .converged = is_last,
+            .stage_seconds = seconds_,
+            .wall_seconds = wall_seconds_};
+  }
+
+  int count_after(int n) const {
+    const int next = p_.every > 0 ? n + p_.every : std::max(1, 2 * n);
+    return std::min(next, p_.max_iterations);
+  }
+
+  /// Those of a series are known when it is there, and may be fewer.
+  int n_records() const {
+    if (!p_.series.empty()) return p_.max_iterations;
+    if (!has_placeholder(p_.command, "iterations")) return p_.repeat;
+    int n_records = 0;
+    for (int n = 0; n < p_.max_iterations; n = count_after(n)) ++n_records;
+    return n_records;
+  }
+
+  /// All files of the series come from one run, at the first step.
+  StepReport next_of_series(SmoothingState<dim>& state) {
+    if (!series_) {
+      series_.emplace();
+      series_run_ = run_on(*initial_, p_.max_iterations, series_->path());
+      n_in_series_ = 0;
+      while (n_in_series_ < p_.max_iterations && fs::exists(series_file(n_in_series_ + 1)))
+        ++n_in_series_;
+      if (n_in_series_ == 0)
+        throw SmootherFailure("it left no file " + series_file(1).filename().string() + said());
+      series_times_ = p_.time_pattern.empty()
+                          ? std::vector<double>()
+                          : matched_numbers(series_run_.output, p_.time_pattern);
+    }
+    const int n = n_done_ + 1;
+    const auto points = returned_coordinates<dim>(series_file(n), *initial_);
+    // One time for each iteration, or one for all, of which each takes the same share.
+    const auto i = static_cast<std::size_t>(n - 1);
+    if (series_times_.size() >= static_cast<std::size_t>(n_in_series_))
+      seconds_ = p_.time_unit * series_times_[i];
+    else
+      seconds_ = method_seconds(series_run_, last_time(series_run_.output)) * n / n_in_series_;
+    wall_seconds_ = series_run_.wall_seconds;
+    return report(state, points, n, n == n_in_series_);
+  }
+
+  fs::path series_file(int iteration) const {
+    return series_->path() / with_placeholder(p_.series, "iteration", std::to_string(iteration));
+  }
+
+  /// What the program says, or what it takes beyond its start and its files.
+  double method_seconds(const Run& made, std::optional<double> printed) {
+    if (printed) return p_.time_unit * *printed;
+    if (!startup_seconds_) startup_seconds_ = measured_startup();
+    return std::max(0.0, made.wall_seconds - *startup_seconds_);
+  }
+
+  std::optional<double> last_time(const std::string& output) const {
+    if (p_.time_pattern.empty()) return std::nullopt;
+    const auto times = matched_numbers(output, p_.time_pattern);
+    if (times.empty())
+      throw SmootherFailure("it prints nothing that the time_pattern '" + p_.time_pattern +
+                            "' matches" + said());
+    return times.back();
+  }
+
+  double measured_startup() {
+    const bool counts = has_placeholder(p_.command, "iterations");
+    if (p_.startup_command.empty() && !counts) return 0.0;
+    const ScratchFolder scratch;
+    write_given(scratch.path() / p_.in(), *initial_);
+    copy_files(scratch.path());
+    const Run idle = run(filled_in(p_.startup_command.empty() ? p_.command : p_.startup_command, 0),
+                         scratch.path());
+    return idle.exit_code == 0 && idle.signal == 0 ? idle.wall_seconds : 0.0;
+  }
+
+  /// Throws SmootherFailure unless the program ended well.
+  Run run_on(const Mesh<dim>& mesh, int n_iterations, const fs::path& folder) {
+    write_given(folder / p_.in(), mesh);
+    copy_files(folder);
+    (void)program();
+    Run made = run(filled_in(p_.command, n_iterations), folder);
+    if (made.timed_out)
+      throw SmootherFailure("it ran for more than " + number_text(p_.timeout) +
+                            " s and was ended; give it fewer iterations, or a longer timeout");
+    if (made.signal != 0)
+      throw SmootherFailure("it was killed by signal " + std::to_string(made.signal) + said());
+    if (made.exit_code != 0)
+      throw SmootherFailure("it ended with exit code " + std::to_string(made.exit_code) + said());
+    return made;
+  }
+
+  /// Text where the format has such a form: most programs read that.
+  void write_given(const fs::path& path, const Mesh<dim>& mesh) const {
+    if (p_.format == "vtk")
+      write_text_vtk(path, mesh);
+    else
+      write_mesh(path, mesh, {}, {.msh_binary = false});
+  }
+
+  Run run(const std::string& command, const fs::path& folder) {
+    Run made = run_command(command, folder, p_.timeout);
+    last_output_ = made.output;
+    if (!folders_.log.empty()) {
+      fs::create_directories(folders_.log.parent_path());
+      std::ofstream log(folders_.log, std::ios::app);
+      log << "$ " << command << "\n" << made.output;
+      if (!made.output.empty() && made.output.back() != '\n') log << "\n";
+      log << "# " << made.wall_seconds << " s, "
+          << (made.timed_out     ? "ended because it took too long"
+              : made.signal != 0 ? "killed by signal " + std::to_string(made.signal)
+                                 : "exit code " + std::to_string(made.exit_code))
+          << "\n";
+    }
+    return made;
+  }
+
+  /// ": it said '...'", the last thing a program printed.
+  std::string said() const {
+    constexpr std::size_t longest = 200;
+    std::string line = last_line(last_output_).substr(0, longest);
+    std::erase_if(line, [](char c) { return static_cast<unsigned char>(c) < ' '; });
+    return line.empty() ? "" : "; the last it printed: '" + line + "'";
+  }
+
+  std::string filled_in(const std::string& command, int n_iterations) const {
+    std::string filled = after_first_word(command);
+    filled = with_placeholder(filled, "in", p_.in());
+    filled = with_placeholder(filled, "out", p_.out());
+    filled = with_placeholder(filled, "iterations", std::to_string(n_iterations));
+    filled = with_placeholder(filled, "folder",
+                              shell_quoted(fs::absolute(folders_.given).lexically_normal()));
+    const std::string word = first_word(command);
+    return (word.find('/') == std::string::npos ? word : shell_quoted(in_given_folder(word))) +
+           filled;
+  }
+
+  /// As users see it: relative to the folder of their study.
+  fs::path in_given_folder(const fs::path& name) const {
+    return fs::absolute(name.is_relative() ? folders_.given / name : name).lexically_normal();
+  }
+
+  fs::path program() const {
+    const std::string word = first_word(p_.command);
+    const auto found =
+        find_program(word.find('/') == std::string::npos ? word : in_given_folder(word).string());
+    if (found.empty())
+      throw SmootherFailure("there is no program '" + word +
+                            "' here; install it, or give its path, relative to the study file");
+    return found;
+  }
+
+  std::vector<fs::path> given_files() const {
+    std::vector<fs::path> files;
+    std::istringstream names(p_.files);
+    for (std::string name; std::getline(names, name, ',');) {
+      const auto first = name.find_first_not_of(' ');
+      if (first == std::string::npos) continue;
+      const auto file = in_given_folder(name.substr(first, name.find_last_not_of(' ') - first + 1));
+      if (!fs::is_regular_file(file))
+        throw SmootherFailure("there is no file '" + file.filename().string() +
+                              "' in the folder of the study, to be copied for the command");
+      files.push_back(file);
+    }
+    return files;
+  }
+
+  void copy_files(const fs::path& folder) const {
+    for (const auto& file : given_files()) fs::copy_file(file, folder / file.filename());
+  }
+
+  fs::path present_file(const fs::path& folder, const std::string& name) const {
+    if (!fs::exists(folder / name)) throw SmootherFailure("it left no file " + name + said());
+    return folder / name;
+  }
+
+  CommandParameters p_;
+  SmootherFolders folders_;
+  std::optional<Mesh<dim>> initial_;
+  std::optional<double> startup_seconds_;
+  std::optional<ScratchFolder> series_;
+  Run series_run_;
+  std::vector<double> series_times_;
+  std::string last_output_;
+  int n_done_ = 0, n_in_series_ = 0;
+  double seconds_ = 0.0, wall_seconds_ = 0.0;
+};
+
+const RegisteredMethod registered({.name = "command",
+                                   .title = "Command",
+                                   .description = "another program smooths: it reads the mesh from "
+                                                  "a file and writes it with its nodes moved",
+                                   .source = "the program that is run",
+                                   .needs_parameters = true},
+                                  single_stage<CommandSmoother>());
+
+}  // namespace
+}  // namespace smoothfem

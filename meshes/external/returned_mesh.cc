@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/external/returned_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+
+#include "meshes/io/mesh_file.h"
+#include "smoothing/loop/smoother.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// Node of the mesh for each node of the file.
+using NodeMap = std::vector<NodeIndex>;
+
+std::string count_text(std::size_t n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+NodeMap matching_nodes(const Topology& ours, const Topology& theirs) {
+  if (ours.n_nodes() != theirs.n_nodes())
+    throw SmootherFailure("its mesh has " + count_text(theirs.n_nodes(), "node") + " in place of " +
+                          std::to_string(ours.n_nodes()) +
+                          ": nodes are matched by their numbers, so none may be added or dropped");
+  NodeMap map(ours.n_nodes());
+  const auto& ids = ours.labels().node_ids;
+  const auto& their_ids = theirs.labels().node_ids;
+  if (their_ids.empty()) {
+    for (NodeIndex i = 0; i < map.size(); ++i) map[i] = i;
+    return map;
+  }
+  std::unordered_map<std::size_t, NodeIndex> by_id;
+  for (NodeIndex i = 0; i < map.size(); ++i) by_id[ids.empty() ? i + 1 : ids[i]] = i;
+  for (NodeIndex i = 0; i < map.size(); ++i) {
+    const auto found = by_id.find(their_ids[i]);
+    if (found == by_id.end())
+      throw SmootherFailure("its mesh has a node with the number " + std::to_string(their_ids[i]) +
+                            ", which it was not given: nodes keep their numbers");
+    map[i] = found->second;
+  }
+  return map;
+}
+
+/// A cell whatever its first node and direction: eight nodes at most, or a hash of more.
+using CellKey = std::array<NodeIndex, 8>;
+
+template <class Number>
+std::vector<CellKey> sorted_keys(const Topology& topology, const Number& number) {
+  std::vector<CellKey> keys;
+  keys.reserve(topology.n_cells());
+  std::vector<NodeIndex> nodes;
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+    nodes.clear();
+    for (const NodeIndex i : topology.cell_nodes(c)) nodes.push_back(number(i));
+    std::sort(nodes.begin(), nodes.end());
+    CellKey key;
+    key.fill(UINT32_MAX);
+    for (std::size_t i = 0; i < nodes.size(); ++i)  // polygons of many nodes: all of them count
+      key[i % 8] = i < 8 ? nodes[i] : 31 * key[i % 8] + nodes[i];
+    keys.push_back(key);
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+void require_same_cells(const Topology& ours, const Topology& theirs, const NodeMap& map) {
+  if (ours.n_cells() != theirs.n_cells())
+    throw SmootherFailure("its mesh has " + count_text(theirs.n_cells(), "cell") + " in place of " +
+                          std::to_string(ours.n_cells()) + ": only nodes may move");
+  const auto given = sorted_keys(ours, [](NodeIndex i) { return i; });
+  const auto returned = sorted_keys(theirs, [&](NodeIndex i) { return map[i]; });
+  std::size_t n_changed = 0;
+  for (auto a = given.begin(), b = returned.begin(); a != given.end() && b != returned.end();)
+    if (*a == *b) {
+      ++a;
+      ++b;
+    } else if (*a < *b) {
+      ++a;
+      ++n_changed;
+    } else {
+      ++b;
+    }
+  if (given != returned)
+    throw SmootherFailure("its mesh has other cells (" +
+                          count_text(std::max<std::size_t>(1, n_changed), "cell") +
+                          " changed): only nodes may move, no edges or faces be swapped");
+}
+
+/// Files of text may hold no more than six digits.
+template <int dim>
+void keep_fixed_nodes(const Mesh<dim>& mesh, std::vector<Point<dim>>& points) {
+  constexpr double digits = 1e-6;
+  double largest = 0.0;
+  for (const auto& p : mesh.coordinates()) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  std::size_t n_moved = 0;
+  double farthest = 0.0;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    if (!mesh.topology().is_fixed(i)) continue;
+    const double moved = (points[i] - mesh.coordinates()[i]).norm();
+    farthest = std::max(farthest, moved);
+    if (moved > digits * largest) ++n_moved;
+    points[i] = mesh.coordinates()[i];
+  }
+  if (n_moved > 0)
+    throw SmootherFailure("it has moved " + count_text(n_moved, "fixed node") + ", by up to " +
+                          std::to_string(farthest) +
+                          ": fixed nodes, such as those of the boundary, have to stay");
+}
+
+MeshFile read_returned(const std::filesystem::path& file) {
+  try {
+    return read_mesh(file);
+  } catch (const InputError& error) {
+    std::string reason = error.what();  // without the folder, which is there for a moment only
+    if (const auto at = reason.find(file.string()); at != std::string::npos)
+      reason.replace(at, file.string().size(), file.filename().string());
+    throw SmootherFailure("its mesh cannot be read: " + reason);
+  }
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<Point<dim>> returned_coordinates(const std::filesystem::path& file,
+                                             const Mesh<dim>& mesh) {
+  const MeshFile read = read_returned(file);
+  const auto* returned = std::get_if<Mesh<dim>>(&read.mesh);
+  if (returned == nullptr)
+    throw SmootherFailure("its mesh is a " + std::string(kind_name(read.mesh)) +
+                          " mesh, but was given as a " + mesh_kind_name(dim, dim) + " mesh");
+  const NodeMap map = matching_nodes(mesh.topology(), returned->topology());
+  require_same_cells(mesh.topology(), returned->topology(), map);
+  std::vector<Point<dim>> points(mesh.n_nodes());
+  for (NodeIndex i = 0; i < map.size(); ++i) points[map[i]] = returned->coordinates()[i];
+  keep_fixed_nodes(mesh, points);
+  return points;
+}
+
+template std::vector<Point<2>> returned_coordinates(const std::filesystem::path&, const Mesh<2>&);
+template std::vector<Point<3>> returned_coordinates(const std::filesystem::path&, const Mesh<3>&);
+
+}  // namespace smoothfem

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "meshes/external/child_process.h"
+#include "meshes/external/command_line.h"
+#include "meshes/external/returned_mesh.h"
+#include "meshes/external/text_vtk.h"
+#include "meshes/tests/labelled_box.h"
+#include "meshes/tests/mesh_tests.h"
+#include "smoothing/loop/smoother.h"
+
+namespace smoothfem {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+using ExternalProgram = FileTest;
+
+TEST(CommandText, PlaceholdersStandWhereTheyAreNamed) {
+  EXPECT_EQ(with_placeholder("a {in} b {in}{out}", "in", "x{in}"), "a x{in} b x{in}{out}");
+  EXPECT_TRUE(has_placeholder("a {iterations}", "iterations"));
+  EXPECT_FALSE(has_placeholder("a {iterations}", "iteration"));
+}
+
+TEST(CommandText, FirstWordEndsAtABlankOutsideOfQuotes) {
+  EXPECT_EQ(first_word("mmg3d_O3 -noinsert {in}"), "mmg3d_O3");
+  EXPECT_EQ(after_first_word("mmg3d_O3 -noinsert {in}"), " -noinsert {in}");
+  EXPECT_EQ(first_word("'my program' x"), "myprogram");
+  EXPECT_EQ(after_first_word("'my program' x"), " x");
+  EXPECT_EQ(first_word("alone"), "alone");
+  EXPECT_EQ(after_first_word("alone"), "");
+}
+
+TEST(CommandText, TimesAreThoseOfTheLinesThatMatch) {
+  const std::string text = "start\nstep 1 time: 0.25 s\nstep 2 time: 1e-1 s\ntime: none\n\n";
+  EXPECT_THAT(matched_numbers(text, "time: ([0-9.e+-]+) s"), ElementsAre(0.25, 0.1));
+  EXPECT_THAT(matched_numbers(text, "seconds: (.*)"), ElementsAre());
+  EXPECT_EQ(last_line(text), "time: none");
+  EXPECT_EQ(last_line(""), "");
+}
+
+TEST(CommandText, QuotedWordsComeThroughTheShell) {
+  const ScratchFolder folder;
+  const std::string word = "it's \"all\" $HOME `one` \\ word";
+  EXPECT_EQ(run_command("printf %s " + shell_quoted(word), folder.path(), 10.0).output, word);
+}
+
+TEST_F(ExternalProgram, EndIsTold) {
+  const auto end = run_command("pwd; echo loud >&2; exit 3", file(""), 10.0);
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_EQ(end.signal, 0);
+  EXPECT_FALSE(end.timed_out);
+  EXPECT_THAT(end.output, HasSubstr("loud\n"));
+  EXPECT_THAT(end.output, HasSubstr(file("").filename().string()));
+  EXPECT_EQ(run_command("kill -9 $$", file(""), 10.0).signal, 9);
+  EXPECT_EQ(run_command("no-such-program-here", file(""), 10.0).exit_code, 127);
+}
+
+TEST_F(ExternalProgram, IsNoRankOfOurs) {
+  ::setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
+  ::setenv("SMOOTHFEM_TEST", "here", 1);
+  const auto end = run_command("echo \"$OMPI_COMM_WORLD_SIZE,$SMOOTHFEM_TEST\"", file(""), 10.0);
+  ::unsetenv("OMPI_COMM_WORLD_SIZE");
+  ::unsetenv("SMOOTHFEM_TEST");
+  EXPECT_EQ(end.output, ",here\n");
+}
+
+TEST_F(ExternalProgram, TimeIsThatOfTheClock) {
+  const auto end = run_command("sleep 0.3", file(""), 10.0);
+  EXPECT_GE(end.wall_seconds, 0.3);
+}
+
+TEST_F(ExternalProgram, WhatHangsIsEndedWithAllThatItStarted) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto end =
+      run_command("(sleep 2; touch " + shell_quoted(file("late")) + ") & sleep 100", file(""), 0.2);
+  EXPECT_TRUE(end.timed_out);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_FALSE(std::filesystem::exists(file("late")));
+}
+
+TEST_F(ExternalProgram, ScratchFolderGoesWithItsContent) {
+  std::filesystem::path path;
+  {
+    const ScratchFolder folder;
+    path = folder.path();
+    std::ofstream(path / "file") << "x";
+    EXPECT_TRUE(std::filesystem::exists(path / "file"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(FindProgram, LooksWhereTheShellDoes) {
+  EXPECT_EQ(find_program("sh").filename(), "sh");
+  EXPECT_EQ(find_program("no-such-program-here"), "");
+  EXPECT_EQ(find_program("/bin/sh"), "/bin/sh");
+  EXPECT_EQ(find_program("/bin"), "");
+}
+
+/// The reason why a mesh that came back is refused; empty if it is taken.
+template <int dim>
+std::string refusal(const std::filesystem::path& path, const Mesh<dim>& given) {
+  try {
+    (void)returned_coordinates<dim>(path, given);
+  } catch (const SmootherFailure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+TEST_F(ExternalProgram, TextOfVtkIsReadBackWithAllBits) {
+  const PlanarMesh planar = mixed_mesh(true);
+  write_text_vtk(file("planar.vtk"), planar);
+  EXPECT_EQ(read_planar(file("planar.vtk")).mesh.copied_coordinates(), planar.copied_coordinates());
+  EXPECT_EQ(read_planar(file("planar.vtk")).mesh.topology().cells(), planar.topology().cells());
+  EXPECT_EQ(read_planar(file("planar.vtk")).mesh.topology().free_nodes(),
+            planar.topology().free_nodes());
+  for (const auto kind : {test::BoxCells::tetrahedra, test::BoxCells::hexahedra,
+                          test::BoxCells::prisms, test::BoxCells::pyramids}) {
+    const VolumeMesh box = test::box_mesh(2, 2, 2, kind);
+    write_text_vtk(file("box.vtk"), box);
+    EXPECT_EQ(read_volume(file("box.vtk")).copied_coordinates(), box.copied_coordinates());
+    EXPECT_EQ(read_volume(file("box.vtk")).topology().cells(), box.topology().cells());
+  }
+}
+
+PlanarMesh with_cells(const PlanarMesh& mesh, CompressedRows<NodeIndex> cells) {
+  return {std::make_shared<const Topology>(2, mesh.n_nodes(), std::move(cells)),
+          mesh.copied_coordinates()};
+}
+
+TEST_F(ExternalProgram, MovedNodesComeBackWhateverTheOrderOfCells) {
+  const PlanarMesh given = mixed_mesh(false);
+  CompressedRows<NodeIndex> cells;
+  for (std::size_t c = given.n_cells(); c-- > 0;) {
+    const auto nodes = given.topology().cell_nodes(c);
+    std::vector<NodeIndex> rotated(nodes.begin() + 1, nodes.end());
+    rotated.push_back(nodes.front());
+    cells.append(rotated);
+  }
+  PlanarMesh moved = with_cells(given, cells);
+  moved.coordinates()[4] += Point<2>(0.01, -0.02);
+  write_mesh(file("out.vtk"), moved);
+  const auto points = returned_coordinates<2>(file("out.vtk"), given);
+  for (NodeIndex i = 0; i < given.n_nodes(); ++i) EXPECT_EQ(points[i], moved.coordinates()[i]) << i;
+}
+
+TEST_F(ExternalProgram, NumbersOfTheFileSayWhichNodeIsWhich) {
+  const VolumeMesh given = labelled_box(test::BoxCells::tetrahedra);  // numbers 2, 5, 8, ...
+  write_mesh(file("out.msh"), given);
+  const auto points = returned_coordinates<3>(file("out.msh"), given);
+  for (NodeIndex i = 0; i < given.n_nodes(); ++i) EXPECT_EQ(points[i], given.coordinates()[i]);
+  MeshLabels other = given.topology().labels();
+  other.node_ids[3] = 1000;
+  write_mesh(file("other.msh"),
+             VolumeMesh(std::make_shared<const Topology>(
+                            3, given.n_nodes(), given.topology().cells(), std::nullopt, other),
+                        given.copied_coordinates()));
+  EXPECT_THAT(refusal(file("other.msh"), given), HasSubstr("a node with the number 1000"));
+}
+
+TEST_F(ExternalProgram, FixedNodesKeepTheirBitsThoughFilesHaveFewDigits) {
+  const PlanarMesh given = mixed_mesh(false);
+  PlanarMesh rounded = given;
+  for (auto& p : rounded.coordinates()) p = (p * 1e7).array().round() / 1e7;
+  write_mesh(file("out.vtk"), rounded);
+  const auto points = returned_coordinates<2>(file("out.vtk"), given);
+  for (NodeIndex i = 0; i < given.n_nodes(); ++i)
+    EXPECT_EQ(points[i],
+              given.topology().is_fixed(i) ? given.coordinates()[i] : rounded.coordinates()[i]);
+}
+
+TEST_F(ExternalProgram, FixedNodesThatMoveAreRefused) {
+  const PlanarMesh given = mixed_mesh(false);
+  PlanarMesh moved = given;
+  moved.coordinates()[0] += Point<2>(1e-3, 0.0);
+  write_mesh(file("out.vtk"), moved);
+  EXPECT_THAT(refusal(file("out.vtk"), given),
+              HasSubstr("it has moved 1 fixed node, by up to 0.001"));
+}
+
+TEST_F(ExternalProgram, OtherCellsAreRefused) {
+  const PlanarMesh given = mixed_mesh(false);
+  CompressedRows<NodeIndex> fewer, swapped;
+  for (std::size_t c = 0; c < given.n_cells(); ++c) {
+    const auto nodes = given.topology().cell_nodes(c);
+    if (c > 0) fewer.append(nodes);
+  }
+  write_mesh(file("fewer.vtk"), with_cells(given, fewer));
+  EXPECT_THAT(refusal(file("fewer.vtk"), given), HasSubstr("3 cells in place of 4"));
+  // A square's other diagonal.
+  const std::vector<Point<2>> x = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const auto square = [&](std::vector<std::vector<NodeIndex>> triangles) {
+    CompressedRows<NodeIndex> cells;
+    for (const auto& t : triangles) cells.append(t);
+    return PlanarMesh(std::make_shared<const Topology>(2, x.size(), std::move(cells)), x);
+  };
+  write_mesh(file("swapped.vtk"), square({{0, 1, 3}, {1, 2, 3}}));
+  EXPECT_THAT(refusal(file("swapped.vtk"), square({{0, 1, 2}, {0, 2, 3}})),
+              HasSubstr("other cells (2 cells changed)"));
+}
+
+TEST_F(ExternalProgram, OtherNodesAreRefused) {
+  const PlanarMesh given = mixed_mesh(false);
+  auto points = given.copied_coordinates();
+  points.emplace_back(7.0, 7.0);
+  write_mesh(file("out.mesh"), PlanarMesh(std::make_shared<const Topology>(
+                                              2, points.size(), given.topology().cells()),
+                                          points));
+  EXPECT_THAT(refusal(file("out.mesh"), given), HasSubstr("nodes in place of"));
+}
+
+TEST_F(ExternalProgram, NonsenseIsRefusedWithoutTheFolderOfAMoment) {
+  const PlanarMesh given = mixed_mesh(false);
+  write_mesh(file("out.mesh"), given);
+  std::string text = content_of(file("out.mesh"));
+  text.replace(text.find('\n', text.find("nodes")) + 1, 1, "nan");
+  file_with("nan.mesh", text);
+  EXPECT_THAT(refusal(file("nan.mesh"), given),
+              testing::StartsWith("its mesh cannot be read: nan.mesh"));
+  write_mesh(file("volume.vtk"), labelled_box(test::BoxCells::tetrahedra));
+  EXPECT_THAT(refusal(file("volume.vtk"), given),
+              HasSubstr("is a volume mesh, but was given as a planar mesh"));
+}
+
+}  // namespace
+}  // namespace smoothfem

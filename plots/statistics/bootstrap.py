@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Intervals and tests by resampling. Rows that belong together, as those of one mesh, are drawn together:
+otherwise many records of few meshes would look like much evidence."""
+
+import numpy as np
+
+N_SAMPLES = 1000
+LEVEL = 0.95
+
+
+def interval(statistic, groups, n_samples=N_SAMPLES, level=LEVEL, seed=1):
+    """Bootstrap interval (percentiles) of statistic(rows), where rows are those of groups drawn with repetition;
+    (low, high), NaN where fewer than two groups give no interval.
+
+    groups: shape (n,), what each row belongs to. statistic: takes indices of rows, returns a number."""
+    groups = np.asarray(groups)
+    _, inverse = np.unique(groups, return_inverse=True)
+    members = [np.flatnonzero(inverse == g) for g in range(inverse.max(initial=-1) + 1)]
+    if len(members) < 2:
+        return np.nan, np.nan
+    random = np.random.default_rng(seed)
+    values = []
+    for _ in range(n_samples):
+        drawn = random.integers(len(members), size=len(members))
+        values.append(statistic(np.concatenate([members[g] for g in drawn])))
+    values = np.asarray(values)[np.isfinite(values)]
+    if not len(values):
+        return np.nan, np.nan
+    tail = 50.0 * (1.0 - level)
+    return tuple(float(v) for v in np.percentile(values, [tail, 100.0 - tail]))
+
+
+def paired_test(a, b, n_samples=10000, seed=1):
+    """Probability of a mean difference of pairs as large as that of a and b, in absolute value, if which of a
+    pair is whose were chance (sign flips; all of them for up to 13 pairs that differ). 1 if none differs. a, b:
+    shape (n,), finite."""
+    difference = np.asarray(a, dtype=float) - np.asarray(b, dtype=float)
+    difference = difference[difference != 0]
+    n = len(difference)
+    if n == 0:
+        return 1.0
+    if n <= 13:
+        signs = 1.0 - 2.0 * ((np.arange(2**n)[:, None] >> np.arange(n)) & 1)
+    else:
+        signs = 1.0 - 2.0 * np.random.default_rng(seed).integers(2, size=(n_samples, n))
+    sums = np.abs(signs @ difference)
+    reached = np.count_nonzero(sums >= abs(difference.sum()) * (1.0 - 1e-12))
+    return float(reached / len(sums)) if n <= 13 else float((reached + 1) / (len(sums) + 1))

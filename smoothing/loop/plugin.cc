@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/loop/plugin.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/plugin_abi.h"
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Throws InputError unless the library's methods see the program's types as the program does.
+void require_same_types(const fs::path& library) {
+  std::ifstream stream(library, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  const std::string elf =
+      "\x7f"
+      "ELF";
+  if (!content.starts_with(elf))
+    throw InputError(library.string() +
+                     " is not a shared library; build one from the source, as "
+                     "'smoothfem new-smoother' shows");
+  const std::string_view mark(plugin_abi.mark.data(), plugin_abi.mark.size());
+  bool is_plugin = false;
+  for (auto at = content.find(mark); at != std::string::npos; at = content.find(mark, at + 1)) {
+    PluginAbi theirs;
+    if (content.size() - at < sizeof(theirs)) break;
+    std::memcpy(&theirs, content.data() + at, sizeof(theirs));
+    if (theirs == plugin_abi) return;
+    is_plugin = true;
+  }
+  throw InputError(library.string() +
+                   (is_plugin
+                        ? " was built against another smoothfem, whose types differ; build it anew "
+                          "against the one that is installed"
+                        : " is no plugin of smoothfem: no method is registered in it by "
+                          "RegisteredMethod"));
+}
+
+}  // namespace
+
+void load_plugin(const fs::path& library) {
+  static std::set<fs::path> loaded;
+  std::error_code none;
+  const fs::path path = fs::canonical(library, none);
+  if (none || !fs::is_regular_file(path))
+    throw InputError("there is no plugin " + library.string() + "; check its path");
+  if (loaded.contains(path)) return;
+  require_same_types(path);
+  const std::size_t n_before = method_catalogue(true).size();
+  {
+    const LibraryOfMethods of_library(path);
+    if (dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr)
+      throw InputError("the plugin " + library.string() + " cannot be loaded: " + dlerror());
+  }
+  loaded.insert(path);
+  if (method_catalogue(true).size() == n_before)
+    throw InputError("the plugin " + library.string() +
+                     " registers no method; end its source with a RegisteredMethod at namespace "
+                     "scope");
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/stat.h>
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <regex>
+#include <sstream>
+
+#include "meshes/io/atomic_file.h"
+#include "smoothing/base/data_folder.h"
+#include "smoothing/loop/catalogue.h"
+#include "studies/cli/commands.h"
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string name;
+  bool python = false, command = false;
+};
+
+/// "half-laplace" as HalfLaplace, half_laplace, and half laplace.
+struct Spellings {
+  std::string name, class_name, file_name, words;
+};
+
+Spellings spellings(const std::string& name) {
+  Spellings made{name, "", "", ""};
+  bool begins = true;
+  for (const char c : name) {
+    if (c != '-') made.class_name += begins ? static_cast<char>(std::toupper(c)) : c;
+    made.file_name += c == '-' ? '_' : c;
+    made.words += c == '-' ? ' ' : c;
+    begins = c == '-';
+  }
+  return made;
+}
+
+/// The folder that the program is installed or built in: there find_package finds it.
+fs::path prefix() {
+  return fs::canonical("/proc/self/exe").parent_path().parent_path().parent_path();
+}
+
+std::string filled_in(std::string text, const Spellings& s) {
+  for (const auto& [mark, value] : {std::pair<std::string, std::string>{"@name@", s.name},
+                                    {"@Name@", s.class_name},
+                                    {"@file@", s.file_name},
+                                    {"@words@", s.words},
+                                    {"@prefix@", prefix().string()}})
+    for (auto at = text.find(mark); at != std::string::npos;
+         at = text.find(mark, at + value.size()))
+      text.replace(at, mark.size(), value);
+  return text;
+}
+
+std::string content_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void make_folder(const Arguments& arguments) {
+  static const std::regex allowed("[a-z][a-z0-9]*(-[a-z0-9]+)*");
+  if (!std::regex_match(arguments.name, allowed))
+    throw InputError("a smoother cannot be called '" + arguments.name +
+                     "'; take small letters, digits and '-', as in half-laplace");
+  if (fs::exists(arguments.name))
+    throw InputError("there is a file or folder '" + arguments.name +
+                     "' here already; take another name, or another folder");
+  for (const auto& info : method_catalogue(true))
+    if (info.name == arguments.name)
+      throw InputError("there is a method '" + arguments.name + "' already; take another name");
+  const char* kind = arguments.python ? "python" : arguments.command ? "command" : "cpp";
+  const fs::path templates = data_folder() / "launcher" / "new_smoother" / kind;
+  if (!fs::is_directory(templates))
+    throw InputError("the folder " + templates.string() + " is missing; install the program anew");
+  const Spellings names = spellings(arguments.name);
+  for (const auto& entry : fs::directory_iterator(templates)) {
+    const fs::path made = fs::path(arguments.name) /
+                          filled_in(entry.path().stem().string(), names);  // without .template
+    write_atomically(made, filled_in(content_of(entry.path()), names));
+    if ((fs::status(entry.path()).permissions() & fs::perms::owner_exec) != fs::perms::none)
+      fs::permissions(made, fs::perms::owner_exec, fs::perm_options::add);
+  }
+  std::printf("%s/README.md says what to do next:\n\n", arguments.name.c_str());
+  std::fputs(content_of(fs::path(arguments.name) / "README.md").c_str(), stdout);
+}
+
+}  // namespace
+
+void add_new_smoother_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand(
+      "new-smoother", "make a folder with the source of a new smoother, ready to build and to run");
+  command->add_option("name", arguments->name, "its name, such as half-laplace")->required();
+  auto* python = command->add_flag("--python", arguments->python, "in Python; in C++ unless given");
+  command
+      ->add_flag("--command", arguments->command,
+                 "as a program of its own that reads a mesh file and writes one")
+      ->excludes(python);
+  add_examples(*command,
+               {"smoothfem new-smoother half-laplace", "smoothfem new-smoother mine --python"});
+  command->callback([arguments] { make_folder(*arguments); });
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include "studies/tests/command_line.h"
+
+namespace smoothfem {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Studies and commands whose smoother is another program. The program that is asked here is this
+/// one, so that it is known what has to come out.
+class CommandMethod : public CommandLine {
+ protected:
+  CommandMethod() { write_mesh(file("grid.vtu"), shaken_grid(6, 0.2)); }
+
+  /// A study of Laplace smoothing, eight iterations, and a method with these keys.
+  Outcome run_study(const std::string& keys, const std::vector<std::string>& options = {}) {
+    file_with("my.prm",
+              "set meshes = m\nset methods = laplace, other\nset degrees = 1\n"
+              "set timing runs = 2\nsubsection mesh m\n set file = grid.vtu\nend\n"
+              "subsection method laplace\n set tolerance = 0\n set max_iterations = 8\nend\n"
+              "subsection method other\n" +
+                  keys + "end\n");
+    std::vector<std::string> words{"study", "my.prm", "--out", "out", "--quiet"};
+    words.insert(words.end(), options.begin(), options.end());
+    return smoothfem(words);
+  }
+
+  CsvTable table(const std::string& name) const {
+    return CsvTable(content_of(file("out/" + name)));
+  }
+
+  /// The status of the method's row, in a study that has gone on to its end.
+  std::string status_of(const std::string& keys) {
+    const Outcome outcome = run_study(keys);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto rows = table("summary.csv").select({{"method", "other"}});
+    const auto known = table("summary.csv").select({{"method", "laplace"}});
+    EXPECT_EQ(rows.size(), 1u);
+    EXPECT_EQ(known.at(0).at("status"), "ok");
+    EXPECT_EQ(rows.at(0).at("e_l2") == "", rows.at(0).at("status") != "ok");
+    return rows.at(0).at("status");
+  }
+
+  static std::string laplace(const std::string& iterations, const std::string& in = "{in}",
+                             const std::string& out = "{out}") {
+    return std::string("'") + SMOOTHFEM_PROGRAM + "' smooth " + in +
+           " -m laplace --set tolerance=0 --set max_iterations=" + iterations + " -o " + out;
+  }
+
+  /// Every row of the method has the numbers of Laplace's row of the same iteration.
+  void expect_laplace(const std::vector<std::string>& iterations) const {
+    const auto rows = table("iterations.csv").select({{"method", "other"}});
+    std::vector<std::string> found;
+    for (const auto& row : rows) {
+      found.push_back(row.at("iteration"));
+      const auto known = table("iterations.csv")
+                             .select({{"method", "laplace"}, {"iteration", row.at("iteration")}});
+      ASSERT_EQ(known.size(), 1u);
+      for (const std::string column : {"q_min", "q_mean", "condition_number", "e_l2", "l2_error"})
+        EXPECT_EQ(row.at(column), known[0].at(column)) << row.at("iteration") << " " << column;
+    }
+    EXPECT_EQ(found, iterations);
+  }
+};
+
+TEST_F(CommandMethod, IsRunAnewForMoreAndMoreIterations) {
+  EXPECT_EQ(status_of(" set command = " + laplace("{iterations}") + "\n set max_iterations = 8\n"),
+            "ok");
+  expect_laplace({"0", "1", "2", "4", "8"});
+}
+
+TEST_F(CommandMethod, TakesEveryKthIterationAndOtherFormats) {
+  EXPECT_EQ(status_of(" set command = " + laplace("{iterations}") +
+                      "\n set max_iterations = 7\n set every = 3\n set format = msh\n"
+                      " set out_format = mesh\n"),
+            "ok");
+  expect_laplace({"0", "3", "6", "7"});
+}
+
+TEST_F(CommandMethod, RepeatsOnWhatItHasMade) {
+  EXPECT_EQ(status_of(" set command = " + laplace("1") + "\n set repeat = 3\n"), "ok");
+  expect_laplace({"0", "1", "2", "3"});
+}
+
+TEST_F(CommandMethod, TakesASeriesOfFilesOfOneRun) {
+  const std::string script = "for i in 1 2 3; do " + laplace("$i", "$1", "step$i.vtk") +
+                             " && echo \"time $i: 0.$i s\"; done\n";
+  file_with("steps.sh", script);
+  EXPECT_EQ(status_of(" set command = sh steps.sh {in}\n set files = steps.sh\n"
+                      " set series = step{iteration}.vtk\n set time_pattern = time .: ([0-9.]+)\n"
+                      " set time_unit = 0.001\n"),
+            "ok");
+  expect_laplace({"0", "1", "2", "3"});
+  const auto rows = table("iterations.csv").select({{"method", "other"}});
+  EXPECT_NEAR(std::stod(rows.at(2).at("smoothing_seconds")), 2e-4, 1e-12);
+  EXPECT_GT(std::stod(rows.at(2).at("wall_seconds")), 1e-3);
+  EXPECT_EQ(rows.at(0).at("wall_seconds"), "");
+}
+
+TEST_F(CommandMethod, TimeIsThatOfTheClockLessThatOfTheStart) {
+  file_with("slow.sh", "sleep 0.2; [ $3 = 0 ] || sleep 0.3; cp $1 $2\n");
+  EXPECT_EQ(status_of(" set command = sh slow.sh {in} {out} {iterations}\n set files = slow.sh\n"
+                      " set max_iterations = 1\n"),
+            "ok");
+  const auto row = table("summary.csv").select({{"method", "other"}}).at(0);
+  const double seconds = std::stod(row.at("smoothing_seconds"));
+  const double wall = std::stod(row.at("wall_seconds"));
+  EXPECT_GE(wall, 0.5);
+  EXPECT_LE(seconds, wall - 0.2 + 1e-9);
+  EXPECT_GT(seconds, 0.0);
+}
+
+TEST_F(CommandMethod, MeshIsTakenFromWhatItIsGivenWhereItChangesThat) {
+  EXPECT_EQ(status_of(" set command = " + laplace("2", "{in}", "{in}") + "\n"), "ok");
+  const auto rows = table("iterations.csv");
+  EXPECT_EQ(rows.select({{"method", "other"}, {"iteration", "1"}}).at(0).at("q_mean"),
+            rows.select({{"method", "laplace"}, {"iteration", "2"}}).at(0).at("q_mean"));
+}
+
+TEST_F(CommandMethod, KeepsItsLogAndSaysWhereItComesFrom) {
+  file_with("mine.sh", "echo I was here; cp $1 $2\n");
+  EXPECT_EQ(status_of(" set command = sh mine.sh {in} {out}\n set files = mine.sh\n"
+                      " set version_command = echo Mine 1.2\n"),
+            "ok");
+  EXPECT_THAT(
+      content_of(file("out/logs/m_other.log")),
+      AllOf(HasSubstr("$ sh mine.sh in.vtk out.vtk\nI was here\n"), HasSubstr("exit code 0")));
+  const auto json = nlohmann::json::parse(content_of(file("out/provenance.json")));
+  const auto& method = json.at("methods").at(1);
+  EXPECT_EQ(method.at("version"), "Mine 1.2");
+  EXPECT_EQ(method.at("files").at(1).at("name"), "mine.sh");
+  EXPECT_EQ(method.at("files").at(1).at("sha256").get<std::string>().size(), 64u);
+  // Another program is another study.
+  file_with("mine.sh", "cp $1 $2\n");
+  const Outcome again = smoothfem({"study", "my.prm", "--out", "out", "--quiet"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("content of method other, mine.sh was"));
+}
+
+TEST_F(CommandMethod, FailuresAreRowsWithTheReason) {
+  const std::pair<std::string, std::string> commands[] = {
+      {"no-such-program {in} {out}", "there is no program 'no-such-program' here"},
+      {"./mine {in} {out}", "there is no program './mine' here"},
+      {"sh -c 'echo disk broken; exit 7' {in}",
+       "it ended with exit code 7; the last it printed: 'disk broken'"},
+      {"sh -c 'kill -9 $$' {in}", "it was killed by signal 9"},
+      {"sh -c 'sleep 100' {in}\n set timeout = 0.3", "it ran for more than 0 s and was ended"},
+      {"true {in} {out}", "it left no file out.vtk"},
+      {"cp /dev/null {out} {in}", "it ended with exit code 1"},
+      {"sh -c ': > out.vtk' {in} {out}", "its mesh cannot be read: out.vtk"},
+      {"cp {in} {out}\n set time_pattern = ([0-9]+) ms", "it prints nothing that the time_pattern"},
+      {"cp {in} {out}\n set series = s{iteration}.vtk", "it left no file s1.vtk"},
+      {"cp {in} {out}\n set files = none.sh", "there is no file 'none.sh'"}};
+  for (const auto& [command, reason] : commands) {
+    fs::remove_all(file("out"));
+    EXPECT_THAT(status_of(" set command = " + command + "\n"), StartsWith("failed: " + reason))
+        << command;
+  }
+}
+
+/// Programs that change what they must not, written in awk for planar polygonal text.
+TEST_F(CommandMethod, CheatsAreRowsWithTheReason) {
+  file_with("cheat.awk",
+            "/^nodes/ { node = $2; print; next }\n"
+            "/^polygons/ && kind == \"drop\" { print \"polygons \" $2 - 1; dropped = 0; poly = 1; "
+            "next }\n"
+            "poly == 1 && dropped == 0 { dropped = 1; next }\n"
+            "node > 0 { node--; n++\n"
+            "  if (kind == \"fixed\" && n == 1) { print $1 + 0.1, $2; next }\n"
+            "  if (kind == \"nan\" && n == 9) { print \"nan\", $2; next } }\n"
+            "/^polygon_mean/ && kind == \"drop\" { exit }\n"
+            "{ print }\n");
+  const std::pair<std::string, std::string> cheats[] = {
+      {"fixed", "it has moved 1 fixed node, by up to 0.1"},
+      {"drop", "its mesh has 35 cells in place of 36"},
+      {"nan", "its mesh cannot be read: out.mesh:"}};
+  for (const auto& [kind, reason] : cheats) {
+    fs::remove_all(file("out"));
+    EXPECT_THAT(status_of(" set command = awk -v kind=" + kind +
+                          " -f cheat.awk {in} > {out}\n set files = cheat.awk\n"
+                          " set format = mesh\n"),
+                StartsWith("failed: " + reason))
+        << kind;
+  }
+}
+
+TEST_F(CommandMethod, RecordsBeforeAFailureStay) {
+  file_with("mine.sh", "[ $3 -lt 4 ] || { echo enough; exit 1; }; cp $1 $2\n");
+  EXPECT_THAT(status_of(" set command = sh mine.sh {in} {out} {iterations}\n"
+                        " set files = mine.sh\n"),
+              StartsWith("failed: it ended with exit code 1; the last it printed: 'enough'"));
+  EXPECT_EQ(table("iterations.csv").select({{"method", "other"}}).size(), 3u);
+}
+
+TEST_F(CommandMethod, WrongKeysAreRefusedBeforeAnythingRuns) {
+  const std::pair<std::string, std::string> keys[] = {
+      {" set command = cp a b\n", "has no {in} for the file of its mesh"},
+      {" set command = cp {in} {out}\n set format = doc\n", "mesh.doc"},
+      {" set command = cp {in} {out}\n set series = step.vtk\n", "has no {iteration}"},
+      {" set command = cp {in} {out}\n set time_pattern = time\n", "has no group"},
+      {" set command = cp {in} {out}\n set time_pattern = (\n", "is no regular expression"},
+      {" set command = cp {in} {out} {iterations}\n set repeat = 2\n", "is not repeated"},
+      {" set type = command\n", "needs a command"}};
+  for (const auto& [text, reason] : keys) {
+    const Outcome outcome = run_study(text);
+    EXPECT_EQ(outcome.exit_code, 2) << text;
+    EXPECT_THAT(outcome.err, HasSubstr(reason)) << text;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(file("out"))) << text;
+  }
+}
+
+TEST_F(CommandMethod, SmoothsAFile) {
+  const Outcome outcome = smoothfem({"smooth", "grid.vtu", "-m", "command", "--set",
+                                     "command=" + laplace("2"), "-o", "out.mesh"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(smoothfem({"smooth", "grid.vtu", "-m", "laplace", "--set", "tolerance=0", "--set",
+                       "max_iterations=2", "-o", "same.mesh"})
+                .exit_code,
+            0);
+  EXPECT_EQ(content_of(file("out.mesh")), content_of(file("same.mesh")));
+  const Outcome failed = smoothfem(
+      {"smooth", "grid.vtu", "-m", "command", "--set", "command=false {in}", "-o", "none.mesh"});
+  EXPECT_EQ(failed.exit_code, 2);
+  EXPECT_EQ(failed.err, "smoothfem: the method command failed: it ended with exit code 1\n");
+  EXPECT_FALSE(fs::exists(file("none.mesh")));
+}
+
+TEST_F(CommandMethod, TypeAndListKnowIt) {
+  EXPECT_THAT(smoothfem({"list"}).out, HasSubstr("\n  command: Command\n"));
+  const Outcome all = smoothfem({"study", "gear", "--quick", "--dry-run"});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_THAT(all.out, testing::Not(HasSubstr("command")));
+}
+
+}  // namespace
+}  // namespace smoothfem
