@@ -41,6 +41,7 @@ Method<dim, spacedim> configured_method(const py::object& method, const std::str
   Method<dim, spacedim> configured = made();
   if (!preset.empty()) apply_preset(find_preset(preset), configured);
   for (const auto& [name, value] : settings) configured.set(name, value);
+  use_folders(configured, {});
   return configured;
 }
 
@@ -96,6 +97,7 @@ Result smooth_mesh(const py::object& object, const py::object& method, const py:
   if (!callback.is_none()) call = [&](const IterationRecord& record) { callback(record, object); };
   return object.cast<PythonMesh&>().visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& mesh) {
     auto configured = configured_method<dim, spacedim>(method, preset, settings);
+    check_parameters(configured);
     return smooth_in_place(mesh, configured, call, history);
   });
 }
@@ -142,6 +144,9 @@ void bind_results(py::module_& module) {
                     "of the stages' main loops so far, without the callback's time")
       .def_readonly("preparation_seconds", &IterationRecord::preparation_seconds,
                     "before them: order of the nodes, tables, the initial quality")
+      .def_readonly(
+          "wall_seconds", &IterationRecord::wall_seconds,
+          "of the run of another program that the mesh comes from, with its start; or None")
       .def_readonly("quality", &IterationRecord::quality)
       .def_readonly("n_made_invalid", &IterationRecord::n_made_invalid,
                     "cells that the step made invalid, before nodes were put back; or None")

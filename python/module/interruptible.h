@@ -26,6 +26,9 @@ class Interruptible final : public Smoother<dim, spacedim> {
   void initialize(const SmoothingState<dim, spacedim>& state) override {
     stage_->initialize(state);
   }
+  void check_parameters() const override { stage_->check_parameters(); }
+  void use_folders(const SmootherFolders& folders) override { stage_->use_folders(folders); }
+  SmootherOrigin origin() override { return stage_->origin(); }
   double initial_score() const override { return stage_->initial_score(); }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
