@@ -23,7 +23,10 @@ class FourWays : public CommandLine {
     file_with("tree.prm",
               head + "set methods = odt\n" + first_lines +
                   "subsection method odt\n set max_iterations = 4\n set tolerance = -1\nend\n");
-    run_study(read_study(file("tree.prm")), {.out = file("tree"), .quiet = true});
+    StudyOptions options;
+    options.out = file("tree");
+    options.quiet = true;
+    run_study(read_study(file("tree.prm")), options);
     file_with("others.prm",
               head + "set methods = odt, python, command\nset plugins = " + SMOOTHFEM_ODT_PLUGIN +
                   "\n" + first_lines +
