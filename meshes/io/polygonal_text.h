@@ -9,9 +9,10 @@
 namespace smoothfem {
 
 /// The text format of planar polygonal meshes published with the GETMe framework (twt-gmbh/getme):
-/// a line `planar_polygonal_mesh`; `nodes N` and N lines `x y`; `polygons M` and M lines of a number
-/// k and k node numbers (from 0, counterclockwise); `fixed_node_indices F` and F lines; optionally
-/// `polygon_mean_ratio_quality_numbers M` and M lines, which are checked for form and ignored.
+/// a line `planar_polygonal_mesh`; `nodes N` and N lines `x y`; `polygons M` and M lines of a
+/// number k and k node numbers (from 0, counterclockwise); `fixed_node_indices F` and F lines;
+/// optionally `polygon_mean_ratio_quality_numbers M` and M lines, which are checked for form and
+/// ignored.
 MeshFile read_polygonal_text(const std::filesystem::path& path);
 
 /// True if the first line of the content announces this format.
