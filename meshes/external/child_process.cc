@@ -98,6 +98,8 @@ CommandEnd run_command(const std::string& command, const fs::path& folder, doubl
   if (interruption()) throw Interrupted{};
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+  constexpr int killed = 128;  // what shells add to the signal that has killed their command
+  if (end.exit_code > killed && end.exit_code < killed + NSIG) end.signal = end.exit_code - killed;
   end.output = content_of(printed);
   return end;
 }

@@ -150,7 +150,7 @@ TEST_F(CommandMethod, FailuresAreRowsWithTheReason) {
       {"sh -c 'echo disk broken; exit 7' {in}",
        "it ended with exit code 7; the last it printed: 'disk broken'"},
       {"sh -c 'kill -9 $$' {in}", "it was killed by signal 9"},
-      {"sh -c 'sleep 100' {in}\n set timeout = 0.3", "it ran for more than 0 s and was ended"},
+      {"sh -c 'sleep 100' {in}\n set timeout = 0.3", "it ran for more than 0.3 s and was ended"},
       {"true {in} {out}", "it left no file out.vtk"},
       {"cp /dev/null {out} {in}", "it ended with exit code 1"},
       {"sh -c ': > out.vtk' {in} {out}", "its mesh cannot be read: out.vtk"},
