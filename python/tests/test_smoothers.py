@@ -174,7 +174,7 @@ class InStudies(InAFolder):
         self.assertEqual(method["parameters"]["fraction"], 0.5)
         self.assertNotIn(str(self.folder), (self.folder / "out" / "provenance.json").read_text())
         (self.folder / "smoothers" / "mine.py").write_text(SMOOTHERS + "\n# changed\n")
-        with self.assertRaisesRegex(smoothfem.InputError, "content of method mine was"):
+        with self.assertRaisesRegex(smoothfem.InputError, "content of method mine, mine.py was"):
             smoothfem.Study("my.prm").run("out")
 
     def test_refused_with_the_file_of_the_study(self):

@@ -2,6 +2,7 @@
 #include "smoothing/loop/plugin.h"
 
 #include <dlfcn.h>
+#include <elf.h>
 
 #include <algorithm>
 #include <cstring>
@@ -18,6 +19,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The headers of a shared library's sections are its end. The loader may crash where they are cut
+/// off.
+bool is_whole(const std::string& content) {
+  Elf64_Ehdr header;
+  if (content.size() < sizeof(header)) return false;
+  std::memcpy(&header, content.data(), sizeof(header));
+  const std::uint64_t size = content.size();
+  return header.e_shoff <= size &&
+         size - header.e_shoff >= std::uint64_t{header.e_shnum} * header.e_shentsize;
+}
+
 /// Throws InputError unless the library's methods see the program's types as the program does.
 void require_same_types(const fs::path& library) {
   std::ifstream stream(library, std::ios::binary);
@@ -29,6 +41,8 @@ void require_same_types(const fs::path& library) {
     throw InputError(library.string() +
                      " is not a shared library; build one from the source, as "
                      "'smoothfem new-smoother' shows");
+  if (!is_whole(content))
+    throw InputError(library.string() + " is not whole; copy it again, or build it anew");
   const std::string_view mark(plugin_abi.mark.data(), plugin_abi.mark.size());
   bool is_plugin = false;
   for (auto at = content.find(mark); at != std::string::npos; at = content.find(mark, at + 1)) {
