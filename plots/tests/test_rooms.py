@@ -7,7 +7,7 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1]
 # Claims are shown as a table.
-KNOWN_ROOMS = {"results": set(), "tables": {"results"}, "figures": {"results"},
+KNOWN_ROOMS = {"results": set(), "statistics": set(), "tables": {"results"}, "figures": {"results"},
                "claims": {"results", "tables"}}
 
 
