@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mesquite_driver IN.vtk OUT.vtk METHOD ITERATIONS [planar]: smooths by Mesquite (METHOD: laplace
-// or shape, its shape improvement wrapper). Compile it with your Mesquite:
+// mesquite_driver IN.vtk OUT.vtk METHOD ITERATIONS [planar]: smooths by Mesquite. METHOD: laplace,
+// or shape, which minimizes squared inverse mean ratios by a trust region method. Compile it with
+// your Mesquite:
 //   c++ -O2 mesquite_driver.cc -I PREFIX/include -L PREFIX/lib -lmesquite -o mesquite_driver
 #include <Mesquite_ConditionNumberQualityMetric.hpp>
-#include <Mesquite_FeasibleNewton.hpp>
 #include <Mesquite_IdealWeightInverseMeanRatio.hpp>
 #include <Mesquite_InstructionQueue.hpp>
 #include <Mesquite_LPtoPTemplate.hpp>
@@ -12,6 +12,7 @@
 #include <Mesquite_MsqError.hpp>
 #include <Mesquite_PlanarDomain.hpp>
 #include <Mesquite_TerminationCriterion.hpp>
+#include <Mesquite_TrustRegion.hpp>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -32,10 +33,10 @@ int main(int argc, char** argv) {
 
   IdealWeightInverseMeanRatio metric(error);
   LPtoPTemplate objective(&metric, 2, error);
-  FeasibleNewton newton(&objective);
-  newton.use_global_patch();
+  TrustRegion optimizer(&objective);
+  optimizer.use_global_patch();
   LaplacianSmoother laplace;
-  VertexMover& mover = method == "laplace" ? static_cast<VertexMover&>(laplace) : newton;
+  VertexMover& mover = method == "laplace" ? static_cast<VertexMover&>(laplace) : optimizer;
   TerminationCriterion iterations;
   iterations.add_iteration_limit(n_iterations);
   if (method == "laplace")
