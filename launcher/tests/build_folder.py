@@ -32,6 +32,7 @@ def run(*command, folder=None, check=True, timeout=600, **more):
 
 
 def method_names():
-    """Names of all methods."""
+    """Names of all methods of this program; `command` is another program's."""
     text = run(SMOOTHFEM, "list").stdout
-    return re.findall(r"^  (\S+): ", text[:text.index("\nPRESETS")], re.MULTILINE)
+    names = re.findall(r"^  (\S+): ", text[:text.index("\nPRESETS")], re.MULTILINE)
+    return [name for name in names if name != "command"]
