@@ -124,12 +124,12 @@ std::string shell_quoted(const std::string& word) {
 }
 
 ScratchFolder::ScratchFolder() {
-  std::error_code none;
-  const fs::path parent = fs::temp_directory_path(none);
-  std::string name = (parent / "smoothfem-XXXXXX").string();
-  if (none || mkdtemp(name.data()) == nullptr)
-    throw InputError("cannot make a folder for temporary files in '" + parent.string() + "': " +
-                     std::strerror(errno) + "; set TMPDIR to a folder where files can be written");
+  std::error_code error;
+  std::string name = (fs::temp_directory_path(error) / "smoothfem-XXXXXX").string();
+  if (error || mkdtemp(name.data()) == nullptr)
+    throw InputError("cannot make a temporary folder " + name + ": " +
+                     (error ? error.message() : std::strerror(errno)) +
+                     "; name one that can be written to in TMPDIR");
   path_ = name;
 }
 

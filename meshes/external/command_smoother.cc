@@ -66,6 +66,7 @@ struct CommandParameters {
         {"timeout", "longest time of a run, in seconds", &timeout, 0.0, 1e9, true}};
   }
 
+  bool counts_iterations() const { return has_placeholder(command, "iterations"); }
   std::string file_out_format() const { return out_format.empty() ? format : out_format; }
   std::string in() const { return "in." + format; }
   std::string out() const {
@@ -81,7 +82,7 @@ struct CommandParameters {
                        needs);
     for (const auto& extension : {format, file_out_format()})
       require_mesh_path("mesh." + extension);
-    const bool counts = has_placeholder(command, "iterations");
+    const bool counts = counts_iterations();
     if (!series.empty() && !has_placeholder(series, "iteration"))
       throw InputError("the series '" + series +
                        "' has no {iteration}, which is 1, 2, 3, ... in names such as "
@@ -148,7 +149,7 @@ class CommandSmoother final : public Smoother<dim> {
 
   StepReport step(SmoothingState<dim>& state) override {
     if (!p_.series.empty()) return next_of_series(state);
-    const bool counts = has_placeholder(p_.command, "iterations");
+    const bool counts = p_.counts_iterations();
     const int n = counts ? count_after(n_done_) : n_done_ + 1;
     const ScratchFolder scratch;
     const Run made = run_on(counts ? *initial_ : state.mesh, counts ? n : 1, scratch.path());
@@ -182,7 +183,7 @@ class CommandSmoother final : public Smoother<dim> {
   /// Those of a series are known when it is there, and may be fewer.
   int n_records() const {
     if (!p_.series.empty()) return p_.max_iterations;
-    if (!has_placeholder(p_.command, "iterations")) return p_.repeat;
+    if (!p_.counts_iterations()) return p_.repeat;
     int n_records = 0;
     for (int n = 0; n < p_.max_iterations; n = count_after(n)) ++n_records;
     return n_records;
@@ -235,11 +236,9 @@ class CommandSmoother final : public Smoother<dim> {
   }
 
   double measured_startup() {
-    const bool counts = has_placeholder(p_.command, "iterations");
-    if (p_.startup_command.empty() && !counts) return 0.0;
+    if (p_.startup_command.empty() && !p_.counts_iterations()) return 0.0;
     const ScratchFolder scratch;
-    write_given(scratch.path() / p_.in(), *initial_);
-    copy_files(scratch.path());
+    lay_out(*initial_, scratch.path());
     const Run idle = run(filled_in(p_.startup_command.empty() ? p_.command : p_.startup_command, 0),
                          scratch.path());
     return idle.exit_code == 0 && idle.signal == 0 ? idle.wall_seconds : 0.0;
@@ -247,8 +246,7 @@ class CommandSmoother final : public Smoother<dim> {
 
   /// Throws SmootherFailure unless the program ended well.
   Run run_on(const Mesh<dim>& mesh, int n_iterations, const fs::path& folder) {
-    write_given(folder / p_.in(), mesh);
-    copy_files(folder);
+    lay_out(mesh, folder);
     (void)program();
     Run made = run(filled_in(p_.command, n_iterations), folder);
     if (made.timed_out)
@@ -261,12 +259,14 @@ class CommandSmoother final : public Smoother<dim> {
     return made;
   }
 
-  /// Text where the format has such a form: most programs read that.
-  void write_given(const fs::path& path, const Mesh<dim>& mesh) const {
+  /// The mesh, as text where the format has such a form, which most programs read, and the files
+  /// that go with it.
+  void lay_out(const Mesh<dim>& mesh, const fs::path& folder) const {
     if (p_.format == "vtk")
-      write_text_vtk(path, mesh);
+      write_text_vtk(folder / p_.in(), mesh);
     else
-      write_mesh(path, mesh, {}, {.msh_binary = false});
+      write_mesh(folder / p_.in(), mesh, {}, {.msh_binary = false});
+    for (const auto& file : given_files()) fs::copy_file(file, folder / file.filename());
   }
 
   Run run(const std::string& command, const fs::path& folder) {
@@ -334,10 +334,6 @@ class CommandSmoother final : public Smoother<dim> {
       files.push_back(file);
     }
     return files;
-  }
-
-  void copy_files(const fs::path& folder) const {
-    for (const auto& file : given_files()) fs::copy_file(file, folder / file.filename());
   }
 
   fs::path present_file(const fs::path& folder, const std::string& name) const {

@@ -15,21 +15,6 @@ namespace smoothfem {
 
 namespace fs = std::filesystem;
 
-TemporaryFile::TemporaryFile(const std::string& name) {
-  std::error_code error;
-  std::string folder = (fs::temp_directory_path(error) / "smoothfem-XXXXXX").string();
-  if (error || ::mkdtemp(folder.data()) == nullptr)
-    throw InputError("cannot make a temporary folder " + folder + ": " +
-                     (error ? error.message() : std::strerror(errno)) +
-                     "; name one that can be written to in TMPDIR");
-  path_ = fs::path(folder) / name;
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;  // a leftover is harmless
-  fs::remove_all(path_.parent_path(), ignored);
-}
-
 namespace {
 
 /// "standard-input.msh" for "msh" and ".msh".

@@ -5,20 +5,20 @@
 #include <memory>
 #include <string>
 
+#include "meshes/external/child_process.h"
+
 namespace smoothfem {
 
 /// A file that is there as long as this lives, in a folder of its own among the system's temporary
 /// ones. Throws InputError if there is no room for it.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& name);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  explicit TemporaryFile(const std::string& name) : path_(folder_.path() / name) {}
 
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  ScratchFolder folder_;
   std::filesystem::path path_;
 };
 
