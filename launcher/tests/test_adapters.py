@@ -9,7 +9,7 @@ from pathlib import Path
 from .build_folder import SMOOTHFEM, SOURCE, run
 
 METHOD = """subsection method {label}
-  set command = {adapters}/{command}
+  set command = {command}
   set format = {format}
   set max_iterations = {iterations}
   set time_pattern = time ([0-9.]+) s
@@ -41,7 +41,7 @@ class Adapters(unittest.TestCase):
     def study(self, methods, **mesh):
         """Rows of summary.csv by method, and of iterations.csv."""
         text = STUDY.format(methods=", ".join(methods), **mesh) + "".join(
-            METHOD.format(label=label, adapters=SOURCE / "adapters", command=command, format=file_format, iterations=n)
+            METHOD.format(label=label, command=SOURCE / "adapters" / command, format=file_format, iterations=n)
             for label, (command, file_format, n) in methods.items())
         (self.folder / "s.prm").write_text(text)
         run(SMOOTHFEM, "study", "s.prm", "--out", "out", "--quiet", "--force", folder=self.folder)
@@ -82,6 +82,20 @@ class Adapters(unittest.TestCase):
         self.check(summary, rows, "gmsh", ["0", "1", "2"])
         self.check(summary, rows, "sfepy", ["0", "1", "2"])
         self.assertRegex(summary["swaps"]["status"], r"^ok$|^failed: its mesh has ")
+
+    def test_netgen(self):
+        """The driver, compiled as its first lines say."""
+        text = (SOURCE / "adapters" / "netgen_driver.cc").read_text(encoding="utf-8")
+        lines = text[text.index("//   mpicxx"):text.index("// LIB:")].replace("//", "").replace("\\\n", "")
+        library = next(path for path in run("dpkg", "-L", "libnglib-dev").stdout.split() if path.endswith("/netgen/libmesh.so"))
+        words = lines.replace("LIB/netgen", str(Path(library).parent)).split()
+        words[words.index("netgen_driver.cc")] = str(SOURCE / "adapters" / "netgen_driver.cc")
+        run(*words, folder=self.folder)
+        summary, rows = self.study(
+            {"netgen": (f"{self.folder / 'netgen_driver'} {{in}} {{out}} {{iterations}}", "vtk", 4)},
+            dimension=3, domain="flange", elements="tetrahedra", scale=4, quality=0.5, solution="volume")
+        self.check(summary, rows, "netgen", ["0", "1", "2", "4"])
+        self.assertGreater(float(summary["netgen"]["q_mean"]), 0.7)
 
 
 if __name__ == "__main__":
