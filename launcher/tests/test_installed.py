@@ -127,6 +127,19 @@ class Installed(unittest.TestCase):
         self.smoothfem_run("smooth", "gear.msh", "-m", "getme", "-o", "theirs.mesh")
         self.assertEqual((self.folder / "mine.mesh").read_bytes(), (self.folder / "theirs.mesh").read_bytes())
 
+    def test_plugin_of_somebody_else(self):
+        """What new-smoother writes is built against the installation alone, and is a method of the installed program."""
+        self.smoothfem_run("new-smoother", "mine")
+        mine = self.folder / "mine"
+        run("cmake", "-S", ".", "-B", "build", folder=mine)
+        cache = (mine / "build" / "CMakeCache.txt").read_text(encoding="utf-8")
+        for folder in (SOURCE, BUILD):
+            self.assertNotIn(f"{folder}/", cache)
+        run("cmake", "--build", "build", folder=mine)
+        self.assertIn("100% tests passed", run("ctest", "--test-dir", "build", folder=mine).stdout)
+        listed = run(self.smoothfem, "list", "--plugin", "./libmine.so", folder=mine).stdout
+        self.assertRegex(listed, r"\n  mine: ")
+
     def test_missing_python_is_told(self):
         # No interpreter starts with this home.
         outcome = subprocess.run([self.prefix / "libexec" / "smoothfem" / "find_python"], text=True,

@@ -11,14 +11,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 #include <thread>
 #include <vector>
 
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/interruption.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 
@@ -50,13 +49,6 @@ std::vector<char*> environment_of_children() {
   }
   entries.push_back(nullptr);
   return entries;
-}
-
-std::string content_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 /// Waits, longer and longer between two looks, so that short runs are timed well.
@@ -100,7 +92,7 @@ CommandEnd run_command(const std::string& command, const fs::path& folder, doubl
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   constexpr int killed = 128;  // what shells add to the signal that has killed their command
   if (end.exit_code > killed && end.exit_code < killed + NSIG) end.signal = end.exit_code - killed;
-  end.output = content_of(printed);
+  end.output = file_content(printed);
   return end;
 }
 

@@ -8,20 +8,14 @@
 #include "meshes/external/returned_mesh.h"
 #include "meshes/external/text_vtk.h"
 #include "meshes/io/mesh_file.h"
-#include "meshes/io/number_text.h"
 #include "smoothing/base/interruption.h"
+#include "smoothing/base/text.h"
 #include "smoothing/loop/catalogue.h"
 
 namespace smoothfem {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string number_text(double number) {
-  std::string text;
-  append_number(text, number);
-  return text;
-}
 
 /// What users say about a command.
 struct CommandParameters {
@@ -266,14 +260,21 @@ class CommandSmoother final : public Smoother<dim> {
       write_text_vtk(folder / p_.in(), mesh);
     else
       write_mesh(folder / p_.in(), mesh, {}, {.msh_binary = false});
-    for (const auto& file : given_files()) fs::copy_file(file, folder / file.filename());
+    for (const auto& file : given_files()) {
+      std::error_code error;
+      fs::copy_file(file, folder / file.filename(), error);
+      if (error)
+        throw InputError("cannot copy " + file.string() + " to " + folder.string() + ": " +
+                         error.message() + "; make room there, or check who may write");
+    }
   }
 
   Run run(const std::string& command, const fs::path& folder) {
     Run made = run_command(command, folder, p_.timeout);
     last_output_ = made.output;
     if (!folders_.log.empty()) {
-      fs::create_directories(folders_.log.parent_path());
+      std::error_code ignored;  // opening the file tells
+      fs::create_directories(folders_.log.parent_path(), ignored);
       std::ofstream log(folders_.log, std::ios::app);
       log << "$ " << command << "\n" << made.output;
       if (!made.output.empty() && made.output.back() != '\n') log << "\n";
@@ -282,6 +283,9 @@ class CommandSmoother final : public Smoother<dim> {
               : made.signal != 0 ? "killed by signal " + std::to_string(made.signal)
                                  : "exit code " + std::to_string(made.exit_code))
           << "\n";
+      if (!log.flush())
+        throw InputError("cannot write " + folders_.log.string() +
+                         "; make room on its disk, or check who may write there");
     }
     return made;
   }
@@ -323,14 +327,15 @@ class CommandSmoother final : public Smoother<dim> {
 
   std::vector<fs::path> given_files() const {
     std::vector<fs::path> files;
-    std::istringstream names(p_.files);
-    for (std::string name; std::getline(names, name, ',');) {
-      const auto first = name.find_first_not_of(' ');
-      if (first == std::string::npos) continue;
-      const auto file = in_given_folder(name.substr(first, name.find_last_not_of(' ') - first + 1));
+    for (const auto& name : split_list(p_.files)) {
+      const auto file = in_given_folder(name);
       if (!fs::is_regular_file(file))
         throw SmootherFailure("there is no file '" + file.filename().string() +
                               "' in the folder of the study, to be copied for the command");
+      for (const auto& other : files)
+        if (other.filename() == file.filename())
+          throw SmootherFailure("two of its files have the name '" + file.filename().string() +
+                                "', which one folder cannot hold; rename one of them");
       files.push_back(file);
     }
     return files;

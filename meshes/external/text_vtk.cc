@@ -6,33 +6,9 @@
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/node_order.h"
 #include "meshes/io/number_text.h"
+#include "meshes/io/vtk_files.h"
 
 namespace smoothfem {
-
-namespace {
-
-/// As in vtkCellType.h.
-int vtk_number(ElementType type) {
-  switch (type) {
-    case ElementType::triangle:
-      return 5;
-    case ElementType::polygon:
-      return 7;
-    case ElementType::quadrilateral:
-      return 9;
-    case ElementType::tetrahedron:
-      return 10;
-    case ElementType::hexahedron:
-      return 12;
-    case ElementType::prism:
-      return 13;
-    case ElementType::pyramid:
-      return 14;
-  }
-  return 0;
-}
-
-}  // namespace
 
 void write_text_vtk(const std::filesystem::path& path, const MeshView& mesh) {
   const Topology& topology = mesh.topology();
@@ -58,7 +34,7 @@ void write_text_vtk(const std::filesystem::path& path, const MeshView& mesh) {
   }
   text += "CELL_TYPES " + std::to_string(mesh.n_cells()) + "\n";
   for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    text += std::to_string(vtk_number(topology.cell_type(c))) + "\n";
+    text += std::to_string(vtk_type(topology.cell_type(c))) + "\n";
   text += "POINT_DATA " + std::to_string(mesh.n_nodes()) +
           "\nSCALARS fixed int 1\nLOOKUP_TABLE default\n";
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) text += topology.is_fixed(i) ? "1\n" : "0\n";

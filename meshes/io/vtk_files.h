@@ -31,4 +31,7 @@ void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
 
+/// VTK's number of a type of cells.
+int vtk_type(ElementType type);
+
 }  // namespace smoothfem

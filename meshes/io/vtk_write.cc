@@ -30,8 +30,6 @@
 
 namespace smoothfem {
 
-namespace {
-
 int vtk_type(ElementType type) {
   switch (type) {
     case ElementType::triangle:
@@ -51,6 +49,8 @@ int vtk_type(ElementType type) {
   }
   return VTK_EMPTY_CELL;
 }
+
+namespace {
 
 template <class Array, class Values>
 void add_array(vtkFieldData& attributes, const std::string& name, const Values& values) {

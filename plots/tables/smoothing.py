@@ -17,6 +17,8 @@ from .number_format import MISSING, relative_difference
 from .table import Cell, Group, Table, escape_tex, number_cell
 
 
+FAILED = "failed: "  # how the status of a method begins that gave no mesh; the reason follows
+
 COLUMNS_NOTE = ("Columns: our value, the printed one, and where it makes sense the relative difference "
                 "in %, from ten times the printed one on as a factor (=: the same in all printed "
                 "digits).")
@@ -37,9 +39,9 @@ def make_table(description, results, printed):
     if not has_what_it_needs(description, rows):
         return None
     reference = printed.rows if printed else []
-    sentences = ()
+    rows, sentences = (rows, ()) if description is DETAILS else without_failures(rows, description.keys, results)
     if description.pivot:
-        sentences = unreached(rows, results)
+        sentences += unreached(rows, results)
         description, rows, reference = pivot(description, rows, reference, results)
     rows = in_study_order(rows, description.keys, results)
     by_key = {}
@@ -72,6 +74,19 @@ def make_table(description, results, printed):
 def has_what_it_needs(description, rows):
     """Whether the rows have something in the column without which the table would say nothing."""
     return not description.needs or any(row.get(description.needs) for row in rows)
+
+
+def without_failures(rows, keys, results):
+    """The rows, of which those of methods that failed are left with their keys only (their numbers are the
+    initial mesh's), and a note for each failure."""
+    left, reasons = [], {}
+    for row in rows:
+        status = row.get("status", "")
+        if status.startswith(FAILED):
+            reasons[f"{results.title(row['method'])}, {results.title(row['mesh'])}"] = status
+            row = {name: field for name, field in row.items() if name in keys}
+        left.append(row)
+    return left, tuple(("", f"{where}: {why.rstrip('.')}.") for where, why in reasons.items())
 
 
 def first_degree(row, rows):

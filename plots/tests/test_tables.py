@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Ours beside the printed numbers, in all formats."""
 
+import csv
 import math
 import re
 from dataclasses import replace
@@ -17,7 +18,7 @@ from plots.tables.number_format import format_error, grouped, relative_differenc
 from plots.tables.smoothing import make_tables
 from plots.tables.table import Cell, Group, Table, escape_tex
 from plots.tests.synthetic_results import (change_provenance, without_columns,
-                                           without_finite_elements, write_results)
+                                           without_finite_elements, write_csv, write_results)
 from plots.tests.test_read_results import InFolder
 
 
@@ -102,6 +103,20 @@ class Tables(InFolder):
         results = read_results(self.folder / "s")
         table, = make_tables(results, {})  # the table of details would have nothing to say
         self.assertIn("q*_min", [group.heading.text for group in table.groups])
+
+    def test_failed_methods_have_a_reason_in_place_of_numbers(self):
+        folder = write_results(self.folder / "s", study="own")
+        for name in ("summary.csv", "iterations.csv"):
+            with open(folder / name, newline="", encoding="utf-8") as stream:
+                rows = list(csv.DictReader(stream))
+            for row in rows:
+                if row["method"] == "getme":
+                    row.update(q_mean="0.123456", status="failed: it ended with exit code 7")
+            write_csv(folder / name, list(rows[0]), rows)
+        table = next(t for t in make_tables(read_results(folder), {}) if t.name == "table_smoothing")
+        text = as_text(table)
+        self.assertNotIn("0.1235", text)
+        self.assertIn("GETMe, Triangular mesh: failed: it ended with exit code 7.", text)
 
     def test_notes_on_columns_that_are_printed(self):
         without_finite_elements(write_results(self.folder / "p", "planar"))

@@ -8,17 +8,11 @@
 #include <type_traits>
 
 #include "smoothing/base/find_named.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 
 namespace {
-
-template <class T>
-std::string number_text(T value) {
-  char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
-  return {buffer, end};
-}
 
 template <class T>
 bool parse_all(const std::string& text, T& value) {

@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <set>
 
+#include "smoothing/base/text.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/plugin_abi.h"
 
@@ -32,8 +31,7 @@ bool is_whole(const std::string& content) {
 
 /// Throws InputError unless the library's methods see the program's types as the program does.
 void require_same_types(const fs::path& library) {
-  std::ifstream stream(library, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  const std::string content = file_content(library);
   const std::string elf =
       "\x7f"
       "ELF";

@@ -9,7 +9,7 @@ namespace smoothfem {
 
 namespace {
 
-std::string number_text(double number) {
+std::string short_text(double number) {
   std::ostringstream text;
   text << number;
   return text.str();
@@ -46,16 +46,16 @@ std::optional<std::string> StageHistory::why_stop(const StoppingRule& rule,
   switch (rule.criterion) {
     case q_mean_gain:
       if (q_mean_gain_ > rule.tolerance) return std::nullopt;
-      return "q_mean rose by no more than the tolerance " + number_text(rule.tolerance);
+      return "q_mean rose by no more than the tolerance " + short_text(rule.tolerance);
     case q_mean_change:
       if (std::abs(q_mean_gain_) <= rule.tolerance)
-        return "q_mean changed by no more than the tolerance " + number_text(rule.tolerance);
+        return "q_mean changed by no more than the tolerance " + short_text(rule.tolerance);
       if (n_without_gain_ < rule.patience) return std::nullopt;
       return "neither q_min nor q_mean was better than ever before in " +
              iterations_text(rule.patience);
     case max_displacement:
       if (!(report.max_displacement < rule.tolerance * mean_edge_length)) return std::nullopt;
-      return "no node moved farther than " + number_text(rule.tolerance) + " mean edge lengths";
+      return "no node moved farther than " + short_text(rule.tolerance) + " mean edge lengths";
     case result_stall: {
       const int patience = rule.patience_at(q_star_min_, initial_q_star_min);
       if (n_without_best_ >= patience)

@@ -2,13 +2,12 @@
 #include <sys/stat.h>
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <regex>
-#include <sstream>
 
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/data_folder.h"
+#include "smoothing/base/text.h"
 #include "smoothing/loop/catalogue.h"
 #include "studies/cli/commands.h"
 
@@ -57,13 +56,6 @@ std::string filled_in(std::string text, const Spellings& s) {
   return text;
 }
 
-std::string content_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 void make_folder(const Arguments& arguments) {
   static const std::regex allowed("[a-z][a-z0-9]*(-[a-z0-9]+)*");
   if (!std::regex_match(arguments.name, allowed))
@@ -83,12 +75,12 @@ void make_folder(const Arguments& arguments) {
   for (const auto& entry : fs::directory_iterator(templates)) {
     const fs::path made = fs::path(arguments.name) /
                           filled_in(entry.path().stem().string(), names);  // without .template
-    write_atomically(made, filled_in(content_of(entry.path()), names));
+    write_atomically(made, filled_in(file_content(entry.path()), names));
     if ((fs::status(entry.path()).permissions() & fs::perms::owner_exec) != fs::perms::none)
       fs::permissions(made, fs::perms::owner_exec, fs::perm_options::add);
   }
   std::printf("%s/README.md says what to do next:\n\n", arguments.name.c_str());
-  std::fputs(content_of(fs::path(arguments.name) / "README.md").c_str(), stdout);
+  std::fputs(file_content(fs::path(arguments.name) / "README.md").c_str(), stdout);
 }
 
 }  // namespace

@@ -156,7 +156,12 @@ TEST_F(CommandMethod, FailuresAreRowsWithTheReason) {
       {"sh -c ': > out.vtk' {in} {out}", "its mesh cannot be read: out.vtk"},
       {"cp {in} {out}\n set time_pattern = ([0-9]+) ms", "it prints nothing that the time_pattern"},
       {"cp {in} {out}\n set series = s{iteration}.vtk", "it left no file s1.vtk"},
-      {"cp {in} {out}\n set files = none.sh", "there is no file 'none.sh'"}};
+      {"cp {in} {out}\n set files = none.sh", "there is no file 'none.sh'"},
+      {"cp {in} {out}\n set files = mine.sh, b/mine.sh",
+       "two of its files have the name 'mine.sh'"}};
+  file_with("mine.sh", "");
+  fs::create_directories(file("b"));
+  file_with("b/mine.sh", "");
   for (const auto& [command, reason] : commands) {
     fs::remove_all(file("out"));
     EXPECT_THAT(status_of(" set command = " + command + "\n"), StartsWith("failed: " + reason))

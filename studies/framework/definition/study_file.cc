@@ -7,23 +7,13 @@
 #include <sstream>
 
 #include "smoothing/base/find_named.h"
+#include "smoothing/base/text.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/parse_messages.h"
 
 namespace smoothfem {
 
 using dealii::ParameterHandler;
-
-std::vector<std::string> split_list(const std::string& text) {
-  std::vector<std::string> items;
-  std::istringstream stream(text);
-  for (std::string item; std::getline(stream, item, ',');) {
-    const auto first = item.find_first_not_of(" \t");
-    if (first == std::string::npos) continue;
-    items.push_back(item.substr(first, item.find_last_not_of(" \t") - first + 1));
-  }
-  return items;
-}
 
 std::string read_study_text(const std::filesystem::path& file) {
   std::ifstream stream(file);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/text.h"
 #include "studies/framework/definition/study_header.h"
 
 /// What reading a study file takes, whatever the kind of study.
@@ -26,9 +27,6 @@ class Subsection {
  private:
   dealii::ParameterHandler& parameters_;
 };
-
-/// The items of "a, b, c", without the blanks around them; empty items do not count.
-std::vector<std::string> split_list(const std::string& text);
 
 /// For calls whose errors do not know which file they are about.
 template <class Call>

@@ -4,6 +4,7 @@
 #include <sys/utsname.h>
 
 #include <Spectra/Util/Version.h>
+#include <ginac/version.h>
 #include <Eigen/Core>
 #include <ctime>
 #include <fstream>
@@ -143,6 +144,9 @@ std::map<std::string, std::string> library_versions() {
       {"deal.II", SMOOTHFEM_DEAL_II_VERSION},
       {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
                     "." + std::to_string(EIGEN_MINOR_VERSION)},
+      {"GiNaC", std::to_string(GINACLIB_MAJOR_VERSION) + "." +
+                    std::to_string(GINACLIB_MINOR_VERSION) + "." +
+                    std::to_string(GINACLIB_MICRO_VERSION)},
       {"Gmsh", SMOOTHFEM_GMSH_VERSION},
       {"Spectra", std::to_string(SPECTRA_MAJOR_VERSION) + "." +
                       std::to_string(SPECTRA_MINOR_VERSION) + "." +
