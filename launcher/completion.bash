@@ -11,7 +11,7 @@ _smoothfem() {
   local program=${COMP_WORDS[0]} word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} words=''
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    words="$("$program" --help 2>/dev/null | sed -n '/^Subcommands/,$s/^  \([a-z][a-z-]*\) .*/\1/p') plot --help --version"
+    words="$("$program" --help 2>/dev/null | sed -n '/^Subcommands/,$s/^  \([a-z][a-z-]*\) .*/\1/p') plot report --help --version"
   elif [[ $word == -* ]]; then
     words=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null | grep -oE '^  (-[a-z],)?--?[a-z][a-z-]*' | tr -d ' ' | tr ',' '\n')
   else

@@ -8,14 +8,16 @@ from pathlib import Path
 
 from .results.names import select, short_name
 from .results.quality_histogram import read_quality_histogram
+from .report.libraries import NoLibrary
 from .results.request import Request
 from .results.rows import ResultsError
+from .results.smoothing import read_results
 from .results.write_files import write_atomically
-from .study_kinds import outputs_of
+from .study_kinds import SMOOTHING, kind_of, outputs_of
 from .tables.formats import as_markdown, as_text
 from .tables.latex import as_latex
 
-HISTOGRAM = "histogram"
+HISTOGRAM, REPORT = "histogram", "report"
 FORMATS = ("pdf", "png", "svg")
 MILLIMETRES = 25.4  # in an inch
 WIDTHS = (2.0, 30.0)  # inches
@@ -101,6 +103,20 @@ def parse_histogram(arguments):
     return parser.parse_args(arguments)
 
 
+def parse_report(arguments):
+    """The command line for a report."""
+    parser = Parser(
+        prog="smoothfem report", description="Writes a results folder as one page, report.html, that opens without a "
+        "network: tables to sort and filter, curves, meshes, claims, provenance.",
+        epilog="A study writes its page when it ends; this makes it anew, or compares. Example: "
+               "smoothfem report results/gear --against results/gear-before")
+    parser.add_argument("folder", type=Path, help="results folder of a study, e.g. results/gear")
+    parser.add_argument("--against", type=Path, metavar="DIR", help="another results folder of the same study, to compare with")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="page to write; FOLDER/report.html unless given")
+    parser.add_argument("--quiet", action="store_true", help="do not print the path")
+    return parser.parse_args(arguments)
+
+
 def warn(sentence):
     """Says what is left out."""
     print(sentence, file=sys.stderr)
@@ -150,6 +166,29 @@ def make_study(options):
                               folder / "figures", options.format, warn)
     for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
         tell(sentence)
+    whole = not (options.only or options.no_figures or options.out or request != Request())
+    if whole and kind_of(options.folder) == SMOOTHING:
+        make_report_of_study(options.folder, options.quiet)
+
+
+def make_report(options):
+    """Writes report.html; raises ResultsError, NoLibrary or OSError."""
+    from .report.page import write_report
+
+    if kind_of(options.folder) != SMOOTHING:
+        raise ResultsError(f"{options.folder}: only studies that smooth meshes have a report; this one has its tables in "
+                           f"{options.folder / 'tables'}.")
+    path = write_report(read_results(options.folder), options.against, options.out)
+    if not options.quiet:
+        print(f"wrote {path}")
+
+
+def make_report_of_study(folder, quiet):
+    """The page at the end of a study. What it needs beyond the figures may be missing: then a sentence says so."""
+    try:
+        make_report(parse_report([str(folder), *(["--quiet"] if quiet else [])]))
+    except NoLibrary as error:
+        warn(str(error))
 
 
 def make_histogram(options):
@@ -172,9 +211,11 @@ def run(arguments):
     try:
         if arguments[:1] == [HISTOGRAM]:
             make_histogram(parse_histogram(arguments[1:]))
+        elif arguments[:1] == [REPORT]:
+            make_report(parse_report(arguments[1:]))
         else:
             make_study(parse_study(arguments))
-    except ResultsError as error:
+    except (ResultsError, NoLibrary) as error:
         print(error, file=sys.stderr)
         return 2
     except OSError as error:

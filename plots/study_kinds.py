@@ -91,11 +91,15 @@ KINDS = {SMOOTHING: smoothing_outputs, "polygons": polygon_outputs,
          "regularization": regularization_outputs}
 
 
+def kind_of(folder):
+    """The kind of the study whose results a folder has."""
+    parameters = read_provenance(Path(folder) / "provenance.json").get("parameters")
+    return parameters.get("kind", SMOOTHING) if isinstance(parameters, dict) else SMOOTHING
+
+
 def outputs_of(folder, request=Request()):
     """Reads a results folder of any kind; raises ResultsError with one sentence on what is wrong."""
-    provenance = read_provenance(Path(folder) / "provenance.json")
-    parameters = provenance.get("parameters")
-    kind = parameters.get("kind", SMOOTHING) if isinstance(parameters, dict) else SMOOTHING
+    kind = kind_of(folder)
     if kind not in KINDS:
         raise ResultsError(f"{folder}: a study of the unknown kind `{kind}`; known are "
                            f"{', '.join(KINDS)}.")

@@ -7,6 +7,7 @@ import unittest
 from .build_folder import COMMANDS, SMOOTHFEM, SOURCE, run
 
 PAGE = SOURCE / "launcher" / "smoothfem.1"
+DRAWING = ("plot", "report")  # the launcher's, not the program's
 OPTION = re.compile(r"(?<![\w-])--?[a-z][a-z-]*")
 
 
@@ -19,11 +20,11 @@ def sections():
 
 class Manual(unittest.TestCase):
     def test_has_each_command_with_its_options(self):
-        self.assertEqual(sorted(sections()), sorted((*COMMANDS, "plot")))
+        self.assertEqual(sorted(sections()), sorted((*COMMANDS, *DRAWING)))
         program = SMOOTHFEM.parents[1] / "libexec" / "smoothfem" / "smoothfem"
-        for command in (*COMMANDS, "plot"):  # the launcher draws, not the program
+        for command in (*COMMANDS, *DRAWING):
             shown = set(OPTION.findall(" ".join(
-                line for line in run(SMOOTHFEM if command == "plot" else program, command,
+                line for line in run(SMOOTHFEM if command in DRAWING else program, command,
                                      "--help").stdout.splitlines() if line.startswith("  -"))))
             shown = {option for option in shown if not option.startswith("-h") and option != "--help"}
             described = set(OPTION.findall(sections()[command]))

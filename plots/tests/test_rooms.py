@@ -8,7 +8,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parents[1]
 # Claims are shown as a table.
 KNOWN_ROOMS = {"results": set(), "statistics": set(), "tables": {"results"}, "figures": {"results"},
-               "claims": {"results", "tables"}}
+               "claims": {"results", "tables"}, "report": {"results", "claims", "figures"}}
 
 
 def imported_rooms(path):

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stands in a report, as data: curves, rows of tables, meshes, claims, a comparison with another folder."""
+
+import math
+
+import numpy as np
+
+from ..figures.style import method_styles
+from ..results.rows import ResultsError
+from ..results.smoothing import INITIAL, read_results
+from ..results.symbols import symbol_of
+from .mesh_views import mesh_view
+
+# Columns that may be drawn against one another; those without a number are left out.
+DRAWN = ("iteration", "smoothing_seconds", "wall_seconds", "q_min", "q_star_min", "q_mean", "n_invalid", "w_mean",
+         "condition_number", "cg_iterations", "jacobi_cg_iterations", "amg_cg_iterations", "e_max", "e_mean",
+         "e_l2", "e_h1", "l2_error", "h1_error")
+# Columns of summary.csv that say which row it is.
+KEYS = ("mesh", "method", "degree")
+COMPARED = ("smoothing_seconds", "q_min", "q_mean", "condition_number", "cg_iterations", "l2_error", "h1_error")
+
+
+def number_or_none(value):
+    """For JSON, which has no NaN."""
+    return float(value) if math.isfinite(value) else None
+
+
+def curves(results):
+    """Column -> numbers of every row of iterations.csv, and the keys of the rows."""
+    rows = results.iterations
+    columns = {}
+    for name in DRAWN:
+        values = rows.number(name)
+        if np.isfinite(values).any():
+            columns[name] = [number_or_none(value) for value in values]
+    return {"keys": {name: list(rows.text(name)) for name in KEYS}, "columns": columns,
+            "headings": {name: symbol_of(name).text for name in columns}}
+
+
+def summary_table(results):
+    """Headings and rows of summary.csv without the study's name and without columns that are empty."""
+    rows = results.summary
+    names = [name for name in rows.columns if name != "study" and any(rows.text(name))]
+    return {"headings": [symbol_of(name).text for name in names],
+            "rows": [[cell(name, field, results) for name, field in zip(names, fields)]
+                     for fields in zip(*(rows.text(name) for name in names))]}
+
+
+def cell(name, field, results):
+    """What a reader sees of a field, and the number it is sorted by, if it is one."""
+    if name in ("mesh", "method"):
+        return {"text": results.title(field)}
+    try:
+        value = float(field)
+    except ValueError:
+        return {"text": field}
+    return {"text": f"{value:.6g}", "order": value}
+
+
+def comparison(results, against):
+    """Ratios of this folder's numbers to another's, row by row of those in both. Raises ResultsError if there is
+    no such row."""
+    other = read_results(against)
+    theirs = {tuple(row[key] for key in KEYS): row for row in other.summary.records()}
+    rows = []
+    for row in results.summary.records():
+        key = tuple(row[key] for key in KEYS)
+        if key in theirs:
+            rows.append([{"text": results.title(row["mesh"])}, {"text": results.title(row["method"])},
+                         {"text": row["degree"]}, *(ratio(row.get(name), theirs[key].get(name)) for name in COMPARED)])
+    if not rows:
+        raise ResultsError(f"{against}: no mesh, method and degree of this folder is in {results.folder}; compare "
+                           "results of the same study.")
+    return {"headings": ["Mesh", "Method", "degree", *(symbol_of(name).text for name in COMPARED)], "rows": rows,
+            "made_by": other.provenance.get("program", {}).get("commit", ""), "study": other.study_title}
+
+
+def ratio(ours, theirs):
+    """Ours by theirs, `=` where both are the same number to the last digit."""
+    try:
+        ours, theirs = float(ours or "nan"), float(theirs or "nan")
+    except ValueError:
+        ours = theirs = math.nan
+    if not (math.isfinite(ours) and math.isfinite(theirs)):
+        return {"text": ""}
+    if ours == theirs:
+        return {"text": "=", "order": 1.0}
+    return {"text": f"{ours / theirs:.4g}", "order": ours / theirs} if theirs else {"text": f"{ours:.4g} / 0"}
+
+
+def contents(results):
+    """All of it that the page's script draws, ready for JSON."""
+    views = {mesh: view for mesh in results.meshes if (view := mesh_view(results, mesh)) is not None}
+    return {"meshes": list(results.meshes), "methods": [INITIAL, *results.methods], "degrees": list(results.degrees),
+            "titles": {name: results.title(name) for name in (*results.meshes, INITIAL, *results.methods)},
+            "colours": {name: style.colour for name, style in method_styles(results.methods).items()},
+            "curves": curves(results), "views": views}

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page's libraries, from Debian's packages: Plotly (curves, meshes), jQuery and DataTables (tables)."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+JAVASCRIPT = Path("/usr/share/javascript")
+PLOTLY = (Path("/usr/share/python3-plotly/plotly.js"), "python3-plotly")
+LIBRARIES = ((JAVASCRIPT / "jquery/jquery.min.js", "libjs-jquery"),
+             (JAVASCRIPT / "jquery-datatables/jquery.dataTables.min.js", "libjs-jquery-datatables"))
+
+
+class NoLibrary(Exception):
+    """A Debian package that the page needs is missing; the message is one sentence."""
+
+
+def library(path, package):
+    """The text of a library's file."""
+    if not path.is_file():
+        raise NoLibrary(f"No report.html: {path} is missing; install the Debian package {package}.")
+    return path.read_text(encoding="utf-8")
+
+
+def minified(path, package):
+    """The same without blanks and comments."""
+    library(path, package)
+    if not shutil.which("esbuild"):
+        raise NoLibrary("No report.html: esbuild is missing; install the Debian package esbuild.")
+    return subprocess.run(["esbuild", "--minify", "--charset=utf8", str(path)], check=True, capture_output=True,
+                          text=True, encoding="utf-8").stdout
+
+
+def scripts():
+    """The texts of all of them, in the order in which they need one another. Raises NoLibrary."""
+    return [minified(*PLOTLY), *(library(*file) for file in LIBRARIES)]

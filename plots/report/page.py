@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes report.html: one file that opens without a network."""
+
+import json
+import shlex
+from html import escape
+from pathlib import Path
+from string import Template
+
+from ..claims.check import check_claims, read_claims
+from ..claims.report import criterion_of, totals, verdict_cell
+from ..results.printed_values import read_printed_tables
+from ..results.rows import ResultsError
+from ..results.write_files import write_atomically
+from .contents import comparison, contents, summary_table
+from .libraries import scripts
+
+NAME = "report.html"
+HERE = Path(__file__).parent
+
+
+def script(text):
+    """A script within a page: nothing in it ends the element."""
+    return "<script>" + text.replace("</script", "<\\/script") + "</script>"
+
+
+def html_table(table, caption, identifier, filters=()):
+    """Headings and rows of cells {text, order} as a table that DataTables sorts and filters."""
+    def td(cell):
+        if "order" in cell:
+            return f'<td class="number" data-order="{cell["order"]:.17g}">{escape(cell["text"])}</td>'
+        return f"<td>{escape(cell['text'])}</td>"
+    head = "".join(f'<th scope="col">{escape(heading)}</th>' for heading in table["headings"])
+    body = "\n".join("<tr>" + "".join(td(cell) for cell in row) + "</tr>" for row in table["rows"])
+    columns = " ".join(str(table["headings"].index(name)) for name in filters if name in table["headings"])
+    return (f'<table id="{identifier}" class="sortable" data-filters="{columns}"><caption>{escape(caption)}</caption>'
+            f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>")
+
+
+def claims_section(results):
+    """What holds of the thesis; empty for a study that it says nothing about."""
+    claims = read_claims(results.thesis_study)
+    if not claims:
+        return ""
+    outcomes = check_claims(claims, results, read_printed_tables(results.thesis_study, results.provenance))
+    rows = [[{"text": text} for text in (o.claim["id"], o.claim["section"], o.claim["statement"], criterion_of(o.claim),
+                                         o.printed, o.ours, verdict_cell(o))] for o in outcomes]
+    table = {"headings": ["Claim", "Section", "Statement", "Criterion", "Printed", "Ours", "Verdict"], "rows": rows}
+    return (f'<section id="claims"><h2>What holds of the thesis</h2><p>{escape(totals(outcomes))}.</p>'
+            + html_table(table, "Claims, their criteria and what came out", "claims-table", ("Verdict",)) + "</section>")
+
+
+def against_section(results, against):
+    """The comparison with another folder; empty if none is asked for."""
+    if against is None:
+        return ""
+    found = comparison(results, against)
+    return (f'<section id="against"><h2>Against {escape(str(against))}</h2><p>Numbers of this folder divided by those of '
+            f'{escape(found["study"])} there (commit {escape(found["made_by"][:12])}). "=": the same number to the last '
+            "digit.</p>" + html_table(found, "Ratios", "against-table", ("Mesh", "Method", "degree")) + "</section>")
+
+
+def provenance_section(results):
+    """Where the numbers come from, and the command that makes them again."""
+    provenance = results.provenance
+    program, machine = provenance.get("program", {}), provenance.get("machine", {})
+    scale = provenance.get("scale", "default")
+    command = f"smoothfem study {shlex.quote(results.study)}" + ("" if scale == "default" else f" --scale {scale}")
+    if any(mesh.get("published") for mesh in provenance.get("meshes", []) if isinstance(mesh, dict)):
+        command += " --published"
+    changed = " with changes that are not committed" if program.get("uncommitted_changes") else ""
+    facts = (("Made by", f"smoothfem {program.get('version', '?')}, commit {program.get('commit', '?')}{changed}"),
+             ("Written", provenance.get("written", "?")), ("Scale", scale),
+             ("Machine", ", ".join(f"{name} {value}" for name, value in machine.items())),
+             ("Again", command))
+    listed = "".join(f"<dt>{escape(name)}</dt><dd>{escape(str(value))}</dd>" for name, value in facts)
+    return (f'<section id="provenance"><h2>Provenance</h2><dl>{listed}</dl><details><summary>All of provenance.json</summary>'
+            f"<pre>{escape(json.dumps(provenance, indent=1))}</pre></details></section>")
+
+
+def counted(number, noun, plural="s"):
+    """2 methods, 1 method."""
+    return f"{number} {noun}{'' if number == 1 else plural}"
+
+
+def page(results, against=None):
+    """The text of the page. Raises NoLibrary or ResultsError."""
+    data = contents(results)
+    failures = [row for row in results.summary.records() if row.get("status", "ok").startswith("failed")]
+    words = {
+        "title": escape(results.study_title), "note": escape(results.note),
+        "facts": escape(f"{counted(len(results.meshes), 'mesh', 'es')}, {counted(len(results.methods), 'method')}, "
+                        f"degree {' and '.join(results.degrees) or 'none (smoothing only)'}"),
+        "failures": "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(
+            f"{results.title(row['method'])}, {results.title(row['mesh'])}: {row['status']}" for row in failures)),
+        "summary": html_table(summary_table(results), "summary.csv: a row for each mesh, method and degree",
+                              "summary-table", ("mesh", "method", "degree")),
+        "claims": claims_section(results), "against": against_section(results, against),
+        "provenance": provenance_section(results),
+        "style": (HERE / "report.css").read_text(encoding="utf-8"),
+        "libraries": "".join(map(script, scripts())),
+        "data": json.dumps(data, separators=(",", ":")).replace("</", "<\\/"),
+        "script": script((HERE / "report.js").read_text(encoding="utf-8"))}
+    return Template((HERE / "report.html").read_text(encoding="utf-8")).substitute(words)
+
+
+def write_report(results, against=None, path=None):
+    """Writes report.html into the results folder, or to a path; returns where."""
+    if against is not None and not Path(against).is_dir():
+        raise ResultsError(f"{against}: there is no such folder to compare with.")
+    return write_atomically(path or results.folder / NAME, page(results, against))

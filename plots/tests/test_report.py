@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page that holds a whole results folder: its data, and the page in a browser (headless Chromium)."""
+
+import base64
+import json
+import re
+import time
+from unittest import mock
+
+import numpy as np
+
+from plots.__main__ import main
+from plots.report import libraries
+from plots.report.contents import comparison, contents, ratio
+from plots.report.mesh_views import faces_of, mesh_view, metrics_of
+from plots.report.page import page, write_report
+from plots.results.rows import ResultsError, read_rows
+from plots.results.smoothing import read_results
+from plots.results.vtu import UnstructuredGrid
+from plots.tests.synthetic_results import write_csv, write_results
+from plots.tests.test_read_results import InFolder
+
+MOST_BYTES = 8e6
+
+
+def hexahedra():
+    """Two unit cubes side by side."""
+    points = np.array([[x, y, z] for x in range(3) for y in range(2) for z in range(2)], dtype=float)
+    number = {tuple(point): i for i, point in enumerate(points.astype(int).tolist())}
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    cells = [number[x + dx, y, z] for dx in (0, 1) for x, y, z in corners]
+    return UnstructuredGrid(points, np.array(cells), np.array([0, 8, 16]), np.array([12, 12]), {},
+                            {"mean_ratio": np.array([1.0, 0.25])})
+
+
+class Views(InFolder):
+    def test_surface_and_cut_of_cubes(self):
+        grid = hexahedra()
+        whole = faces_of(grid)
+        self.assertEqual(len(whole.triangles), 10 * 2)  # the face between them is not seen
+        self.assertEqual(len(whole.edges), 20)
+        left = faces_of(grid, np.array([False, True]))
+        self.assertEqual((len(left.triangles), set(left.cells)), (12, {1}))
+        areas = np.linalg.norm(np.cross(*(grid.points[whole.triangles[:, k]] - grid.points[whole.triangles[:, 0]]
+                                          for k in (1, 2))), axis=1) / 2
+        self.assertAlmostEqual(areas.sum(), 10.0)
+
+    def test_metrics_of_a_cube_and_a_sheared_one(self):
+        grid = hexahedra()
+        grid.points[grid.points[:, 2] == 1, 0] += 1.0  # by 45 degrees: the scaled Jacobian is 1 / sqrt(2)
+        metrics = metrics_of(grid)
+        np.testing.assert_allclose(metrics["scaled_jacobian"], np.sqrt(0.5), atol=1e-12)
+        np.testing.assert_array_equal(metrics["mean_ratio"], [1.0, 0.25])
+
+    def test_view_has_places_and_values(self):
+        results = read_results(write_results(self.folder / "r"))
+        view = mesh_view(results, "tri")
+        self.assertTrue(view["planar"])
+        self.assertEqual(set(view["states"]), {"initial", "weighted-laplace", "getme"})
+        state = view["states"]["getme"]
+        places = np.frombuffer(base64.b64decode(state["points"]), dtype="<u2").reshape(-1, 3)
+        self.assertEqual(places.max(), 65535)
+        values = np.frombuffer(base64.b64decode(state["values"]["mean_ratio"]), dtype="u1")
+        self.assertEqual(sorted(values), [128, 230, 255])  # of 0.5, 0.9, 1
+        self.assertEqual([worst["cell"] for worst in state["worst"]["mean_ratio"]], [1, 2, 0])
+
+
+class Contents(InFolder):
+    def test_numbers_are_those_of_the_files(self):
+        results = read_results(write_results(self.folder / "r"))
+        data = contents(results)
+        rows = read_rows(self.folder / "r" / "iterations.csv")
+        self.assertEqual(data["curves"]["keys"]["method"], list(rows.text("method")))
+        self.assertEqual([value for value in data["curves"]["columns"]["e_max"] if value is not None],
+                         [value for value in rows.number("e_max").tolist() if value == value])
+        json.dumps(data, allow_nan=False)
+
+    def test_comparison(self):
+        first = write_results(self.folder / "a")
+        second = write_results(self.folder / "b")
+        rows = read_rows(second / "summary.csv").records()
+        for row in rows:
+            row["q_mean"] = "3.0" if row["method"] == "getme" else row["q_mean"]
+        write_csv(second / "summary.csv", list(rows[0]), rows)
+        found = comparison(read_results(second), first)
+        column = found["headings"].index("q_mean")
+        self.assertEqual({row[column]["text"] for row in found["rows"] if row[1]["text"] == "GETMe"}, {"2"})
+        self.assertEqual({row[column]["text"] for row in found["rows"] if row[1]["text"] != "GETMe"}, {"="})
+        self.assertEqual(ratio("", "2"), {"text": ""})
+        write_results(self.folder / "c", meshes=("other",))
+        with self.assertRaisesRegex(ResultsError, "compare results of the same study"):
+            comparison(read_results(second), self.folder / "c")
+
+    def test_no_markup_of_names_gets_into_the_page(self):
+        folder = write_results(self.folder / "r")
+        rows = read_rows(folder / "summary.csv").records()
+        for row in rows:
+            row["status"] = "failed: </script><b>&" if row["method"] == "getme" else row["status"]
+        write_csv(folder / "summary.csv", list(rows[0]), rows)
+        text = page(read_results(folder))
+        self.assertNotIn("<b>&", text)
+        self.assertIn("failed: &lt;/script&gt;&lt;b&gt;&amp;", text)
+
+    def test_needs_no_network(self):
+        text = page(read_results(write_results(self.folder / "r")))
+        outside = re.sub(r"<script.*?</script>", "", text, flags=re.DOTALL)
+        self.assertNotRegex(outside, r"(src|href)=[\"']?(https?:)?//")
+        self.assertLess(len(text.encode()), MOST_BYTES)
+
+    def test_missing_library_and_folder_are_told(self):
+        folder = write_results(self.folder / "r")
+        self.assertEqual(main(["report", str(folder), "--against", str(self.folder / "none")]), 2)
+        with mock.patch.object(libraries, "PLOTLY", (self.folder / "plotly.js", "python3-plotly")):
+            self.assertEqual(main(["report", str(folder), "--quiet"]), 2)
+            self.assertFalse((folder / "report.html").exists())
+            with self.assertRaisesRegex(libraries.NoLibrary, "install the Debian package python3-plotly"):
+                write_report(read_results(folder))
+
+
+class Browser(InFolder):
+    """Opened as a reader opens it, in Chromium."""
+
+    @classmethod
+    def setUpClass(cls):
+        from selenium import webdriver
+        from selenium.webdriver.chrome.service import Service
+
+        options = webdriver.ChromeOptions()
+        options.binary_location = "/usr/bin/chromium"
+        for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader",
+                         "--use-angle=swiftshader"):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        cls.browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        cls.addClassCleanup(cls.browser.quit)
+
+    def setUp(self):
+        super().setUp()
+        self.results = write_results(self.folder / "r", meshes=("tri", "quad"))
+        write_results(self.folder / "before", meshes=("tri", "quad"))
+        self.path = write_report(read_results(self.results), against=self.folder / "before")
+
+    def open(self, width=1280, dark=False):
+        command = self.browser.execute_cdp_cmd
+        command("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme",
+                                                             "value": "dark" if dark else "light"}]})
+        command("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1,
+                                                       "mobile": False})
+        self.browser.get(self.path.as_uri())
+        self.assertEqual(self.js("return document.documentElement.dataset.ready"), "yes")
+
+    def js(self, script, *arguments):
+        return self.browser.execute_script(script, *arguments)
+
+    def wait_for(self, script, seconds=60):
+        """The script's value as soon as it is one."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if found := self.js(script):
+                return found
+            time.sleep(0.1)
+        raise AssertionError(f"not within {seconds} s: {script}")
+
+    def errors(self):
+        return [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
+
+    def test_curves_have_the_files_numbers(self):
+        self.open()
+        names = self.js("return document.getElementById('curve').data.map((trace) => trace.name)")
+        self.assertEqual(names, ["GETMe", "weighted-laplace"])
+        self.js("const y = document.getElementById('curve-y'); y.value = 'q_mean';"
+                "y.dispatchEvent(new Event('change', {bubbles: true}))")
+        values = self.js("return Array.from(document.getElementById('curve').data[0].y)")
+        rows = read_rows(self.results / "iterations.csv").select(mesh="tri", method="getme", degree="1")
+        self.assertEqual(values, rows.number("q_mean").tolist())
+        self.js("document.getElementById('log-y').click()")
+        self.assertEqual(self.js("return document.getElementById('curve').layout.yaxis.type"), "log")
+        self.js("document.querySelector('#curve-methods input').click()")
+        self.assertEqual(self.js("return document.getElementById('curve').data.length"), 1)
+        self.assertEqual(self.errors(), [])
+
+    def test_tables_sort_and_filter(self):
+        self.open()
+        visible = "return [...document.querySelectorAll('#summary-table tbody tr')].map((row) => row.cells[%d].textContent)"
+        everything = self.js(visible % 1)
+        self.assertEqual(len(everything), 12)
+        header = "[...document.querySelectorAll('#summary-table th')].find((th) => th.firstChild.textContent === 'degree')"
+        self.js(f"{header}.click()")
+        column = self.js(f"return {header}.cellIndex")
+        self.assertEqual(self.js(visible % column), ["1"] * 6 + ["2"] * 6)
+        self.js(f"{header}.click()")
+        self.assertEqual(self.js(visible % column), ["2"] * 6 + ["1"] * 6)
+        self.js("const s = document.querySelectorAll('#summary-table th select')[1]; s.value = 'GETMe';"
+                "s.dispatchEvent(new Event('change', {bubbles: true}))")
+        self.assertEqual(self.js(visible % 1), ["GETMe"] * 4)
+        self.assertEqual(self.errors(), [])
+
+    def test_meshes_are_drawn_side_by_side(self):
+        self.open()
+        self.js("document.getElementById('view').scrollIntoView()")
+        traces = self.wait_for("const d = document.getElementById('view').data; return d && d.map((t) => [t.type, t.scene])")
+        self.assertEqual([scene for kind, scene in traces if kind == "mesh3d"], ["scene", "scene2"])
+        colours = self.js("return Array.from(document.getElementById('view').data[0].intensity)")
+        self.assertEqual(len(colours), 1 + 2 + 3)  # triangles of a triangle, a quadrilateral, a pentagon
+        self.assertEqual(len(self.js("return [...document.querySelectorAll('#worst table')].map((t) => t.rows.length)")), 2)
+        self.assertEqual(self.errors(), [])
+
+    def test_fits_a_narrow_screen_is_dark_where_asked_and_prints(self):
+        self.open(width=400, dark=True)
+        self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 400)
+        ground = "return getComputedStyle(document.body).backgroundColor"
+        self.assertEqual(self.js(ground), "rgb(22, 24, 27)")
+        self.js("document.getElementById('theme').click()")
+        self.assertEqual(self.js(ground), "rgb(255, 255, 255)")
+        printed = base64.b64decode(self.browser.execute_cdp_cmd("Page.printToPDF", {})["data"])
+        self.assertTrue(printed.startswith(b"%PDF"))
+        self.assertEqual(self.errors(), [])
+
+    def test_everything_that_can_be_set_has_a_name(self):
+        self.open()
+        nameless = self.js("return [...document.querySelectorAll('select, input, button')].filter((e) => "
+                           "!(e.getAttribute('aria-label') || (e.labels && e.labels.length) || e.textContent.trim())).length")
+        self.assertEqual(nameless, 0)
+        self.assertEqual(self.js("return document.documentElement.lang"), "en")
+        self.assertEqual(self.js("return [...document.querySelectorAll('table')].filter((t) => !t.caption).length"), 0)
