@@ -19,11 +19,11 @@ struct StudyOptions {
   bool force = false;              ///< start anew; the folder of an earlier run is renamed
   bool quiet = false;
   RunUntil until = RunUntil::results;  ///< of studies of smoothing methods
-  bool dry_run = false;        ///< say what would be done, and do nothing
-  unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
+  bool dry_run = false;                ///< say what would be done, and do nothing
+  unsigned int n_threads = 0;          ///< for the finite elements of planar meshes; 0: all cores
   unsigned int smoothing_threads = 1;
   std::string shard{};  ///< "3/10": of a collection the third part of ten only; empty: all
-  Ranks ranks{};  ///< that share the finite elements of volume meshes
+  Ranks ranks{};        ///< that share the finite elements of volume meshes
   /// Set from outside to stop: the rows finished so far are written and the process ends with 130.
   const std::atomic<bool>* interrupted = nullptr;
 };
