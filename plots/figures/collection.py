@@ -38,7 +38,9 @@ class Data:
 
 
 def plan_collection_figures(results):
-    """All of them; none is there without rows to draw."""
+    """All of them; none where no member is complete."""
+    if not len(results.iterations):
+        return []
     data = Data(results)
     return [PlannedFigure(name, title, lambda draw=draw: draw(data)) for name, title, draw in (
         ("prediction", "rank correlation of quality and outcome", draw_prediction),

@@ -61,10 +61,13 @@ def read_collection_results(folder):
     folder = Path(folder)
     provenance = read_provenance(folder / "provenance.json")
     study = str(provenance.get("study") or folder.resolve().name)
-    iterations = read_some_columns(folder / "iterations.csv", (*KEYS, *NUMBERS))
+    members = read_rows(folder / "members.csv", MEMBER_COLUMNS)
+    # A part of a collection may have no member that is complete, and then no such file.
+    iterations = (read_some_columns(folder / "iterations.csv", (*KEYS, *NUMBERS)) if "complete" in members.text("status")
+                  else Rows(folder / "iterations.csv", {name: np.array([], dtype=object) for name in (*KEYS, *NUMBERS)}))
     titles = {INITIAL: "Initial", **{entry["name"]: str(entry["title"]) for entry in entries(provenance, "methods")
                                      if entry.get("title")}}
     return CollectionResults(
         folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
         methods=tuple(name for name in order_of(iterations.text("method"), provenance, "methods") if name != INITIAL),
-        titles=titles, members=read_rows(folder / "members.csv", MEMBER_COLUMNS), iterations=iterations)
+        titles=titles, members=members, iterations=iterations)

@@ -97,6 +97,14 @@ class Collection(InFolder):
         text = (self.folder / "r" / "tables" / "table_members.md").read_text()
         self.assertIn("| one | 5 | 4 | 1 |", text)
 
+    def test_a_part_without_complete_members_has_its_table_of_members(self):
+        folder = self.folder / "r"
+        (folder / "iterations.csv").unlink()
+        write_csv(folder / "members.csv", MEMBER_COLUMNS,
+                  [{**dict.fromkeys(MEMBER_COLUMNS, ""), "member": "broken", "status": "failed"}])
+        self.assertEqual(main([str(folder), "--quiet"]), 0)
+        self.assertEqual([path.name for path in (folder / "tables").glob("*.md")], ["table_members.md"])
+
     def test_what_is_missing_is_said(self):
         (self.folder / "r" / "iterations.csv").unlink()
         errors = io.StringIO()
