@@ -100,7 +100,7 @@ def collection_outputs(folder, request):
 
 
 SMOOTHING = "smoothing"
-KINDS = {SMOOTHING: smoothing_outputs, "collection": collection_outputs, "polygons": polygon_outputs,
+KINDS = {SMOOTHING: smoothing_outputs, "polygons": polygon_outputs, "collection": collection_outputs,
          "regularization": regularization_outputs}
 
 
