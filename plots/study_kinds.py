@@ -7,12 +7,14 @@ from typing import Callable
 
 from .claims.check import check_claims, read_claims
 from .claims.report import claims_as_markdown
+from .results.collection import read_collection_results
 from .results.polygons import read_polygon_results
 from .results.printed_values import read_printed_tables
 from .results.regularization import read_regularization_results
 from .results.request import Request
 from .results.rows import ResultsError, read_provenance
 from .results.smoothing import left_out, read_results
+from .tables.collection import make_collection_tables
 from .tables.polygons import make_polygon_tables
 from .tables.regularization import make_regularization_tables
 from .tables.seeds import make_seed_tables
@@ -86,8 +88,19 @@ def regularization_outputs(folder, request):
                    least_width=LEAST_WIDTH)
 
 
+def collection_outputs(folder, request):
+    """Of a collection."""
+    results = read_collection_results(folder)
+
+    def plan():
+        from .figures.collection import plan_collection_figures
+        return plan_collection_figures(results)
+    return Outputs(results.folder, results.study_title, tuple(make_collection_tables(results)), plan,
+                   least_width=LEAST_WIDTH)
+
+
 SMOOTHING = "smoothing"
-KINDS = {SMOOTHING: smoothing_outputs, "polygons": polygon_outputs,
+KINDS = {SMOOTHING: smoothing_outputs, "polygons": polygon_outputs, "collection": collection_outputs,
          "regularization": regularization_outputs}
 
 

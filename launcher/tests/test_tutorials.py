@@ -66,6 +66,11 @@ class Tutorials(unittest.TestCase):
         self.assertIn("$ ", shown)
         self.assertIn("exit code 0", shown)
 
+    def test_many_meshes_in_parts(self):
+        shown = self.play("many-meshes-in-parts")
+        self.assertRegex(shown, r"(?m)^broken\.sine,failed,")
+        self.assertRegex(shown, r"(?m)^gear3\.smooth,complete,$")
+
     def test_results_with_pandas(self):
         shown = self.play("results-with-pandas")
         self.assertRegex(shown, r"(?m)^tri +1 ")

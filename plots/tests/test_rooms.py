@@ -7,7 +7,8 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1]
 # Claims are shown as a table.
-KNOWN_ROOMS = {"results": set(), "statistics": set(), "tables": {"results"}, "figures": {"results"},
+KNOWN_ROOMS = {"results": set(), "statistics": set(), "collections": {"results", "statistics"},
+               "tables": {"results", "collections"}, "figures": {"results", "collections", "statistics"},
                "claims": {"results", "tables"}, "report": {"results", "claims", "figures"}}
 
 

@@ -72,6 +72,9 @@ void run(Arguments& arguments, std::optional<Mpi>& mpi) {
     mpi.emplace();
     options.ranks = Ranks(MPI_COMM_WORLD);
   }
+  if (!options.shard.empty() && !study.has_shards)
+    throw InputError("--shard is for collections, but the study " + study.header.name +
+                     " is of another kind; leave it out");
   if (options.out.empty()) options.out = std::filesystem::path("results") / study.header.name;
   study.run(options);
 }
@@ -131,6 +134,9 @@ void add_study_command(CLI::App& app) {
   command->add_option("--scale", arguments->scale,
                       "one of the study's scales: other sizes, other records");
   command->add_flag("--quick", arguments->quick, "the same as --scale quick");
+  command->add_option("--shard", arguments->options.shard,
+                      "of a collection only the k-th of n parts, as 3/10; 'smoothfem merge' puts "
+                      "their results together");
   command->add_flag("--force", arguments->options.force,
                     "start anew; the folder of an earlier run is kept under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");

@@ -13,6 +13,7 @@ void add_quality_command(CLI::App& app);
 void add_study_command(CLI::App& app);
 void add_generate_command(CLI::App& app);
 void add_list_command(CLI::App& app);
+void add_merge_command(CLI::App& app);
 void add_new_smoother_command(CLI::App& app);
 
 /// --plugin, which loads libraries of methods before the command runs.

@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   add_quality_command(app);
   add_generate_command(app);
   add_list_command(app);
+  add_merge_command(app);
   add_new_smoother_command(app);
   try {
     app.parse(argc, argv);

@@ -17,6 +17,7 @@ struct ReadyStudy {
   StudyHeader header;
   bool on_ranks = false;           ///< divides its work among processes: MPI has to be there
   bool benefits_from_mpi = false;  ///< more than one process makes it faster
+  bool has_shards = false;         ///< can be run in parts, as StudyOptions::shard says
   std::function<void(const StudyOptions&)> run;
 };
 

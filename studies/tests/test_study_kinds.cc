@@ -71,7 +71,7 @@ TEST_F(CommandLine, KindsThatDoNotExistAreNamedWithThoseThatDo) {
   EXPECT_NE(
       outcome.err.find(
           "my.prm: there is no kind of study 'polygon'; did you mean 'polygons'? choose one of "
-          "polygons, regularization, smoothing"),
+          "collection, polygons, regularization, smoothing"),
       std::string::npos)
       << outcome.err;
 }

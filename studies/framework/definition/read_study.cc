@@ -230,7 +230,11 @@ template Method<3> StudyMethod::make() const;
 template Method<2, 3> StudyMethod::make() const;
 
 Study read_study(const std::filesystem::path& file, const std::string& scale) {
-  const std::string text = read_study_text(file);
+  return study_of_text(read_study_text(file), file, scale);
+}
+
+Study study_of_text(const std::string& text, const std::filesystem::path& file,
+                    const std::string& scale) {
   // Which subsections there are depends on what the file says: first the lists, then the methods'
   // types, then everything, strictly.
   ParameterHandler lists;

@@ -99,12 +99,16 @@ struct Study {
   bool record_warpage = false;  ///< of every iteration, not only of initial and resulting meshes
   std::vector<double> count_below;  ///< mean ratios below which cells are counted
   bool write_series = false;        ///< a VTU series for each mesh and method
+  bool write_meshes = true;         ///< the resulting meshes with their fields
 };
 
 /// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: with the changes
 /// of its subsection `scale NAME`; empty: none. Throws InputError with file and line for unknown
 /// keys and bad values, and for a scale that the study does not have, naming those it has.
 Study read_study(const std::filesystem::path& file, const std::string& scale = {});
+/// The same for a text; the file is the one that messages name and other names are relative to.
+Study study_of_text(const std::string& text, const std::filesystem::path& file,
+                    const std::string& scale = {});
 
 /// A commented parameter file with every key and its default, for the methods and meshes named.
 std::string study_template();

@@ -58,7 +58,9 @@ class StudyRun {
       return report_complete();
     }
     begin_writing();
+    if (options_.until == RunUntil::meshes) return write_provenance("interrupted");
     times_.measure("smoothing", [&] { smooth_meshes(); });
+    if (options_.until == RunUntil::smoothing) return write_provenance("interrupted");
     make_tasks(data_);
     if (!study_.degrees.empty()) times_.measure("finite_elements", [&] { solve(); });
     times_.measure("writing", [&] { write_results(); });
@@ -329,7 +331,7 @@ class StudyRun {
                                study_.thresholds.margin);
     write_atomically(options_.out / "thresholds.csv",
                      thresholds_csv(study_.header.name, thresholds));
-    write_meshes(data_, options_.out);
+    if (study_.write_meshes) write_meshes(data_, options_.out);
     progress_.end();
   }
 

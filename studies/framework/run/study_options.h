@@ -3,10 +3,14 @@
 
 #include <atomic>
 #include <filesystem>
+#include <string>
 
 #include "fem/ranks.h"
 
 namespace smoothfem {
+
+/// After which of a study's phases a run ends; the next one goes on from there.
+enum class RunUntil { meshes, smoothing, results };
 
 /// How a study is run, whatever its kind.
 struct StudyOptions {
@@ -14,10 +18,12 @@ struct StudyOptions {
   std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
   bool force = false;              ///< start anew; the folder of an earlier run is renamed
   bool quiet = false;
-  bool dry_run = false;        ///< say what would be done, and do nothing
-  unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
+  RunUntil until = RunUntil::results;  ///< of studies of smoothing methods
+  bool dry_run = false;                ///< say what would be done, and do nothing
+  unsigned int n_threads = 0;          ///< for the finite elements of planar meshes; 0: all cores
   unsigned int smoothing_threads = 1;
-  Ranks ranks{};  ///< that share the finite elements of volume meshes
+  std::string shard{};  ///< "3/10": of a collection the third part of ten only; empty: all
+  Ranks ranks{};        ///< that share the finite elements of volume meshes
   /// Set from outside to stop: the rows finished so far are written and the process ends with 130.
   const std::atomic<bool>* interrupted = nullptr;
 };

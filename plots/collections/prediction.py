@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which quality number predicts the error, and how good is good enough."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..results.collection import OUTCOMES, QUALITIES
+from ..statistics.bootstrap import interval
+from ..statistics.correlation import good_enough, spearman
+from .problems import group_column, kinds_of_meshes
+
+N_SAMPLES = 200
+MOST_ROWS = 2000  # of one correlation with interval: more would take long and change little
+LEAST_MEMBERS_RECORDS = 4  # of a member whose own correlation counts
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Rank correlation of a quality with an outcome, on meshes of one type of elements at one degree."""
+
+    quality: str
+    outcome: str
+    elements: str
+    degree: str
+    across: float  # over all records, the outcome relative to the least of the same member
+    across_interval: tuple
+    within: float  # median of the members' own
+    within_interval: tuple
+    n_records: int
+    n_members: int
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Records of one type of elements at one degree with valid meshes. relative: outcome -> array, divided by
+    the least of the same member."""
+
+    elements: str
+    degree: str
+    members: np.ndarray
+    groups: np.ndarray
+    qualities: dict
+    relative: dict
+
+
+def samples_of(results):
+    """A sample for each type of elements and degree, each mesh of a method counted once."""
+    rows = results.iterations
+    by = group_column(rows)
+    found = []
+    for elements, degree in kinds_of_meshes(rows):
+        chosen = rows.select(elements=elements, degree=degree)
+        chosen = chosen.where(chosen.number("n_invalid") == 0)
+        fingerprints = list(zip(chosen.text("member"), *(chosen.text(q) for q in QUALITIES)))
+        chosen = chosen.where(sorted({key: number for number, key in reversed(list(enumerate(fingerprints)))}.values()))
+        members = chosen.text("member")
+        found.append(Sample(elements, degree, members, chosen.text(by),
+                            {name: chosen.number(name) for name in QUALITIES},
+                            {name: relative_to_least(chosen.number(name), members) for name in OUTCOMES}))
+    return found
+
+
+def relative_to_least(values, members):
+    """Positive numbers divided by the least of the same member; NaN where there is none."""
+    values = np.where(values > 0, values, np.nan)
+    _, inverse = np.unique(members.astype(str), return_inverse=True)
+    least = np.full(inverse.max(initial=-1) + 1, np.inf)
+    np.fmin.at(least, inverse, values)
+    return values / least[inverse]
+
+
+def predictions(results, samples=None):
+    """Every quality with every outcome, for each sample; those that nothing is known of are left out."""
+    found = []
+    for sample in samples or samples_of(results):
+        for quality, q in sample.qualities.items():
+            for outcome, y in sample.relative.items():
+                known = np.isfinite(q) & np.isfinite(y)
+                if np.count_nonzero(known) >= 3:
+                    found.append(prediction(sample, quality, outcome, known))
+    return found
+
+
+def prediction(sample, quality, outcome, known):
+    """One of them, of the records that are known."""
+    q, y = sample.qualities[quality][known], sample.relative[outcome][known]
+    members, groups = sample.members[known], sample.groups[known]
+    some = np.linspace(0, len(q) - 1, min(len(q), MOST_ROWS)).astype(int)
+    own, own_groups = [], []
+    order = np.argsort(members.astype(str), kind="stable")
+    for chosen in np.split(order, np.flatnonzero(members[order][1:] != members[order][:-1]) + 1):
+        rho = spearman(q[chosen], y[chosen]) if len(chosen) >= LEAST_MEMBERS_RECORDS else np.nan
+        if np.isfinite(rho):
+            own.append(rho)
+            own_groups.append(groups[chosen[0]])
+    own = np.array(own)
+    return Prediction(
+        quality, outcome, sample.elements, sample.degree, spearman(q, y),
+        interval(lambda rows: spearman(q[some][rows], y[some][rows]), groups[some].astype(str), N_SAMPLES),
+        float(np.median(own)) if len(own) else np.nan,
+        interval(lambda rows: np.median(own[rows]), np.array(own_groups, dtype=str), N_SAMPLES),
+        len(q), len(set(members)))
+
+
+def thresholds(results, samples=None, gain=0.05):
+    """(elements, degree, quality, least number beyond which the H1 error falls by less than `gain`, interval)."""
+    found = []
+    for sample in samples or samples_of(results):
+        error = sample.relative["h1_error"]
+        for quality, q in sample.qualities.items():
+            known = np.flatnonzero(np.isfinite(q) & np.isfinite(error))
+            if len(known) < 3:
+                continue
+            some = known[np.linspace(0, len(known) - 1, min(len(known), MOST_ROWS)).astype(int)]
+            between = interval(lambda rows: good_enough(q[some][rows], error[some][rows], gain),
+                               sample.groups[some].astype(str), N_SAMPLES)
+            found.append((sample.elements, sample.degree, quality, good_enough(q[known], error[known], gain), between))
+    return found

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the results folder of a collection: its members, and of their rows the columns that are used."""
+
+import csv
+from dataclasses import dataclass
+from operator import itemgetter
+from pathlib import Path
+
+import numpy as np
+
+from .rows import ResultsError, Rows, entries, order_of, read_provenance, read_rows
+from .smoothing import INITIAL
+
+MEMBER_COLUMNS = ("member", "family", "elements", "solution", "status", "reason")
+QUALITIES = ("q_min", "q_star_min", "q_mean")
+OUTCOMES = ("l2_error", "h1_error", "condition_number", "cg_iterations")
+# Of iterations.csv, which has many rows.
+KEYS = ("member", "family", "elements", "solution", "mesh", "method", "degree")
+NUMBERS = ("smoothing_seconds", "preparation_seconds", "cg_seconds", "n_invalid", *QUALITIES, *OUTCOMES)
+
+
+@dataclass(frozen=True)
+class CollectionResults:
+    """One results folder."""
+
+    folder: Path
+    study: str
+    study_title: str
+    methods: tuple
+    titles: dict
+    members: Rows
+    iterations: Rows  # KEYS and NUMBERS only
+
+    def title(self, name):
+        """The title of a method; its name where the provenance gives none."""
+        return self.titles.get(name, name)
+
+
+def read_some_columns(path, names):
+    """Some columns of a CSV file, which may be large; raises ResultsError if it is missing, truncated or lacks
+    one of them."""
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            lines = csv.reader(stream)
+            header = next(lines, [])
+            missing = [name for name in names if name not in header]
+            if missing:
+                raise ResultsError(f"{path}: column `{missing[0]}` is missing.")
+            chosen = itemgetter(*(header.index(name) for name in names))
+            table = [chosen(line) for line in lines]
+    except FileNotFoundError:
+        raise ResultsError(f"{path}: the file is missing; has a member of the study been completed?") from None
+    except (IndexError, OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ResultsError(f"{path}: the file cannot be read ({error}); it looks truncated.") from None
+    columns = zip(*table) if table else ([] for _ in names)
+    return Rows(Path(path), {name: np.array(column, dtype=object) for name, column in zip(names, columns)})
+
+
+def read_collection_results(folder):
+    """Reads the folder; raises ResultsError if a file is missing, truncated or lacks a column."""
+    folder = Path(folder)
+    provenance = read_provenance(folder / "provenance.json")
+    study = str(provenance.get("study") or folder.resolve().name)
+    members = read_rows(folder / "members.csv", MEMBER_COLUMNS)
+    # A part of a collection may have no member that is complete, and then no such file.
+    iterations = (read_some_columns(folder / "iterations.csv", (*KEYS, *NUMBERS)) if "complete" in members.text("status")
+                  else Rows(folder / "iterations.csv", {name: np.array([], dtype=object) for name in (*KEYS, *NUMBERS)}))
+    titles = {INITIAL: "Initial", **{entry["name"]: str(entry["title"]) for entry in entries(provenance, "methods")
+                                     if entry.get("title")}}
+    return CollectionResults(
+        folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
+        methods=tuple(name for name in order_of(iterations.text("method"), provenance, "methods") if name != INITIAL),
+        titles=titles, members=members, iterations=iterations)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tables of a collection."""
+
+import math
+
+from ..collections.comparison import INITIAL_MESH, payoffs, ranking
+from ..collections.prediction import predictions, samples_of, thresholds
+from ..collections.problems import problems_of
+from ..results.rows import groups_of
+from ..results.symbols import Heading, symbol_of
+from .number_format import MISSING
+from .table import Group, Table, number_cell, text_cell
+
+INTERVALS = ("Intervals hold 95 % of bootstrap samples that draw families, or meshes where there are fewer than five "
+             "families. A dash: there is no number.")
+
+
+def number(value, form=".2f"):
+    """A cell of a number; a dash where there is none."""
+    return number_cell(format(value, form) if math.isfinite(value) else MISSING)
+
+
+def between(low_high, form=".2f"):
+    """A cell of an interval."""
+    low, high = low_high
+    return text_cell(f"{low:{form}} to {high:{form}}" if math.isfinite(low) else MISSING)
+
+
+def table_of(results, name, caption, keys, groups, notes):
+    """keys: (heading, cells) columns that say what a row is about. groups: (heading, [(subheading, cells)])."""
+    return Table(
+        study=results.study, name=name, caption=f"{results.study_title}: {caption}",
+        key_headings=tuple(heading if isinstance(heading, Heading) else Heading(heading, heading) for heading, _ in keys),
+        keys=tuple(zip(*(cells for _, cells in keys))), rules=(), left_aligned=(),
+        groups=tuple(Group(heading if isinstance(heading, Heading) else Heading(heading, heading),
+                           tuple(sub for sub, _ in columns), tuple(zip(*(cells for _, cells in columns))))
+                     for heading, columns in groups),
+        notes=tuple(("", sentence) for sentence in notes))
+
+
+def make_collection_tables(results):
+    """Members, correlations, thresholds, ranks, and whether smoothing pays; those without rows are left out."""
+    samples, problems = samples_of(results), problems_of(results)
+    tables = (members_table(results), prediction_table(results, predictions(results, samples)),
+              threshold_table(results, thresholds(results, samples)),
+              ranking_table(results, ranking(problems, results.methods)),
+              payoff_table(results, payoffs(problems, results.methods)))
+    return [table for table in tables if table.keys]
+
+
+def members_table(results):
+    """How many members of each family are complete."""
+    families = groups_of(results.members, "family")
+    counts = [(len(rows), len(rows.select(status="complete")), len(rows.select(status="failed")))
+              for _, rows in families]
+    return table_of(
+        results, "table_members", "members by family",
+        [("Family", [text_cell(key[0]) for key, _ in families])],
+        [(heading, [("", [number_cell(str(count[i])) for count in counts])])
+         for i, heading in enumerate(("Members", "Complete", "Failed"))],
+        ["The reasons of those that have failed are in members.csv."])
+
+
+def prediction_table(results, found):
+    """Spearman's rank correlations."""
+    return table_of(
+        results, "table_prediction", "rank correlation of quality and outcome",
+        [("Elements", [text_cell(p.elements) for p in found]), ("d", [number_cell(p.degree) for p in found]),
+         ("Outcome", [text_cell(symbol_of(p.outcome).text) for p in found]),
+         ("Quality", [text_cell(symbol_of(p.quality).text) for p in found])],
+        [("Across members", [("", [number(p.across) for p in found]),
+                             ("interval", [between(p.across_interval) for p in found])]),
+         ("Within a member", [("median", [number(p.within) for p in found]),
+                              ("interval", [between(p.within_interval) for p in found])]),
+         ("Records", [("", [number_cell(str(p.n_records)) for p in found])]),
+         ("Members", [("", [number_cell(str(p.n_members)) for p in found])])],
+        ["Spearman's rank correlation over the recorded meshes without invalid cells; across members each outcome is "
+         "divided by the least one of the same member, whose meshes differ by their nodes' positions alone. -1: higher "
+         "quality always goes with a lower outcome.", INTERVALS])
+
+
+def threshold_table(results, found):
+    """How good is good enough."""
+    return table_of(
+        results, "table_good_enough", "quality beyond which the H1 error falls by less than 5 %",
+        [("Elements", [text_cell(elements) for elements, *_ in found]),
+         ("d", [number_cell(degree) for _, degree, *_ in found]),
+         ("Quality", [text_cell(symbol_of(quality).text) for _, _, quality, _, _ in found])],
+        [("From", [("", [number(value, ".3f") for *_, value, _ in found]),
+                   ("interval", [between(low_high, ".3f") for *_, low_high in found])])],
+        ["By the decreasing function of quality that is nearest to the logarithm of the error relative to the least "
+         "one of the same member.", INTERVALS])
+
+
+def ranking_table(results, found):
+    """The methods at equal budgets."""
+    return table_of(
+        results, "table_ranking", "methods at equal budgets of time",
+        [("Method", [text_cell(results.title(entry.method)) for entry in found])],
+        [("Mean rank", [("", [number(entry.rank) for entry in found]),
+                        ("interval", [between(entry.rank_interval) for entry in found])]),
+         ("Error / initial", [("", [number(entry.ratio, ".3f") for entry in found]),
+                              ("interval", [between(entry.ratio_interval, ".3f") for entry in found])]),
+         ("p", [("", [number(entry.p_value, ".2g") for entry in found])])],
+        ["True H1 error, over all members and degrees, at the time that the middle one of the methods takes in all for "
+         "the same mesh; error / initial is a geometric mean. p: of a paired test of logarithms by sign flips against "
+         "the first method, as if problems were independent.", INTERVALS])
+
+
+def payoff_table(results, found):
+    """Does smoothing pay?"""
+    return table_of(
+        results, "table_payoff", "does smoothing pay?",
+        [("Family", [text_cell(p.family) for p in found]), ("d", [number_cell(p.degree) for p in found]),
+         ("Instead", [text_cell("unsmoothed, degree d + 1" if p.method == INITIAL_MESH else results.title(p.method))
+                      for p in found])],
+        [("Error / initial", [("", [number(p.error, ".3f") for p in found]),
+                              ("interval", [between(p.error_interval, ".3f") for p in found])]),
+         ("Time / initial", [("", [number(p.time, ".3g") for p in found])]),
+         ("Problems", [("", [number_cell(str(p.n_problems)) for p in found])])],
+        ["Geometric means over a family's problems, beside the unsmoothed mesh at degree d: true H1 error, and time of "
+         "smoothing with its preparations and of CG without preconditioner. Assembly is in neither time.",
+         "Intervals hold 95 % of bootstrap samples that draw meshes. A dash: there is no number."])

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables and figures of a collection, from invented results whose answers are known."""
+
+import contextlib
+import io
+import json
+
+import numpy as np
+
+from plots.__main__ import main
+from plots.collections.comparison import payoffs, ranking
+from plots.collections.prediction import predictions, relative_to_least, thresholds
+from plots.collections.problems import problems_of
+from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, read_collection_results
+from plots.tests.synthetic_results import write_csv
+from plots.tests.test_read_results import InFolder
+
+N_RECORDS = 6
+
+
+def write_collection(folder, n_members=8):
+    """Members in two families: `good` halves the H1 error with rising q_mean, `idle` changes nothing; degree 2 has
+    a tenth of the error of degree 1."""
+    folder.mkdir()
+    rows, members = [], []
+    for m in range(n_members):
+        member = {"member": f"m{m}", "family": "one" if m % 2 else "two", "elements": "triangles", "solution": "",
+                  "status": "complete", "reason": ""}
+        members.append(member)
+        for degree in (1, 2):
+            for method in ("idle", "good"):
+                for i in range(N_RECORDS):
+                    gain = i / (N_RECORDS - 1) if method == "good" else 0.0
+                    error = (1.0 + m) * (1.0 - 0.5 * gain) / 10.0**(degree - 1)
+                    rows.append({**member, "mesh": f"mesh{m}", "method": method, "degree": degree,
+                                 "smoothing_seconds": 0.1 * i * (1 if method == "good" else 2),
+                                 "preparation_seconds": 0, "cg_seconds": 0.5, "n_invalid": 0, "q_min": 0.3,
+                                 "q_star_min": 0.2 + 0.001 * (7 * i % 5), "q_mean": 0.5 + 0.3 * gain,
+                                 "l2_error": error**2, "h1_error": error, "condition_number": 100,
+                                 "cg_iterations": 30})
+    members.append({**member, "member": "broken", "status": "failed", "reason": "tangled"})
+    write_csv(folder / "iterations.csv", (*KEYS, *NUMBERS), rows)
+    write_csv(folder / "members.csv", MEMBER_COLUMNS, members)
+    (folder / "provenance.json").write_text(json.dumps(
+        {"study": "many", "study_title": "Many", "parameters": {"kind": "collection"},
+         "methods": [{"name": "good", "title": "Good"}, {"name": "idle", "title": "Idle"}]}))
+    return folder
+
+
+class Collection(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.results = read_collection_results(write_collection(self.folder / "r"))
+
+    def test_what_predicts_the_error_is_found(self):
+        found = {(p.quality, p.outcome, p.degree): p for p in predictions(self.results)}
+        best = found["q_mean", "h1_error", "1"]
+        self.assertAlmostEqual(best.across, -1.0, places=2)  # equal errors differ by rounding
+        self.assertAlmostEqual(best.within, -1.0)
+        self.assertEqual(best.n_members, 8)
+        np.testing.assert_allclose(best.within_interval, (-1.0, -1.0))
+        self.assertGreater(abs(best.across), abs(found["q_star_min", "h1_error", "1"].across))
+        self.assertTrue(np.isnan(found["q_min", "h1_error", "2"].across))  # always the same
+
+    def test_good_enough_is_where_the_error_falls_no_more(self):
+        found = {(degree, quality): value for _, degree, quality, value, _ in thresholds(self.results)}
+        self.assertAlmostEqual(found["1", "q_mean"], 0.8)
+
+    def test_the_better_method_is_first(self):
+        best, other = ranking(problems_of(self.results), self.results.methods)
+        self.assertEqual((best.method, best.rank), ("good", 1.0))
+        self.assertEqual((other.method, other.rank), ("idle", 2.0))
+        self.assertAlmostEqual(best.ratio, 0.5)
+        self.assertLess(other.p_value, 0.001)
+
+    def test_payoff_has_error_and_time_over_those_of_the_initial_mesh(self):
+        found = {(p.family, p.degree, p.method): p for p in payoffs(problems_of(self.results), self.results.methods)}
+        good, higher = found["one", "1", "good"], found["one", "1", "initial"]
+        self.assertAlmostEqual(good.error, 0.5)
+        self.assertAlmostEqual(good.time, (0.5 + 0.5) / 0.5)
+        self.assertAlmostEqual(higher.error, 0.1)
+        self.assertAlmostEqual(higher.time, 1.0)
+        self.assertNotIn(("one", "2", "initial"), found)
+
+    def test_relative_to_the_least_of_the_same_member(self):
+        np.testing.assert_allclose(relative_to_least(np.array([2.0, 4.0, 3.0, 0.0]), np.array(["a", "a", "b", "b"])),
+                                   [1.0, 2.0, 1.0, np.nan])
+
+    def test_files(self):
+        self.assertEqual(main([str(self.folder / "r"), "--quiet"]), 0)
+        for name in ("prediction", "prediction_extremes", "profile", "runtime", "anytime"):
+            for suffix in ("pdf", "png"):
+                self.assertGreater((self.folder / "r" / "figures" / f"{name}.{suffix}").stat().st_size, 1000)
+        for name in ("members", "prediction", "good_enough", "ranking", "payoff"):
+            for suffix in ("md", "tex"):
+                self.assertTrue((self.folder / "r" / "tables" / f"table_{name}.{suffix}").exists())
+        text = (self.folder / "r" / "tables" / "table_members.md").read_text()
+        self.assertIn("| one | 5 | 4 | 1 |", text)
+
+    def test_a_part_without_complete_members_has_its_table_of_members(self):
+        folder = self.folder / "r"
+        (folder / "iterations.csv").unlink()
+        write_csv(folder / "members.csv", MEMBER_COLUMNS,
+                  [{**dict.fromkeys(MEMBER_COLUMNS, ""), "member": "broken", "status": "failed"}])
+        self.assertEqual(main([str(folder), "--quiet"]), 0)
+        self.assertEqual([path.name for path in (folder / "tables").glob("*.md")], ["table_members.md"])
+
+    def test_what_is_missing_is_said(self):
+        (self.folder / "r" / "iterations.csv").unlink()
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            self.assertEqual(main([str(self.folder / "r"), "--quiet"]), 2)
+        self.assertIn("iterations.csv: the file is missing", errors.getvalue())

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/kinds/collection/collection_keys.h"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace smoothfem {
+
+namespace {
+
+using dealii::ParameterHandler;
+namespace Patterns = dealii::Patterns;
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Goes through the lines of a study file and knows in which subsections they are.
+class OwnLines {
+ public:
+  explicit OwnLines(std::vector<std::string> solutions) : solutions_(std::move(solutions)) {}
+
+  /// Whether the next line belongs to the collection alone.
+  bool operator()(const std::string& line) {
+    static const std::regex begin("\\s*subsection\\s+(.*?)\\s*(#.*)?"), end("\\s*end\\s*(#.*)?"),
+        set("\\s*set\\s+(.*?)\\s*=.*");
+    const bool goes_on = continues_;
+    continues_ = line.ends_with('\\');
+    if (goes_on) return own_line_;
+    std::smatch match;
+    own_line_ = inside_own_solution();
+    if (std::regex_match(line, match, begin)) {
+      sections_.push_back(std::regex_replace(match[1].str(), std::regex("\\s+"), " "));
+      own_line_ = inside_own_solution();
+    } else if (std::regex_match(line, end)) {
+      if (!sections_.empty()) sections_.pop_back();
+    } else if (std::regex_match(line, match, set) && has_own_keys()) {
+      own_line_ = own_line_ || contains(collection_lists, match[1]) ||
+                  (sections_.empty() && (match[1] == "kind" || match[1] == "write meshes"));
+    }
+    return own_line_;
+  }
+
+ private:
+  bool inside_own_solution() const {
+    constexpr std::string_view prefix = "solution ";
+    return !sections_.empty() && sections_.front().starts_with(prefix) &&
+           contains(solutions_, sections_.front().substr(prefix.size()));
+  }
+  /// Of the file, or of a scale.
+  bool has_own_keys() const {
+    return sections_.empty() || (sections_.size() == 1 && sections_[0].starts_with("scale "));
+  }
+
+  std::vector<std::string> solutions_, sections_;
+  bool continues_ = false, own_line_ = false;
+};
+
+}  // namespace
+
+void declare_collection(ParameterHandler& p) {
+  p.declare_entry("kind", "collection", Patterns::Selection("collection"),
+                  "What the study does; other kinds have other keys.");
+  declare_scales(p);
+  p.declare_entry("meshes", "", Patterns::Anything(),
+                  "Not for collections, whose meshes are those of the keys below.");
+  p.declare_entry("collection", "", Patterns::Anything(),
+                  "Mesh files of any format, relative to this file, with * and ? as a shell has "
+                  "them, separated by commas.");
+  p.declare_entry("domains", "", Patterns::Anything(),
+                  "Domains to generate (see 'list'), separated by commas; 'NAME: FACTOR' has edges "
+                  "longer by this factor, besides the sizes.");
+  p.declare_entry("elements", "", Patterns::Anything(),
+                  "Elements of generated meshes, separated by commas, as far as a domain has them; "
+                  "empty: all.");
+  p.declare_entry("sizes", "1", Patterns::List(Patterns::Double(0.0), 1),
+                  "Edge scales of generated meshes: 2 has edges twice as long.");
+  p.declare_entry("distortions", "0", Patterns::List(Patterns::Double(0.0, 1.0), 1),
+                  "Mean qualities to distort generated meshes to; 0: as they are.");
+  p.declare_entry("seeds", "1", Patterns::Anything(),
+                  "Seeds, separated by commas; generated meshes that depend on chance are made "
+                  "once for each.");
+  p.declare_entry("solutions", "", Patterns::Anything(),
+                  "Solutions, separated by commas; each is one of the program's (see 'list') or "
+                  "has a subsection 'solution NAME'. Empty: the one of the subsection 'solution'.");
+  p.declare_entry("write meshes", "false", Patterns::Bool(),
+                  "Write the resulting meshes of every member, too.");
+}
+
+void declare_collection_scale(ParameterHandler& p, const std::string& scale) {
+  const Subsection subsection(p, "scale " + scale);
+  for (const auto& key : collection_lists)
+    p.declare_entry(key, "", Patterns::Anything(), "In place of the value above; empty: as it is.");
+}
+
+void declare_collection_solution(ParameterHandler& p, const std::string& name) {
+  const Subsection subsection(p, "solution " + name);
+  p.declare_entry("name", "", Patterns::Anything(),
+                  "One of the program's solutions (see 'list'); empty: the formula below, or the "
+                  "solution of this subsection's name.");
+  p.declare_entry("u", "", Patterns::Anything(),
+                  "u as a formula in x, y, z, or in X, Y, Z: coordinates in the mesh's bounding "
+                  "box, from 0 to 1 along its longest side; Z is 0 in the plane.");
+  p.declare_entry("diffusivity", "", Patterns::Anything(),
+                  "A of -div(A grad u) = f, as in the subsection 'solution'.");
+}
+
+std::string without_collection_keys(const std::string& text,
+                                    const std::vector<std::string>& solutions) {
+  OwnLines is_own(solutions);
+  std::istringstream lines(text);
+  std::string rest;
+  for (std::string line; std::getline(lines, line);) rest += (is_own(line) ? "" : line) + "\n";
+  return rest;
+}
+
+}  // namespace smoothfem

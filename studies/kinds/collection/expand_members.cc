@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/kinds/collection/expand_members.h"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <set>
+
+#include "meshes/domains/catalogue.h"
+#include "smoothing/base/find_named.h"
+#include "studies/framework/definition/seeds.h"
+
+namespace smoothfem {
+
+namespace {
+
+using dealii::ParameterHandler;
+namespace fs = std::filesystem;
+
+/// The files that a pattern means, sorted. Throws InputError if there are none.
+std::vector<fs::path> matching_files(const fs::path& pattern) {
+  glob_t found{};
+  const int outcome = ::glob(pattern.c_str(), 0, nullptr, &found);
+  std::vector<fs::path> files;
+  if (outcome == 0)
+    for (std::size_t i = 0; i < found.gl_pathc; ++i)
+      if (fs::is_regular_file(found.gl_pathv[i])) files.emplace_back(found.gl_pathv[i]);
+  ::globfree(&found);
+  if (files.empty())
+    throw InputError("'collection' names " + pattern.string() +
+                     ", but there is no such file; check the pattern, which is relative to the "
+                     "study file");
+  return files;
+}
+
+/// Letters, digits, '.', '_' and '-' as they are, anything else as '-'.
+std::string label_of(std::string text) {
+  for (char& c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
+  return text;
+}
+
+/// Files of the same name in several folders, or with several endings, are told apart by both.
+std::vector<Member> file_members(const std::vector<fs::path>& files) {
+  std::map<std::string, int> n_called, n_in_folder;
+  for (const auto& file : files) {
+    ++n_called[label_of(file.stem())];
+    ++n_in_folder[label_of(file.parent_path().filename() / file.stem())];
+  }
+  std::vector<Member> members;
+  for (const auto& file : files) {
+    const std::string folder = file.parent_path().filename();
+    std::string label = label_of(file.stem());
+    if (n_called[label] > 1) {
+      label = label_of(folder / file.stem());
+      if (n_in_folder[label] > 1) label = label_of(folder / file.filename());
+    }
+    Member member{.name = label, .family = folder, .mesh = {}, .solution = {}};
+    member.mesh.name = member.mesh.title = label;
+    member.mesh.file = file;
+    members.push_back(std::move(member));
+  }
+  return members;
+}
+
+/// "NAME: FACTOR" or "NAME".
+std::pair<std::string, double> read_domain(const std::string& item) {
+  const auto colon = item.find(':');
+  const auto name = split_list(item.substr(0, colon));
+  if (name.empty()) throw InputError("'domains' has '" + item + "', which names no domain");
+  if (colon == std::string::npos) return {name.front(), 1.0};
+  try {
+    std::size_t end = 0;
+    const std::string text = item.substr(colon + 1);
+    const double factor = std::stod(text, &end);
+    if (factor > 0.0 && text.find_first_not_of(" \t", end) == std::string::npos)
+      return {name.front(), factor};
+  } catch (const std::logic_error&) {  // said below
+  }
+  throw InputError("'domains' has '" + item +
+                   "'; write NAME, or NAME: FACTOR with a factor above 0");
+}
+
+/// Of the elements wanted those that the domain has; all if none are wanted.
+std::vector<std::string> elements_of(const Domain& domain, const std::vector<std::string>& wanted) {
+  std::vector<std::string> elements;
+  for (const auto& name : domain.elements)
+    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+      elements.push_back(name);
+  return elements;
+}
+
+class GeneratedMembers {
+ public:
+  explicit GeneratedMembers(ParameterHandler& p)
+      : elements_(split_list(p.get("elements"))),
+        sizes_(split_list(p.get("sizes"))),
+        distortions_(split_list(p.get("distortions"))),
+        seeds_(read_seeds(p.get("seeds"))) {
+    for (const auto& name : elements_)
+      (void)find_named("kind of elements", name, element_names(), [](const auto& n) { return n; });
+    if (seeds_.empty()) seeds_.push_back(1);
+  }
+
+  void add(const Domain& domain, double factor) {
+    const auto elements = elements_of(domain, elements_);
+    if (elements.empty())
+      throw InputError("the domain " + domain.name + " has none of the elements " +
+                       joined(elements_) + "; it has " + joined(domain.elements));
+    for (const auto& name : elements)
+      for (const auto& size : sizes_)
+        for (const auto& distortion : distortions_) add(domain, factor, name, size, distortion);
+  }
+
+  std::vector<Member> take() { return std::move(members_); }
+
+ private:
+  void add(const Domain& domain, double factor, const std::string& elements,
+           const std::string& size, const std::string& distortion) {
+    const bool is_distorted = std::stod(distortion) > 0.0;
+    for (const auto seed : seeds_) {
+      Member member{.name = domain.name + "." + elements + ".s" + size +
+                            (is_distorted ? ".q" + distortion : ""),
+                    .family = domain.name,
+                    .mesh = {},
+                    .solution = {},
+                    .size = size,
+                    .distortion = is_distorted ? distortion : ""};
+      const bool is_random = is_distorted || domain.is_random(elements);
+      if (is_random && seeds_.size() > 1) member.name += ".r" + std::to_string(seed);
+      StudyMesh& mesh = member.mesh;
+      mesh.name = mesh.title = member.name;
+      mesh.domain = domain.name;
+      mesh.elements = elements;
+      mesh.edge_scale = factor * std::stod(size);
+      mesh.distort_to_q_mean = std::stod(distortion);
+      mesh.distortion_candidates = default_candidates(domain.dimension);
+      mesh.seed = seed;
+      members_.push_back(std::move(member));
+      if (!is_random) return;
+    }
+  }
+
+  std::vector<std::string> elements_, sizes_, distortions_;
+  std::vector<std::uint64_t> seeds_;
+  std::vector<Member> members_;
+};
+
+std::vector<Member> with_solutions(const std::vector<Member>& meshes,
+                                   const std::vector<std::string>& solutions) {
+  if (solutions.empty()) return meshes;
+  std::vector<Member> members;
+  for (const auto& mesh : meshes)
+    for (const auto& solution : solutions) {
+      members.push_back(mesh);
+      members.back().name += "." + solution;
+      members.back().solution = solution;
+    }
+  return members;
+}
+
+}  // namespace
+
+std::vector<Member> expand_members(ParameterHandler& p, const fs::path& folder) {
+  std::set<fs::path> files;
+  for (const fs::path pattern : split_list(p.get("collection")))
+    for (const auto& file : matching_files(pattern.is_relative() ? folder / pattern : pattern))
+      files.insert(file);
+  auto meshes = file_members({files.begin(), files.end()});
+  GeneratedMembers generated(p);
+  for (const auto& item : split_list(p.get("domains"))) {
+    const auto [name, factor] = read_domain(item);
+    generated.add(find_domain(name), factor);
+  }
+  for (auto& member : generated.take()) meshes.push_back(std::move(member));
+  if (meshes.empty())
+    throw InputError("the collection has no meshes; name files by 'collection', or 'domains'");
+  auto members = with_solutions(meshes, split_list(p.get("solutions")));
+  std::sort(members.begin(), members.end(),
+            [](const Member& a, const Member& b) { return a.name < b.name; });
+  const auto twice =
+      std::adjacent_find(members.begin(), members.end(),
+                         [](const Member& a, const Member& b) { return a.name == b.name; });
+  if (twice != members.end())
+    throw InputError("the collection has two members of the name " + twice->name +
+                     "; name each size, distortion, solution and file once");
+  return members;
+}
+
+}  // namespace smoothfem

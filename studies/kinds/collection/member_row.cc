@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/kinds/collection/member_row.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "meshes/io/atomic_file.h"
+#include "smoothing/base/input_error.h"
+#include "studies/framework/results/csv_text.h"
+#include "studies/kinds/collection/collection.h"
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* row_file = "member.csv";
+
+std::string header(const std::vector<std::string>& columns) {
+  std::string text;
+  for (const auto& column : columns) text += (text.empty() ? "" : ",") + column;
+  return text;
+}
+
+/// The fields of a line that CsvText has written.
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      fields.back() += line[i++];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += line[i];
+  return fields;
+}
+
+void add_fields(CsvText& csv, const std::vector<std::string>& columns, const MemberRow& row) {
+  for (const auto& column : columns) {
+    const auto found = row.find(column);
+    csv.field(found == row.end() ? "" : found->second);
+  }
+}
+
+std::string leading_fields(const MemberRow& row) {
+  CsvText csv("");
+  add_fields(csv, leading_columns(), row);
+  return csv.text().substr(1);  // without the empty heading
+}
+
+/// One table of all members, one line after the other.
+class CollectedTable {
+ public:
+  CollectedTable(const fs::path& out, const std::string& name) : out_(out), name_(name) {}
+
+  void write(const std::vector<MemberRow>& rows, const fs::path& file) {
+    std::ofstream stream(file, std::ios::binary);
+    for (const auto& row : rows)
+      if (row.at("status") == member_complete) append(row, stream);
+    stream.flush();
+    if (!stream)
+      throw InputError("cannot write " + (out_ / name_).string() + "; is the disk full?");
+  }
+
+ private:
+  void append(const MemberRow& row, std::ostream& stream) {
+    const fs::path path = member_folder(out_, row.at("member")) / name_;
+    std::ifstream table(path, std::ios::binary);
+    std::string line;
+    if (!std::getline(table, line))
+      throw InputError(path.string() +
+                       " is missing, though the member is complete; take its folder away to have "
+                       "it made again");
+    if (columns_.empty()) {
+      columns_ = line;
+      stream << header(leading_columns()) << ',' << columns_ << '\n';
+    }
+    if (columns_ != line)
+      throw InputError(path.string() +
+                       " has other columns than the tables of the members before it: they come "
+                       "from different versions of the program, so run one of them again");
+    const std::string lead = leading_fields(row);
+    while (std::getline(table, line)) stream << lead << ',' << line << '\n';
+  }
+
+  const fs::path& out_;
+  std::string name_, columns_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& member_columns() {
+  static const std::vector<std::string> columns{
+      "member", "family",    "domain",  "elements", "size",  "distortion", "seed",   "solution",
+      "file",   "dimension", "n_nodes", "n_cells",  "q_min", "q_mean",     "status", "reason"};
+  return columns;
+}
+
+const std::vector<std::string>& leading_columns() {
+  static const std::vector<std::string> columns(member_columns().begin(),
+                                                member_columns().begin() + 8);
+  return columns;
+}
+
+MemberRow row_of(const Member& member) {
+  const bool is_generated = !member.mesh.domain.empty();
+  return {{"member", member.name},
+          {"family", member.family},
+          {"domain", member.mesh.domain},
+          {"elements", member.mesh.elements},
+          {"size", member.size},
+          {"distortion", member.distortion},
+          {"seed", is_generated ? std::to_string(member.mesh.seed) : ""},
+          {"solution", member.solution},
+          {"file", member.mesh.file.filename().string()},
+          {"status", member_open}};
+}
+
+fs::path member_folder(const fs::path& out, const std::string& name) {
+  return out / "members" / name;
+}
+
+void write_row(const fs::path& folder, const MemberRow& row) {
+  CsvText csv(header(member_columns()));
+  add_fields(csv, member_columns(), row);
+  csv.end_line();
+  write_atomically(folder / row_file, csv.text());
+}
+
+MemberRow read_row(const fs::path& folder) {
+  std::ifstream stream(folder / row_file, std::ios::binary);
+  std::string columns, line;
+  if (!std::getline(stream, columns)) return {};
+  std::getline(stream, line);
+  const auto names = fields_of(columns), fields = fields_of(line);
+  if (names != member_columns() || fields.size() != names.size())
+    throw InputError((folder / row_file).string() +
+                     " is not what this program writes; take the folder away to have the member "
+                     "made again");
+  MemberRow row;
+  for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = fields[i];
+  return row;
+}
+
+std::vector<MemberRow> read_rows(const fs::path& out) {
+  std::vector<MemberRow> rows;
+  if (fs::is_directory(out / "members"))
+    for (const auto& entry : fs::directory_iterator(out / "members"))
+      if (auto row = read_row(entry.path()); !row.empty()) rows.push_back(std::move(row));
+  std::sort(rows.begin(), rows.end(),
+            [](const auto& a, const auto& b) { return a.at("member") < b.at("member"); });
+  return rows;
+}
+
+void write_collected_tables(const fs::path& out, const std::vector<MemberRow>& rows) {
+  CsvText members(header(member_columns()));
+  const MemberRow* complete = nullptr;
+  for (const auto& row : rows) {
+    add_fields(members, member_columns(), row);
+    members.end_line();
+    if (row.at("status") == member_complete) complete = &row;
+  }
+  write_atomically(out / "members.csv", members.text());
+  for (const std::string name : {"iterations.csv", "summary.csv", "metrics.csv"})
+    if (complete != nullptr && fs::exists(member_folder(out, complete->at("member")) / name))
+      write_atomically(out / name, [&](const fs::path& temporary) {
+        CollectedTable(out, name).write(rows, temporary);
+      });
+}
+
+}  // namespace smoothfem

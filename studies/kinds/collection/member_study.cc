@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/kinds/collection/member_study.h"
+
+#include <cstdio>
+#include <regex>
+
+#include "meshes/domains/catalogue.h"
+#include "meshes/io/mesh_file.h"
+#include "studies/framework/definition/check_study.h"
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The word for meshes of cells of one type, as domains have it.
+std::string elements_of(const Topology& topology) {
+  std::string elements;
+  for (CellIndex c = 0; c < topology.n_cells(); ++c) {
+    const ElementType type = topology.cell_type(c);
+    const std::string name = type == ElementType::triangle        ? "triangles"
+                             : type == ElementType::quadrilateral ? "quadrilaterals"
+                             : type == ElementType::tetrahedron   ? "tetrahedra"
+                             : type == ElementType::hexahedron    ? "hexahedra"
+                                                                  : "mixed";
+    if (elements.empty()) elements = name;
+    if (elements != name) return "mixed";
+  }
+  return elements;
+}
+
+template <int dim, int spacedim>
+MeshOutline outline(const Mesh<dim, spacedim>& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& point : mesh.coordinates()) {
+    Eigen::Vector3d in_space = Eigen::Vector3d::Zero();
+    in_space.head<spacedim>() = point;
+    box.extend(in_space);
+  }
+  return {{dim, spacedim}, elements_of(mesh.topology()), box};
+}
+
+AnyMesh undistorted_mesh(const Collection& collection, const StudyMesh& mesh) {
+  if (mesh.domain.empty()) return read_mesh(mesh.file).mesh;
+  const Domain& domain = find_domain(mesh.domain);
+  const double edge_scale = collection.common.at(domain.dimension).edge_scale * mesh.edge_scale;
+  return domain.generate({.elements = mesh.elements, .edge_scale = edge_scale, .seed = mesh.seed});
+}
+
+/// "((x - 0.5) / 2)": six digits are enough, since any box near the mesh's will do.
+std::string scaled(char coordinate, double origin, double length) {
+  char text[80];
+  std::snprintf(text, sizeof(text), "((%c - (%.6g)) / %.6g)", coordinate, origin, length);
+  return text;
+}
+
+const Study& common_study(const Collection& collection, MeshDimensions dimensions) {
+  const auto found = collection.common.find(dimensions.cells);
+  if (found == collection.common.end()) throw InputError(collection.refusals.at(dimensions.cells));
+  if (dimensions.space > dimensions.cells)
+    throw InputError("it is a surface mesh; collections have planar and volume meshes");
+  return found->second;
+}
+
+StudySolution solution_of(const Collection& collection, const Member& member, const Study& common,
+                          const MeshOutline& outline) {
+  if (member.solution.empty()) return common.solution;
+  StudySolution solution = collection.solutions.at(member.solution);
+  solution.u = in_box(solution.u, outline.box);
+  solution.diffusivity = in_box(solution.diffusivity, outline.box);
+  return solution;
+}
+
+/// What provenance.json says besides the parameters that all members have.
+StudyParameters own_parameters(const Study& study) {
+  const StudyMesh& mesh = study.meshes.front();
+  const std::string section = "mesh " + mesh.name + "/";
+  char scale[32];
+  std::snprintf(scale, sizeof(scale), "%.17g", mesh.edge_scale);
+  return {{"dimension", std::to_string(study.dimensions.cells)},
+          {"meshes", mesh.name},
+          {section + "domain", mesh.domain},
+          {section + "elements", mesh.elements},
+          {section + "edge scale", scale},
+          {"solution/name", study.solution.name},
+          {"solution/u", study.solution.u},
+          {"solution/diffusivity", study.solution.diffusivity}};
+}
+
+}  // namespace
+
+std::string in_box(const std::string& formula, const Eigen::AlignedBox3d& box) {
+  const double length = box.sizes().maxCoeff();
+  std::string result = formula;
+  for (int d = 0; d < 3; ++d) {
+    const std::string by =
+        box.sizes()[d] > 0.0 ? scaled(static_cast<char>('x' + d), box.min()[d], length) : "0";
+    result = std::regex_replace(result, std::regex(std::string("\\b") + "XYZ"[d] + "\\b"), by);
+  }
+  return result;
+}
+
+MeshOutline outline_of(const Collection& collection, const Member& member, const fs::path& folder) {
+  const fs::path initial = folder / "meshes" / (member.mesh.name + "_initial.mesh");
+  const AnyMesh mesh =
+      fs::exists(initial) ? read_mesh(initial).mesh : undistorted_mesh(collection, member.mesh);
+  return std::visit([](const auto& m) { return outline(m); }, mesh);
+}
+
+Study member_study(const Collection& collection, const Member& member, const MeshOutline& outline) {
+  Study study = common_study(collection, outline.dimensions);
+  study.meshes = {member.mesh};
+  study.solution = solution_of(collection, member, study, outline);
+  study.header.title += ", " + member.name;
+  study.header.built_in = false;
+  const auto own = own_parameters(study);
+  for (auto* parameters : {&study.header.parameters, &study.header.file_parameters}) {
+    std::erase_if(*parameters, [](const auto& entry) {
+      return entry.first.starts_with("solution/") && entry.first != "solution/natural";
+    });
+    parameters->insert(parameters->end(), own.begin(), own.end());
+  }
+  check_study(study);
+  return study;
+}
+
+}  // namespace smoothfem

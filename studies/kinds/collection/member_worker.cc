@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/kinds/collection/member_worker.h"
+
+#include <mpi.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "studies/framework/run/run_study.h"
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the member's provenance says of its mesh.
+std::string facts_of(const fs::path& folder, const MeshOutline& outline) {
+  std::ifstream stream(folder / "provenance.json");
+  const auto provenance = nlohmann::json::parse(stream);
+  nlohmann::json facts{{"elements", outline.elements},
+                       {"dimension", std::to_string(outline.dimensions.cells)}};
+  for (const std::string key : {"n_nodes", "n_cells", "q_min", "q_mean"})
+    facts[key] = provenance.at("meshes").at(0).at(key).dump();
+  return facts.dump();
+}
+
+/// Links the files of one kind in a checkpoint to another one. A file is written once and replaced
+/// in one piece, so that links are as good as copies.
+void link_files(const fs::path& from, const fs::path& to, const std::string& extension) {
+  for (const auto& entry : fs::recursive_directory_iterator(from)) {
+    const fs::path target = to / fs::relative(entry.path(), from);
+    if (entry.path().extension() != extension || fs::exists(target)) continue;
+    std::error_code cannot_link;
+    fs::create_directories(target.parent_path());
+    fs::create_hard_link(entry.path(), target, cannot_link);
+    if (cannot_link) fs::copy_file(entry.path(), target);
+  }
+}
+
+}  // namespace
+
+/// MPI, which Trilinos needs for meshes in space; started as if there were no mpirun.
+class MemberWorker::Mpi {
+ public:
+  Mpi() {
+    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);  // without a daemon, which takes long
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+  }
+  ~Mpi() { MPI_Finalize(); }
+  Mpi(const Mpi&) = delete;
+};
+
+MemberWorker::MemberWorker(const Collection& collection, const StudyOptions& options,
+                           RunUntil until)
+    : collection_(collection), out_(options.out) {
+  options_.quiet = true;
+  options_.n_threads = 1;
+  options_.smoothing_threads = options.smoothing_threads;
+  options_.until = until;
+}
+
+MemberWorker::~MemberWorker() = default;
+
+fs::path MemberWorker::folder_of(const Member& member) const {
+  return member_folder(out_, member.name);
+}
+
+std::string MemberWorker::run(const Member& member) {
+  options_.out = folder_of(member);
+  if (options_.until == RunUntil::smoothing) share_smoothing(member);
+  const MeshOutline outline = outline_of(collection_, member, options_.out);
+  const Study study = member_study(collection_, member, outline);
+  const bool is_solved = options_.until == RunUntil::results && !study.degrees.empty();
+  if (is_solved && outline.dimensions.cells == 3) {
+    if (!mpi_) mpi_ = std::make_unique<Mpi>();
+    options_.ranks = Ranks(MPI_COMM_WORLD);
+  } else {
+    options_.ranks = Ranks();
+  }
+  run_study(study, options_);
+  return options_.until == RunUntil::meshes ? facts_of(options_.out, outline) : "";
+}
+
+/// A mesh is smoothed once for all members that it has, one for each solution: the trajectories of
+/// one of them are those of the others.
+void MemberWorker::share_smoothing(const Member& member) const {
+  const fs::path own = folder_of(member) / "checkpoint";
+  for (const auto& other : collection_.members) {
+    if (other.mesh.name != member.mesh.name || other.name == member.name) continue;
+    if (read_row(folder_of(other))["status"] != member_smoothed) continue;
+    const fs::path checkpoint = folder_of(other) / "checkpoint";
+    if (!fs::exists(checkpoint)) continue;
+    link_files(checkpoint, own, ".numbers");
+    return link_files(checkpoint, own, ".trajectory");  // which refer to the numbers
+  }
+}
+
+void add_facts(const std::string& facts, MemberRow& row) {
+  const auto known = nlohmann::json::parse(facts);
+  for (const auto& [key, value] : known.items()) row[key] = value.get<std::string>();
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "studies/framework/run/study_options.h"
+#include "studies/kinds/collection/member_row.h"
+#include "studies/kinds/collection/member_study.h"
+
+namespace smoothfem {
+
+/// Works on members in a process of its own.
+class MemberWorker {
+ public:
+  /// options: of the collection.
+  MemberWorker(const Collection& collection, const StudyOptions& options, RunUntil until);
+  ~MemberWorker();
+
+  /// Goes on with the member's study up to the end of the phase. Returns what there is to know of
+  /// its mesh, for add_facts, or nothing. Throws InputError for members that cannot be used.
+  std::string run(const Member& member);
+
+ private:
+  class Mpi;
+
+  std::filesystem::path folder_of(const Member& member) const;
+  void share_smoothing(const Member& member) const;
+
+  const Collection& collection_;
+  std::filesystem::path out_;
+  StudyOptions options_;  ///< of members
+  std::unique_ptr<Mpi> mpi_;
+};
+
+/// Adds to a row what a worker has found out of the mesh.
+void add_facts(const std::string& facts, MemberRow& row);
+
+}  // namespace smoothfem

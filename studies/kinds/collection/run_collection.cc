@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studies/kinds/collection/run_collection.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <thread>
+
+#include "meshes/io/atomic_file.h"
+#include "smoothing/base/interruption.h"
+#include "studies/framework/results/folder_lock.h"
+#include "studies/framework/results/provenance.h"
+#include "studies/framework/results/results_folder.h"
+#include "studies/framework/run/phase_times.h"
+#include "studies/framework/run/progress.h"
+#include "studies/kinds/collection/member_row.h"
+#include "studies/kinds/collection/member_worker.h"
+#include "studies/kinds/collection/worker_processes.h"
+
+namespace smoothfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Phase {
+  const char* name;
+  RunUntil until;
+  const char* needs;  ///< status of a member that the phase is for
+  const char* makes;
+};
+constexpr Phase phases[] = {
+    {"meshes", RunUntil::meshes, member_open, member_meshed},
+    {"smoothing", RunUntil::smoothing, member_meshed, member_smoothed},
+    {"finite_elements", RunUntil::results, member_smoothed, member_complete}};
+
+const char* title_of(const Phase& phase) {
+  return phase.until == RunUntil::meshes      ? "Meshes"
+         : phase.until == RunUntil::smoothing ? "Smoothing"
+                                              : "Finite elements";
+}
+
+/// What a member's work grows with; 1 as long as nothing is known of it.
+double size_of(const MemberRow& row) {
+  const auto n_cells = row.find("n_cells");
+  return n_cells == row.end() || n_cells->second.empty() ? 1.0 : std::stod(n_cells->second);
+}
+
+class CollectionRun {
+ public:
+  CollectionRun(const Collection& collection, const StudyOptions& options)
+      : collection_(collection),
+        options_(options),
+        n_processes_(options.n_threads > 0 ? options.n_threads
+                                           : std::max(1U, std::thread::hardware_concurrency())),
+        progress_(options.quiet) {
+    const Shard shard = options.shard.empty() ? Shard{} : Shard::parse(options.shard);
+    for (const auto& member : collection.members)
+      if (shard.holds(member)) members_.push_back(&member);
+  }
+
+  void run() {
+    require_writable(options_.out);
+    lock_.emplace(options_.out);
+    if (options_.force) rename_existing(options_.out);
+    earlier_ = read_provenance(options_.out / "provenance.json");
+    require_same_settings(earlier_, collection_.header, {}, {}, options_.out);
+    read_rows_of_members();
+    if (earlier_.status == "complete" && is_complete()) return report_complete();
+    if (earlier_.status.empty()) make_results_folder(options_.out, lock_);
+    for (auto& row : rows_)
+      if (row["status"] == member_failed) row["status"] = member_open;
+    write_provenance("running");
+    try {
+      for (const Phase& phase : phases) times_.measure(phase.name, [&] { run_phase(phase); });
+    } catch (const Interrupted&) {
+      end_interrupted();
+    }
+    times_.measure("writing", [&] { write_tables(); });
+    write_provenance("complete");
+    report();
+  }
+
+  void print_plan() const {
+    std::map<std::string, std::size_t> families;
+    for (const Member* member : members_) ++families[member->family];
+    std::printf("%s\n\n%zu members in %zu families\n", collection_.header.title.c_str(),
+                members_.size(), families.size());
+    for (const auto& [family, n] : families) std::printf("  %-24s %zu\n", family.c_str(), n);
+    std::printf("\nMethods\n");
+    for (const auto& method : collection_.common.begin()->second.methods)
+      std::printf("  %s\n", method.name.c_str());
+    std::printf("\n%u processes; results in %s. Nothing has been written.\n", n_processes_,
+                options_.out.c_str());
+  }
+
+ private:
+  fs::path folder_of(const Member& member) const {
+    return member_folder(options_.out, member.name);
+  }
+
+  void read_rows_of_members() {
+    for (const Member* member : members_) {
+      rows_.push_back(read_row(folder_of(*member)));
+      if (rows_.back().empty()) rows_.back() = row_of(*member);
+    }
+  }
+
+  bool is_complete() const {
+    return fs::exists(options_.out / "members.csv") &&
+           std::all_of(rows_.begin(), rows_.end(), [](const MemberRow& row) {
+             return row.at("status") == member_complete || row.at("status") == member_failed;
+           });
+  }
+
+  std::size_t count(const std::string& status) const {
+    return static_cast<std::size_t>(std::count_if(
+        rows_.begin(), rows_.end(), [&](const auto& row) { return row.at("status") == status; }));
+  }
+
+  /// Members that the phase is for, the smaller ones first.
+  std::vector<std::size_t> members_for(const Phase& phase) const {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].at("status") == phase.needs) chosen.push_back(i);
+    std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
+      return size_of(rows_[a]) < size_of(rows_[b]);
+    });
+    return chosen;
+  }
+
+  void run_phase(const Phase& phase) {
+    const auto chosen = members_for(phase);
+    const bool is_timed = phase.until == RunUntil::smoothing;
+    double to_do = 0.0, done = 0.0;
+    std::size_t n_done = 0;
+    for (const std::size_t i : chosen) to_do += size_of(rows_[i]);
+    progress_.begin(title_of(phase), chosen.size());
+    const auto started = std::chrono::steady_clock::now();
+    run_in_workers(
+        chosen.size(), is_timed ? 1U : n_processes_,
+        [&] {
+          return [worker = std::make_shared<MemberWorker>(collection_, options_, phase.until), this,
+                  &chosen](std::size_t task) { return worker->run(*members_[chosen[task]]); };
+        },
+        [&](const TaskEnd& end) {
+          const std::size_t i = chosen[end.task];
+          done += size_of(rows_[i]);
+          ++n_done;
+          note(i, phase, end);
+        },
+        [&] {
+          const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
+          const auto left =
+              done > 0.0 ? std::optional(taken.count() * (to_do - done) / done) : std::nullopt;
+          progress_.update(
+              n_done, std::to_string(n_done) + " of " + std::to_string(chosen.size()) + " members",
+              left);
+        });
+    progress_.end();
+  }
+
+  /// Writes what a member has come to.
+  void note(std::size_t i, const Phase& phase, const TaskEnd& end) {
+    MemberRow& row = rows_[i];
+    row["status"] = end.failure.empty() ? phase.makes : member_failed;
+    row["reason"] = end.failure;
+    if (!end.outcome.empty()) add_facts(end.outcome, row);
+    write_row(folder_of(*members_[i]), row);
+    if (!end.failure.empty()) progress_.say(members_[i]->name + " failed: " + end.failure + ".");
+  }
+
+  void write_tables() { write_collected_tables(options_.out, rows_); }
+
+  void end_interrupted() {
+    write_collected_tables(options_.out, rows_);
+    write_provenance("interrupted");
+    progress_.say("Interrupted: " + std::to_string(count(member_complete)) + " of " +
+                  std::to_string(rows_.size()) +
+                  " members are complete; the same command goes on from here.");
+    std::_Exit(130);
+  }
+
+  void report() {
+    progress_.say(std::to_string(count(member_complete)) + " members are complete, " +
+                  std::to_string(count(member_failed)) + " have failed; " +
+                  (options_.out / "members.csv").string() + " says why.");
+  }
+
+  void report_complete() {
+    progress_.say("The results in " + options_.out.string() +
+                  " are complete: nothing to do. --force starts anew and keeps them under another "
+                  "name.");
+  }
+
+  void write_provenance(const std::string& status) const {
+    const auto& [dimension, common] = *collection_.common.begin();
+    write_atomically(options_.out / "provenance.json",
+                     provenance_json({.study = collection_.header,
+                                      .processors = {options_.smoothing_threads, n_processes_, 1},
+                                      .status = status,
+                                      .started = started_,
+                                      .seconds = times_.seconds(),
+                                      .earlier_sessions = earlier_.sessions,
+                                      .dimensions = {dimension, dimension},
+                                      .methods = common.methods}));
+  }
+
+  const Collection& collection_;
+  const StudyOptions& options_;
+  unsigned int n_processes_;
+  Progress progress_;
+  std::vector<const Member*> members_;
+  std::vector<MemberRow> rows_;  ///< of the members
+  EarlierRun earlier_;
+  std::optional<FolderLock> lock_;
+  const std::string started_ = now_utc();
+  PhaseTimes times_;
+};
+
+}  // namespace
+
+void run_collection(const Collection& collection, const StudyOptions& options) {
+  if (options.ranks.size() > 1)
+    throw InputError("the study " + collection.header.name +
+                     " starts its own processes: start it without mpirun, or share it by --shard");
+  if (!options.mesh_dir.empty())
+    throw InputError("--mesh-dir is given, but the meshes of the study " + collection.header.name +
+                     " are those it names itself; leave it out");
+  CollectionRun run(collection, options);
+  if (options.dry_run) return run.print_plan();
+  run.run();
+}
+
+}  // namespace smoothfem
