@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/assembly.h"
 
-#include <cmath>
 #include <numeric>
 
 #include "fem/cell_integrals.h"
+#include "fem/cell_load.h"
 #include "fem/natural_load.h"
 
 namespace smoothfem {
@@ -121,35 +121,6 @@ class CellAssembly {
   const Eigen::VectorXd& nodal_load_;
   const AnyDiffusivity& diffusivity_;
   PoissonSystem& system_;
-};
-
-/// The integrals of f phi_i over a cell, and those of |f phi_i|.
-template <std::size_t n_dofs>
-struct CellLoad {
-  std::array<double, n_dofs> values{}, scales{};
-
-  template <int dim, std::size_t n_vertices>
-  CellLoad(const QuadratureTable& table,
-           const std::array<Vector<dim, double>, n_vertices>& vertices,
-           const ManufacturedSolution<dim>& solution) {
-    for (std::size_t q = 0; q < table.n_points; ++q) {
-      const auto mapped = map_point<dim, double>(table, q, vertices);
-      const double f = solution.load(point_of(mapped.position)) * mapped.weight;
-      for (std::size_t i = 0; i < n_dofs; ++i) {
-        values[i] += f * table.shape[q * n_dofs + i];
-        scales[i] += std::abs(f * table.shape[q * n_dofs + i]);
-      }
-    }
-  }
-
-  bool is_near(const CellLoad& finer, double tolerance) const {
-    double change = 0.0, square = 0.0;
-    for (std::size_t i = 0; i < n_dofs; ++i) {
-      change += (finer.values[i] - values[i]) * (finer.values[i] - values[i]);
-      square += finer.scales[i] * finer.scales[i];
-    }
-    return change <= tolerance * tolerance * square;
-  }
 };
 
 /// b_i += integral of f phi_i over the cells of one element.

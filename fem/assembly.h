@@ -11,8 +11,9 @@ namespace smoothfem {
 
 /// How the right-hand side b comes from f.
 enum class Load {
-  nodal,      ///< b = M f_h, f_h the nodal interpolant of f: what the thesis prints
-  quadrature  ///< b_i = integral of f phi_i: the textbook's Galerkin load
+  nodal,       ///< b = M f_h, f_h the nodal interpolant of f: what the thesis prints
+  quadrature,  ///< b_i = integral of f phi_i: the textbook's Galerkin load
+  none         ///< f is left out: for whoever adds it
 };
 
 /// The Poisson problem's linear system for this rank's free dofs; boundary values are eliminated.

@@ -8,6 +8,7 @@
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_wedge_p.h>
 
+#include <array>
 #include <memory>
 
 #include "fem/chosen_points.h"
@@ -183,6 +184,78 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
   return reference;
 }
 
+/// Corners of the simplices that a reference simplex falls into when its edges are halved, as
+/// multiples of 1/2: at each corner one, and in space four of the octahedron between (Bey 1995).
+template <int dim>
+std::vector<std::array<dealii::Point<dim>, dim + 1>> halved_simplices() {
+  std::array<dealii::Point<dim>, dim + 1> corners;
+  for (unsigned int d = 0; d < dim; ++d) corners[d + 1][d] = 1.0;
+  const auto middle = [&](std::size_t a, std::size_t b) {
+    return dealii::Point<dim>(0.5 * (corners[a] + corners[b]));
+  };
+  std::vector<std::array<dealii::Point<dim>, dim + 1>> halved;
+  for (std::size_t a = 0; a <= dim; ++a) {
+    halved.emplace_back();
+    for (std::size_t b = 0; b <= dim; ++b) halved.back()[b] = middle(a, b);
+  }
+  if constexpr (dim == 2) {
+    halved.push_back({middle(0, 1), middle(1, 2), middle(0, 2)});
+  } else {
+    halved.push_back({middle(0, 1), middle(0, 2), middle(0, 3), middle(1, 3)});
+    halved.push_back({middle(0, 1), middle(0, 2), middle(1, 2), middle(1, 3)});
+    halved.push_back({middle(0, 2), middle(0, 3), middle(1, 3), middle(2, 3)});
+    halved.push_back({middle(0, 2), middle(1, 2), middle(1, 3), middle(2, 3)});
+  }
+  return halved;
+}
+
+/// The rule on each of these.
+template <int dim>
+dealii::Quadrature<dim> on_halved_simplices(const dealii::Quadrature<dim>& rule) {
+  const auto simplices = halved_simplices<dim>();
+  std::vector<dealii::Point<dim>> points;
+  std::vector<double> weights;
+  for (const auto& corners : simplices)
+    for (unsigned int q = 0; q < rule.size(); ++q) {
+      dealii::Point<dim> point = corners[0];
+      for (unsigned int d = 0; d < dim; ++d)
+        point += rule.point(q)[d] * (corners[d + 1] - corners[0]);
+      points.push_back(point);
+      weights.push_back(rule.weight(q) / static_cast<double>(simplices.size()));
+    }
+  return {points, weights};
+}
+
+/// Of degrees 5, 7 and 11 on triangles, 3, 5 and 7 on tetrahedra, then on halved cells.
+template <int dim>
+std::vector<dealii::Quadrature<dim>> load_rules(ElementType type) {
+  std::vector<dealii::Quadrature<dim>> rules;
+  if (is_simplex(type)) {
+    for (const unsigned int n : dim == 2 ? std::array{3U, 4U, 6U} : std::array{2U, 3U, 4U})
+      rules.push_back(dealii::QWitherdenVincentSimplex<dim>(n));
+    rules.push_back(on_halved_simplices<dim>(rules.back()));
+    if (dim == 2) rules.push_back(on_halved_simplices<dim>(rules.back()));
+  } else {
+    for (const unsigned int n : dim == 2 ? std::array{3U, 5U, 8U, 16U} : std::array{2U, 3U, 5U, 8U})
+      rules.push_back(dealii::QGauss<dim>(n));
+  }
+  return rules;
+}
+
+template <int dim>
+EnergyRules make_rules_of_energy(ElementType type, int degree) {
+  const auto element = lagrange_element<dim>(type, degree);
+  const auto geometry = lagrange_element<dim>(type, 1);
+  const auto table = [&](const dealii::Quadrature<dim>& rule) {
+    return make_table<dim>(*element, *geometry, rule);
+  };
+  EnergyRules rules;
+  if (is_simplex(type))
+    rules.gradients = table(dealii::QGaussSimplex<dim>(static_cast<unsigned int>(degree)));
+  for (const auto& rule : load_rules<dim>(type)) rules.load.push_back(table(rule));
+  return rules;
+}
+
 /// dim: of the facet.
 template <int dim>
 FacetElement make_facet(bool simplex, int degree) {
@@ -209,6 +282,12 @@ FacetElement make_facet(bool simplex, int degree) {
 FacetElement make_facet_element(std::size_t n_vertices, int degree) {
   keep_deal_ii_on_this_thread();
   return n_vertices == 2 ? make_facet<1>(false, degree) : make_facet<2>(n_vertices == 3, degree);
+}
+
+EnergyRules make_energy_rules(ElementType type, int degree) {
+  keep_deal_ii_on_this_thread();
+  return dimension_of(type) == 2 ? make_rules_of_energy<2>(type, degree)
+                                 : make_rules_of_energy<3>(type, degree);
 }
 
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points) {

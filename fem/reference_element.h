@@ -64,6 +64,15 @@ struct FacetElement {
 /// points: those of chosen_points::ladder, of which each cell takes what it needs.
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
 
+/// What the energy of a solution on an element needs besides its matrices (fem/energy.h).
+struct EnergyRules {
+  QuadratureTable gradients;          ///< of simplices: exact for products of two gradients
+  std::vector<QuadratureTable> load;  ///< for f, finer and finer: up to halved cells, twice
+};
+
+/// type: triangle, quadrilateral, tetrahedron or hexahedron.
+EnergyRules make_energy_rules(ElementType type, int degree);
+
 /// n_vertices: 2, 3 or 4; degree: 1 or 2.
 FacetElement make_facet_element(std::size_t n_vertices, int degree);
 

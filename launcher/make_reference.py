@@ -18,6 +18,7 @@ from pathlib import Path
 
 KEPT = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json", "tables")
 DRAWN = ("gear", "volume")  # whose figures are kept, too
+PUBLISHED = ("gear", "energy")  # which are of the published meshes
 SCALE = "subsection scale paper"
 UNKNOWN_SECONDS = 1e9  # studies without a reference come last
 
@@ -47,7 +48,7 @@ def seconds(folder):
 
 def options(study):
     """How a study is run for the reference."""
-    return ["--published"] if study == "gear" else ["--scale", "paper"]
+    return ["--published"] if study in PUBLISHED else ["--scale", "paper"]
 
 
 def keep(results, reference, study):

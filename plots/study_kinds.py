@@ -15,6 +15,7 @@ from .results.request import Request
 from .results.rows import ResultsError, read_provenance
 from .results.smoothing import left_out, read_results
 from .tables.collection import make_collection_tables
+from .tables.energy import make_energy_tables
 from .tables.polygons import make_polygon_tables
 from .tables.regularization import make_regularization_tables
 from .tables.seeds import make_seed_tables
@@ -62,7 +63,7 @@ def smoothing_outputs(folder, request):
     def plan_of_meshes(report):
         from .figures.smoothing_study import plan_mesh_figures
         return plan_mesh_figures(results, report)
-    return Outputs(results.folder, results.study_title, (*make_tables(results, printed), *make_seed_tables(results)), plan,
+    return Outputs(results.folder, results.study_title, (*make_tables(results, printed), *make_seed_tables(results), *make_energy_tables(results)), plan,
                    plan_of_meshes, texts, () if claims else (NO_CLAIMS,), tuple(left_out(results)))
 
 

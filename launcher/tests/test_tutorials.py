@@ -71,6 +71,11 @@ class Tutorials(unittest.TestCase):
         self.assertRegex(shown, r"(?m)^broken\.sine,failed,")
         self.assertRegex(shown, r"(?m)^gear3\.smooth,complete,$")
 
+    def test_smoothing_for_the_error(self):
+        shown = self.play("smoothing-for-the-error")
+        self.assertIn("Weights and descent", shown)
+        self.assertIn("factors by which true errors fall", shown)
+
     def test_results_with_pandas(self):
         shown = self.play("results-with-pandas")
         self.assertRegex(shown, r"(?m)^tri +1 ")

@@ -15,9 +15,9 @@ TEST(Domains, AllThatComeWithTheProgramAreRegisteredAndSortedByName) {
   std::vector<std::string> names;
   for (const Domain& domain : domains()) names.push_back(domain.name);
   EXPECT_THAT(names, ::testing::ElementsAre("aorta", "axle", "bridge", "car", "flange", "gear",
-                                            "nonuniform-grid", "piston", "plate", "prosthesis",
-                                            "pump", "random-planar", "ring", "roof", "sphere",
-                                            "subdivision", "sweep"));
+                                            "l-shape", "nonuniform-grid", "piston", "plate",
+                                            "prosthesis", "pump", "random-planar", "ring", "roof",
+                                            "sphere", "square", "subdivision", "sweep"));
 }
 
 TEST(Domains, SayWhatTheyAre) {

@@ -33,7 +33,7 @@ NUMBERS = ("iteration", "smoothing_seconds", "q_min", "q_star_min", "q_mean", "n
            "lambda_min", "lambda_max", "condition_residual", "cg_iterations", "cg_seconds",
            "jacobi_cg_iterations", "jacobi_cg_seconds", "amg_cg_iterations", "amg_setup_seconds",
            "amg_cg_seconds", "e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error", "threshold",
-           "reference_seconds", "method_seconds", "speedup")
+           "reference_seconds", "method_seconds", "speedup", "n_solves", "method_solve_seconds")
 # What tells the mesh of one record from that of another.
 FINGERPRINT = ("q_min", "q_star_min", "q_mean", "n_invalid")
 

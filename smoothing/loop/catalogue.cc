@@ -49,7 +49,8 @@ RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
 std::vector<MethodInfo> method_catalogue(bool also_those_with_needs) {
   std::vector<MethodInfo> infos;
   for (const auto& entry : registry().all())
-    if (also_those_with_needs || !entry.info.needs_parameters) infos.push_back(entry.info);
+    if (also_those_with_needs || !(entry.info.needs_parameters || entry.info.needs_problem))
+      infos.push_back(entry.info);
   return infos;
 }
 
@@ -77,8 +78,8 @@ template <int dim, int spacedim>
 bool takes_meshes(const std::string& method, bool with_constraints) {
   const MethodEntry found = entry(method);
   const auto& make_stages = factory_of<dim, spacedim>(found.factories);
-  return make_stages &&
-         (!with_constraints || keeps_constraints(Method<dim, spacedim>{found.info, make_stages()}));
+  return make_stages && (!with_constraints || keeps_constraints(Method<dim, spacedim>{
+                                                  .info = found.info, .stages = make_stages()}));
 }
 
 template <int dim, int spacedim>
@@ -109,7 +110,7 @@ Stages<dim, spacedim> stages_of(const std::string& name) {
 
 template <int dim, int spacedim>
 Method<dim, spacedim> make_method(const std::string& name) {
-  return {entry(name).info, stages_of<dim, spacedim>(name)};
+  return {.info = entry(name).info, .stages = stages_of<dim, spacedim>(name)};
 }
 
 template <int dim, int spacedim>

@@ -20,6 +20,9 @@ struct MethodInfo {
   std::string source;       ///< thesis section or paper
   /// Whether it says nothing without parameters that users give it: then it is not one of "all".
   bool needs_parameters = false;
+  /// Whether it moves nodes by the solution of a problem (loop/problem.h), which only studies that
+  /// solve one have: it is not one of "all" either.
+  bool needs_problem = false;
   std::filesystem::path library = {};  ///< the plugin that registered it; empty: this program
 };
 
@@ -31,6 +34,7 @@ template <int dim, int spacedim = dim>
 struct Method {
   MethodInfo info;
   Stages<dim, spacedim> stages;
+  std::shared_ptr<const Problem<spacedim>> problem = {};  ///< for methods that need one
 
   /// All parameters, "stage.name" where the method has more than one stage.
   Parameters parameters();
@@ -78,7 +82,8 @@ class LibraryOfMethods {
   LibraryOfMethods(const LibraryOfMethods&) = delete;
 };
 
-/// The registered methods that can do without parameters, or all there are, sorted by name.
+/// The registered methods that can do without parameters and without a problem, or all there are,
+/// sorted by name.
 std::vector<MethodInfo> method_catalogue(bool also_those_with_needs = false);
 
 /// True if every stage keeps nodes where the constraints of a mesh have them (SmootherTraits).

@@ -3,7 +3,6 @@
 
 #include "smoothing/mesh/node_constraints.h"
 #include "smoothing/quality/mean_ratio.h"
-#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 
@@ -43,28 +42,31 @@ std::vector<NodeIndex> put_back(Mesh<dim, spacedim>& mesh,
 template <int dim, int spacedim>
 std::vector<NodeIndex> reset_nodes_of_invalid_cells(
     Mesh<dim, spacedim>& mesh, std::type_identity_t<std::span<const Point<spacedim>>> previous,
-    std::vector<double>& cell_quality) {
-  std::vector<CellIndex> invalid = invalid_cells(cell_quality);
+    std::vector<double>& cell_quality, double least_quality) {
+  const auto is_bad = [&](double q) { return !(q > 0.0) || q < least_quality; };
+  std::vector<CellIndex> bad;
+  for (CellIndex c = 0; c < cell_quality.size(); ++c)
+    if (is_bad(cell_quality[c])) bad.push_back(c);
   std::vector<std::uint32_t> facets = facets_out_of_bound(mesh);
   std::vector<NodeIndex> all_moved;
   while (true) {
-    const auto moved = put_back(mesh, previous, invalid, facets);
+    const auto moved = put_back(mesh, previous, bad, facets);
     if (moved.empty()) return all_moved;  // what is left was so before
     all_moved.insert(all_moved.end(), moved.begin(), moved.end());
-    invalid.clear();
+    bad.clear();
     for (const CellIndex c : mesh.topology().cells_around(moved)) {
       cell_quality[c] = cell_mean_ratio(mesh, c);
-      if (!(cell_quality[c] > 0.0)) invalid.push_back(c);
+      if (is_bad(cell_quality[c])) bad.push_back(c);
     }
     facets = facets_out_of_bound(mesh, moved);
   }
 }
 
 template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2>&, std::span<const Point<2>>,
-                                                             std::vector<double>&);
+                                                             std::vector<double>&, double);
 template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<3>&, std::span<const Point<3>>,
-                                                             std::vector<double>&);
+                                                             std::vector<double>&, double);
 template std::vector<NodeIndex> reset_nodes_of_invalid_cells(Mesh<2, 3>&, std::span<const Point<3>>,
-                                                             std::vector<double>&);
+                                                             std::vector<double>&, double);
 
 }  // namespace smoothfem

@@ -2,6 +2,7 @@
 #include "smoothing/loop/smooth.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "smoothing/base/scoped_timer.h"
@@ -57,6 +58,10 @@ class SmoothingRun {
 
   /// The initial quality costs a method time only if it looks at quality at all.
   void start(const Method<dim, spacedim>& method) {
+    if (method.info.needs_problem) {
+      solver_ = method.problem->make_solver();
+      state_.solver = solver_.get();
+    }
     reorder(method);
     if (!reordering_) state_.mesh.topology().node_cells(0);  // of the mesh, and so no method's time
     double others_seconds = 0.0;
@@ -84,7 +89,8 @@ class SmoothingRun {
                        .why_stopped = "it reached its largest number of iterations"};
     std::optional<BestMesh<spacedim>> best;
     {
-      const ScopedTimer timer(preparation_seconds_);
+      // Where there is a problem, what comes before the first step is mostly a solve.
+      const ScopedTimer timer(solver_ ? seconds_ : preparation_seconds_);
       smoother.initialize(state_);
       best.emplace(traits.result, state_.mesh.coordinates(), quality_, smoother.initial_score());
     }
@@ -125,12 +131,12 @@ class SmoothingRun {
 
  private:
   /// Small meshes stay in the cache in any order, and keep the sums of the published numbers.
-  /// Constraints know nodes by their numbers.
+  /// Constraints know nodes by their numbers, and problems their boundary's parts by labels.
   void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
     // Sweeps in the mesh's own order want nodes to lie in it, too: with nodes of a neighbourhood
     // together they took twice the time (Laplace, 580,000 tetrahedra as Gmsh numbers them).
-    if (state_.mesh.constraints() || state_.mesh.n_nodes() < min_nodes ||
+    if (state_.mesh.constraints() || solver_ || state_.mesh.n_nodes() < min_nodes ||
         any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
       return;
     if constexpr (dim == spacedim) {
@@ -192,7 +198,8 @@ class SmoothingRun {
   void observe(const std::string& stage, std::size_t iteration, const StepReport& report) {
     if (observer_)
       observer_({n_records_, stage, iteration, seconds_, preparation_seconds_, report.wall_seconds,
-                 quality_, report.n_made_invalid, report.n_reset},
+                 quality_, report.n_made_invalid, report.n_reset,
+                 solver_ ? std::optional(solver_->effort()) : std::nullopt},
                 users_view());
     ++n_records_;
   }
@@ -200,6 +207,7 @@ class SmoothingRun {
   Mesh<dim, spacedim>& users_mesh_;
   SmoothingState<dim, spacedim> state_;
   const Observer<dim, spacedim>& observer_;
+  std::unique_ptr<ProblemSolver<spacedim>> solver_;  ///< null: the method needs none
   std::optional<Reordering<spacedim>> reordering_;
   std::optional<Mesh<dim, spacedim>> view_;  ///< the mesh in the caller's order, where reordered
   double seconds_ = 0.0;                     ///< of the main loops
@@ -217,6 +225,14 @@ void require_constraints_kept(const Mesh<dim, spacedim>& mesh,
     throw InputError("method " + method.info.name +
                      " cannot keep boundary nodes on the boundary; fix them, or take one of " +
                      joined(methods_that_take<dim, spacedim>(true)));
+}
+
+template <int dim, int spacedim>
+void require_problem(const Method<dim, spacedim>& method) {
+  if (method.info.needs_problem && !method.problem)
+    throw InputError("method " + method.info.name +
+                     " moves nodes by the solution of a problem, and here is none; name it in a "
+                     "study that solves one");
 }
 
 template <int dim, int spacedim>
@@ -260,7 +276,11 @@ template <int dim, int spacedim>
 SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer) {
   require_constraints_kept(mesh, method);
-  const int exponent = mesh.constraints() ? 0 : extreme_exponent(std::as_const(mesh).coordinates());
+  require_problem(method);
+  // Constraints and problems are those of a place.
+  const int exponent = mesh.constraints() || method.info.needs_problem
+                           ? 0
+                           : extreme_exponent(std::as_const(mesh).coordinates());
   if (exponent == 0) return smooth_at_its_size(mesh, method, observer);
   const ScaledMesh scaled(mesh, -exponent);
   Observer<dim, spacedim> sees_its_size;

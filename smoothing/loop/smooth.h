@@ -25,6 +25,8 @@ struct IterationRecord {
   /// Cells that the step made invalid, before nodes were put back; of methods that do that.
   std::optional<std::size_t> n_made_invalid;
   std::size_t n_reset = 0;
+  /// So far, of methods that need a problem: its time is part of smoothing_seconds.
+  std::optional<SolveEffort> solves = {};
 };
 
 /// Gets every iteration's numbers and mesh, the initial one included. Its time does not count as
@@ -56,9 +58,9 @@ struct SmoothingResult {
 /// stopping, timing (thesis, Chapter 4), and an order of large meshes that suits the memory: the
 /// caller and the observer see their own. Deterministic: the same bits for every number of threads.
 /// Throws InputError if the method needs a valid mesh and `mesh` is not, and if it cannot keep the
-/// nodes of a mesh with constraints where they belong; whatever is thrown, `mesh` is then as far as
-/// it came. Planar, volume and surface meshes; nodes of the last stay on their initial surface
-/// (thesis, Section 5.1.2).
+/// nodes of a mesh with constraints where they belong, or if it needs a problem and has none;
+/// whatever is thrown, `mesh` is then as far as it came. Planar, volume and surface meshes; nodes
+/// of the last stay on their initial surface (thesis, Section 5.1.2).
 template <int dim, int spacedim>
 SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer = {});

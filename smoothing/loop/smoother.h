@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "smoothing/loop/problem.h"
 #include "smoothing/loop/stopping.h"
 #include "smoothing/mesh/mesh.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -24,6 +25,8 @@ struct SmoothingState {
   std::vector<double> cell_quality;
   /// Of the mesh that the method, not just this stage, began with.
   MeshQuality initial_quality = {};
+  /// Of the problem whose solution the method needs (MethodInfo::needs_problem); otherwise null.
+  ProblemSolver<spacedim>* solver = nullptr;
 };
 
 /// Who evaluates the quality of the cells, and so whether its cost is part of the method's time.

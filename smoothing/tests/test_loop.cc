@@ -64,9 +64,9 @@ TEST(Catalogue, HasTheBuiltInMethodsAndNamesThemInErrors) {
        {"getme", "getme-sequential", "getme-simultaneous", "global-optimization", "laplace",
         "smart-laplace", "weighted-laplace"})
     EXPECT_FALSE(make_method<2>(name).stages.empty()) << name;
-  EXPECT_THAT(
-      message_of([] { make_method<2>("getmee"); }),
-      HasSubstr("there is no method 'getmee'; did you mean 'getme'? choose one of getme, "));
+  EXPECT_THAT(message_of([] { make_method<2>("getmee"); }),
+              HasSubstr("there is no method 'getmee'; did you mean 'getme'? choose one of "
+                        "energy-descent, energy-lbfgs, getme, "));
 }
 
 template <int dim>

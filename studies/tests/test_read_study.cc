@@ -177,6 +177,12 @@ TEST_F(StudyFile, AllMeansEveryRegisteredMethod) {
   EXPECT_EQ(names_of(read(one_mesh).methods), registered) << "'all' is the default";
 }
 
+TEST_F(StudyFile, MethodsThatNeedAProblemAreForStudiesThatSolveOne) {
+  const std::string energy = one_mesh + "set methods = energy-descent\n";
+  EXPECT_EQ(names_of(read(energy).methods), std::vector<std::string>{"energy-descent"});
+  expect_error(energy + "set degrees =\n", "solves none");
+}
+
 TEST_F(StudyFile, DegreesMayBeEmptyForSmoothingOnly) {
   EXPECT_TRUE(read(one_mesh + "set degrees =\n").degrees.empty());
   EXPECT_EQ(read(one_mesh + "set degrees = 2\n").degrees, std::vector<int>{2});

@@ -62,6 +62,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
   row.iteration.n_made_invalid = 5;
   row.iteration.preparation_seconds = 0.25;
   row.iteration.wall_seconds = 0.5;
+  row.iteration.solves = SolveEffort{.n_solves = 6, .seconds = 0.0625};
   row.warpage = MeshWarpage{.max = 0.75, .mean = 0.125, .n_faces = 3};
   row.solved = full_record();
   const auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
@@ -73,6 +74,8 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                         {"smoothing_seconds", "0.1"},
                                         {"preparation_seconds", "0.25"},
                                         {"wall_seconds", "0.5"},
+                                        {"n_solves", "6"},
+                                        {"method_solve_seconds", "0.0625"},
                                         {"q_min", "0.1"},
                                         {"q_star_min", "0.2"},
                                         {"n_invalid", "0"},

@@ -123,6 +123,25 @@ TEST_F(RunStudy, NumbersDependNeitherOnTheThreadsNorOnTheRun) {
   EXPECT_EQ(table(two, "thresholds.csv").rows.size(), 2u * 4u);
 }
 
+TEST_F(RunStudy, MethodsThatSolveSayHowOftenAndForHowLong) {
+  const CsvTable iterations =
+      table(run(study("set methods = getme, energy-descent\nset degrees = 1\n"
+                      "subsection method energy-descent\n set descent.solves = 4\nend\n")),
+            "iterations.csv");
+  for (const auto& row : iterations.select({{"method", "getme"}})) {
+    EXPECT_EQ(row.at("n_solves"), "");
+    EXPECT_EQ(row.at("method_solve_seconds"), "");
+  }
+  const auto rows = iterations.select({{"method", "energy-descent"}});
+  std::vector<std::string> n_solves;
+  for (const auto& row : rows) {
+    n_solves.push_back(row.at("n_solves"));
+    EXPECT_LE(std::stod(row.at("method_solve_seconds")), std::stod(row.at("smoothing_seconds")));
+  }
+  EXPECT_EQ(n_solves, (std::vector<std::string>{"0", "0", "2", "3", "4"}));
+  EXPECT_LT(std::stod(rows.back().at("h1_error")), std::stod(rows[1].at("h1_error")));
+}
+
 TEST_F(RunStudy, RecordEveryKeepsEveryKthTheBestAndTheLast) {
   const std::string only = "set degrees = 1\nset methods = getme\n";
   const fs::path all = run(study(only), "all"),

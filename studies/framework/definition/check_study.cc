@@ -53,6 +53,18 @@ void check_stages(const Study& study) {
                        "', which none of the methods has; " + choose_one_of(known, stage));
 }
 
+/// Methods that need a problem have that of the study.
+void check_problem(const Study& study) {
+  if (!study.degrees.empty()) return;
+  with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
+    for (const auto& method : study.methods)
+      if (method.make<dim, spacedim>().info.needs_problem)
+        throw InputError("method " + method.name +
+                         " moves nodes by the solution of the study's problem, but the study "
+                         "solves none; write 'set degrees = 1', or leave the method out");
+  });
+}
+
 void check_thresholds(const Study& study) {
   const auto& reference = study.thresholds.reference;
   if (reference.empty()) return;
@@ -79,6 +91,7 @@ void check_study(const Study& study) {
   check_names(study);
   check_solution(study.solution);
   check_stages(study);
+  check_problem(study);
   check_thresholds(study);
 }
 

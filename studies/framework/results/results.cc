@@ -134,13 +134,17 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows) {
   CsvText csv(
       std::string("study,mesh,method,stage,iteration,smoothing_seconds,preparation_seconds,"
-                  "wall_seconds,q_min,q_star_min,q_mean,n_invalid,n_made_invalid,n_reset,w_max,"
-                  "w_mean,") +
+                  "wall_seconds,n_solves,method_solve_seconds,q_min,q_star_min,q_mean,n_invalid,"
+                  "n_made_invalid,n_reset,w_max,w_mean,") +
       solution_columns);
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iteration.stage);
     csv.integer(row.iteration.iteration).number(row.iteration.smoothing_seconds);
     csv.number(row.iteration.preparation_seconds).number(row.iteration.wall_seconds);
+    if (const auto& solves = row.iteration.solves)
+      csv.integer(solves->n_solves).number(solves->seconds);
+    else
+      csv.field("").field("");
     add_quality(csv, row.iteration.quality);
     if (row.iteration.n_made_invalid)
       csv.integer(*row.iteration.n_made_invalid);

@@ -27,9 +27,10 @@ namespace smoothfem {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshQuality, q_min, q_star_min, q_mean, n_invalid)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CellsBelow, threshold, n, n_star)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshWarpage, max, mean, n_faces)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolveEffort, n_solves, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(IterationRecord, record, stage, iteration, smoothing_seconds,
                                    preparation_seconds, wall_seconds, quality, n_made_invalid,
-                                   n_reset)
+                                   n_reset, solves)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record, iterations_text,
                                    smoothing_seconds, preparation_seconds, wall_seconds, quality,
                                    cells_below, warpage, warpage_of_records, peak_memory_gib,

@@ -8,6 +8,7 @@
 
 #include "fem/check_pieces.h"
 #include "fem/chosen_points.h"
+#include "fem/poisson_problem.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
@@ -53,6 +54,10 @@ class StudyRun {
       require_same_settings(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
       if (!study_.degrees.empty()) data_.solution = make_solution();
     });
+    if constexpr (dim == spacedim)
+      if (data_.solution)
+        problem_ =
+            make_poisson_problem<dim>(*data_.solution, study_.finite_elements.natural_groups);
     if (earlier_.status == "complete") {
       data_.checkpoint.remove();  // of a run that was killed after its last word
       return report_complete();
@@ -164,7 +169,7 @@ class StudyRun {
     set_n_threads(method.threads > 0 ? method.threads
                                      : static_cast<int>(options_.smoothing_threads));
     const Trajectory trajectory = record_trajectory(
-        prepared.mesh, method, study_, is_of_results_only(prepared), folders_of(name),
+        prepared.mesh, method, study_, is_of_results_only(prepared), problem_, folders_of(name),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
         },
@@ -356,6 +361,7 @@ class StudyRun {
   unsigned int n_threads_;
   mutable Progress progress_;
   StudyData<dim, spacedim> data_;
+  std::shared_ptr<const Problem<spacedim>> problem_;  ///< null: the study solves none
   SolveCosts costs_;
   EarlierRun earlier_;
   std::optional<FolderLock> lock_;

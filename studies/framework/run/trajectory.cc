@@ -16,7 +16,7 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// Both times of several runs, of a whole run or up to one of its records.
+/// The times of several runs, of a whole run or up to one of its records.
 class RecordTimes {
  public:
   template <class Timed>
@@ -24,14 +24,22 @@ class RecordTimes {
     smoothing_.push_back(timed.smoothing_seconds);
     preparation_.push_back(timed.preparation_seconds);
   }
+  void add(const IterationRecord& record) {
+    add<IterationRecord>(record);
+    if (record.solves) solves_.push_back(record.solves->seconds);
+  }
   template <class Timed>
   void set_medians(Timed& timed) const {
     timed.smoothing_seconds = median(smoothing_);
     timed.preparation_seconds = median(preparation_);
   }
+  void set_medians(IterationRecord& record) const {
+    set_medians<IterationRecord>(record);
+    if (record.solves) record.solves->seconds = median(solves_);
+  }
 
  private:
-  std::vector<double> smoothing_, preparation_;
+  std::vector<double> smoothing_, preparation_, solves_;
 };
 
 /// Tells for record after record whether it is to be kept: every k-th of all, or of its stage if
@@ -71,7 +79,9 @@ template MeshWarpage warpage_of(const Mesh<2, 3>&);
 
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
-                             const Study& study, bool only_results, const SmootherFolders& folders,
+                             const Study& study, bool only_results,
+                             const std::shared_ptr<const Problem<spacedim>>& problem,
+                             const SmootherFolders& folders,
                              const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
                              const WatchIteration& watch) {
   Trajectory trajectory;
@@ -94,8 +104,13 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   };
   const PeakMemory memory;
   Mesh<dim, spacedim> smoothed = mesh;
-  auto first = method.make<dim, spacedim>();
-  use_folders(first, folders);
+  const auto make_method = [&] {
+    auto made = method.make<dim, spacedim>();
+    made.problem = problem;
+    use_folders(made, folders);
+    return made;
+  };
+  auto first = make_method();
   SmoothingResult result;
   try {
     result = smooth(smoothed, first, record_all);
@@ -127,8 +142,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   const int timing_runs = trajectory.failure.empty() ? study.timing_runs : 1;
   for (int run = 1; run < timing_runs; ++run) {
     Mesh<dim, spacedim> again = mesh;
-    auto made = method.make<dim, spacedim>();
-    use_folders(made, folders);
+    auto made = make_method();
     totals.add(smooth(again, made, [&](const IterationRecord& record, const auto&) {
       watch(record);
       times[record.record].add(record);
@@ -141,12 +155,15 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
 }
 
 template Trajectory record_trajectory(const Mesh<2>&, const StudyMethod&, const Study&, bool,
+                                      const std::shared_ptr<const Problem<2>>&,
                                       const SmootherFolders&, const KeepSnapshot<2>&,
                                       const WatchIteration&);
 template Trajectory record_trajectory(const Mesh<3>&, const StudyMethod&, const Study&, bool,
+                                      const std::shared_ptr<const Problem<3>>&,
                                       const SmootherFolders&, const KeepSnapshot<3>&,
                                       const WatchIteration&);
 template Trajectory record_trajectory(const Mesh<2, 3>&, const StudyMethod&, const Study&, bool,
+                                      const std::shared_ptr<const Problem<3>>&,
                                       const SmootherFolders&, const KeepSnapshot<3>&,
                                       const WatchIteration&);
 

@@ -49,10 +49,13 @@ using WatchIteration = std::function<void(const IterationRecord&)>;
 /// `keep` gets their meshes in any order, and
 /// may get others too. A study that neither solves nor writes series needs the result's mesh only:
 /// then `keep` gets no other. What `keep` or `watch` throw ends it; a method that fails is a
-/// trajectory with a `failure`. folders: of the method's files.
+/// trajectory with a `failure`. problem: for methods that need one; null otherwise. folders: of the
+/// method's files.
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
-                             const Study& study, bool only_results, const SmootherFolders& folders,
+                             const Study& study, bool only_results,
+                             const std::shared_ptr<const Problem<spacedim>>& problem,
+                             const SmootherFolders& folders,
                              const std::type_identity_t<KeepSnapshot<spacedim>>& keep,
                              const WatchIteration& watch);
 

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/energy.h"
+
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "fem/cell_integrals.h"
+#include "fem/cell_load.h"
+#include "fem/chosen_points.h"
+#include "smoothing/base/parallel.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr std::size_t cells_of_part = 256;
+
+/// Calls work(part, first, last) for parts of a group's cells, several at a time.
+template <class Work>
+void for_parts(const ElementCells& group, const Work& work) {
+  parallel_for_ranges(group.n_cells(), cells_of_part, [&](std::size_t first, std::size_t last) {
+    work(first / cells_of_part, first, last);
+  });
+}
+
+/// A function on one cell.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+struct CellFunction {
+  std::array<Vector<dim, double>, n_vertices> vertices;
+  std::array<double, n_dofs> values;
+
+  CellFunction(const ElementCells& group, std::size_t cell, const std::vector<Point<dim>>& x,
+               const Eigen::VectorXd& u)
+      : vertices(cell_vertices<dim, n_vertices>(group, cell, x)) {
+    for (std::size_t i = 0; i < n_dofs; ++i) values[i] = u[group.dofs[cell * n_dofs + i]];
+  }
+
+  MappedPoint<dim, double> map(const QuadratureTable& table, std::size_t q) const {
+    return map_point<dim, double>(table, q, vertices);
+  }
+
+  Point<dim> gradient(const QuadratureTable& table, std::size_t q,
+                      const MappedPoint<dim, double>& mapped) const {
+    std::array<double, dim> reference{};
+    for (std::size_t i = 0; i < n_dofs; ++i)
+      for (std::size_t d = 0; d < dim; ++d)
+        reference[d] += values[i] * table.shape_gradient[dim * (q * n_dofs + i) + d];
+    return point_of(mapped.jacobian.gradient(reference.data()));
+  }
+
+  /// Adds what the energy's derivatives in the vertices have from |grad u|^2.
+  void add_dirichlet_term(const QuadratureTable& table,
+                          std::array<Point<dim>, n_vertices>& sums) const {
+    for (std::size_t q = 0; q < table.n_points; ++q) {
+      const auto mapped = map(table, q);
+      const Point<dim> slope = gradient(table, q, mapped);
+      const double square = slope.squaredNorm();
+      for (std::size_t v = 0; v < n_vertices; ++v) {
+        const Point<dim> hat = point_of(
+            mapped.jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]));
+        sums[v] += mapped.weight * (square * hat - 2.0 * slope.dot(hat) * slope);
+      }
+    }
+  }
+
+  /// The same from f u; weighted_f: at the table's points.
+  void add_load_term(const QuadratureTable& table, const double* weighted_f,
+                     std::array<Point<dim>, n_vertices>& sums) const {
+    for (std::size_t q = 0; q < table.n_points; ++q) {
+      const Point<dim> slope = 2.0 * weighted_f[q] * gradient(table, q, map(table, q));
+      for (std::size_t v = 0; v < n_vertices; ++v)
+        sums[v] += table.geometry[q * n_vertices + v] * slope;
+    }
+  }
+};
+
+template <std::size_t n_dofs, std::size_t n_vertices>
+const QuadratureTable& gradient_rule(const ElementCells& group, const EnergyRules& rules, int dim) {
+  return n_vertices == static_cast<std::size_t>(dim) + 1 ? rules.gradients : group.element.matrices;
+}
+
+/// Elements whose functions have one gradient: the integrals of f phi_i say all about f.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+constexpr bool is_linear = n_dofs == n_vertices&& n_vertices == dim + 1;
+
+}  // namespace
+
+template <int dim>
+Energy<dim>::Energy(std::shared_ptr<const FiniteElementSpace<dim>> space)
+    : space_(std::move(space)) {
+  for (const auto& group : space_->groups) {
+    const ElementType type = group.element.type;
+    if (type == ElementType::pyramid || type == ElementType::prism)
+      throw InputError(
+          "the energy of a solution is not available on pyramids and prisms; take a mesh of "
+          "tetrahedra or hexahedra");
+    const std::size_t n_cells = group.n_cells();
+    loads_.push_back({.rules = make_energy_rules(type, space_->degree),
+                      .levels = std::vector<std::uint8_t>(n_cells),
+                      .values = std::vector<double>(n_cells * group.element.n_dofs),
+                      .weighted_f = std::vector<std::vector<double>>((n_cells + cells_of_part - 1) /
+                                                                     cells_of_part)});
+  }
+}
+
+/// Calls visit.operator()<n_dofs, n_vertices>(group, number of the group).
+template <int dim, class Visit>
+static void for_each_energy_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
+  for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
+    if constexpr (dim == 2 || (n_vertices != 5 && n_vertices != 6))
+      visit.template operator()<n_dofs, n_vertices>(
+          group, static_cast<std::size_t>(&group - space.groups.data()));
+  });
+}
+
+template <int dim>
+void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x,
+                                 const ManufacturedSolution<dim>& solution) {
+  const auto run = [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group,
+                                                                   std::size_t g) {
+    GroupLoad& load = loads_[g];
+    const auto& rules = load.rules.load;
+    for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
+      auto& kept = load.weighted_f[part];
+      kept.clear();
+      std::vector<double> weighted_f(rules.back().n_points);
+      for (std::size_t cell = first; cell < last; ++cell) {
+        const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
+        CellLoad<n_dofs> integrals(rules[0], vertices, solution, weighted_f.data());
+        bool is_settled = false;
+        std::size_t level = 0;
+        while (!is_settled && level + 1 < rules.size()) {
+          const CellLoad<n_dofs> finer(rules[++level], vertices, solution, weighted_f.data());
+          is_settled = integrals.is_near(finer, chosen_points::tolerance);
+          integrals = finer;
+        }
+        load.levels[cell] = static_cast<std::uint8_t>(level);
+        std::copy(integrals.values.begin(), integrals.values.end(), &load.values[cell * n_dofs]);
+        if constexpr (!is_linear<dim, n_dofs, n_vertices>)
+          kept.insert(kept.end(), weighted_f.data(), weighted_f.data() + rules[level].n_points);
+      }
+    });
+  };
+  for_each_energy_group(*space_, run);
+}
+
+template <int dim>
+void Energy<dim>::add_load(Eigen::VectorXd& right_hand_side) const {
+  for (std::size_t g = 0; g < loads_.size(); ++g) {
+    const auto& dofs = space_->groups[g].dofs;
+    for (std::size_t k = 0; k < dofs.size(); ++k)
+      if (dofs[k] < space_->n_own) right_hand_side[dofs[k]] += loads_[g].values[k];
+  }
+}
+
+template <int dim>
+double Energy<dim>::value(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
+                          double c) const {
+  double total = 0.0;
+  const auto run = [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group,
+                                                                   std::size_t g) {
+    const GroupLoad& load = loads_[g];
+    const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules, dim);
+    std::vector<double> of_parts(load.weighted_f.size(), 0.0);
+    for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
+      for (std::size_t cell = first; cell < last; ++cell) {
+        const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
+        for (std::size_t q = 0; q < table.n_points; ++q) {
+          const auto mapped = function.map(table, q);
+          of_parts[part] += mapped.weight * function.gradient(table, q, mapped).squaredNorm();
+        }
+        for (std::size_t i = 0; i < n_dofs; ++i)
+          of_parts[part] -= 2.0 * load.values[cell * n_dofs + i] * (function.values[i] - c);
+      }
+    });
+    total = std::accumulate(of_parts.begin(), of_parts.end(), total);
+  };
+  for_each_energy_group(*space_, run);
+  return total;
+}
+
+template <int dim>
+std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
+                                              const Eigen::VectorXd& u) const {
+  std::vector<Point<dim>> sums(x.size(), Point<dim>::Zero());
+  const auto run = [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group,
+                                                                   std::size_t g) {
+    const GroupLoad& load = loads_[g];
+    const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules, dim);
+    std::vector<std::array<Point<dim>, n_vertices>> of_cells(group.n_cells());
+    for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
+      const double* weighted_f = load.weighted_f[part].data();
+      for (std::size_t cell = first; cell < last; ++cell) {
+        const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
+        of_cells[cell].fill(Point<dim>::Zero());
+        function.add_dirichlet_term(table, of_cells[cell]);
+        if constexpr (is_linear<dim, n_dofs, n_vertices>) {
+          const Point<dim> slope = function.gradient(table, 0, function.map(table, 0));
+          // Vertices and dofs of these elements have the same order.
+          for (std::size_t v = 0; v < n_vertices; ++v)
+            of_cells[cell][v] += 2.0 * load.values[cell * n_dofs + v] * slope;
+        } else {
+          const auto& rule = load.rules.load[load.levels[cell]];
+          function.add_load_term(rule, weighted_f, of_cells[cell]);
+          weighted_f += rule.n_points;
+        }
+      }
+    });
+    for (std::size_t k = 0; k < group.vertices.size(); ++k)
+      sums[group.vertices[k]] += of_cells[k / n_vertices][k % n_vertices];
+  };
+  for_each_energy_group(*space_, run);
+  return sums;
+}
+
+namespace {
+
+/// The function on one cell that is linear, as the mapping is, with the same values at the nodes.
+template <int dim, std::size_t n_vertices>
+struct LinearInterpolant {
+  std::array<Vector<dim, double>, n_vertices> vertices;
+  std::array<double, n_vertices> values;
+
+  LinearInterpolant(const FiniteElementSpace<dim>& space, const ElementCells& group,
+                    std::size_t cell, const std::vector<Point<dim>>& x, const Eigen::VectorXd& u)
+      : vertices(cell_vertices<dim, n_vertices>(group, cell, x)) {
+    for (std::size_t v = 0; v < n_vertices; ++v)
+      values[v] = u[space.vertex_dof[group.vertices[cell * n_vertices + v]]];
+  }
+
+  /// Calls visit(q, weight, gradient) for the points of a rule.
+  template <class Visit>
+  void for_each_point(const QuadratureTable& table, const Visit& visit) const {
+    for (std::size_t q = 0; q < table.n_points; ++q) {
+      const auto mapped = map_point<dim, double>(table, q, vertices);
+      std::array<double, dim> reference{};
+      for (std::size_t v = 0; v < n_vertices; ++v)
+        for (std::size_t d = 0; d < dim; ++d)
+          reference[d] += values[v] * table.geometry_gradient[dim * (q * n_vertices + v) + d];
+      visit(q, mapped.weight, point_of(mapped.jacobian.gradient(reference.data())));
+    }
+  }
+};
+
+}  // namespace
+
+template <int dim>
+std::vector<double> Energy<dim>::recovery_differences(const std::vector<Point<dim>>& x,
+                                                      const Eigen::VectorXd& u) const {
+  std::vector<Point<dim>> recovered(x.size(), Point<dim>::Zero());
+  std::vector<double> sizes_at_nodes(x.size(), 0.0), sizes, differences;
+  for_each_energy_group(*space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
+                                     const ElementCells& group, std::size_t) {
+    for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
+      Point<dim> integral = Point<dim>::Zero();
+      double size = 0.0;
+      LinearInterpolant<dim, n_vertices>(*space_, group, cell, x, u)
+          .for_each_point(group.element.matrices,
+                          [&](std::size_t, double weight, const Point<dim>& gradient) {
+                            integral += weight * gradient;
+                            size += weight;
+                          });
+      for (std::size_t v = 0; v < n_vertices; ++v) {
+        recovered[group.vertices[cell * n_vertices + v]] += integral;
+        sizes_at_nodes[group.vertices[cell * n_vertices + v]] += size;
+      }
+      sizes.push_back(size);
+    }
+  });
+  for (std::size_t i = 0; i < recovered.size(); ++i)
+    if (sizes_at_nodes[i] > 0.0) recovered[i] /= sizes_at_nodes[i];
+  for_each_energy_group(*space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
+                                     const ElementCells& group, std::size_t) {
+    const QuadratureTable& table = group.element.matrices;
+    for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
+      double square = 0.0;
+      LinearInterpolant<dim, n_vertices>(*space_, group, cell, x, u)
+          .for_each_point(table, [&](std::size_t q, double weight, const Point<dim>& gradient) {
+            Point<dim> difference = -gradient;
+            for (std::size_t v = 0; v < n_vertices; ++v)
+              difference += table.geometry[q * n_vertices + v] *
+                            recovered[group.vertices[cell * n_vertices + v]];
+            square += weight * difference.squaredNorm();
+          });
+      differences.push_back(std::sqrt(square / sizes[differences.size()]));
+    }
+  });
+  return differences;
+}
+
+template class Energy<2>;
+template class Energy<3>;
+
+}  // namespace smoothfem

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fem/finite_element_space.h"
+#include "fem/manufactured_solution.h"
+
+namespace smoothfem {
+
+/// The energy J = a(u_h, u_h) - 2 (f, u_h) of solutions on meshes of one topology, and what
+/// smoothers read from them. On triangles, quadrilaterals, tetrahedra and hexahedra, with -laplace
+/// as the operator, on one process. f is integrated by rules that each cell gets as fine as it
+/// needs: where f is not resolved, J falls by what its quadrature misses, and the error rises. The
+/// same bits for every number of threads.
+template <int dim>
+class Energy {
+ public:
+  /// The space's cells that are no simplices have a fixed number of points (TensorPoints).
+  explicit Energy(std::shared_ptr<const FiniteElementSpace<dim>> space);
+
+  /// Integrates f over the cells of a mesh, for all that follows. x: coordinates of its nodes.
+  void integrate_load(const std::vector<Point<dim>>& x, const ManufacturedSolution<dim>& solution);
+
+  /// b_i += integral of f phi_i, for the free dofs.
+  void add_load(Eigen::VectorXd& right_hand_side) const;
+
+  /// J of the finite element function with the values u at the dofs, less 2 (f, c) with the
+  /// constant c, which is 2 (f, 1) c whatever the mesh is, and keeps J from being a small
+  /// difference of large numbers.
+  double value(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u, double c) const;
+
+  /// dJ / dx_v for the values u of the solution, which stand for themselves: J is stationary in
+  /// them. For nodes v inside,
+  ///   sum over cells of integrals of -2 (grad u . grad N_v) grad u + |grad u|^2 grad N_v
+  ///                                  + 2 f N_v grad u,
+  /// N_v the hat function of the node, with which cells are mapped. (The last term is that of f u,
+  /// whose derivative is -2 (N_v u grad f + f u grad N_v), integrated by parts: no grad f.)
+  std::vector<Point<dim>> gradient(const std::vector<Point<dim>>& x,
+                                   const Eigen::VectorXd& u) const;
+
+  /// Root mean square over each cell, group after group, of G - grad u_1: u_1 is linear (as the
+  /// mapping is) with the values of u at the nodes, G the same with the means of grad u_1 in the
+  /// cells around the nodes. With elements of degree 1 that is an estimate of the error
+  /// (Zienkiewicz, Zhu 1987); with those of degree 2, whose gradient such means do not improve, it
+  /// says where u bends.
+  std::vector<double> recovery_differences(const std::vector<Point<dim>>& x,
+                                           const Eigen::VectorXd& u) const;
+
+ private:
+  /// What integrate_load leaves of the cells of one element.
+  struct GroupLoad {
+    EnergyRules rules;
+    std::vector<std::uint8_t> levels;  ///< the rule of each cell
+    std::vector<double> values;        ///< of f phi_i: n_cells x n_dofs
+    /// For parts of the cells: f times the weight of each point, cell after cell.
+    std::vector<std::vector<double>> weighted_f;
+  };
+
+  std::shared_ptr<const FiniteElementSpace<dim>> space_;
+  std::vector<GroupLoad> loads_;
+};
+
+}  // namespace smoothfem

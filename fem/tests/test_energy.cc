@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The energy of a solution, its gradient in node positions, and the indicators read from it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "fem/poisson_problem.h"
+#include "fem/poisson_solver.h"
+#include "fem/tests/unit_mesh.h"
+#include "smoothing/base/parallel.h"
+
+namespace smoothfem {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+std::vector<Case> energy_cases() {
+  auto cases = all_cases();
+  std::erase_if(cases, [](const Case& c) {
+    return c.cells == Cells::pyramids || c.cells == Cells::prisms || c.cells == Cells::mixed_volume;
+  });
+  return cases;
+}
+
+/// Smooth and with a load that no rule integrates exactly.
+template <int dim>
+ManufacturedSolution<dim> smooth_solution() {
+  return manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
+}
+
+class EnergyTest : public testing::TestWithParam<Case> {
+ protected:
+  template <int dim>
+  static std::unique_ptr<ProblemSolver<dim>> prepared(const Problem<dim>& problem,
+                                                      const Mesh<dim>& mesh) {
+    auto solver = problem.make_solver();
+    solver->prepare(mesh, GetParam().degree);
+    return solver;
+  }
+  template <int dim>
+  static Point<dim> direction(NodeIndex i) {
+    Point<dim> d;
+    for (int k = 0; k < dim; ++k) d[k] = std::sin(1.0 + 3.0 * i + 5.0 * k);
+    return d;
+  }
+};
+
+TEST_P(EnergyTest, GradientIsThatOfDifferences) {
+  GetParam().on_mesh(6, 4, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    const auto problem = make_poisson_problem<dim>(smooth_solution<dim>());
+    const auto solver = prepared<dim>(*problem, mesh);
+    const auto moved = [&](double t) {
+      auto x = mesh.copied_coordinates();
+      for (const NodeIndex i : mesh.topology().free_nodes()) x[i] += t * direction<dim>(i);
+      return x;
+    };
+    // Sixth order: errors of rounding and of the formula are both far below the tolerance.
+    constexpr double h = 1e-3;
+    const auto difference = [&](double t) {
+      return solver->solve(moved(t)) - solver->solve(moved(-t));
+    };
+    const double slope =
+        (45.0 * difference(h) - 9.0 * difference(2.0 * h) + difference(3.0 * h)) / (60.0 * h);
+    solver->solve(mesh.coordinates());
+    const auto gradient = solver->energy_gradient();
+    double derivative = 0.0, scale = 0.0;
+    for (const NodeIndex i : mesh.topology().free_nodes()) {
+      derivative += gradient[i].dot(direction<dim>(i));
+      scale += gradient[i].norm() * direction<dim>(i).norm();
+    }
+    EXPECT_NEAR(derivative, slope, 1e-6 * scale);
+  });
+}
+
+/// |grad(u - u_h)|^2 = J + const: two meshes with the same boundary differ in both by the same.
+TEST_P(EnergyTest, ChangesAsTheSquareOfTheTrueErrorDoes) {
+  GetParam().on_mesh(6, 4, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    const auto solution = smooth_solution<dim>();
+    auto even = mesh;
+    even.set_coordinates(unit_mesh<dim>(dim == 2 ? 6 : 4, GetParam().cells, 0.0).coordinates());
+    const PoissonOptions options{.degree = GetParam().degree,
+                                 .galerkin_load = true,
+                                 .cg_tolerance = 1e-12,
+                                 .condition_number = ConditionNumberMethod::none,
+                                 .jacobi_cg = Recorded::never};
+    PoissonSolver<dim> errors(&mesh, options);
+    const auto problem = make_poisson_problem<dim>(solution);
+    const auto solver = prepared<dim>(*problem, mesh);
+    const auto square = [&](const Mesh<dim>& m) {
+      const auto record = errors.solve(m.coordinates(), solution);
+      return record.h1_error * record.h1_error - record.l2_error * record.l2_error;
+    };
+    const double before = square(mesh), after = square(even);
+    EXPECT_NEAR(solver->solve(mesh.coordinates()) - solver->solve(even.coordinates()),
+                before - after, 1e-3 * std::abs(before - after));
+  });
+}
+
+TEST_P(EnergyTest, FollowsTheProblemWhereItMoves) {
+  GetParam().on_mesh(5, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    const Point<dim> shift = Point<dim>::LinSpaced(3.0, -2.0);
+    const auto here = smooth_solution<dim>();
+    auto there = here;
+    there.value = [=](const Point<dim>& p) { return here.value(p - shift); };
+    there.load = [=](const Point<dim>& p) { return here.load(p - shift); };
+    auto moved = mesh;
+    for (auto& p : moved.coordinates()) p += shift;
+    const auto problem = make_poisson_problem<dim>(here), other = make_poisson_problem<dim>(there);
+    const auto first = prepared<dim>(*problem, mesh), second = prepared<dim>(*other, moved);
+    const double energy = first->solve(mesh.coordinates());
+    EXPECT_NEAR(second->solve(moved.coordinates()), energy, 1e-9 * std::abs(energy));
+    const auto a = first->energy_gradient(), b = second->energy_gradient();
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      EXPECT_LT((a[i] - b[i]).norm(), 1e-7 * std::abs(energy)) << i;
+  });
+}
+
+TEST_P(EnergyTest, HasTheSameBitsWithEveryNumberOfThreads) {
+  const int default_threads = n_threads();
+  GetParam().on_mesh(30, 8, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    const auto problem = make_poisson_problem<dim>(smooth_solution<dim>());
+    double energy = 0.0;
+    std::vector<Point<dim>> gradient;
+    std::vector<double> indicators;
+    for (const int threads : {1, 2, 3}) {
+      set_n_threads(threads);
+      const auto solver = prepared<dim>(*problem, mesh);
+      const double value = solver->solve(mesh.coordinates());
+      if (threads == 1) {
+        energy = value;
+        gradient = solver->energy_gradient();
+        indicators = solver->recovery_indicators();
+      }
+      EXPECT_EQ(value, energy);
+      EXPECT_EQ(solver->energy_gradient(), gradient);
+      EXPECT_EQ(solver->recovery_indicators(), indicators);
+    }
+  });
+  set_n_threads(default_threads);
+}
+
+/// A solution in the space has no error, nothing to gain, and nothing to recover.
+TEST_P(EnergyTest, HasNoGradientWhereTheSolutionIsExact) {
+  GetParam().on_mesh(4, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    const auto problem = make_poisson_problem<dim>(manufactured_solution<dim>("linear"));
+    const auto solver = prepared<dim>(*problem, mesh);
+    solver->solve(mesh.coordinates());
+    for (const auto& g : solver->energy_gradient()) EXPECT_LT(g.norm(), 1e-8);
+    for (const double e : solver->recovery_indicators()) EXPECT_LT(e, 1e-7);
+  });
+}
+
+/// Indicators and the error of degree 1 fall together when the mesh is refined.
+TEST_P(EnergyTest, RecoveryTellsTheSizeOfTheError) {
+  if (GetParam().cells == Cells::mixed) GTEST_SKIP() << "cells of two sizes";
+  with_dimension(dimension_of(GetParam().cells), []<int dim>() {
+    const auto solution = smooth_solution<dim>();
+    const auto ratio = [&](std::size_t n) {
+      const auto mesh = unit_mesh<dim>(n, GetParam().cells, 0.0);
+      const auto problem = make_poisson_problem<dim>(solution);
+      const auto solver = prepared<dim>(*problem, mesh);
+      solver->solve(mesh.coordinates());
+      const auto indicators = solver->recovery_indicators();
+      EXPECT_EQ(indicators.size(), mesh.n_cells());
+      double square = 0.0;  // of cells of one size
+      for (const double e : indicators) square += e * e / static_cast<double>(mesh.n_cells());
+      PoissonSolver<dim> errors(&mesh, {.degree = 1,
+                                        .galerkin_load = true,
+                                        .condition_number = ConditionNumberMethod::none,
+                                        .jacobi_cg = Recorded::never});
+      return std::sqrt(square) / errors.solve(mesh.coordinates(), solution).h1_error;
+    };
+    const double coarse = ratio(dim == 2 ? 12 : 6), fine = ratio(dim == 2 ? 24 : 12);
+    EXPECT_GT(fine, 0.3);
+    EXPECT_LT(fine, 3.0);
+    EXPECT_LT(coarse, 1.5 * fine);
+    EXPECT_GT(coarse, 0.67 * fine);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements, EnergyTest, testing::ValuesIn(energy_cases()),
+                         [](const auto& info) { return name_of(info.param); });
+
+TEST(Energy, CountsSolvesAndNotThoseOfTheSameMesh) {
+  const auto mesh = unit_square(4, Cells::triangles, 0.1);
+  const auto problem = make_poisson_problem<2>(smooth_solution<2>());
+  const auto solver = problem->make_solver();
+  solver->prepare(mesh, 1);
+  const double energy = solver->solve(mesh.coordinates());
+  EXPECT_EQ(solver->solve(mesh.coordinates()), energy);
+  EXPECT_EQ(solver->effort().n_solves, 1u);
+  EXPECT_GT(solver->effort().seconds, 0.0);
+  solver->prepare(mesh, 2);
+  EXPECT_LT(solver->solve(mesh.coordinates()), energy) << "a larger space has less energy";
+  EXPECT_EQ(solver->effort().n_solves, 2u);
+}
+
+/// A load that a rule of few points does not see: within a cell it goes up and down.
+TEST(Energy, ResolvesSharpLoads) {
+  ManufacturedSolution<2> sharp = manufactured_solution<2>("sine");
+  sharp.value = [](const Point<2>&) { return 0.0; };
+  sharp.load = [](const Point<2>& p) {
+    return std::exp(-4e3 * (p - Point<2>(0.31, 0.33)).squaredNorm());
+  };
+  const auto energy_on = [&](std::size_t n) {
+    const auto mesh = unit_square(n, Cells::triangles, 0.0);
+    const auto problem = make_poisson_problem<2>(sharp);
+    const auto solver = problem->make_solver();
+    solver->prepare(mesh, 2);
+    return solver->solve(mesh.coordinates());
+  };
+  // With the load missed by a half the energy would be a quarter.
+  EXPECT_NEAR(energy_on(8), energy_on(32), 0.2 * std::abs(energy_on(32)));
+}
+
+TEST(Energy, RefusesWhatItDoesNotKnow) {
+  const auto mesh = unit_square(3, Cells::triangles, 0.1);
+  auto diffusive = smooth_solution<2>();
+  diffusive.diffusivity = [](const Point<2>&) -> Diffusivity<2> {
+    return Diffusivity<2>::Identity();
+  };
+  const auto problem = make_poisson_problem<2>(diffusive);
+  EXPECT_THAT([&] { problem->make_solver()->prepare(mesh, 1); },
+              ThrowsMessage<InputError>(HasSubstr("diffusivity")));
+  const Mesh<2> loose(std::make_shared<const Topology>(2, mesh.n_nodes(), mesh.topology().cells(),
+                                                       std::vector<bool>(mesh.n_nodes(), false)),
+                      mesh.copied_coordinates());
+  const auto known = make_poisson_problem<2>(smooth_solution<2>());
+  EXPECT_THAT([&] { known->make_solver()->prepare(loose, 1); },
+              ThrowsMessage<InputError>(HasSubstr("boundary is not fixed")));
+  const auto volume = make_poisson_problem<3>(smooth_solution<3>());
+  EXPECT_THAT([&] { volume->make_solver()->prepare(unit_cube(2, Cells::prisms, 0.0), 1); },
+              ThrowsMessage<InputError>(HasSubstr("pyramids and prisms")));
+}
+
+}  // namespace
+}  // namespace smoothfem

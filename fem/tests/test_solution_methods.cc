@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What every method has to hold that moves nodes by the solution of a problem. Those properties of
+/// the conformance tests that make sense with one: similarities and regular patches do not, as the
+/// problem is that of a place.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fem/poisson_problem.h"
+#include "fem/poisson_solver.h"
+#include "fem/tests/unit_mesh.h"
+#include "smoothing/base/parallel.h"
+#include "smoothing/loop/smooth.h"
+#include "smoothing/tests/methods.h"
+
+namespace smoothfem {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const auto& info : method_catalogue(true))
+    if (info.needs_problem) all.push_back(info.name);
+  return all;
+}
+
+template <int dim>
+std::vector<Mesh<dim>> distorted_meshes() {
+  if constexpr (dim == 2)
+    return {unit_square(10, Cells::triangles, 0.3), unit_square(10, Cells::quadrilaterals, 0.3),
+            unit_square(10, Cells::mixed, 0.3)};
+  else
+    return {unit_cube(5, Cells::tetrahedra, 0.3), unit_cube(5, Cells::hexahedra, 0.3)};
+}
+
+/// With a layer that GETMe's mesh does not resolve.
+template <int dim>
+ManufacturedSolution<dim> layer() {
+  return derived_solution<dim>("exp(-10*x)*cos(y) + x*y", {}, {});
+}
+
+class EveryMethodWithAProblem : public testing::TestWithParam<std::string> {
+ protected:
+  template <class Check>
+  static void in_every_dimension(const Check& check) {
+    check.template operator()<2>();
+    check.template operator()<3>();
+  }
+  template <int dim>
+  static Method<dim> method() {
+    auto made = make_method<dim>(GetParam());
+    made.problem = make_poisson_problem<dim>(layer<dim>());
+    return made;
+  }
+};
+
+TEST_P(EveryMethodWithAProblem, LowersTheTrueErrorBelowThatOfItsStart) {
+  in_every_dimension([]<int dim>() {
+    for (const auto& mesh : distorted_meshes<dim>()) {
+      PoissonSolver<dim> solver(&mesh, {.galerkin_load = true,
+                                        .condition_number = ConditionNumberMethod::none,
+                                        .jacobi_cg = Recorded::never});
+      const auto error_of = [&](const Mesh<dim>& m) {
+        return solver.solve(m.coordinates(), layer<dim>()).h1_error;
+      };
+      Mesh<dim> started = mesh, result = mesh;
+      auto getme = make_method<dim>("getme");
+      smooth(started, getme);
+      auto made = method<dim>();
+      smooth(result, made);
+      EXPECT_LT(error_of(result), 0.98 * error_of(started)) << mesh.topology().cell_nodes(0).size();
+    }
+  });
+}
+
+TEST_P(EveryMethodWithAProblem, MovesFreeNodesOnlyAndKeepsCellsValid) {
+  in_every_dimension([]<int dim>() {
+    for (const auto& mesh : distorted_meshes<dim>()) {
+      Mesh<dim> result = mesh;
+      auto made = method<dim>();
+      smooth(result, made, [&](const IterationRecord& record, const auto& seen) {
+        EXPECT_EQ(mesh_quality(seen).n_invalid, 0u) << record.record;
+        EXPECT_EQ(mesh_quality(seen).q_mean, record.quality.q_mean) << record.record;
+      });
+      EXPECT_EQ(test::n_moved_fixed_nodes(mesh, result), 0u);
+    }
+  });
+}
+
+TEST_P(EveryMethodWithAProblem, TellsItsSolvesAndKeepsToItsBudget) {
+  in_every_dimension([]<int dim>() {
+    auto mesh = distorted_meshes<dim>()[0];
+    auto made = method<dim>();
+    std::size_t n_stages = 0;
+    for (const auto& parameter : made.parameters())
+      if (parameter.name.ends_with(".solves")) {
+        made.set(parameter.name, "4");
+        ++n_stages;
+      }
+    std::vector<SolveEffort> efforts;
+    smooth(mesh, made, [&](const IterationRecord& record, const auto&) {
+      ASSERT_TRUE(record.solves.has_value());
+      EXPECT_LE(record.solves->seconds, record.smoothing_seconds);
+      efforts.push_back(*record.solves);
+    });
+    EXPECT_EQ(efforts.front().n_solves, 0u);
+    EXPECT_GE(efforts.back().n_solves, 4u);
+    EXPECT_LE(efforts.back().n_solves, 4 * n_stages);
+  });
+}
+
+TEST_P(EveryMethodWithAProblem, GivesTheSameBitsTwiceAndWithEveryNumberOfThreads) {
+  const int default_threads = n_threads();
+  in_every_dimension([]<int dim>() {
+    const auto mesh = distorted_meshes<dim>()[0];
+    std::vector<Mesh<dim>> results;
+    auto reused = method<dim>();
+    for (const int threads : {1, 2, 3}) {
+      set_n_threads(threads);
+      auto made = method<dim>();
+      for (auto* each : {&made, &reused}) {
+        results.push_back(mesh);
+        smooth(results.back(), *each);
+        EXPECT_EQ(results.back().copied_coordinates(), results.front().copied_coordinates());
+      }
+    }
+  });
+  set_n_threads(default_threads);
+}
+
+TEST_P(EveryMethodWithAProblem, TakesMeshesWithNothingToMove) {
+  const auto free = unit_square(3, Cells::triangles, 0.2);
+  const auto mesh =
+      Mesh<2>(std::make_shared<const Topology>(2, free.n_nodes(), free.topology().cells(),
+                                               std::vector<bool>(free.n_nodes(), true)),
+              free.copied_coordinates());
+  Mesh<2> result = mesh;
+  auto made = method<2>();
+  smooth(result, made);
+  EXPECT_EQ(result.copied_coordinates(), mesh.copied_coordinates());
+}
+
+TEST_P(EveryMethodWithAProblem, RefusesTangledMeshes) {
+  auto mesh = unit_square(6, Cells::triangles, 0.0);
+  mesh.coordinates()[mesh.topology().free_nodes()[0]] += Point<2>(0.4, 0.4);
+  auto made = method<2>();
+  EXPECT_THROW(smooth(mesh, made), InputError);
+}
+
+TEST_P(EveryMethodWithAProblem, RefusesToDoWithoutOne) {
+  auto mesh = unit_square(4, Cells::triangles, 0.2);
+  auto made = make_method<2>(GetParam());
+  EXPECT_THAT([&] { smooth(mesh, made); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr(GetParam()), HasSubstr("problem"))));
+}
+
+TEST_P(EveryMethodWithAProblem, BeginsWithTheMethodThatItIsGiven) {
+  const auto mesh = unit_square(8, Cells::triangles, 0.3);
+  const auto started = [&](const std::string& start) {
+    Mesh<2> result = mesh;
+    auto made = method<2>();
+    made.set("start.method", start);
+    std::vector<Point<2>> first;
+    smooth(result, made, [&](const IterationRecord& record, const auto& seen) {
+      if (record.stage == "start") first = seen.copied_coordinates();
+    });
+    return first;
+  };
+  EXPECT_EQ(started("none"), mesh.copied_coordinates());
+  Mesh<2> smoothed = mesh;
+  auto smart = make_method<2>("smart-laplace");
+  smooth(smoothed, smart);
+  EXPECT_EQ(started("smart-laplace"), smoothed.copied_coordinates());
+  EXPECT_THAT([&] { started("energy-descent"); },
+              ThrowsMessage<InputError>(HasSubstr("start.method")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMethodWithAProblem, testing::ValuesIn(names()),
+                         test::test_name);
+
+TEST(MethodsWithAProblem, AreNotAmongAll) {
+  for (const auto& info : method_catalogue()) EXPECT_FALSE(info.needs_problem) << info.name;
+  EXPECT_THAT(names(), testing::IsSupersetOf({"energy-descent", "indicator-weighted"}));
+}
+
+/// No cell becomes worse than the floor, or than the worst of the start.
+TEST(MethodsWithAProblem, EnergyDescentKeepsItsQualityFloor) {
+  auto mesh = unit_square(12, Cells::triangles, 0.2);
+  auto made = make_method<2>("energy-descent");
+  made.problem = make_poisson_problem<2>(layer<2>());
+  made.set("descent.quality_floor", "0.6");
+  made.set("descent.solves", "30");
+  double start = 0.0;
+  smooth(mesh, made, [&](const IterationRecord& record, const auto&) {
+    if (record.stage == "start") start = record.quality.q_min;
+    if (record.stage == "descent") {
+      EXPECT_GE(record.quality.q_min, std::min(0.6, start));
+    }
+  });
+}
+
+}  // namespace
+}  // namespace smoothfem

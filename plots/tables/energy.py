@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of studies with methods that move nodes by the solution: the true error against the number of
+solves, and against a mesh with shorter edges in time.
+
+A method pays on a mesh if its resulting mesh has no larger true H1 error than the reference method's
+on the refined mesh, in no more time: smoothing, the method's own solves and the last solution counted
+for both.
+"""
+
+import math
+
+from ..results.rows import groups_of
+from ..results.symbols import SYMBOLS, Heading
+from .descriptions import KEY_HEADINGS
+from .number_format import MISSING, formatted
+from .table import Group, Table, number_cell, text_cell
+
+SOLVES = (5, 10, 20)
+START = "start"  # the stage whose mesh all stages after it are compared with
+REFINED = "-fine"  # a mesh's name with this is that of the same domain with shorter edges
+ERRORS = (("H1", "h1_error"), ("L2", "l2_error"))
+
+
+def make_energy_tables(results):
+    """Both tables, those that have a row."""
+    tables = [factor_table(results), pays_table(results)]
+    return [table for table in tables if table is not None]
+
+
+def solving_groups(results):
+    """((mesh, degree, method), rows) of methods that solve, in the order of the study."""
+    groups = [(key, rows) for key, rows in groups_of(results.iterations, "mesh", "degree", "method")
+              if key[2] in results.methods and (rows.text("n_solves") != "").any()]
+    return sorted(groups, key=lambda group: (results.meshes.index(group[0][0]),
+                                             results.degrees.index(group[0][1]),
+                                             results.methods.index(group[0][2])))
+
+
+def row_at(rows, n_solves):
+    """The number of the first row with so many solves; None if there is none."""
+    found = [k for k, n in enumerate(rows.number("n_solves")) if n == n_solves and rows.text("stage")[k] != START]
+    return found[0] if found else None
+
+
+def factors(rows, column):
+    """By which factor the error of the start's mesh is larger than that after each number of solves."""
+    error, stages = rows.number(column), rows.text("stage")
+    start = error[list(stages).index(START)] if START in stages else math.nan
+    at = [row_at(rows, n) for n in SOLVES]
+    return [math.nan if k is None or not error[k] > 0 else start / error[k] for k in at]
+
+
+def key_cells(keys, results):
+    """Of mesh, degree and method, empty where they repeat; and where a mesh begins."""
+    cells, rules, before = [], [], (None, None, None)
+    for number, key in enumerate(keys):
+        mesh, degree, method = key
+        if mesh != before[0] and number:
+            rules.append(number)
+        cells.append((text_cell("" if mesh == before[0] else results.title(mesh)),
+                      text_cell("" if (mesh, degree) == before[:2] else degree),
+                      text_cell(results.title(method))))
+        before = key
+    return tuple(cells), tuple(rules)
+
+
+def factor_table(results):
+    """Factors by which true errors fall below those of the mesh the methods begin with."""
+    groups = solving_groups(results)
+    if not groups:
+        return None
+    columns = []
+    for name, column in ERRORS:
+        cells = tuple(tuple(number_cell(text) for text in formatted(factors(rows, column), ".2f"))
+                      for _, rows in groups)
+        columns.append(Group(Heading(f"{name} after solves", f"{name} after solves"),
+                             tuple(str(n) for n in SOLVES), cells))
+    for name in ("q_mean", "q_min"):
+        values = [results.summary.select(mesh=mesh, degree=degree, method=method).number(name)[0]
+                  for (mesh, degree, method), _ in groups]
+        columns.append(Group(SYMBOLS[name], ("",),
+                             tuple((number_cell(text),) for text in formatted(values, ".3f"))))
+    cells, rules = key_cells([key for key, _ in groups], results)
+    return Table(study=results.study, name="table_energy", keys=cells, rules=rules, groups=tuple(columns),
+                 caption=f"{results.study_title}: factors by which true errors fall",
+                 key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
+                 left_aligned=(),
+                 notes=(("", "True errors of the mesh that the method's first stage ends with, divided by those after so "
+                             "many solves in all; the degree is that of the elements the errors are of, the methods' "
+                             "own degree need not be the same. Below 1 the error has risen. Qualities are those of "
+                             "the resulting mesh."),))
+
+
+def pays_table(results):
+    """Errors and times beside those of the refined mesh, and whether the method pays."""
+    reference = next((method for method in results.methods
+                      if not (results.iterations.select(method=method).text("n_solves") != "").any()), None)
+    rows = [(key, compared(results, key, reference)) for key, _ in solving_groups(results)]
+    rows = [(key, both) for key, both in rows if both is not None]
+    if not rows:
+        return None
+    ours, refined = [both[0] for _, both in rows], [both[1] for _, both in rows]
+
+    def group(heading, name, specification):
+        texts = zip(formatted([each[name] for each in ours], specification),
+                    formatted([each[name] for each in refined], specification))
+        return Group(Heading(heading, heading), ("here", "refined"),
+                     tuple((number_cell(a), number_cell(b)) for a, b in texts))
+    verdicts = tuple((text_cell(verdict(*both)),) for _, both in rows)
+    cells, rules = key_cells([key for key, _ in rows], results)
+    return Table(study=results.study, name="table_energy_pays", keys=cells, rules=rules,
+                 groups=(group("H1 error", "error", ".3e"), group("Seconds", "seconds", ".3f"),
+                         Group(Heading("", ""), ("Verdict",), verdicts)),
+                 caption=f"{results.study_title}: against {results.title(reference)} on the refined mesh",
+                 key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
+                 left_aligned=("Verdict",),
+                 notes=(("", "Seconds of smoothing, with what comes before it and the method's own solves, and of CG for "
+                             "the solution on the resulting mesh. A method pays where neither its error nor its time is "
+                             "larger than on the refined mesh."),))
+
+
+def compared(results, key, reference):
+    """(here, refined): error and seconds of the results; None where there is no refined mesh."""
+    mesh, degree, method = key
+    pair = [results.summary.select(mesh=name, degree=degree, method=which)
+            for name, which in ((mesh, method), (mesh + REFINED, reference))]
+    if reference is None or not all(len(rows) for rows in pair):
+        return None
+    return tuple({"error": rows.number("h1_error")[0],
+                  "seconds": sum(rows.number(name)[0] for name in ("smoothing_seconds", "preparation_seconds",
+                                                                   "cg_seconds"))} for rows in pair)
+
+
+def verdict(here, refined):
+    """In words."""
+    if any(math.isnan(value) for each in (here, refined) for value in each.values()):
+        return MISSING
+    pays = here["error"] <= refined["error"] and here["seconds"] <= refined["seconds"]
+    return "pays" if pays else "does not pay"
