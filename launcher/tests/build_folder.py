@@ -10,6 +10,7 @@ SOURCE = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("SMOOTHFEM_BUILD", SOURCE / "build" / "release"))
 SMOOTHFEM = BUILD / "bin" / "smoothfem"
 COMMANDS = ("study", "smooth", "quality", "generate", "list", "merge", "new-smoother")
+DRAWING = ("plot", "report")  # the launcher's, not the program's
 
 
 def environment(**more):

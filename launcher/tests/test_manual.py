@@ -4,10 +4,9 @@
 import re
 import unittest
 
-from .build_folder import COMMANDS, SMOOTHFEM, SOURCE, run
+from .build_folder import COMMANDS, DRAWING, SMOOTHFEM, SOURCE, run
 
 PAGE = SOURCE / "launcher" / "smoothfem.1"
-DRAWING = ("plot", "report")  # the launcher's, not the program's
 OPTION = re.compile(r"(?<![\w-])--?[a-z][a-z-]*")
 
 

@@ -13,7 +13,7 @@ import time
 import unittest
 from pathlib import Path
 
-from .build_folder import BUILD, COMMANDS, SMOOTHFEM, SOURCE, environment, run
+from .build_folder import BUILD, COMMANDS, DRAWING, SMOOTHFEM, SOURCE, environment, run
 from .test_fetch_published import Server
 
 SHARED = Path(os.environ.get("SMOOTHFEM_MESHES", SOURCE.parent / "shared" / "meshes"))
@@ -95,7 +95,7 @@ class ReadmeCommands(unittest.TestCase):
     def run_line(self, line):
         """Runs one line of README."""
         command, *words = line.removeprefix("./run ").split()
-        if command in (*COMMANDS, "plot"):
+        if command in (*COMMANDS, *DRAWING):
             self.run_program([command, *words])
         else:
             self.run_by_script(command, words)
@@ -110,11 +110,13 @@ class ReadmeCommands(unittest.TestCase):
         if key in SMALLER and "--list" not in words:
             words = [*words, "--quick", "--quiet"]
             self.set_up_published(words, more)
-        if words[0] == "plot":  # what there is to draw
+        if words[0] in DRAWING:  # what there is to draw
             run(SMOOTHFEM, "study", Path(words[1]).name, "--quick", "--quiet", "--out", words[1], folder=self.folder)
+        if "--against" in words:
+            shutil.copytree(self.folder / words[1], self.folder / words[words.index("--against") + 1])
         outcome = run(SMOOTHFEM, *words, folder=self.folder, check=False, **more)
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        if words[0] == "plot":
+        if words[0] in DRAWING:
             shutil.rmtree(self.folder / "results")
         for i, word in enumerate(words):
             if word in ("-o", "--log", "--series", "--histogram"):
