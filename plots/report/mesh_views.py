@@ -12,7 +12,7 @@ import numpy as np
 
 from ..results.rows import ResultsError
 from ..results.smoothing import INITIAL
-from ..results.vtu import read_vtu, vtk_module
+from ..results.vtu import NoVtk, read_vtu, vtk_module
 
 # Metrics of VTK (Verdict), by what its filter calls them for each type of cell. Ours is first on the page.
 MEAN_RATIO = "mean_ratio"
@@ -119,11 +119,11 @@ def parts_of(grid):
 
 
 def mesh_view(results, mesh):
-    """What the page needs to draw a mesh before and after each method; None without files of the initial mesh, or
-    where there is too much to draw."""
+    """What the page needs to draw a mesh before and after each method; None without files of the initial mesh,
+    without VTK, or where there is too much to draw."""
     try:
         initial = read_vtu(results.mesh_file(mesh, INITIAL))
-    except ResultsError:
+    except (ResultsError, NoVtk):
         return None
     parts = parts_of(initial)
     if sum(len(part.triangles) for part in parts.values()) > MOST_TRIANGLES:
