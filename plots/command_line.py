@@ -11,9 +11,8 @@ from .results.quality_histogram import read_quality_histogram
 from .report.libraries import NoLibrary
 from .results.request import Request
 from .results.rows import ResultsError
-from .results.smoothing import read_results
 from .results.write_files import write_atomically
-from .study_kinds import SMOOTHING, kind_of, outputs_of
+from .study_kinds import outputs_of
 from .tables.formats import as_markdown, as_text
 from .tables.latex import as_latex
 
@@ -167,28 +166,22 @@ def make_study(options):
     for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
         tell(sentence)
     whole = not (options.only or options.no_figures or options.out or request != Request())
-    if whole and kind_of(options.folder) == SMOOTHING:
-        make_report_of_study(options.folder, options.quiet)
+    if whole and outputs.write_report:
+        try:
+            tell(f"wrote {outputs.write_report(None, None)}")
+        except NoLibrary as error:  # the tables and figures are there without the page
+            warn(str(error))
 
 
 def make_report(options):
     """Writes report.html; raises ResultsError, NoLibrary or OSError."""
-    from .report.page import write_report
-
-    if kind_of(options.folder) != SMOOTHING:
+    outputs = outputs_of(options.folder)
+    if outputs.write_report is None:
         raise ResultsError(f"{options.folder}: only studies that smooth meshes have a report; this one has its tables in "
                            f"{options.folder / 'tables'}.")
-    path = write_report(read_results(options.folder), options.against, options.out)
+    path = outputs.write_report(options.against, options.out)
     if not options.quiet:
         print(f"wrote {path}")
-
-
-def make_report_of_study(folder, quiet):
-    """The page at the end of a study. What it needs beyond the figures may be missing: then a sentence says so."""
-    try:
-        make_report(parse_report([str(folder), *(["--quiet"] if quiet else [])]))
-    except NoLibrary as error:
-        warn(str(error))
 
 
 def make_histogram(options):

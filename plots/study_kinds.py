@@ -40,6 +40,7 @@ class Outputs:
     remarks: tuple = ()  # sentences on what a user may look for in vain
     warnings: tuple = ()  # sentences on what is wrong with the results
     least_width: float = 0.0  # inches that the words in the figures need
+    write_report: Callable = None  # (against, path) -> the path of the page written; None: the kind has none
 
     @property
     def names(self):
@@ -52,9 +53,10 @@ def smoothing_outputs(folder, request):
     whole = read_results(folder)
     results = whole.restricted(request.methods, request.meshes)
     printed = read_printed_tables(results.thesis_study, results.provenance)
-    claims, texts = read_claims(results.thesis_study), {}
+    claims, outcomes, texts = read_claims(results.thesis_study), (), {}
     if claims and results.methods == whole.methods and results.meshes == whole.meshes:
-        texts["claims"] = claims_as_markdown(check_claims(claims, results, printed), results)
+        outcomes = check_claims(claims, results, printed)
+        texts["claims"] = claims_as_markdown(outcomes, results)
 
     def plan():
         from .figures.history_study import plan_histories, plan_requested_history
@@ -63,8 +65,13 @@ def smoothing_outputs(folder, request):
     def plan_of_meshes(report):
         from .figures.smoothing_study import plan_mesh_figures
         return plan_mesh_figures(results, report)
-    return Outputs(results.folder, results.study_title, (*make_tables(results, printed), *make_seed_tables(results), *make_energy_tables(results)), plan,
-                   plan_of_meshes, texts, () if claims else (NO_CLAIMS,), tuple(left_out(results)))
+
+    def write_page(against, path):
+        from .report.page import write_report
+        return write_report(results, outcomes, against, path)
+    tables = (*make_tables(results, printed), *make_seed_tables(results), *make_energy_tables(results))
+    return Outputs(results.folder, results.study_title, tables, plan, plan_of_meshes, texts,
+                   () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page)
 
 
 def polygon_outputs(folder, request):
@@ -100,7 +107,7 @@ def collection_outputs(folder, request):
                    least_width=LEAST_WIDTH)
 
 
-SMOOTHING = "smoothing"
+SMOOTHING = "smoothing"  # the kind of a study that names none
 KINDS = {SMOOTHING: smoothing_outputs, "polygons": polygon_outputs, "collection": collection_outputs,
          "regularization": regularization_outputs}
 

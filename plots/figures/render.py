@@ -14,7 +14,7 @@ from typing import Optional
 
 import numpy as np
 
-from ..results.vtu import NoVtk, vtk_module
+from ..results.vtu import NoVtk, vtk_grid, vtk_module
 from .virtual_display import NoDisplay, virtual_display
 from .volume_geometry import View
 from .vtk_surface import face_keys, surface_of, with_faces
@@ -106,11 +106,11 @@ def actors_of(scene):
     """The plain surface or that with values, the faces that were opened, and feature edges."""
     from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 
-    surface = surface_of(vtk_grid(scene))
+    surface = surface_of(coloured_grid(scene))
     if scene.cell_colours is None:
         found = [actor_of(surface, scene, scene.point_values is not None)]
     else:
-        whole = surface_of(vtk_grid(replace(scene, cells=None)))
+        whole = surface_of(coloured_grid(replace(scene, cells=None)))
         n_points = len(scene.grid.points)
         opened = ~np.isin(face_keys(surface, n_points), face_keys(whole, n_points))
         opened |= scene.outside_coloured
@@ -128,25 +128,12 @@ def actors_of(scene):
     return found
 
 
-def vtk_grid(scene):
+def coloured_grid(scene):
     """The chosen cells as VTK's own grid, with colours or values as scalars."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+    from vtkmodules.util.numpy_support import numpy_to_vtk
 
-    grid = scene.grid
-    chosen = np.ones(len(grid.types), dtype=bool) if scene.cells is None else scene.cells
-    sizes = np.diff(grid.offsets)
-    nodes = grid.connectivity[np.repeat(chosen, sizes)]
-    offsets = np.concatenate(([0], np.cumsum(sizes[chosen])))
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(grid.points, dtype=float), deep=True))
-    cells = vtkCellArray()
-    cells.SetData(numpy_to_vtkIdTypeArray(offsets.astype(np.int64), deep=True),
-                  numpy_to_vtkIdTypeArray(nodes.astype(np.int64), deep=True))
-    result = vtkUnstructuredGrid()
-    result.SetPoints(points)
-    result.SetCells(numpy_to_vtk(grid.types[chosen].astype(np.uint8), deep=True), cells)
+    result = vtk_grid(scene.grid, scene.cells)
+    chosen = slice(None) if scene.cells is None else scene.cells
     if scene.cell_colours is not None:
         result.GetCellData().SetScalars(numpy_to_vtk(
             np.ascontiguousarray(scene.cell_colours[chosen]), deep=True))

@@ -5,12 +5,13 @@ import numpy as np
 
 
 def surface_of(grid):
-    """The outer faces of a grid with the numbers of their points in the grid."""
+    """The outer faces of a grid with the numbers of their points and cells in the grid."""
     from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
     surface = vtkDataSetSurfaceFilter()
     surface.SetInputData(grid)
     surface.PassThroughPointIdsOn()
+    surface.PassThroughCellIdsOn()
     surface.Update()
     return surface.GetOutput()
 

@@ -10,9 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..figures.volume_geometry import cell_centres
+from ..figures.vtk_surface import faces_of, surface_of
 from ..results.rows import ResultsError
 from ..results.smoothing import INITIAL
-from ..results.vtu import NoVtk, read_vtu, vtk_module
+from ..results.vtu import NoVtk, read_vtu, vtk_grid, vtk_module
 
 # Metrics of VTK (Verdict), by what its filter calls them for each type of cell. Ours is first on the page.
 MEAN_RATIO = "mean_ratio"
@@ -37,20 +39,13 @@ class Faces:
     edges: np.ndarray
 
 
-def faces_of(grid, chosen=None):
+def seen_of(grid, chosen=None):
     """What is seen of a grid's cells, all of them or those of a mask, from outside."""
-    vtk = vtk_grid(grid, chosen)
-    ids = vtk_module("util.numpy_support")
-    surface = vtk_module("vtkFiltersGeometry").vtkDataSetSurfaceFilter()
-    surface.SetInputData(vtk)
-    surface.PassThroughPointIdsOn()
-    surface.PassThroughCellIdsOn()
-    surface.Update()
-    found = surface.GetOutput()
-    nodes = ids.vtk_to_numpy(found.GetPolys().GetConnectivityArray())
-    offsets = ids.vtk_to_numpy(found.GetPolys().GetOffsetsArray())
-    nodes = ids.vtk_to_numpy(found.GetPointData().GetArray("vtkOriginalPointIds"))[nodes]
-    cells = ids.vtk_to_numpy(found.GetCellData().GetArray("vtkOriginalCellIds"))
+    to_numpy = vtk_module("util.numpy_support").vtk_to_numpy
+    surface = surface_of(vtk_grid(grid, chosen))
+    nodes, offsets = faces_of(surface)
+    nodes = to_numpy(surface.GetPointData().GetArray("vtkOriginalPointIds"))[nodes]
+    cells = to_numpy(surface.GetCellData().GetArray("vtkOriginalCellIds"))
     if chosen is not None:
         cells = np.flatnonzero(chosen)[cells]
     triangles, owners, edges = [], [], []
@@ -63,25 +58,6 @@ def faces_of(grid, chosen=None):
             owners.append(cells[faces])
         edges += [np.sort(corners[:, [k, (k + 1) % size]], axis=1) for k in range(size)]
     return Faces(np.concatenate(triangles), np.concatenate(owners), np.unique(np.concatenate(edges), axis=0))
-
-
-def vtk_grid(grid, chosen=None):
-    """A grid of VTK with all points and all cells, or those of a mask."""
-    model, ids = vtk_module("vtkCommonDataModel"), vtk_module("util.numpy_support")
-    core = vtk_module("vtkCommonCore")
-    sizes = np.diff(grid.offsets)
-    kept = np.ones(len(sizes), dtype=bool) if chosen is None else chosen
-    cells = model.vtkCellArray()
-    cells.SetData(
-        ids.numpy_to_vtkIdTypeArray(np.concatenate(([0], np.cumsum(sizes[kept]))).astype(np.int64), deep=True),
-        ids.numpy_to_vtkIdTypeArray(grid.connectivity[np.repeat(kept, sizes)].astype(np.int64), deep=True))
-    points = core.vtkPoints()
-    points.SetDataTypeToDouble()
-    points.SetData(ids.numpy_to_vtk(np.ascontiguousarray(grid.points), deep=True))
-    result = model.vtkUnstructuredGrid()
-    result.SetPoints(points)
-    result.SetCells(ids.numpy_to_vtk(grid.types[kept].astype(np.uint8), deep=True), cells)
-    return result
 
 
 def metrics_of(grid):
@@ -103,19 +79,13 @@ def metrics_of(grid):
     return {name: np.clip(np.nan_to_num(values, nan=0.0), 0.0, 1.0) for name, values in found.items()}
 
 
-def centres_of(grid):
-    """The mean of each cell's nodes, (n_cells, 3)."""
-    sums = np.add.reduceat(grid.points[grid.connectivity], grid.offsets[:-1])
-    return sums / np.diff(grid.offsets)[:, None]
-
-
 def parts_of(grid):
     """Name -> faces that can be drawn of an initial mesh."""
     if not grid.is_volume:
-        return {"mesh": faces_of(grid)}
-    centres = centres_of(grid)[:, 0]
+        return {"mesh": seen_of(grid)}
+    centres = cell_centres(grid)[:, 0]
     middle = (centres.min() + centres.max()) / 2.0
-    return {"surface": faces_of(grid), "cut": faces_of(grid, centres < middle)}
+    return {"surface": seen_of(grid), "cut": seen_of(grid, centres < middle)}
 
 
 def mesh_view(results, mesh):
@@ -152,7 +122,7 @@ def state_of(grid, nodes, cells, lower, extent):
     """A mesh's places of the nodes that are drawn, the drawn cells' numbers, and its worst cells."""
     metrics = metrics_of(grid)
     places = np.clip((grid.points[nodes] - lower) / extent, 0.0, 1.0)
-    centres = centres_of(grid)
+    centres = cell_centres(grid)
     worst = {name: [{"cell": int(c), "value": float(values[c]), "at": centres[c].tolist()}
                     for c in np.argsort(values, kind="stable")[:N_WORST]] for name, values in metrics.items()}
     return {"points": base64_of(np.round(places * 65535), "<u2"),

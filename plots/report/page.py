@@ -7,9 +7,7 @@ from html import escape
 from pathlib import Path
 from string import Template
 
-from ..claims.check import check_claims, read_claims
 from ..claims.report import criterion_of, totals, verdict_cell
-from ..results.printed_values import read_printed_tables
 from ..results.rows import ResultsError
 from ..results.write_files import write_atomically
 from .contents import comparison, contents, summary_table
@@ -37,12 +35,10 @@ def html_table(table, caption, identifier, filters=()):
             f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>")
 
 
-def claims_section(results):
+def claims_section(outcomes):
     """What holds of the thesis; empty for a study that it says nothing about."""
-    claims = read_claims(results.thesis_study)
-    if not claims:
+    if not outcomes:
         return ""
-    outcomes = check_claims(claims, results, read_printed_tables(results.thesis_study, results.provenance))
     rows = [[{"text": text} for text in (o.claim["id"], o.claim["section"], o.claim["statement"], criterion_of(o.claim),
                                          o.printed, o.ours, verdict_cell(o))] for o in outcomes]
     table = {"headings": ["Claim", "Section", "Statement", "Criterion", "Printed", "Ours", "Verdict"], "rows": rows}
@@ -83,19 +79,18 @@ def counted(number, noun, plural="s"):
     return f"{number} {noun}{'' if number == 1 else plural}"
 
 
-def page(results, against=None):
-    """The text of the page. Raises NoLibrary or ResultsError."""
+def page(results, outcomes=(), against=None):
+    """The text of the page; outcomes: of the study's claims. Raises NoLibrary or ResultsError."""
     data = contents(results)
-    failures = [row for row in results.summary.records() if row.get("status", "ok").startswith("failed")]
     words = {
         "title": escape(results.study_title), "note": escape(results.note),
         "facts": escape(f"{counted(len(results.meshes), 'mesh', 'es')}, {counted(len(results.methods), 'method')}, "
                         f"degree {' and '.join(results.degrees) or 'none (smoothing only)'}"),
-        "failures": "".join(f"<li>{escape(text)}</li>" for text in dict.fromkeys(
-            f"{results.title(row['method'])}, {results.title(row['mesh'])}: {row['status']}" for row in failures)),
+        "failures": "".join(f"<li>{escape(f'{results.title(method)}, {results.title(mesh)}: {status}')}</li>"
+                            for (mesh, method), status in results.failures.items()),
         "summary": html_table(summary_table(results), "summary.csv: a row for each mesh, method and degree",
                               "summary-table", ("mesh", "method", "degree")),
-        "claims": claims_section(results), "against": against_section(results, against),
+        "claims": claims_section(outcomes), "against": against_section(results, against),
         "provenance": provenance_section(results),
         "style": (HERE / "report.css").read_text(encoding="utf-8"),
         "libraries": "".join(map(script, scripts())),
@@ -104,8 +99,8 @@ def page(results, against=None):
     return Template((HERE / "report.html").read_text(encoding="utf-8")).substitute(words)
 
 
-def write_report(results, against=None, path=None):
+def write_report(results, outcomes=(), against=None, path=None):
     """Writes report.html into the results folder, or to a path; returns where."""
     if against is not None and not Path(against).is_dir():
         raise ResultsError(f"{against}: there is no such folder to compare with.")
-    return write_atomically(path or results.folder / NAME, page(results, against))
+    return write_atomically(path or results.folder / NAME, page(results, outcomes, against))

@@ -38,6 +38,7 @@ NUMBERS = ("iteration", "smoothing_seconds", "q_min", "q_star_min", "q_mean", "n
 FINGERPRINT = ("q_min", "q_star_min", "q_mean", "n_invalid")
 
 INITIAL = "initial"
+FAILED = "failed: "  # how the status of a method begins that gave no mesh; the reason follows
 QUICK = "quick"  # the scale that shows that everything works
 
 
@@ -70,6 +71,13 @@ class Results:
     def is_quick(self):
         """Whether the meshes are too coarse to judge anything by them."""
         return self.provenance.get("scale") == QUICK
+
+    @property
+    def failures(self):
+        """(mesh, method) -> status, "failed: " and why, of the methods that gave no mesh."""
+        rows = self.summary
+        return {(mesh, method): status for mesh, method, status in zip(*map(rows.text, ("mesh", "method", "status")))
+                if status.startswith(FAILED)}
 
     @property
     def note(self):

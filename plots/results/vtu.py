@@ -114,6 +114,24 @@ def adapted(grid):
         cell_data=arrays(grid.GetCellData())))
 
 
+def vtk_grid(grid, chosen=None):
+    """The inverse: VTK's own grid of all points, and all cells or those of a mask; without data."""
+    model, to_vtk = vtk_module("vtkCommonDataModel"), vtk_module("util.numpy_support")
+    kept = np.ones(len(grid.types), dtype=bool) if chosen is None else chosen
+    sizes = np.diff(grid.offsets)
+    offsets = np.concatenate(([0], np.cumsum(sizes[kept])))
+    nodes = grid.connectivity[np.repeat(kept, sizes)]
+    points = vtk_module("vtkCommonCore").vtkPoints()
+    points.SetData(to_vtk.numpy_to_vtk(np.ascontiguousarray(grid.points, dtype=float), deep=True))
+    cells = model.vtkCellArray()
+    cells.SetData(to_vtk.numpy_to_vtkIdTypeArray(offsets.astype(np.int64), deep=True),
+                  to_vtk.numpy_to_vtkIdTypeArray(nodes.astype(np.int64), deep=True))
+    result = model.vtkUnstructuredGrid()
+    result.SetPoints(points)
+    result.SetCells(to_vtk.numpy_to_vtk(grid.types[kept].astype(np.uint8), deep=True), cells)
+    return result
+
+
 def of_highest_dimension(grid):
     """The grid without cells that only carry the labels of its points, edges or facets."""
     # A type that is not known is no label: the figures say that they cannot draw it.

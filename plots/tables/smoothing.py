@@ -17,8 +17,6 @@ from .number_format import MISSING, relative_difference
 from .table import Cell, Group, Table, escape_tex, number_cell
 
 
-FAILED = "failed: "  # how the status of a method begins that gave no mesh; the reason follows
-
 COLUMNS_NOTE = ("Columns: our value, the printed one, and where it makes sense the relative difference "
                 "in %, from ten times the printed one on as a factor (=: the same in all printed "
                 "digits).")
@@ -79,14 +77,14 @@ def has_what_it_needs(description, rows):
 def without_failures(rows, keys, results):
     """The rows, of which those of methods that failed are left with their keys only (their numbers are the
     initial mesh's), and a note for each failure."""
-    left, reasons = [], {}
+    left, sentences = [], {}
     for row in rows:
-        status = row.get("status", "")
-        if status.startswith(FAILED):
-            reasons[f"{results.title(row['method'])}, {results.title(row['mesh'])}"] = status
+        status = results.failures.get((row["mesh"], row["method"])) if "status" in row else None
+        if status:
+            sentences[f"{results.title(row['method'])}, {results.title(row['mesh'])}: {status.rstrip('.')}."] = None
             row = {name: field for name, field in row.items() if name in keys}
         left.append(row)
-    return left, tuple(("", f"{where}: {why.rstrip('.')}.") for where, why in reasons.items())
+    return left, tuple(("", sentence) for sentence in sentences)
 
 
 def first_degree(row, rows):

@@ -12,7 +12,7 @@ import numpy as np
 from plots.__main__ import main
 from plots.report import libraries
 from plots.report.contents import comparison, contents, ratio
-from plots.report.mesh_views import faces_of, mesh_view, metrics_of
+from plots.report.mesh_views import mesh_view, metrics_of, seen_of
 from plots.report.page import page, write_report
 from plots.results.rows import ResultsError, read_rows
 from plots.results.smoothing import read_results
@@ -36,10 +36,10 @@ def hexahedra():
 class Views(InFolder):
     def test_surface_and_cut_of_cubes(self):
         grid = hexahedra()
-        whole = faces_of(grid)
+        whole = seen_of(grid)
         self.assertEqual(len(whole.triangles), 10 * 2)  # the face between them is not seen
         self.assertEqual(len(whole.edges), 20)
-        left = faces_of(grid, np.array([False, True]))
+        left = seen_of(grid, np.array([False, True]))
         self.assertEqual((len(left.triangles), set(left.cells)), (12, {1}))
         areas = np.linalg.norm(np.cross(*(grid.points[whole.triangles[:, k]] - grid.points[whole.triangles[:, 0]]
                                           for k in (1, 2))), axis=1) / 2
