@@ -13,7 +13,7 @@ from .results.request import Request
 from .results.rows import ResultsError
 from .results.write_files import write_atomically
 from .study_kinds import outputs_of
-from .tables.formats import as_markdown, as_text
+from .tables.formats import as_csv, as_markdown, as_text
 from .tables.latex import as_latex
 
 HISTOGRAM, REPORT = "histogram", "report"
@@ -149,7 +149,7 @@ def make_study(options):
               set(drawn) if request.has_history else {*outputs.names, *drawn})
     tables = [table for table in outputs.tables if table.name in wanted]
     texts = [(table.name + suffix, write(table)) for table in tables
-             for suffix, write in ((".md", as_markdown), (".tex", as_latex))]
+             for suffix, write in ((".csv", as_csv), (".md", as_markdown), (".tex", as_latex))]
     texts += [(f"{name}.md", text) for name, text in outputs.texts.items() if name in wanted]
 
     tell = (lambda text: None) if options.quiet else print

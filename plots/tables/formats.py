@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes a Table as aligned text and as Markdown."""
+"""Writes a Table as aligned text, as Markdown and as CSV."""
 
+import csv
+import io
 import re
 import textwrap
 from dataclasses import replace
+
+from .number_format import MISSING
 
 TERMINAL_WIDTH = 110
 GAP = 2  # blanks between groups; within a group there is one
@@ -100,18 +104,46 @@ def escape_markdown(text):
     return re.sub(r"([|*_])", r"\\\1", text)
 
 
+def column_headings(table):
+    """A heading for each column: that of its group is repeated."""
+    return [heading.text for heading in table.key_headings] + [
+        f"{group.heading.text} {sub}".strip() for group in table.groups for sub in group.subheadings]
+
+
+def as_csv(table):
+    """The table for programs: one line of headings, keys in every row, no commas between thousands, empty fields
+    where there is no number. Caption and notes are in the Markdown only."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(column_headings(table))
+    above = [""] * len(table.key_headings)
+    for number, key in enumerate(table.keys):
+        above = filled_down([cell.text for cell in key], above)
+        writer.writerow(above + [machine_text(cell.text) for group in table.groups for cell in group.cells[number]])
+    return text.getvalue()
+
+
+def filled_down(key, above):
+    """A row's key with what it repeats of the row above: leading entries that are left empty."""
+    n_repeated = next((i for i, entry in enumerate(key) if entry), len(key))
+    return above[:n_repeated] + key[n_repeated:]
+
+
+def machine_text(text):
+    """A cell's text as a program reads it."""
+    return "" if text == MISSING else re.sub(r"(?<=\d),(?=\d{3}(\D|$))", "", text)
+
+
 def as_markdown(table):
     """The table for a Markdown page; headings are repeated in each column."""
     def marked(cell):
         return escape_markdown(cell.text) + (f"<sup>{cell.mark}</sup>" if cell.mark else "")
 
-    headings = [h.text for h in table.key_headings]
-    alignment = [":--" for _ in headings]
+    alignment = [":--" for _ in table.key_headings]
     for group in table.groups:
-        headings += [f"{group.heading.text} {sub}".strip() for sub in group.subheadings]
         left = group.heading.text in table.left_aligned
         alignment += [":--" if left else "--:" for _ in group.subheadings]
-    headings = " | ".join(escape_markdown(heading) for heading in headings)
+    headings = " | ".join(escape_markdown(heading) for heading in column_headings(table))
     lines = [f"**{escape_markdown(table.caption)}**", "", f"| {headings} |", f"|{'|'.join(alignment)}|"]
     for number, key in enumerate(table.keys):
         cells = list(key) + [cell for group in table.groups for cell in group.cells[number]]

@@ -55,7 +55,7 @@ class CommandLine(InFolder):
 class Options(CommandLine):
     def test_only_some_by_name_or_pattern(self):
         self.assertEqual(self.made("--only", "history,table_6_2_solver", "--format", "svg")[0],
-                         {"figure_6_4_history.svg", "table_6_2_solver.md", "table_6_2_solver.tex"})
+                         {"figure_6_4_history.svg", "table_6_2_solver.csv", "table_6_2_solver.md", "table_6_2_solver.tex"})
         self.assertEqual(self.made("--only", "figure_6_3_*", "--format", "pdf")[0],
                          {"figure_6_3_meshes.pdf", "figure_6_3_meshes_full.pdf"})
         self.assertEqual(self.made("--only", "claims")[0], {"claims.md"})
@@ -70,7 +70,8 @@ class Options(CommandLine):
     def test_meshes_are_not_read_for_what_needs_none(self):
         (self.results / "meshes" / "tri_getme.vtu").write_text("no mesh")
         self.assertEqual(self.made("--only", "errors,history_log_time", "--format", "png")[0],
-                         {"table_6_3_errors.md", "table_6_3_errors.tex", "figure_6_4_history_log_time.png"})
+                         {"table_6_3_errors.csv", "table_6_3_errors.md", "table_6_3_errors.tex",
+                          "figure_6_4_history_log_time.png"})
         self.assertIn("not a complete VTU file", self.refused("--only", "meshes"))
 
     def test_names_that_are_not_there(self):
@@ -108,8 +109,8 @@ class Options(CommandLine):
                          {f"history_condition_number_d{d}.png" for d in "12"})
         self.assertEqual(self.made("--y", "q_min", "--log-x", "--format", "png")[0], {"history_q_min_log_x.png"})
         self.assertEqual(self.made("--log-y", "--only", "history_log_y*,errors", "--format", "png")[0],
-                         {"history_log_y_d1.png", "history_log_y_d2.png", "table_6_3_errors.md",
-                          "table_6_3_errors.tex"})
+                         {"history_log_y_d1.png", "history_log_y_d2.png", "table_6_3_errors.csv",
+                          "table_6_3_errors.md", "table_6_3_errors.tex"})
 
     def test_width(self):
         for text, inches in (("84mm", 84 / 25.4), ("3.3", 3.3), ("5in", 5.0)):

@@ -46,7 +46,7 @@ class PolygonStudy(InFolder):
                    for name, (number, _, _) in FIGURES.items() for suffix in (".pdf", ".png")}
         self.assertIn("figure_2_3_limits.pdf", figures)
         tables = {f"table_{name}{suffix}" for name in ("theorems", "classification")
-                  for suffix in (".md", ".tex")}
+                  for suffix in (".csv", ".md", ".tex")}
         self.assertEqual(set(contents[0]), figures | tables)
 
     def test_a_study_of_the_users_has_no_numbers_of_the_thesis(self):
@@ -54,7 +54,7 @@ class PolygonStudy(InFolder):
         self.assertEqual(self.run_main("--quiet", "--no-figures", "--only", "theorems"), (0, "", ""))
         self.assertEqual(self.run_main("--quiet", "--only", "limits,domains", "--format", "png"), (0, "", ""))
         self.assertEqual({path.name for path in self.results_folder.glob("*s/*")},
-                         {"table_theorems.md", "table_theorems.tex", "limits.png", "domains.png"})
+                         {"table_theorems.csv", "table_theorems.md", "table_theorems.tex", "limits.png", "domains.png"})
 
     def test_methods_and_columns_are_none_of_its(self):
         code, _, errors = self.run_main("--methods", "getme")

@@ -12,7 +12,7 @@ from plots.results.printed_values import read_printed_tables
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
 from plots.results.symbols import Heading
-from plots.tables.formats import TERMINAL_WIDTH, as_markdown, as_text
+from plots.tables.formats import TERMINAL_WIDTH, as_csv, as_markdown, as_text
 from plots.tables.latex import as_latex, panels_of
 from plots.tables.number_format import format_error, grouped, relative_difference
 from plots.tables.smoothing import make_tables
@@ -129,6 +129,21 @@ class Tables(InFolder):
         change_provenance(folder, note="The shape is our own.")
         text = as_text(self.tables_of("n", "smoothing"))
         self.assertIn("The shape is our own.", text[text.index("Printed values"):])
+
+    def test_csv_can_be_read_by_programs(self):
+        def row(*texts):
+            return tuple(map(Cell, texts))
+        heading = Heading("Cells", "Cells")
+        table = Table("s", "t", "A, b", (Heading("Mesh", ""), Heading("d", "")),
+                      (row("tri", "1"), row("", "2"), row('a "b", c', "1")), (), (),
+                      (Group(heading, ("ours", "%"), (row("1,234,567", "="), row("–", "×3,333"), row("12/5,099", "-1.5"))),), ())
+        self.assertEqual(list(csv.reader(as_csv(table).splitlines())),
+                         [["Mesh", "d", "Cells ours", "Cells %"], ["tri", "1", "1234567", "="],
+                          ["tri", "2", "", "×3333"], ['a "b", c', "1", "12/5099", "-1.5"]])
+        for table in self.tables().values():
+            lines = list(csv.reader(as_csv(table).splitlines()))
+            self.assertEqual({len(line) for line in lines}, {len(lines[0])})
+            self.assertEqual(len({tuple(line[:len(table.key_headings)]) for line in lines[1:]}), len(table.keys))
 
     def test_markdown_has_equal_columns(self):
         for table in self.tables().values():
