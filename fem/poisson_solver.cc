@@ -10,6 +10,14 @@
 
 namespace smoothfem {
 
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point started) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+}
+
+}  // namespace
+
 template <int dim>
 struct PoissonSolver<dim>::Workspace {
   std::shared_ptr<const FiniteElementSpace<dim>> space;
@@ -33,7 +41,7 @@ struct PoissonSolver<dim>::Workspace {
     trilinos->set_values(system.matrix);
     const auto started = std::chrono::steady_clock::now();
     trilinos->set_up_multigrid();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return seconds_since(started);
   }
 
   bool is_tiny() const { return space->n_free <= dense_limit; }
@@ -150,11 +158,13 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
   const bool verified = options_.condition_number == ConditionNumberMethod::verified ||
                         (options_.condition_number == ConditionNumberMethod::lanczos && is_result);
   const auto x = space.local_coordinates(coordinates);
+  const auto started = std::chrono::steady_clock::now();
   assemble(space, x, solution, options_.galerkin_load ? Load::quadrature : Load::nodal,
            work.system);
   if (const std::size_t n = space.ranks.sum(work.system.n_folded_cells); n > 0)
     add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") + " folded inside", record);
   work.sliced.set_values(work.system.matrix);
+  record.assembly_seconds = seconds_since(started);
 
   ConjugateGradientsOptions cg_options{
       .tolerance = options_.cg_tolerance,

@@ -43,6 +43,7 @@ struct PoissonOptions {
 struct SolutionRecord {
   int degree = 0;
   std::size_t n_dofs = 0, n_free = 0;
+  double assembly_seconds = 0.0;  ///< of matrix and right-hand side
   double condition_number = 0.0, lambda_min = 0.0, lambda_max = 0.0;
   std::string condition_method;     ///< "none" where it was not asked for
   double condition_residual = 0.0;  ///< see ConditionNumber::residual

@@ -23,8 +23,8 @@ from pathlib import Path
 
 MESH_FORMATS = (".vtu", ".vtk", ".msh", ".mesh", ".inp")
 TIMES = {"smoothing_seconds", "preparation_seconds", "wall_seconds", "reference_preparation_seconds",
-         "method_preparation_seconds", "cg_seconds", "jacobi_cg_seconds", "amg_setup_seconds", "amg_cg_seconds",
-         "reference_seconds", "method_seconds", "speedup", "peak_memory_gib"}
+         "method_preparation_seconds", "assembly_seconds", "cg_seconds", "jacobi_cg_seconds", "amg_setup_seconds",
+         "amg_cg_seconds", "reference_seconds", "method_seconds", "speedup", "peak_memory_gib"}
 
 PLANAR_STUDY = """set meshes = grid
 set methods = laplace, getme

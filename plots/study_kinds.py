@@ -99,11 +99,12 @@ def regularization_outputs(folder, request):
 def collection_outputs(folder, request):
     """Of a collection."""
     results = read_collection_results(folder)
+    tables, findings = make_collection_tables(results)
 
     def plan():
         from .figures.collection import plan_collection_figures
         return plan_collection_figures(results)
-    return Outputs(results.folder, results.study_title, tuple(make_collection_tables(results)), plan,
+    return Outputs(results.folder, results.study_title, tuple(tables), plan, texts={"findings": findings},
                    least_width=LEAST_WIDTH)
 
 

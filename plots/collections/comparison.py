@@ -35,7 +35,7 @@ class Payoff:
     method: str  # INITIAL_MESH: the unsmoothed mesh at the next degree
     error: float  # over that of the initial mesh at this degree
     error_interval: tuple
-    time: float  # smoothing and CG, over CG on the initial mesh
+    time: float  # smoothing and solving, over solving on the initial mesh
     n_problems: int
 
 
@@ -91,16 +91,16 @@ def payoffs(problems, methods):
     collected = {}
     for problem in problems:
         first = next(iter(problem.curves.values()))
-        error, seconds = first[ERROR][0], max(first["cg_seconds"][0], 1e-6)
+        error, seconds = first[ERROR][0], max(first["solving"][0], 1e-6)
         for method in methods:
             if method in problem.curves:
                 curve = problem.curves[method]
                 note(collected, problem, method, curve[ERROR][-1] / error,
-                     (curve["seconds"][-1] + curve["cg_seconds"][-1]) / seconds)
+                     (curve["seconds"][-1] + curve["solving"][-1]) / seconds)
         higher = by_key.get((problem.member, str(int(problem.degree) + 1)))
         if higher:
             first = next(iter(higher.curves.values()))
-            note(collected, problem, INITIAL_MESH, first[ERROR][0] / error, first["cg_seconds"][0] / seconds)
+            note(collected, problem, INITIAL_MESH, first[ERROR][0] / error, first["solving"][0] / seconds)
     return [payoff(*key, values) for key, values in sorted(collected.items())]
 
 

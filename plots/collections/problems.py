@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..results.rows import groups_of
+from ..results.rows import groups_of, solving_seconds
 
 LEAST_FAMILIES = 5  # to draw families for intervals; fewer say too little, and meshes are drawn
 ERROR = "h1_error"
@@ -21,7 +21,7 @@ class Problem:
     mesh: str
     group: str  # what intervals draw it with: the family or the mesh
     degree: str
-    curves: dict  # method -> {"seconds": ..., "cg_seconds": ..., "h1_error": ...}
+    curves: dict  # method -> {"seconds": ..., "solving": ..., "h1_error": ...}
 
     def errors(self):
         """Method -> (seconds of smoothing, errors), without records that were not solved."""
@@ -37,8 +37,9 @@ def problems_of(results):
     """All problems whose initial mesh is solved, in the order of the file."""
     rows = results.iterations
     by = group_column(rows)
-    numbers = {name: rows.number(name) for name in ("smoothing_seconds", "preparation_seconds", "cg_seconds", ERROR)}
+    numbers = {name: rows.number(name) for name in ("smoothing_seconds", "preparation_seconds", ERROR)}
     seconds = numbers["smoothing_seconds"] + numbers["preparation_seconds"]
+    solving = solving_seconds(rows)
     members, degrees, methods = (rows.text(name) for name in ("member", "degree", "method"))
     places = {}
     for number, key in enumerate(zip(members, degrees)):
@@ -52,7 +53,7 @@ def problems_of(results):
             solved = np.isfinite(numbers[ERROR][chosen])
             if solved[0]:
                 chosen = chosen[solved]
-                curves[method] = {"seconds": seconds[chosen], "cg_seconds": numbers["cg_seconds"][chosen],
+                curves[method] = {"seconds": seconds[chosen], "solving": solving[chosen],
                                   ERROR: numbers[ERROR][chosen]}
         if curves:
             first = next(iter(of_methods.values()))[0]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .rows import ResultsError, Rows, entries, order_of, read_provenance, read_rows
+from .rows import SOLVING, ResultsError, Rows, entries, order_of, read_provenance, read_rows
 from .smoothing import INITIAL
 
 MEMBER_COLUMNS = ("member", "family", "elements", "solution", "status", "reason")
@@ -16,7 +16,7 @@ QUALITIES = ("q_min", "q_star_min", "q_mean")
 OUTCOMES = ("l2_error", "h1_error", "condition_number", "cg_iterations")
 # Of iterations.csv, which has many rows.
 KEYS = ("member", "family", "elements", "solution", "mesh", "method", "degree")
-NUMBERS = ("smoothing_seconds", "preparation_seconds", "cg_seconds", "n_invalid", *QUALITIES, *OUTCOMES)
+NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
 
 
 @dataclass(frozen=True)

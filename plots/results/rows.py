@@ -95,6 +95,16 @@ def read_rows(path, required=(), ends_with_line=True):
     return Rows(path, {name: table[:, i] for i, name in enumerate(header)})
 
 
+SOLVING = ("assembly_seconds", "cg_seconds", "jacobi_cg_seconds", "amg_setup_seconds", "amg_cg_seconds")
+
+
+def solving_seconds(rows):
+    """What a solution costs, shape (rows,): assembly, where the rows have it, and the fastest solver that was run: CG
+    alone, with the diagonal, or with multigrid and its setup. NaN where none is known."""
+    assembly, alone, jacobi, setup, multigrid = map(rows.number, SOLVING)
+    return np.nan_to_num(assembly) + np.fmin(np.fmin(alone, jacobi), setup + multigrid)
+
+
 def groups_of(rows, *names):
     """The rows as (values of these columns, rows that have them), in the order of the file."""
     keys = list(zip(*(rows.text(name) for name in names)))

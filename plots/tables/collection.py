@@ -4,6 +4,7 @@
 import math
 
 from ..collections.comparison import INITIAL_MESH, payoffs, ranking
+from ..collections.findings import findings_as_markdown
 from ..collections.prediction import predictions, samples_of, thresholds
 from ..collections.problems import problems_of
 from ..results.rows import groups_of
@@ -39,13 +40,15 @@ def table_of(results, name, caption, keys, groups, notes):
 
 
 def make_collection_tables(results):
-    """Members, correlations, thresholds, ranks, and whether smoothing pays; those without rows are left out."""
+    """(tables, page of findings): members, correlations, thresholds, ranks, and whether smoothing pays; tables without
+    rows are left out."""
     samples, problems = samples_of(results), problems_of(results)
-    tables = (members_table(results), prediction_table(results, predictions(results, samples)),
-              threshold_table(results, thresholds(results, samples)),
-              ranking_table(results, ranking(problems, results.methods)),
-              payoff_table(results, payoffs(problems, results.methods)))
-    return [table for table in tables if table.keys]
+    predicted, enough = predictions(results, samples), thresholds(results, samples)
+    ranks, gains = ranking(problems, results.methods), payoffs(problems, results.methods)
+    tables = (members_table(results), prediction_table(results, predicted), threshold_table(results, enough),
+              ranking_table(results, ranks), payoff_table(results, gains))
+    return ([table for table in tables if table.keys],
+            findings_as_markdown(results, problems, predicted, enough, ranks, gains))
 
 
 def members_table(results):
@@ -119,5 +122,6 @@ def payoff_table(results, found):
          ("Time / initial", [("", [number(p.time, ".3g") for p in found])]),
          ("Problems", [("", [number_cell(str(p.n_problems)) for p in found])])],
         ["Geometric means over a family's problems, beside the unsmoothed mesh at degree d: true H1 error, and time of "
-         "smoothing with its preparations and of CG without preconditioner. Assembly is in neither time.",
+         "smoothing with its preparations, of assembly, and of the fastest solver that was run: CG alone, with the diagonal, "
+         "or with multigrid and its setup.",
          "Intervals hold 95 % of bootstrap samples that draw meshes. A dash: there is no number."])

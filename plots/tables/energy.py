@@ -9,7 +9,7 @@ for both.
 
 import math
 
-from ..results.rows import groups_of
+from ..results.rows import groups_of, solving_seconds
 from ..results.symbols import SYMBOLS, Heading
 from .descriptions import KEY_HEADINGS
 from .number_format import MISSING, formatted
@@ -114,8 +114,9 @@ def pays_table(results):
                  caption=f"{results.study_title}: against {results.title(reference)} on the refined mesh",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=("Verdict",),
-                 notes=(("", "Seconds of smoothing, with what comes before it and the method's own solves, and of CG for "
-                             "the solution on the resulting mesh. A method pays where neither its error nor its time is "
+                 notes=(("", "Seconds of smoothing, with what comes before it and the method's own solves, and for "
+                             "the solution on the resulting mesh of assembly, where the results have it, and of the "
+                             "fastest solver that was run. A method pays where neither its error nor its time is "
                              "larger than on the refined mesh."),))
 
 
@@ -127,8 +128,8 @@ def compared(results, key, reference):
     if reference is None or not all(len(rows) for rows in pair):
         return None
     return tuple({"error": rows.number("h1_error")[0],
-                  "seconds": sum(rows.number(name)[0] for name in ("smoothing_seconds", "preparation_seconds",
-                                                                   "cg_seconds"))} for rows in pair)
+                  "seconds": rows.number("smoothing_seconds")[0] + rows.number("preparation_seconds")[0]
+                  + solving_seconds(rows)[0]} for rows in pair)
 
 
 def verdict(here, refined):

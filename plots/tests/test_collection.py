@@ -4,14 +4,17 @@
 import contextlib
 import io
 import json
+from pathlib import Path
 
 import numpy as np
 
 from plots.__main__ import main
-from plots.collections.comparison import payoffs, ranking
+from plots.collections.comparison import Payoff, payoffs, ranking
+from plots.collections.findings import verdict
 from plots.collections.prediction import predictions, relative_to_least, thresholds
 from plots.collections.problems import problems_of
 from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, read_collection_results
+from plots.results.rows import SOLVING, Rows, solving_seconds
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
 
@@ -34,7 +37,8 @@ def write_collection(folder, n_members=8):
                     error = (1.0 + m) * (1.0 - 0.5 * gain) / 10.0**(degree - 1)
                     rows.append({**member, "mesh": f"mesh{m}", "method": method, "degree": degree,
                                  "smoothing_seconds": 0.1 * i * (1 if method == "good" else 2),
-                                 "preparation_seconds": 0, "cg_seconds": 0.5, "n_invalid": 0, "q_min": 0.3,
+                                 "preparation_seconds": 0, "assembly_seconds": 0.2, "cg_seconds": 9,
+                                 "jacobi_cg_seconds": 0.3, "amg_setup_seconds": 0.2, "amg_cg_seconds": 0.2, "n_invalid": 0, "q_min": 0.3,
                                  "q_star_min": 0.2 + 0.001 * (7 * i % 5), "q_mean": 0.5 + 0.3 * gain,
                                  "l2_error": error**2, "h1_error": error, "condition_number": 100,
                                  "cg_iterations": 30})
@@ -82,6 +86,16 @@ class Collection(InFolder):
         self.assertAlmostEqual(higher.time, 1.0)
         self.assertNotIn(("one", "2", "initial"), found)
 
+    def test_solving_is_assembly_and_the_fastest_solver_there_is(self):
+        def seconds(*fields):
+            return solving_seconds(Rows(Path("x"), {name: np.array([field], dtype=object)
+                                                    for name, field in zip(SOLVING, fields)}))[0]
+        self.assertEqual(seconds("1", "8", "4", "2", "1"), 4.0)
+        self.assertEqual(seconds("1", "8", "4", "2", "3"), 5.0)
+        self.assertEqual(seconds("1", "8", "", "", ""), 9.0)
+        self.assertEqual(seconds("", "2", "4", "", ""), 2.0)
+        self.assertTrue(np.isnan(seconds("", "", "", "", "")))
+
     def test_relative_to_the_least_of_the_same_member(self):
         np.testing.assert_allclose(relative_to_least(np.array([2.0, 4.0, 3.0, 0.0]), np.array(["a", "a", "b", "b"])),
                                    [1.0, 2.0, 1.0, np.nan])
@@ -92,10 +106,34 @@ class Collection(InFolder):
             for suffix in ("pdf", "png"):
                 self.assertGreater((self.folder / "r" / "figures" / f"{name}.{suffix}").stat().st_size, 1000)
         for name in ("members", "prediction", "good_enough", "ranking", "payoff"):
-            for suffix in ("md", "tex"):
+            for suffix in ("csv", "md", "tex"):
                 self.assertTrue((self.folder / "r" / "tables" / f"table_{name}.{suffix}").exists())
         text = (self.folder / "r" / "tables" / "table_members.md").read_text()
         self.assertIn("| one | 5 | 4 | 1 |", text)
+
+    def test_findings_have_a_number_and_an_interval_each(self):
+        self.assertEqual(main([str(self.folder / "r"), "--quiet", "--only", "findings"]), 0)
+        text = (self.folder / "r" / "tables" / "findings.md").read_text()
+        for sentence in (
+                "- 8 of 9 members are complete: 16 problems, a member at a degree each, and 2 methods.",
+                "- Not run, one, 1 member: tangled.",
+                "- Triangles, d = 1: q_mean goes best with the error: rank correlation -1.00 (-1.00 to -1.00) over ",
+                "- At equal budgets of time Good has the lowest mean rank, 1.00 (1.00 to 1.00), and leaves 0.500 "
+                "(0.500 to 0.500) of the initial mesh's error.",
+                "- one, d = 1: Good leaves 0.500 (0.500 to 0.500) of the error for 2 times the time of one solution; degree 2 "
+                "on the unsmoothed mesh leaves 0.100 (0.100 to 0.100) for 1 times: the next degree is better and cheaper.",
+                "- one, d = 2: Good leaves 0.500 (0.500 to 0.500) of the error for 2 times the time of one solution.",
+                "- Good ends with a larger error than the initial mesh's in 0 % (0 to 0) of 16 problems."):
+            self.assertIn(sentence, text)
+        self.assertRegex(text, r"- Idle: mean rank 2\.00 \(2\.00 to 2\.00\), 1\.000 .* of the initial error; p = [^ ]+ against the first")
+
+    def test_verdicts_say_who_is_better_and_who_is_dearer(self):
+        def payoff(error, time):
+            return Payoff("f", "1", "m", error, (error, error), time, 3)
+        for smoothed, higher, said in (((.1, 1), (.2, 2), "smoothing pays"), ((.2, 2), (.1, 1), "better and cheaper"),
+                                       ((.2, 1), (.1, 2), "the next degree is better, and dearer"),
+                                       ((.1, 2), (.2, 1), "smoothing is better, and dearer")):
+            self.assertIn(said, verdict(payoff(*smoothed), payoff(*higher)))
 
     def test_a_part_without_complete_members_has_its_table_of_members(self):
         folder = self.folder / "r"
@@ -103,7 +141,7 @@ class Collection(InFolder):
         write_csv(folder / "members.csv", MEMBER_COLUMNS,
                   [{**dict.fromkeys(MEMBER_COLUMNS, ""), "member": "broken", "status": "failed"}])
         self.assertEqual(main([str(folder), "--quiet"]), 0)
-        self.assertEqual([path.name for path in (folder / "tables").glob("*.md")], ["table_members.md"])
+        self.assertEqual({path.name for path in (folder / "tables").glob("*.md")}, {"table_members.md", "findings.md"})
 
     def test_what_is_missing_is_said(self):
         (self.folder / "r" / "iterations.csv").unlink()

@@ -50,11 +50,11 @@ py::dict record_of(const SolutionRecord& r) {
   using py::literals::operator""_a;
   return py::dict(
       "degree"_a = r.degree, "n_dofs"_a = r.n_dofs, "n_free"_a = r.n_free,
-      "condition_number"_a = r.condition_number, "lambda_min"_a = r.lambda_min,
-      "lambda_max"_a = r.lambda_max, "condition_method"_a = r.condition_method,
-      "condition_residual"_a = r.condition_residual, "cg_iterations"_a = r.cg_iterations,
-      "cg_seconds"_a = r.cg_seconds, "cg_converged"_a = r.cg_converged,
-      "jacobi_cg_iterations"_a = r.jacobi_cg_iterations,
+      "assembly_seconds"_a = r.assembly_seconds, "condition_number"_a = r.condition_number,
+      "lambda_min"_a = r.lambda_min, "lambda_max"_a = r.lambda_max,
+      "condition_method"_a = r.condition_method, "condition_residual"_a = r.condition_residual,
+      "cg_iterations"_a = r.cg_iterations, "cg_seconds"_a = r.cg_seconds,
+      "cg_converged"_a = r.cg_converged, "jacobi_cg_iterations"_a = r.jacobi_cg_iterations,
       "jacobi_cg_seconds"_a = r.jacobi_cg_seconds, "amg_cg_iterations"_a = r.amg_cg_iterations,
       "amg_setup_seconds"_a = r.amg_setup_seconds, "amg_cg_seconds"_a = r.amg_cg_seconds,
       "e_max"_a = r.e_max, "e_mean"_a = r.e_mean, "e_l2"_a = r.e_l2, "e_h1"_a = r.e_h1,

@@ -32,6 +32,7 @@ SolutionRecord full_record() {
   record.degree = 2;
   record.n_dofs = 9;
   record.n_free = 1;
+  record.assembly_seconds = 5e-5;
   record.condition_number = 12.5;
   record.lambda_min = 0.1;
   record.lambda_max = 1.25;
@@ -104,6 +105,7 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                                           {"l2_error", 0.30000000000000004},
                                                           {"h1_error", 6.0},
                                                           {"cg_seconds", 1e-5},
+                                                          {"assembly_seconds", 5e-5},
                                                           {"jacobi_cg_seconds", 2e-5},
                                                           {"condition_residual", 2e-7},
                                                           {"amg_setup_seconds", 3e-5},
@@ -122,6 +124,7 @@ TEST(IterationsCsv, WhatThereIsNotIsLeftEmpty) {
   auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
   for (const std::string column : {"n_dofs",
                                    "n_free",
+                                   "assembly_seconds",
                                    "condition_number",
                                    "condition_method",
                                    "lambda_min",

@@ -13,11 +13,11 @@ namespace smoothfem {
 namespace {
 
 constexpr const char* solution_columns =
-    "degree,n_dofs,n_free,condition_number,condition_method,lambda_min,lambda_max,"
+    "degree,n_dofs,n_free,assembly_seconds,condition_number,condition_method,lambda_min,lambda_max,"
     "condition_residual,cg_iterations,cg_seconds,cg_converged,jacobi_cg_iterations,"
     "jacobi_cg_seconds,amg_cg_iterations,amg_setup_seconds,amg_cg_seconds,e_max,e_mean,e_l2,e_h1,"
     "l2_error,h1_error,status";
-constexpr int n_solution_numbers = 21;  ///< between degree and status
+constexpr int n_solution_numbers = 22;  ///< between degree and status
 
 /// Two columns for each threshold.
 std::string count_columns(const std::vector<CellsBelow>& counts) {
@@ -54,7 +54,8 @@ void add_solution(CsvText& csv, int degree, const std::optional<SolutionRecord>&
   const auto if_known = [](double value) {
     return value > 0.0 ? std::optional<double>(value) : std::nullopt;
   };
-  csv.integer(s.n_dofs).integer(s.n_free).number(if_known(s.condition_number));
+  csv.integer(s.n_dofs).integer(s.n_free).number(s.assembly_seconds);
+  csv.number(if_known(s.condition_number));
   csv.field(s.condition_method).number(if_known(s.lambda_min)).number(if_known(s.lambda_max));
   csv.number(s.condition_number > 0.0 ? std::optional(s.condition_residual) : std::nullopt);
   csv.integer(s.cg_iterations).number(s.cg_seconds).field(s.cg_converged ? "true" : "false");

@@ -35,12 +35,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record
                                    smoothing_seconds, preparation_seconds, wall_seconds, quality,
                                    cells_below, warpage, warpage_of_records, peak_memory_gib,
                                    failure)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, condition_number,
-                                   lambda_min, lambda_max, condition_method, condition_residual,
-                                   cg_iterations, jacobi_cg_iterations, amg_cg_iterations,
-                                   cg_seconds, jacobi_cg_seconds, amg_setup_seconds, amg_cg_seconds,
-                                   cg_converged, e_max, e_mean, e_l2, e_h1, l2_error, h1_error,
-                                   most_points, status)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, assembly_seconds,
+                                   condition_number, lambda_min, lambda_max, condition_method,
+                                   condition_residual, cg_iterations, jacobi_cg_iterations,
+                                   amg_cg_iterations, cg_seconds, jacobi_cg_seconds,
+                                   amg_setup_seconds, amg_cg_seconds, cg_converged, e_max, e_mean,
+                                   e_l2, e_h1, l2_error, h1_error, most_points, status)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, seconds, eigenvectors)
 
 namespace {

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a collection shows, in sentences: each has its number and the interval of it."""
+
+import math
+from collections import Counter
+
+import numpy as np
+
+from ..results.symbols import symbol_of
+from ..statistics.bootstrap import interval
+from .comparison import INITIAL_MESH
+from .problems import ERROR
+
+SURE = 0.05  # a paired test below this tells two methods apart
+SCALES = "Error: the true H1 error, if nothing else is said. In brackets: intervals that hold 95 % of bootstrap samples."
+
+
+def findings_as_markdown(results, problems, predictions, thresholds, ranks, payoffs):
+    """A page of sentences, from what the tables show."""
+    sections = (("What was run", what_was_run(results, problems)),
+                ("What predicts the error", what_predicts(predictions)),
+                ("How good is good enough", what_is_enough(thresholds)),
+                ("Which method", which_method(results, ranks)),
+                ("Does smoothing pay?", what_pays(results, payoffs)),
+                ("What speaks against it", what_got_worse(results, problems)))
+    lines = [f"# {results.study_title}: findings", "", SCALES]
+    for heading, sentences in sections:
+        if sentences:
+            lines += ["", f"## {heading}", "", *(f"- {sentence}" for sentence in sentences)]
+    return "\n".join(lines) + "\n"
+
+
+def bracket(low_high, form=".2f"):
+    """ (0.12 to 0.34); nothing where there is no interval."""
+    low, high = low_high
+    return f" ({low:{form}} to {high:{form}})" if math.isfinite(low) else " (no interval: one mesh only)"
+
+
+def what_was_run(results, problems):
+    """Members, and why some have failed."""
+    states = Counter(results.members.text("status"))
+    sentences = [f"{states['complete']} of {len(results.members)} members are complete: {len(problems)} problems, a member "
+                 f"at a degree each, and {len(results.methods)} methods."]
+    failed = results.members.select(status="failed")
+    reasons = Counter(zip(failed.text("family"), failed.text("reason")))
+    return sentences + [f"Not run, {family}, {n} {'member' if n == 1 else 'members'}: {reason.rstrip('.')}."
+                        for (family, reason), n in sorted(reasons.items())]
+
+
+def what_predicts(predictions):
+    """For each type of elements and degree the quality that goes best with the error."""
+    sentences = []
+    for elements, degree in sorted({(p.elements, p.degree) for p in predictions}):
+        known = [p for p in predictions if (p.elements, p.degree, p.outcome) == (elements, degree, ERROR)
+                 and math.isfinite(p.across)]
+        if not known:
+            continue
+        best = max(known, key=lambda p: abs(p.across))
+        low, high = best.across_interval
+        verdict = "goes best with the error" if low * high > 0 else "comes nearest to predicting the error, but its sign is not sure"
+        others = ", ".join(f"{symbol_of(p.quality).text} {p.across:.2f}{bracket(p.across_interval)}"
+                           for p in known if p is not best)
+        within = (f" Among the meshes of one member it is {best.within:.2f}{bracket(best.within_interval)} in the middle."
+                  if math.isfinite(best.within) else "")
+        sentences.append(f"{elements.capitalize()}, d = {degree}: {symbol_of(best.quality).text} {verdict}: rank correlation "
+                         f"{best.across:.2f}{bracket(best.across_interval)} over {best.n_records} meshes of "
+                         f"{best.n_members} members; {others}.{within}")
+    return sentences
+
+
+def what_is_enough(thresholds):
+    """By mean quality, the number that has most to do with all cells."""
+    return [f"{elements.capitalize()}, d = {degree}: from {symbol_of(quality).text} {value:.3f}{bracket(between, '.3f')} on the "
+            "error falls by less than 5 %." for elements, degree, quality, value, between in thresholds
+            if quality == "q_mean" and math.isfinite(value)]
+
+
+def which_method(results, ranks):
+    """The first method, those that cannot be told from it, and the others."""
+    if not ranks:
+        return []
+    best, others = ranks[0], ranks[1:]
+    sentences = [f"At equal budgets of time {results.title(best.method)} has the lowest mean rank, "
+                 f"{best.rank:.2f}{bracket(best.rank_interval)}, and leaves {best.ratio:.3f}"
+                 f"{bracket(best.ratio_interval, '.3f')} of the initial mesh's error."]
+    for entry in others:
+        told = (f"p = {entry.p_value:.2g} against the first" if entry.p_value < SURE
+                else f"cannot be told from the first (p = {entry.p_value:.2g})")
+        sentences.append(f"{results.title(entry.method)}: mean rank {entry.rank:.2f}{bracket(entry.rank_interval)}, "
+                         f"{entry.ratio:.3f}{bracket(entry.ratio_interval, '.3f')} of the initial error; {told}.")
+    return sentences
+
+
+def what_pays(results, payoffs):
+    """Smoothing beside the next degree on the unsmoothed mesh, for each family and degree."""
+    sentences = []
+    for family, degree in sorted({(p.family, p.degree) for p in payoffs}):
+        here = [p for p in payoffs if (p.family, p.degree) == (family, degree)]
+        higher = next((p for p in here if p.method == INITIAL_MESH), None)
+        best = min((p for p in here if p is not higher), key=lambda p: p.error, default=None)
+        if best is None:
+            continue
+        text = (f"{family}, d = {degree}: {results.title(best.method)} leaves {best.error:.3f}"
+                f"{bracket(best.error_interval, '.3f')} of the error for {best.time:.2g} times the time of one solution")
+        if higher is None:
+            sentences.append(text + ".")
+            continue
+        sentences.append(f"{text}; degree {int(degree) + 1} on the unsmoothed mesh leaves {higher.error:.3f}"
+                         f"{bracket(higher.error_interval, '.3f')} for {higher.time:.2g} times: {verdict(best, higher)}.")
+    return sentences
+
+
+def verdict(smoothed, higher):
+    """Whether smoothing or the next degree has the lower error in no more time."""
+    if smoothed.error <= higher.error and smoothed.time <= higher.time:
+        return "smoothing pays"
+    if higher.error <= smoothed.error and higher.time <= smoothed.time:
+        return "the next degree is better and cheaper"
+    return "the next degree is better, and dearer" if higher.error < smoothed.error else "smoothing is better, and dearer"
+
+
+def what_got_worse(results, problems):
+    """How often a method ends with a larger error than it began with."""
+    sentences = []
+    for method in results.methods:
+        with_it = [problem for problem in problems if method in problem.curves]
+        if not with_it:
+            continue
+        worse = np.array([problem.curves[method][ERROR][-1] > problem.curves[method][ERROR][0] for problem in with_it])
+        groups = np.array([problem.group for problem in with_it], dtype=str)
+        between = interval(lambda rows, w=worse: 100.0 * np.mean(w[rows]), groups)
+        sentences.append(f"{results.title(method)} ends with a larger error than the initial mesh's in "
+                         f"{100.0 * np.mean(worse):.0f} %{bracket(between, '.0f')} of {len(with_it)} problems.")
+    return sentences
