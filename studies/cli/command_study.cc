@@ -41,8 +41,7 @@ bool started_by_mpirun() {
   return false;
 }
 
-/// MPI for as long as it lives. A process not started by mpirun needs it for Trilinos only, in
-/// volume studies.
+/// MPI for as long as it lives. A process not started by mpirun needs it for Trilinos only.
 class Mpi {
  public:
   Mpi() {
@@ -68,7 +67,7 @@ void run(Arguments& arguments, std::optional<Mpi>& mpi) {
     std::signal(SIGTERM, SIG_IGN);
   }
   const ReadyStudy study = read(arguments);
-  if (study.on_ranks && !mpi) {
+  if (study.needs_mpi && !mpi) {
     mpi.emplace();
     options.ranks = Ranks(MPI_COMM_WORLD);
   }

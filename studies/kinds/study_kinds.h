@@ -15,7 +15,7 @@ namespace smoothfem {
 /// A study of any kind, read and checked, ready to be run.
 struct ReadyStudy {
   StudyHeader header;
-  bool on_ranks = false;           ///< divides its work among processes: MPI has to be there
+  bool needs_mpi = false;          ///< MPI has to be there, be it for one process
   bool benefits_from_mpi = false;  ///< more than one process makes it faster
   bool has_shards = false;         ///< can be run in parts, as StudyOptions::shard says
   std::function<void(const StudyOptions&)> run;

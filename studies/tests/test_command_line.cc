@@ -452,6 +452,17 @@ TEST_F(CommandLine, RunsAStudyOfOnesOwn) {
   for (const auto& row : summary.rows) EXPECT_LT(std::stod(row.at("e_max")), 1.0);
 }
 
+TEST_F(CommandLine, MultigridTakesPartInThePlane) {
+  write_mesh(file("meshes/mine.vtk"), shaken_grid(20, 0.2));
+  file_with("my.prm", own_study + "subsection finite elements\n set multigrid cg = always\nend\n");
+  const Outcome outcome = smoothfem({"study", "my.prm", "--threads", "2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const CsvTable summary(content_of(file("results/my/summary.csv")));
+  ASSERT_EQ(summary.rows.size(), 6u);
+  for (const auto& row : summary.rows)
+    EXPECT_LT(std::stoi(row.at("amg_cg_iterations")), std::stoi(row.at("cg_iterations")) / 2);
+}
+
 TEST_F(CommandLine, AStudyOfSeveralSeedsHasEachOfThem) {
   file_with("my.prm",
             "set dimension = 3\nset meshes = grid\nset methods = laplace, getme\nset degrees = 1\n"

@@ -205,8 +205,10 @@ void declare_problem(ParameterHandler& p) {
                     "Of every record; initial and resulting meshes have verified ones if any.");
     p.declare_entry("jacobi cg", "always", Patterns::Selection("never|results|always"),
                     "For which meshes to run CG with Jacobi too; results: initial and resulting.");
-    p.declare_entry("multigrid cg", "never", Patterns::Selection("never|results|always"),
-                    "For which meshes to run CG with algebraic multigrid too.");
+    p.declare_entry(
+        "multigrid cg", "never", Patterns::Selection("never|results|always"),
+        "For which meshes to run CG with algebraic multigrid too. Records of planar meshes are "
+        "then solved one after the other.");
   }
   const Subsection subsection(p, "thresholds");
   p.declare_entry("reference", "", Patterns::Anything(),

@@ -36,8 +36,7 @@ class StudyRun {
       : study_(study),
         options_(options),
         team_(options.ranks),
-        n_threads_(options.n_threads > 0 ? options.n_threads
-                                         : std::max(1U, std::thread::hardware_concurrency())),
+        n_workers_(n_solve_workers(study, options)),
         progress_(options.quiet),
         data_{study, Checkpoint(options.out / "checkpoint")} {}
 
@@ -252,13 +251,13 @@ class StudyRun {
   }
 
   /// Until the tasks that are not done are: those under way count as not begun.
-  double seconds_left() const { return costs_.seconds_to_come() / (dim == 2 ? n_threads_ : 1U); }
+  double seconds_left() const { return costs_.seconds_to_come() / n_workers_; }
 
   std::vector<SolveQueue::Worker> workers(const std::vector<SolveTask*>& open) {
     if constexpr (spacedim > dim)
       return {};
     else if constexpr (dim == 2)
-      return solve_workers(data_, open, n_threads_);
+      return solve_workers(data_, open, n_workers_);
     else
       return solve_workers(data_, open, team_);
   }
@@ -341,24 +340,23 @@ class StudyRun {
   }
 
   void write_provenance(const std::string& status) {
-    write_atomically(
-        options_.out / "provenance.json",
-        provenance_json({.study = study_.header,
-                         .processors = {options_.smoothing_threads, dim == 2 ? n_threads_ : 1U,
-                                        options_.ranks.size()},
-                         .status = status,
-                         .started = started_,
-                         .seconds = times_.seconds(),
-                         .earlier_sessions = earlier_.sessions,
-                         .dimensions = study_.dimensions,
-                         .meshes = mesh_facts(),
-                         .methods = study_.methods}));
+    write_atomically(options_.out / "provenance.json",
+                     provenance_json({.study = study_.header,
+                                      .processors = {options_.smoothing_threads, n_workers_,
+                                                     options_.ranks.size()},
+                                      .status = status,
+                                      .started = started_,
+                                      .seconds = times_.seconds(),
+                                      .earlier_sessions = earlier_.sessions,
+                                      .dimensions = study_.dimensions,
+                                      .meshes = mesh_facts(),
+                                      .methods = study_.methods}));
   }
 
   const Study& study_;
   const StudyOptions& options_;
   SolverTeam team_;  ///< the other ranks wait for its orders from the beginning
-  unsigned int n_threads_;
+  unsigned int n_workers_;
   mutable Progress progress_;
   StudyData<dim, spacedim> data_;
   std::shared_ptr<const Problem<spacedim>> problem_;  ///< null: the study solves none

@@ -116,12 +116,21 @@ ManufacturedSolution<dim> study_solution(const StudySolution& solution,
 template ManufacturedSolution<2> study_solution(const StudySolution&, std::span<const Point<2>>);
 template ManufacturedSolution<3> study_solution(const StudySolution&, std::span<const Point<3>>);
 
+bool needs_mpi(const Study& study) {
+  return !study.degrees.empty() &&
+         (study.dimensions.cells == 3 || study.finite_elements.multigrid_cg != Recorded::never);
+}
+
+unsigned int n_solve_workers(const Study& study, const StudyOptions& options) {
+  return study.dimensions.cells == 3 || needs_mpi(study) ? 1 : options.threads();
+}
+
 std::vector<SolveQueue::Worker> solve_workers(StudyData<2>& data,
                                               const std::vector<SolveTask*>& tasks,
-                                              unsigned int n_threads) {
+                                              unsigned int n_workers) {
   const auto solvers = std::make_shared<PlanarSolvers>(data);
   std::vector<SolveQueue::Worker> workers;
-  for (unsigned int i = 0; i < n_threads; ++i)
+  for (unsigned int i = 0; i < n_workers; ++i)
     workers.push_back([&tasks, worker = std::make_shared<PlanarWorker>(data, solvers)](
                           std::size_t task) { worker->work(*tasks[task]); });
   return workers;

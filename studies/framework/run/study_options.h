@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include "fem/ranks.h"
 
@@ -26,6 +28,11 @@ struct StudyOptions {
   Ranks ranks{};        ///< that share the finite elements of volume meshes
   /// Set from outside to stop: the rows finished so far are written and the process ends with 130.
   const std::atomic<bool>* interrupted = nullptr;
+
+  /// n_threads, or as many as there are cores.
+  unsigned int threads() const {
+    return n_threads > 0 ? n_threads : std::max(1U, std::thread::hardware_concurrency());
+  }
 };
 
 }  // namespace smoothfem

@@ -2,11 +2,11 @@
 #include "studies/framework/run/study_plan.h"
 
 #include <cstdio>
-#include <thread>
 
 #include "studies/framework/results/results_folder.h"
 #include "studies/framework/run/progress.h"
 #include "studies/framework/run/solve_costs.h"
+#include "studies/framework/run/solve_workers.h"
 #include "studies/framework/run/study_meshes.h"
 
 namespace smoothfem {
@@ -86,11 +86,7 @@ class Plan {
   }
 
  private:
-  double n_workers() const {
-    return dim == 2 ? std::max(1U, options_.n_threads > 0 ? options_.n_threads
-                                                          : std::thread::hardware_concurrency())
-                    : 1.0;
-  }
+  double n_workers() const { return n_solve_workers(study_, options_); }
 
   int records_per_method() const {
     return std::max(1, assumed_iterations / study_.record_every.default_interval);

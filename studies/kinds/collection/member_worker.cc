@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studies/framework/run/run_study.h"
+#include "studies/framework/run/solve_workers.h"
 
 namespace smoothfem {
 
@@ -41,7 +42,7 @@ void link_files(const fs::path& from, const fs::path& to, const std::string& ext
 
 }  // namespace
 
-/// MPI, which Trilinos needs for meshes in space; started as if there were no mpirun.
+/// MPI, which Trilinos needs; started as if there were no mpirun.
 class MemberWorker::Mpi {
  public:
   Mpi() {
@@ -73,8 +74,7 @@ std::string MemberWorker::run(const Member& member) {
   if (options_.until == RunUntil::smoothing) share_smoothing(member);
   const MeshOutline outline = outline_of(collection_, member, options_.out);
   const Study study = member_study(collection_, member, outline);
-  const bool is_solved = options_.until == RunUntil::results && !study.degrees.empty();
-  if (is_solved && outline.dimensions.cells == 3) {
+  if (options_.until == RunUntil::results && needs_mpi(study)) {
     if (!mpi_) mpi_ = std::make_unique<Mpi>();
     options_.ranks = Ranks(MPI_COMM_WORLD);
   } else {

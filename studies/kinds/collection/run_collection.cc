@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
-#include <thread>
 
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
@@ -52,8 +51,7 @@ class CollectionRun {
   CollectionRun(const Collection& collection, const StudyOptions& options)
       : collection_(collection),
         options_(options),
-        n_processes_(options.n_threads > 0 ? options.n_threads
-                                           : std::max(1U, std::thread::hardware_concurrency())),
+        n_processes_(options.threads()),
         progress_(options.quiet) {
     const Shard shard = options.shard.empty() ? Shard{} : Shard::parse(options.shard);
     for (const auto& member : collection.members)

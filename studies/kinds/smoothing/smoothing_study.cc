@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/run_study.h"
+#include "studies/framework/run/solve_workers.h"
 #include "studies/kinds/study_kinds.h"
 
 namespace smoothfem {
@@ -10,7 +11,7 @@ ReadyStudy read_smoothing_study(const std::filesystem::path& file, const std::st
   const Study study = read_study(file, scale);
   const bool solves_in_space = study.dimensions.cells == 3 && !study.degrees.empty();
   return {.header = study.header,
-          .on_ranks = solves_in_space,
+          .needs_mpi = needs_mpi(study),
           .benefits_from_mpi = solves_in_space,
           .run = [study](const StudyOptions& options) { run_study(study, options); }};
 }
