@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "smoothing/base/parallel.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/geometry/extreme_size.h"
 #include "smoothing/mesh/volume_elements.h"
 #include "smoothing/quality/warpage.h"
@@ -20,31 +21,42 @@ namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-/// Grows with every angle; in degrees.
-struct Extremes {
-  double min = std::numeric_limits<double>::infinity(), max = -min;
+/// Of no angles; add() makes it grow.
+constexpr AngleRange no_angles{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
 
-  void add(double angle) {
-    min = std::min(min, angle);
-    max = std::max(max, angle);
-  }
-  void add(const Extremes& other) {
-    min = std::min(min, other.min);
-    max = std::max(max, other.max);
-  }
-};
+void add(AngleRange& range, const AngleRange& other) {
+  range.min = std::min(range.min, other.min);
+  range.max = std::max(range.max, other.max);
+}
+void add(AngleRange& range, double angle) {
+  add(range, AngleRange{angle, angle});
+}
 
-/// add(cell, extremes) for every cell; smallest and largest do not depend on the order.
-template <class Add>
-AngleRange range_over_cells(const Topology& topology, const Add& add) {
-  std::vector<Extremes> parts(topology.blocks().size());
-  parallel_for(parts.size(), [&](std::size_t b) {
+/// add_angles(nodes, range) for every cell.
+template <class AddAngles>
+std::vector<AngleRange> ranges_of_cells(const Topology& topology, const AddAngles& add_angles) {
+  std::vector<AngleRange> ranges(topology.n_cells(), no_angles);
+  parallel_for(topology.blocks().size(), [&](std::size_t b) {
     const CellBlock& block = topology.blocks()[b];
-    for (CellIndex c = block.first; c < block.last; ++c) add(topology.cell_nodes(c), parts[b]);
+    for (CellIndex c = block.first; c < block.last; ++c)
+      add_angles(topology.cell_nodes(c), ranges[c]);
   });
-  Extremes all;
-  for (const Extremes& part : parts) all.add(part);
-  return {all.min, all.max};
+  return ranges;
+}
+
+/// Angles from each side of a polygon, around its corner, to the side before: turn(next, previous)
+/// is the sine and next . previous the cosine, both times their lengths.
+template <int spacedim, class Turn>
+void add_corners(std::span<const Point<spacedim>> x, std::span<const NodeIndex> nodes,
+                 const Turn& turn, AngleRange& range) {
+  const std::size_t n = nodes.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Point<spacedim> next = x[nodes[(k + 1) % n]] - x[nodes[k]];
+    const Point<spacedim> previous = x[nodes[(k + n - 1) % n]] - x[nodes[k]];
+    const double angle = degrees * std::atan2(turn(next, previous), next.dot(previous));
+    add(range, angle < 0.0 ? angle + 360.0 : angle);
+  }
 }
 
 /// An edge of an element with its two faces; the first one runs from `from` to `to`.
@@ -91,36 +103,51 @@ Point<3> area_vector(std::span<const Point<3>> x, std::span<const NodeIndex> nod
 
 }  // namespace
 
-AngleRange angle_range(const PlanarMesh& mesh) {
-  const auto& x = mesh.coordinates();
-  return range_over_cells(
-      mesh.topology(), [&](std::span<const NodeIndex> nodes, Extremes& extremes) {
-        const std::size_t n = nodes.size();
-        for (std::size_t k = 0; k < n; ++k) {
-          const Point<2> next = x[nodes[(k + 1) % n]] - x[nodes[k]];
-          const Point<2> previous = x[nodes[(k + n - 1) % n]] - x[nodes[k]];
-          const double angle = degrees * std::atan2(cross(next, previous), next.dot(previous));
-          extremes.add(angle < 0.0 ? angle + 360.0 : angle);
-        }
-      });
+std::vector<AngleRange> cell_angle_ranges(const PlanarMesh& mesh) {
+  return ranges_of_cells(mesh.topology(), [&](std::span<const NodeIndex> nodes, AngleRange& range) {
+    add_corners<2>(
+        mesh.coordinates(), nodes,
+        [](const Point<2>& next, const Point<2>& previous) { return cross(next, previous); },
+        range);
+  });
 }
 
-AngleRange angle_range(const VolumeMesh& mesh) {
+std::vector<AngleRange> cell_angle_ranges(const SurfaceMesh& mesh) {
+  return ranges_of_cells(mesh.topology(), [&](std::span<const NodeIndex> nodes, AngleRange& range) {
+    const Point<3> normal = facet_normal(nodes, mesh.coordinates());
+    add_corners<3>(
+        mesh.coordinates(), nodes,
+        [&](const Point<3>& next, const Point<3>& previous) {
+          return normal.dot(next.cross(previous));
+        },
+        range);
+  });
+}
+
+std::vector<AngleRange> cell_angle_ranges(const VolumeMesh& mesh) {
   std::vector<Point<3>> scaled;
   const auto x = at_ordinary_size(mesh.coordinates(), scaled);
-  return range_over_cells(
-      mesh.topology(), [&](std::span<const NodeIndex> nodes, Extremes& extremes) {
-        const auto& faces = volume_element(nodes.size()).faces;
-        std::array<Point<3>, 6> normals;
-        for (std::size_t f = 0; f < faces.size(); ++f) normals[f] = area_vector(x, nodes, faces[f]);
-        for (const auto& [from, to, first, second] : edge_faces(nodes.size())) {
-          // Between the outward normals; positive where the cell is convex.
-          const Point<3> edge = (x[nodes[to]] - x[nodes[from]]).stableNormalized();
-          const Point<3>&a = normals[first], &b = normals[second];
-          extremes.add(180.0 - degrees * std::atan2(a.cross(b).dot(edge), a.dot(b)));
-        }
-      });
+  return ranges_of_cells(mesh.topology(), [&](std::span<const NodeIndex> nodes, AngleRange& range) {
+    const auto& faces = volume_element(nodes.size()).faces;
+    std::array<Point<3>, 6> normals;
+    for (std::size_t f = 0; f < faces.size(); ++f) normals[f] = area_vector(x, nodes, faces[f]);
+    for (const auto& [from, to, first, second] : edge_faces(nodes.size())) {
+      // Between the outward normals; positive where the cell is convex.
+      const Point<3> edge = (x[nodes[to]] - x[nodes[from]]).stableNormalized();
+      const Point<3>&a = normals[first], &b = normals[second];
+      add(range, 180.0 - degrees * std::atan2(a.cross(b).dot(edge), a.dot(b)));
+    }
+  });
 }
+
+template <int dim>
+AngleRange angle_range(const Mesh<dim>& mesh) {
+  AngleRange range = no_angles;
+  for (const AngleRange& of_cell : cell_angle_ranges(mesh)) add(range, of_cell);
+  return range;
+}
+template AngleRange angle_range(const Mesh<2>&);
+template AngleRange angle_range(const Mesh<3>&);
 
 MeshWarpage mesh_warpage(const VolumeMesh& mesh) {
   std::vector<Point<3>> scaled;

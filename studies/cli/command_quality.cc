@@ -8,6 +8,7 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/metrics/metric_statistics.h"
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/quality/warpage.h"
@@ -24,7 +25,7 @@ constexpr std::size_t n_bins = 10;
 constexpr std::size_t n_csv_bins = 40;  ///< a picture shows more than lines of text
 
 struct Arguments {
-  std::string in, from, histogram, mark;
+  std::string in, from, histogram, mark, metrics;
   double below = 0.0;
   bool json = false;
 };
@@ -80,6 +81,7 @@ struct Report {
   MeshQuality quality;
   std::vector<NamedNumber> geometry;
   std::vector<std::size_t> histogram;
+  std::vector<MetricStatistics> metrics;
 };
 
 void print_text(const Report& r) {
@@ -99,6 +101,15 @@ void print_text(const Report& r) {
     std::printf("  %.1f-%.1f %8zu %s\n", static_cast<double>(b) / n_bins,
                 static_cast<double>(b + 1) / n_bins, r.histogram[b],
                 std::string((r.histogram[b] * width + most - 1) / most, '#').c_str());
+  if (r.metrics.empty()) return;
+  std::printf("%-22s%8s%11s%11s%11s%11s%11s%11s\n", "metric", "cells", "min", "p05", "median",
+              "mean", "p95", "max");
+  for (const MetricStatistics& m : r.metrics) {
+    std::printf("%-22s%8zu", m.metric.c_str(), m.n_cells);
+    for (const double value : {m.min, m.p05, m.median, m.mean, m.p95, m.max})
+      m.n_cells > 0 ? std::printf("%11.4g", value) : std::printf("%11s", "-");
+    std::printf("\n");
+  }
 }
 
 void print_json(const Report& r) {
@@ -112,6 +123,19 @@ void print_json(const Report& r) {
                                  {"q_mean", r.quality.q_mean}};
   for (const auto& [key, text, value] : r.geometry) json[key] = value;
   json["histogram"] = r.histogram;
+  for (const MetricStatistics& m : r.metrics) {
+    auto& of_metric = json["metrics"][m.metric];
+    of_metric["n_cells"] = m.n_cells;
+    if (m.n_cells == 0) continue;
+    for (const auto& [key, value] :
+         std::initializer_list<std::pair<const char*, double>>{{"min", m.min},
+                                                               {"p05", m.p05},
+                                                               {"median", m.median},
+                                                               {"mean", m.mean},
+                                                               {"p95", m.p95},
+                                                               {"max", m.max}})
+      of_metric[key] = value;
+  }
   std::printf("%s\n", json.dump(2).c_str());
 }
 
@@ -185,14 +209,15 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
             const std::vector<std::size_t>& cell_lines) {
   const Topology& topology = mesh.topology();
   const auto cell_quality = cell_mean_ratios(mesh);
-  (arguments.json ? print_json
-                  : print_text)({.n_nodes = mesh.n_nodes(),
-                                 .n_fixed_nodes = mesh.n_nodes() - topology.free_nodes().size(),
-                                 .n_cells = mesh.n_cells(),
-                                 .cells = count_types(topology),
-                                 .quality = mesh_quality(topology, cell_quality),
-                                 .geometry = geometry_numbers(mesh),
-                                 .histogram = quality_histogram(cell_quality, n_bins)});
+  (arguments.json ? print_json : print_text)(
+      {.n_nodes = mesh.n_nodes(),
+       .n_fixed_nodes = mesh.n_nodes() - topology.free_nodes().size(),
+       .n_cells = mesh.n_cells(),
+       .cells = count_types(topology),
+       .quality = mesh_quality(topology, cell_quality),
+       .geometry = geometry_numbers(mesh),
+       .histogram = quality_histogram(cell_quality, n_bins),
+       .metrics = metric_statistics(metrics_named(arguments.metrics), &mesh)});
   if (!arguments.mark.empty()) mark_bad_cells(arguments, mesh, cell_quality);
   std::fflush(stdout);
   if (!arguments.histogram.empty())
@@ -208,6 +233,7 @@ void report_quality(Arguments arguments) {
   if (arguments.mark.empty() && arguments.below > 0.0)
     throw InputError("--below says which cells --mark marks; name a file with --mark");
   if (!arguments.mark.empty()) require_mesh_path(arguments.mark);
+  (void)metrics_named(arguments.metrics);  // throws before a large mesh is read
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   if (input) arguments.in = input->path();
   const MeshFile file = read_mesh(arguments.in);
@@ -231,9 +257,16 @@ void add_quality_command(CLI::App& app) {
   command->add_option("--below", arguments->below,
                       "bad are invalid cells (unless given), and those of lower mean ratio than "
                       "this");
+  command
+      ->add_option("--metrics", arguments->metrics,
+                   "other metrics, too: their range, mean and percentiles over the cells; names "
+                   "separated by commas, or all of them")
+      ->expected(0, 1)
+      ->default_str("all");
   command->add_flag("--json", arguments->json, "as JSON");
   add_examples(*command,
-               {"smoothfem quality in.vtu", "smoothfem quality in.vtu --mark bad.vtu --below 0.2"});
+               {"smoothfem quality in.vtu", "smoothfem quality in.vtu --mark bad.vtu --below 0.2",
+                "smoothfem quality in.vtu --metrics shape,size_gradation"});
   command->callback([arguments] { report_quality(*arguments); });
 }
 
