@@ -6,6 +6,7 @@ from collections import Counter
 
 import numpy as np
 
+from ..results.collection import QUALITIES
 from ..results.symbols import symbol_of
 from ..statistics.bootstrap import interval
 from .comparison import INITIAL_MESH
@@ -58,8 +59,10 @@ def what_predicts(predictions):
         best = max(known, key=lambda p: abs(p.across))
         low, high = best.across_interval
         verdict = "goes best with the error" if low * high > 0 else "comes nearest to predicting the error, but its sign is not sure"
+        # Of many, those nearest to it and those that this program smooths by.
+        by_strength = sorted((p for p in known if p is not best), key=lambda p: -abs(p.across))
         others = ", ".join(f"{symbol_of(p.quality).text} {p.across:.2f}{bracket(p.across_interval)}"
-                           for p in known if p is not best)
+                           for i, p in enumerate(by_strength) if i < 3 or p.quality in QUALITIES)
         within = (f" Among the meshes of one member it is {best.within:.2f}{bracket(best.within_interval)} in the middle."
                   if math.isfinite(best.within) else "")
         sentences.append(f"{elements.capitalize()}, d = {degree}: {symbol_of(best.quality).text} {verdict}: rank correlation "

@@ -56,7 +56,7 @@ def samples_of(results):
         chosen = chosen.where(sorted({key: number for number, key in reversed(list(enumerate(fingerprints)))}.values()))
         members = chosen.text("member")
         found.append(Sample(elements, degree, members, chosen.text(by),
-                            {name: chosen.number(name) for name in QUALITIES},
+                            {name: chosen.number(name) for name in results.qualities},
                             {name: relative_to_least(chosen.number(name), members) for name in OUTCOMES}))
     return found
 

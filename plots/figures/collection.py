@@ -60,8 +60,9 @@ def draw_prediction(data):
     outcomes = list(dict.fromkeys(p.outcome for p in found))
     columns = min(len(kinds), style.columns_that_fit(3))
     n_rows = -(-len(kinds) // columns)
+    height, fontsize = (0.25, 7) if len(qualities) < 8 else (0.15, 5.5)
     figure, axes = pyplot.subplots(n_rows, columns, squeeze=False, constrained_layout=True, sharex=True, sharey=True,
-                                   figsize=(style.full_width(), 1.3 + n_rows * (0.7 + 0.25 * len(qualities))))
+                                   figsize=(style.full_width(), 1.3 + n_rows * (0.7 + height * len(qualities))))
     for ax, kind in zip(axes.flat, kinds):
         rho = np.full((len(qualities), len(outcomes)), np.nan)
         for p in found:
@@ -70,11 +71,11 @@ def draw_prediction(data):
         image = ax.imshow(rho, vmin=-1, vmax=1, cmap="RdBu", aspect="auto")
         for (i, j), value in np.ndenumerate(rho):
             if np.isfinite(value):
-                ax.text(j, i, f"{value:.2f}", ha="center", va="center", fontsize=7,
+                ax.text(j, i, f"{value:.2f}", ha="center", va="center", fontsize=fontsize,
                         color="white" if abs(value) > 0.6 else "black")
         ax.set_title(f"{kind[0].capitalize()}, $d$ = {kind[1]}")
         ax.set_xticks(range(len(outcomes)), [symbol_of(name).tex for name in outcomes], rotation=90)
-        ax.set_yticks(range(len(qualities)), [symbol_of(name).tex for name in qualities])
+        ax.set_yticks(range(len(qualities)), [symbol_of(name).tex for name in qualities], fontsize=fontsize + 1)
         ax.grid(False)
     for ax in list(axes.flat)[len(kinds):]:
         ax.set_axis_off()

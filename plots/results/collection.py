@@ -14,6 +14,9 @@ from .smoothing import INITIAL
 MEMBER_COLUMNS = ("member", "family", "elements", "solution", "status", "reason")
 QUALITIES = ("q_min", "q_star_min", "q_mean")
 OUTCOMES = ("l2_error", "h1_error", "condition_number", "cg_iterations")
+# Of metrics.csv, and what its rows have in common with those of iterations.csv.
+RECORD = ("member", "mesh", "method", "stage", "iteration")
+STATISTICS = ("metric", "better", "min", "mean", "max")
 # Of iterations.csv, which has many rows.
 KEYS = ("member", "family", "elements", "solution", "mesh", "method", "degree")
 NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
@@ -29,7 +32,8 @@ class CollectionResults:
     methods: tuple
     titles: dict
     members: Rows
-    iterations: Rows  # KEYS and NUMBERS only
+    iterations: Rows  # KEYS, NUMBERS and the columns of metrics only
+    qualities: tuple = QUALITIES  # columns of iterations: what may predict an outcome
 
     def title(self, name):
         """The title of a method; its name where the provenance gives none."""
@@ -56,6 +60,21 @@ def read_some_columns(path, names):
     return Rows(Path(path), {name: np.array(column, dtype=object) for name, column in zip(names, columns)})
 
 
+def metric_columns(path, rows):
+    """name -> column for the rows of iterations.csv: of each metric the mean and the worst number of the same mesh."""
+    metrics = read_some_columns(path, (*RECORD, *STATISTICS))
+    numbers = {}
+    for number, key in enumerate(zip(*(rows.text(name) for name in RECORD))):
+        numbers.setdefault(key, []).append(number)
+    columns = {}
+    lines = zip(zip(*(metrics.text(name) for name in RECORD)), *(metrics.text(name) for name in STATISTICS))
+    for key, metric, better, least, mean, greatest in lines:
+        name = metric.replace("_", " ")
+        for column, value in ((f"mean {name}", mean), (f"worst {name}", least if better == "larger" else greatest)):
+            columns.setdefault(column, np.full(len(rows), "", dtype=object))[numbers.get(key, [])] = value
+    return columns
+
+
 def read_collection_results(folder):
     """Reads the folder; raises ResultsError if a file is missing, truncated or lacks a column."""
     folder = Path(folder)
@@ -63,11 +82,18 @@ def read_collection_results(folder):
     study = str(provenance.get("study") or folder.resolve().name)
     members = read_rows(folder / "members.csv", MEMBER_COLUMNS)
     # A part of a collection may have no member that is complete, and then no such file.
-    iterations = (read_some_columns(folder / "iterations.csv", (*KEYS, *NUMBERS)) if "complete" in members.text("status")
-                  else Rows(folder / "iterations.csv", {name: np.array([], dtype=object) for name in (*KEYS, *NUMBERS)}))
+    file, columns, of_metrics = folder / "iterations.csv", (*KEYS, *NUMBERS), {}
+    if "complete" not in members.text("status"):
+        iterations = Rows(file, {name: np.array([], dtype=object) for name in columns})
+    elif (folder / "metrics.csv").exists():
+        iterations = read_some_columns(file, tuple(dict.fromkeys((*columns, *RECORD))))
+        of_metrics = metric_columns(folder / "metrics.csv", iterations)
+        iterations = Rows(file, {**iterations.columns, **of_metrics})
+    else:
+        iterations = read_some_columns(file, columns)
     titles = {INITIAL: "Initial", **{entry["name"]: str(entry["title"]) for entry in entries(provenance, "methods")
                                      if entry.get("title")}}
     return CollectionResults(
         folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
         methods=tuple(name for name in order_of(iterations.text("method"), provenance, "methods") if name != INITIAL),
-        titles=titles, members=members, iterations=iterations)
+        titles=titles, members=members, iterations=iterations, qualities=(*QUALITIES, *of_metrics))

@@ -13,7 +13,7 @@ from plots.collections.comparison import Payoff, payoffs, ranking
 from plots.collections.findings import verdict
 from plots.collections.prediction import predictions, relative_to_least, thresholds
 from plots.collections.problems import problems_of
-from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, read_collection_results
+from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, STATISTICS, read_collection_results
 from plots.results.rows import SOLVING, Rows, solving_seconds
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
@@ -35,7 +35,8 @@ def write_collection(folder, n_members=8):
                 for i in range(N_RECORDS):
                     gain = i / (N_RECORDS - 1) if method == "good" else 0.0
                     error = (1.0 + m) * (1.0 - 0.5 * gain) / 10.0**(degree - 1)
-                    rows.append({**member, "mesh": f"mesh{m}", "method": method, "degree": degree,
+                    rows.append({**member, "mesh": f"mesh{m}", "method": method, "stage": "s", "iteration": i,
+                                 "degree": degree,
                                  "smoothing_seconds": 0.1 * i * (1 if method == "good" else 2),
                                  "preparation_seconds": 0, "assembly_seconds": 0.2, "cg_seconds": 9,
                                  "jacobi_cg_seconds": 0.3, "amg_setup_seconds": 0.2, "amg_cg_seconds": 0.2, "n_invalid": 0, "q_min": 0.3,
@@ -43,7 +44,7 @@ def write_collection(folder, n_members=8):
                                  "l2_error": error**2, "h1_error": error, "condition_number": 100,
                                  "cg_iterations": 30})
     members.append({**member, "member": "broken", "status": "failed", "reason": "tangled"})
-    write_csv(folder / "iterations.csv", (*KEYS, *NUMBERS), rows)
+    write_csv(folder / "iterations.csv", tuple(dict.fromkeys((*KEYS, *RECORD, *NUMBERS))), rows)
     write_csv(folder / "members.csv", MEMBER_COLUMNS, members)
     (folder / "provenance.json").write_text(json.dumps(
         {"study": "many", "study_title": "Many", "parameters": {"kind": "collection"},
@@ -65,6 +66,19 @@ class Collection(InFolder):
         np.testing.assert_allclose(best.within_interval, (-1.0, -1.0))
         self.assertGreater(abs(best.across), abs(found["q_star_min", "h1_error", "1"].across))
         self.assertTrue(np.isnan(found["q_min", "h1_error", "2"].across))  # always the same
+
+    def test_metrics_are_qualities_too(self):
+        rows = [{"member": f"m{m}", "mesh": f"mesh{m}", "method": method, "stage": "s", "iteration": i, "metric": "max_angle",
+                 "better": "smaller", "min": 1, "mean": 90 - i, "max": 120 - (i if method == "good" else 0)}
+                for m in range(8) for method in ("idle", "good") for i in range(N_RECORDS)]
+        write_csv(self.folder / "r" / "metrics.csv", (*RECORD, *STATISTICS), rows)
+        results = read_collection_results(self.folder / "r")
+        self.assertEqual(results.qualities, ("q_min", "q_star_min", "q_mean", "mean max angle", "worst max angle"))
+        chosen = results.iterations.select(member="m3", method="good", degree="2")
+        np.testing.assert_array_equal(chosen.number("worst max angle"), 120 - np.arange(N_RECORDS))
+        np.testing.assert_array_equal(chosen.number("mean max angle"), 90 - np.arange(N_RECORDS))
+        found = {(p.quality, p.outcome, p.degree): p.across for p in predictions(results)}
+        self.assertAlmostEqual(found["worst max angle", "h1_error", "1"], 1.0, places=2)
 
     def test_good_enough_is_where_the_error_falls_no_more(self):
         found = {(degree, quality): value for _, degree, quality, value, _ in thresholds(self.results)}

@@ -8,6 +8,7 @@
 #include "fem/manufactured_solution.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/metrics/metric.h"
 #include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/definition/find_study.h"
@@ -87,6 +88,10 @@ void list_the_rest() {
                     dim == 2 ? "planar:" : "volume:", solution.formula.c_str(),
                     solution.source.c_str());
     });
+  std::printf("\nMETRICS (quality --metrics, 'metrics' in study files)\n\n");
+  for (const auto& metric : metric_catalogue())
+    std::printf("  %-16s %s; %s is better\n", metric.name.c_str(), metric.meaning.c_str(),
+                metric.larger_is_better ? "larger" : "smaller");
   std::printf("\nFORMATS\n\n");
   for (const auto& format : mesh_formats())
     std::printf("  %-8s %s: %s\n", format.extension.c_str(), format.name.c_str(),

@@ -10,6 +10,7 @@
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/run_study.h"
 #include "studies/framework/run/study_meshes.h"
+#include "studies/tests/documented_columns.h"
 #include "studies/tests/study_tests.h"
 
 namespace smoothfem {
@@ -74,6 +75,37 @@ TEST_F(RunStudy, EveryMethodBeginsWithTheInitialMesh) {
                                      "e_max", "e_l2", "h1_error", "status"})
       EXPECT_EQ(initial[0].at(column), rows[0].at(column)) << column;
   }
+}
+
+TEST_F(RunStudy, MetricsAreThoseOfEveryRecordedMesh) {
+  const std::string more =
+      "set degrees = 1\nset record every = 2\nset metrics = mean_ratio, shape\n";
+  const fs::path out = run(study(more));
+  const CsvTable metrics = table(out, "metrics.csv"), iterations = table(out, "iterations.csv");
+  expect_documented("metrics.csv", content_of(out / "metrics.csv"));
+  ASSERT_GT(iterations.rows.size(), 4u);
+  ASSERT_EQ(metrics.rows.size(), 2 * iterations.rows.size());
+  for (const auto& row : iterations.rows) {
+    const auto same = metrics.select({{"mesh", "grid"},
+                                      {"method", row.at("method")},
+                                      {"stage", row.at("stage")},
+                                      {"iteration", row.at("iteration")},
+                                      {"metric", "mean_ratio"}});
+    ASSERT_EQ(same.size(), 1u);
+    EXPECT_EQ(same[0].at("min"), row.at("q_min"));
+    EXPECT_NEAR(std::stod(same[0].at("mean")), std::stod(row.at("q_mean")), 1e-14);
+    EXPECT_EQ(same[0].at("better"), "larger");
+    EXPECT_EQ(same[0].at("n_cells"), "25");
+  }
+  EXPECT_EQ(content_of(out / "metrics.csv"),
+            content_of(run(study(more), "one", 1) / "metrics.csv"));
+}
+
+TEST_F(RunStudy, MetricsNeedNoSolution) {
+  const fs::path out = run(study("set degrees =\nset metrics = max_angle\n"));
+  const auto rows = table(out, "metrics.csv").rows;
+  ASSERT_EQ(rows.size(), table(out, "iterations.csv").rows.size());
+  EXPECT_EQ(rows[0].at("better"), "smaller");
 }
 
 TEST_F(RunStudy, TheSummaryHasTheRowOfTheResultingMesh) {

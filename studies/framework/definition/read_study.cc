@@ -132,6 +132,15 @@ std::vector<std::string> read_groups(const std::string& text) {
   return groups;
 }
 
+std::vector<const Metric*> read_metrics(const std::string& list, const std::string& file) {
+  if (list.empty()) return {};
+  try {
+    return metrics_named(list);
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what());
+  }
+}
+
 void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
   study.only_results_of_seeds = p.get("record seeds") == "results";
@@ -139,6 +148,7 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.record_warpage = p.get_bool("record warpage");
   for (const auto& item : split_list(p.get("count cells below")))
     study.count_below.push_back(std::stod(item));
+  study.metrics = read_metrics(p.get("metrics"), file);
   study.write_series = p.get_bool("write series");
   {
     const Subsection subsection(p, "solution");

@@ -10,6 +10,7 @@
 
 #include "fem/poisson_solver.h"
 #include "meshes/distortion/distort.h"
+#include "meshes/metrics/metric.h"
 #include "smoothing/loop/catalogue.h"
 #include "studies/framework/definition/study_header.h"
 
@@ -97,9 +98,10 @@ struct Study {
   int timing_runs = 1;          ///< smoothing times are medians over this many runs
   double edge_scale = 1.0;      ///< generated meshes: edges this much longer
   bool record_warpage = false;  ///< of every iteration, not only of initial and resulting meshes
-  std::vector<double> count_below;  ///< mean ratios below which cells are counted
-  bool write_series = false;        ///< a VTU series for each mesh and method
-  bool write_meshes = true;         ///< the resulting meshes with their fields
+  std::vector<double> count_below;     ///< mean ratios below which cells are counted
+  std::vector<const Metric*> metrics;  ///< of every recorded mesh, for metrics.csv
+  bool write_series = false;           ///< a VTU series for each mesh and method
+  bool write_meshes = true;            ///< the resulting meshes with their fields
 };
 
 /// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: with the changes

@@ -165,6 +165,10 @@ void declare_problem(ParameterHandler& p) {
   p.declare_entry(
       "count cells below", "", Patterns::List(Patterns::Double(0.0, 1.0)),
       "Mean ratios: summary.csv says how many cells are below each, initially and at the end.");
+  p.declare_entry(
+      "metrics", "", Patterns::Anything(),
+      "Metrics of the cells (see 'list'), separated by commas, or 'all': metrics.csv has "
+      "their range, mean and percentiles in every recorded mesh. Empty: none.");
   p.declare_entry("write series", "false", Patterns::Bool(),
                   "Write each method's meshes as a VTU series (.pvd).");
   {

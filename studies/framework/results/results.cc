@@ -159,6 +159,19 @@ std::string iterations_csv(const std::string& study, const std::vector<Iteration
   return csv.text();
 }
 
+std::string metrics_csv(const std::string& study, const std::vector<MetricRow>& rows) {
+  CsvText csv(
+      "study,mesh,method,stage,iteration,metric,better,n_cells,min,p05,median,mean,p95,max");
+  for (const auto& row : rows) {
+    const MetricStatistics& s = row.statistics;
+    csv.field(study).field(row.mesh).field(row.method).field(row.stage).integer(row.iteration);
+    csv.field(s.metric).field(row.larger_is_better ? "larger" : "smaller").integer(s.n_cells);
+    for (const double value : {s.min, s.p05, s.median, s.mean, s.p95, s.max}) csv.number(value);
+    csv.end_line();
+  }
+  return csv.text();
+}
+
 std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows) {
   CsvText csv(
       std::string("study,mesh,method,iterations,smoothing_seconds,preparation_seconds,"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/poisson_solver.h"
+#include "meshes/metrics/metric_statistics.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/quality/warpage.h"
 
@@ -20,6 +21,14 @@ struct IterationRow {
   int degree = 0;                        ///< 0: the study solves nothing
   std::optional<SolutionRecord> solved;  ///< empty where there is no solution
   std::string status;                    ///< "ok", or why a row has no finite element numbers
+};
+
+/// A row of metrics.csv: a metric of the mesh after one iteration of one method.
+struct MetricRow {
+  std::string mesh, method, stage;
+  std::size_t iteration = 0;
+  bool larger_is_better = true;
+  MetricStatistics statistics;
 };
 
 /// A row of summary.csv: a method's result on one mesh, at one degree.
@@ -58,6 +67,7 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 
 /// The tables as text; columns, units and order are a contract (results/README.md).
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows);
+std::string metrics_csv(const std::string& study, const std::vector<MetricRow>& rows);
 std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows);
 std::string thresholds_csv(const std::string& study, const std::vector<ThresholdRow>& rows);
 

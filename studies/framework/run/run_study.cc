@@ -328,6 +328,10 @@ class StudyRun {
     write_iterations();
     write_atomically(options_.out / "summary.csv",
                      summary_csv(study_.header.name, summary_rows(data_)));
+    if (!study_.metrics.empty())
+      write_atomically(
+          options_.out / "metrics.csv",
+          metrics_csv(study_.header.name, metric_rows(data_, [&] { stop_if_interrupted(); })));
     const auto thresholds =
         study_.thresholds.reference.empty()
             ? std::vector<ThresholdRow>()

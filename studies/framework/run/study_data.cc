@@ -255,6 +255,35 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
   return rows;
 }
 
+template <int dim, int spacedim>
+std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
+                                   const std::function<void()>& watch) {
+  const auto& metrics = data.study.metrics;
+  std::vector<MetricRow> rows;
+  if (metrics.empty()) return rows;
+  for (std::size_t m = 0; m < data.meshes.size(); ++m) {
+    const std::string& name = data.meshes[m].description.name;
+    const auto initial = metric_statistics(metrics, &data.meshes[m].mesh);
+    for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
+      const Trajectory& trajectory = data.trajectories[m][k];
+      const auto append = [&](std::size_t record, const std::vector<MetricStatistics>& values) {
+        const IterationRecord& iteration = trajectory.records[record];
+        for (std::size_t i = 0; i < metrics.size(); ++i)
+          if (values[i].n_cells > 0)
+            rows.push_back({name, data.study.methods[k].name, iteration.stage, iteration.iteration,
+                            metrics[i]->larger_is_better, values[i]});
+        watch();
+      };
+      append(0, initial);
+      for (const std::size_t record : trajectory.snapshots) {
+        const Mesh<dim, spacedim> mesh = mesh_of(data, m, k, record);
+        append(record, metric_statistics(metrics, &mesh));
+      }
+    }
+  }
+  return rows;
+}
+
 std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,
                                 const std::string& method, const std::string& extension) {
   return out / "meshes" / (mesh + "_" + method + extension);
@@ -281,6 +310,8 @@ void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::p
   template void make_tasks(StudyData<__VA_ARGS__>&);                               \
   template std::vector<IterationRow> finished_rows(const StudyData<__VA_ARGS__>&); \
   template std::vector<SummaryRow> summary_rows(const StudyData<__VA_ARGS__>&);    \
+  template std::vector<MetricRow> metric_rows(const StudyData<__VA_ARGS__>&,       \
+                                              const std::function<void()>&);       \
   template void write_meshes(const StudyData<__VA_ARGS__>&, const std::filesystem::path&);
 SMOOTHFEM_INSTANTIATE(2, 2)
 SMOOTHFEM_INSTANTIATE(3, 3)

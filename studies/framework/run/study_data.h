@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <mutex>
 #include <vector>
@@ -90,6 +91,12 @@ std::vector<IterationRow> finished_rows(const StudyData<dim, spacedim>& data);
 /// Rows for summary.csv; all tasks must be done.
 template <int dim, int spacedim>
 std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data);
+
+/// Rows for metrics.csv of all recorded meshes, in the order of meshes, methods, records and
+/// metrics; those that none of its cells has are left out. Calls `watch` between two meshes.
+template <int dim, int spacedim>
+std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
+                                   const std::function<void()>& watch);
 
 /// Where a method's mesh, or the mesh called `initial`, is written.
 std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,

@@ -47,10 +47,10 @@ using WatchIteration = std::function<void(const IterationRecord&)>;
 /// times of each record; the meshes are the same every time. Snapshots: every k-th record of each
 /// stage, the result and the last, as the study says, or (only_results) the result and the last;
 /// `keep` gets their meshes in any order, and
-/// may get others too. A study that neither solves nor writes series needs the result's mesh only:
-/// then `keep` gets no other. What `keep` or `watch` throw ends it; a method that fails is a
-/// trajectory with a `failure`. problem: for methods that need one; null otherwise. folders: of the
-/// method's files.
+/// may get others too. A study that neither solves nor writes series nor metrics needs the result's
+/// mesh only: then `keep` gets no other. What `keep` or `watch` throw ends it; a method that fails
+/// is a trajectory with a `failure`. problem: for methods that need one; null otherwise. folders:
+/// of the method's files.
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
                              const Study& study, bool only_results,
