@@ -12,6 +12,7 @@ from .problems import ERROR
 N_SAMPLES = 500
 NEAR_LEAST = 1.05  # of the least error that any method reaches: a problem that is solved
 INITIAL_MESH = "initial"
+AS_IS, NEXT_DEGREE, SPLIT = "", "degree", "split"  # what is done besides smoothing
 
 
 @dataclass(frozen=True)
@@ -32,10 +33,13 @@ class Payoff:
 
     family: str
     degree: str
-    method: str  # INITIAL_MESH: the unsmoothed mesh at the next degree
+    method: str  # INITIAL_MESH: the unsmoothed mesh
+    change: str  # of the discretization besides: AS_IS, NEXT_DEGREE or SPLIT
     error: float  # over that of the initial mesh at this degree
     error_interval: tuple
     time: float  # smoothing and solving, over solving on the initial mesh
+    at_equal_time: float  # error over the unsmoothed mesh's after the same time in all; NaN where not known
+    at_equal_time_interval: tuple
     n_problems: int
 
 
@@ -86,35 +90,49 @@ def ranking(problems, methods):
 
 
 def payoffs(problems, methods):
-    """Every method in every family at every degree, and the unsmoothed mesh at the next degree."""
+    """Every method in every family at every degree, as it is and with every cell split; and so the unsmoothed mesh, which
+    also has the next degree."""
     by_key = {(problem.member, problem.degree): problem for problem in problems}
     collected = {}
     for problem in problems:
         first = next(iter(problem.curves.values()))
         error, seconds = first[ERROR][0], max(first["solving"][0], 1e-6)
-        for method in methods:
-            if method in problem.curves:
-                curve = problem.curves[method]
-                note(collected, problem, method, curve[ERROR][-1] / error,
-                     (curve["seconds"][-1] + curve["solving"][-1]) / seconds)
+        options = {(method, AS_IS): (curve[ERROR][-1], curve["seconds"][-1] + curve["solving"][-1])
+                   for method, curve in problem.curves.items()}
         higher = by_key.get((problem.member, str(int(problem.degree) + 1)))
         if higher:
-            first = next(iter(higher.curves.values()))
-            note(collected, problem, INITIAL_MESH, first[ERROR][0] / error, first["solving"][0] / seconds)
+            of_higher = next(iter(higher.curves.values()))
+            options[INITIAL_MESH, NEXT_DEGREE] = of_higher[ERROR][0], of_higher["solving"][0]
+        for method, (split_error, solving) in problem.split.items():
+            smoothing = 0.0 if method == INITIAL_MESH else problem.curves[method]["seconds"][-1]
+            options[method, SPLIT] = split_error, smoothing + solving
+        unsmoothed = error_in_time(error, seconds, *options.get((INITIAL_MESH, SPLIT), (np.nan, np.nan)))
+        for (method, change), (its_error, its_seconds) in options.items():
+            if method in (*methods, INITIAL_MESH):
+                collected.setdefault((problem.family, problem.degree, method, change), []).append(
+                    (problem.mesh, its_error / error, its_seconds / seconds,
+                     np.nan if method == INITIAL_MESH else its_error / unsmoothed(its_seconds)))
     return [payoff(*key, values) for key, values in sorted(collected.items())]
 
 
-def note(collected, problem, method, error, time):
-    """Adds one problem's numbers."""
-    collected.setdefault((problem.family, problem.degree, method), []).append((problem.mesh, error, time))
+def error_in_time(error, seconds, split_error, split_seconds):
+    """What the unsmoothed mesh has after a time in all, by the power law through its error as it is and with every cell
+    split; NaN unless that is better and dearer."""
+    if not (split_error < error and split_seconds > seconds):
+        return lambda time: np.nan
+    order = np.log(error / split_error) / np.log(split_seconds / seconds)
+    return lambda time: error * (time / seconds)**-order
 
 
-def payoff(family, degree, method, values):
+def payoff(family, degree, method, change, values):
     """Of one family; its meshes are what intervals draw."""
-    meshes, errors, times = (np.array(column) for column in zip(*values))
-    return Payoff(family, degree, method, geometric_mean(errors),
-                  interval(lambda rows: geometric_mean(errors[rows]), meshes.astype(str), N_SAMPLES),
-                  geometric_mean(times), len(values))
+    meshes, errors, times, at_equal_time = (np.array(column) for column in zip(*values))
+    meshes, known = meshes.astype(str), np.isfinite(at_equal_time)
+    return Payoff(family, degree, method, change, geometric_mean(errors),
+                  interval(lambda rows: geometric_mean(errors[rows]), meshes, N_SAMPLES), geometric_mean(times),
+                  geometric_mean(at_equal_time[known]) if known.any() else np.nan,
+                  interval(lambda rows: geometric_mean(at_equal_time[known][rows]), meshes[known], N_SAMPLES)
+                  if known.any() else (np.nan, np.nan), len(values))
 
 
 def geometric_mean(values):

@@ -9,7 +9,7 @@ import numpy as np
 from ..results.collection import QUALITIES
 from ..results.symbols import symbol_of
 from ..statistics.bootstrap import interval
-from .comparison import INITIAL_MESH
+from .comparison import AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT
 from .problems import ERROR
 
 SURE = 0.05  # a paired test below this tells two methods apart
@@ -95,31 +95,44 @@ def which_method(results, ranks):
 
 
 def what_pays(results, payoffs):
-    """Smoothing beside the next degree on the unsmoothed mesh, for each family and degree."""
-    sentences = []
+    """Smoothing beside the next degree and split cells on the unsmoothed mesh, for each family and degree; then the error
+    at equal time in all."""
+    sentences, gains = [], []
     for family, degree in sorted({(p.family, p.degree) for p in payoffs}):
-        here = [p for p in payoffs if (p.family, p.degree) == (family, degree)]
-        higher = next((p for p in here if p.method == INITIAL_MESH), None)
-        best = min((p for p in here if p is not higher), key=lambda p: p.error, default=None)
+        here = {(p.method, p.change): p for p in payoffs if (p.family, p.degree) == (family, degree)}
+        smoothed = [p for p in here.values() if p.change == AS_IS]
+        best = min(smoothed, key=lambda p: p.error, default=None)
         if best is None:
             continue
         text = (f"{family}, d = {degree}: {results.title(best.method)} leaves {best.error:.3f}"
                 f"{bracket(best.error_interval, '.3f')} of the error for {best.time:.2g} times the time of one solution")
-        if higher is None:
-            sentences.append(text + ".")
-            continue
-        sentences.append(f"{text}; degree {int(degree) + 1} on the unsmoothed mesh leaves {higher.error:.3f}"
-                         f"{bracket(higher.error_interval, '.3f')} for {higher.time:.2g} times: {verdict(best, higher)}.")
+        for change, name, does in ((NEXT_DEGREE, "the next degree", f"degree {int(degree) + 1} on the unsmoothed mesh leaves"),
+                                   (SPLIT, "splitting", "splitting every cell of the unsmoothed mesh leaves")):
+            other = here.get((INITIAL_MESH, change))
+            if other:
+                text += (f"; {does} {other.error:.3f}{bracket(other.error_interval, '.3f')} for {other.time:.2g} times: "
+                         f"{verdict(best, other, name)}")
+        sentences.append(text + ".")
+        fair = min((p for p in smoothed if math.isfinite(p.at_equal_time)), key=lambda p: p.at_equal_time, default=None)
+        if fair:
+            gains.append(fair)
+            sentences.append(f"{family}, d = {degree}, at equal time in all: of the methods {results.title(fair.method)} does best, with "
+                             f"{fair.at_equal_time:.3f}{bracket(fair.at_equal_time_interval, '.3f')} of the unsmoothed mesh's error.")
+    if gains:
+        better, worse = (sum(1 for p in gains if test(*p.at_equal_time_interval))
+                         for test in (lambda low, high: high < 1.0, lambda low, high: low > 1.0))
+        sentences.insert(0, f"At equal time in all the best method's error is surely lower than the unsmoothed mesh's in {better} of "
+                            f"{len(gains)} families and degrees, surely higher in {worse}; in the others the interval holds 1.")
     return sentences
 
 
-def verdict(smoothed, higher):
-    """Whether smoothing or the next degree has the lower error in no more time."""
-    if smoothed.error <= higher.error and smoothed.time <= higher.time:
+def verdict(smoothed, other, name):
+    """Whether smoothing or the other way has the lower error in no more time."""
+    if smoothed.error <= other.error and smoothed.time <= other.time:
         return "smoothing pays"
-    if higher.error <= smoothed.error and higher.time <= smoothed.time:
-        return "the next degree is better and cheaper"
-    return "the next degree is better, and dearer" if higher.error < smoothed.error else "smoothing is better, and dearer"
+    if other.error <= smoothed.error and other.time <= smoothed.time:
+        return f"{name} is better and cheaper"
+    return f"{name} is better, and dearer" if other.error < smoothed.error else "smoothing is better, and dearer"
 
 
 def what_got_worse(results, problems):

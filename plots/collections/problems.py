@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..results.rows import groups_of, solving_seconds
+from ..results.smoothing import INITIAL
 
 LEAST_FAMILIES = 5  # to draw families for intervals; fewer say too little, and meshes are drawn
 ERROR = "h1_error"
@@ -22,6 +23,7 @@ class Problem:
     group: str  # what intervals draw it with: the family or the mesh
     degree: str
     curves: dict  # method -> {"seconds": ..., "solving": ..., "h1_error": ...}
+    split: dict  # method, or `initial` -> (h1_error, seconds of solving) of its result with every cell split
 
     def errors(self):
         """Method -> (seconds of smoothing, errors), without records that were not solved."""
@@ -40,6 +42,7 @@ def problems_of(results):
     numbers = {name: rows.number(name) for name in ("smoothing_seconds", "preparation_seconds", ERROR)}
     seconds = numbers["smoothing_seconds"] + numbers["preparation_seconds"]
     solving = solving_seconds(rows)
+    split = split_of(results.refined)
     members, degrees, methods = (rows.text(name) for name in ("member", "degree", "method"))
     places = {}
     for number, key in enumerate(zip(members, degrees)):
@@ -58,7 +61,19 @@ def problems_of(results):
         if curves:
             first = next(iter(of_methods.values()))[0]
             found.append(Problem(member, rows.text("family")[first], rows.text("elements")[first],
-                                 rows.text("mesh")[first], rows.text(by)[first], degree, curves))
+                                 rows.text("mesh")[first], rows.text(by)[first], degree, curves,
+                                 {method: numbers for method, numbers in split.get((member, degree), {}).items()
+                                  if method == INITIAL or method in curves}))
+    return found
+
+
+def split_of(refined):
+    """(member, degree) -> {method: (error, seconds of solving)}."""
+    found = {}
+    for member, degree, method, error, seconds in zip(
+            *(refined.text(name) for name in ("member", "degree", "method")), refined.number(ERROR), solving_seconds(refined)):
+        if np.isfinite(error):
+            found.setdefault((member, degree), {})[method] = error, seconds
     return found
 
 

@@ -19,6 +19,8 @@ RECORD = ("member", "mesh", "method", "stage", "iteration")
 STATISTICS = ("metric", "better", "min", "mean", "max")
 # Of iterations.csv, which has many rows.
 KEYS = ("member", "family", "elements", "solution", "mesh", "method", "degree")
+# Of refined.csv.
+REFINED = ("member", "method", "degree", *SOLVING, "h1_error")
 NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
 
 
@@ -33,6 +35,7 @@ class CollectionResults:
     titles: dict
     members: Rows
     iterations: Rows  # KEYS, NUMBERS and the columns of metrics only
+    refined: Rows = Rows(Path("refined.csv"), {})  # REFINED: initial and resulting meshes with every cell split
     qualities: tuple = QUALITIES  # columns of iterations: what may predict an outcome
 
     def title(self, name):
@@ -91,9 +94,12 @@ def read_collection_results(folder):
         iterations = Rows(file, {**iterations.columns, **of_metrics})
     else:
         iterations = read_some_columns(file, columns)
+    split = folder / "refined.csv"
+    refined = read_some_columns(split, REFINED) if split.exists() else Rows(split, {})
     titles = {INITIAL: "Initial", **{entry["name"]: str(entry["title"]) for entry in entries(provenance, "methods")
                                      if entry.get("title")}}
     return CollectionResults(
         folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
         methods=tuple(name for name in order_of(iterations.text("method"), provenance, "methods") if name != INITIAL),
-        titles=titles, members=members, iterations=iterations, qualities=(*QUALITIES, *of_metrics))
+        titles=titles, members=members, iterations=iterations, refined=refined,
+        qualities=(*QUALITIES, *of_metrics))

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from plots.__main__ import main
-from plots.collections.comparison import Payoff, payoffs, ranking
+from plots.collections.comparison import AS_IS, NEXT_DEGREE, SPLIT, Payoff, error_in_time, payoffs, ranking
 from plots.collections.findings import verdict
 from plots.collections.prediction import predictions, relative_to_least, thresholds
 from plots.collections.problems import problems_of
-from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, STATISTICS, read_collection_results
+from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, REFINED, STATISTICS, read_collection_results
 from plots.results.rows import SOLVING, Rows, solving_seconds
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
@@ -92,13 +92,41 @@ class Collection(InFolder):
         self.assertLess(other.p_value, 0.001)
 
     def test_payoff_has_error_and_time_over_those_of_the_initial_mesh(self):
-        found = {(p.family, p.degree, p.method): p for p in payoffs(problems_of(self.results), self.results.methods)}
-        good, higher = found["one", "1", "good"], found["one", "1", "initial"]
+        found = {(p.family, p.degree, p.method, p.change): p
+                 for p in payoffs(problems_of(self.results), self.results.methods)}
+        good, higher = found["one", "1", "good", AS_IS], found["one", "1", "initial", NEXT_DEGREE]
         self.assertAlmostEqual(good.error, 0.5)
         self.assertAlmostEqual(good.time, (0.5 + 0.5) / 0.5)
         self.assertAlmostEqual(higher.error, 0.1)
         self.assertAlmostEqual(higher.time, 1.0)
-        self.assertNotIn(("one", "2", "initial"), found)
+        self.assertNotIn(("one", "2", "initial", NEXT_DEGREE), found)
+        self.assertTrue(np.isnan(good.at_equal_time))
+
+    def test_at_equal_time_smoothing_is_beside_split_cells(self):
+        """Split cells halve the error in four times the time: order 1/2. The mesh of `good` has half the error after twice
+        the time of one solution, when the unsmoothed mesh has 1 / sqrt(2) of it."""
+        common = {"assembly_seconds": 0, "cg_seconds": 2, "jacobi_cg_seconds": "", "amg_setup_seconds": "", "amg_cg_seconds": ""}
+        write_csv(self.folder / "r" / "refined.csv", REFINED, [
+            {"member": f"m{m}", "method": method, "degree": 1, **common, "h1_error": error * (1 + m)}
+            for m in range(8) for method, error in (("initial", 0.5), ("good", 0.25), ("idle", 0.5))])
+        results = read_collection_results(self.folder / "r")
+        found = {(p.family, p.degree, p.method, p.change): p for p in payoffs(problems_of(results), results.methods)}
+        self.assertAlmostEqual(found["one", "1", "initial", SPLIT].error, 0.5)
+        self.assertAlmostEqual(found["one", "1", "initial", SPLIT].time, 4.0)
+        self.assertAlmostEqual(found["one", "1", "good", AS_IS].at_equal_time, 0.5 * 2.0**0.5)
+        self.assertAlmostEqual(found["one", "1", "good", SPLIT].error, 0.25)
+        self.assertAlmostEqual(found["one", "1", "good", SPLIT].time, 5.0)
+        self.assertNotIn(("one", "2", "initial", SPLIT), found)
+        self.assertEqual(main([str(self.folder / "r"), "--quiet", "--only", "findings"]), 0)
+        text = (self.folder / "r" / "tables" / "findings.md").read_text()
+        self.assertIn("splitting every cell of the unsmoothed mesh leaves 0.500 (0.500 to 0.500) for 4 times: smoothing pays", text)
+        self.assertIn("- one, d = 1, at equal time in all: of the methods Good does best, with 0.707 (0.707 to 0.707)", text)
+        self.assertIn("lower than the unsmoothed mesh's in 2 of 2 families and degrees, surely higher in 0;", text)
+
+    def test_the_power_law_needs_two_points(self):
+        self.assertAlmostEqual(error_in_time(1.0, 1.0, 0.5, 4.0)(16.0), 0.25)
+        self.assertTrue(np.isnan(error_in_time(1.0, 1.0, np.nan, np.nan)(2.0)))
+        self.assertTrue(np.isnan(error_in_time(1.0, 1.0, 0.5, 0.5)(2.0)))
 
     def test_solving_is_assembly_and_the_fastest_solver_there_is(self):
         def seconds(*fields):
@@ -143,11 +171,11 @@ class Collection(InFolder):
 
     def test_verdicts_say_who_is_better_and_who_is_dearer(self):
         def payoff(error, time):
-            return Payoff("f", "1", "m", error, (error, error), time, 3)
+            return Payoff("f", "1", "m", AS_IS, error, (error, error), time, np.nan, (np.nan, np.nan), 3)
         for smoothed, higher, said in (((.1, 1), (.2, 2), "smoothing pays"), ((.2, 2), (.1, 1), "better and cheaper"),
                                        ((.2, 1), (.1, 2), "the next degree is better, and dearer"),
                                        ((.1, 2), (.2, 1), "smoothing is better, and dearer")):
-            self.assertIn(said, verdict(payoff(*smoothed), payoff(*higher)))
+            self.assertIn(said, verdict(payoff(*smoothed), payoff(*higher), "the next degree"))
 
     def test_a_part_without_complete_members_has_its_table_of_members(self):
         folder = self.folder / "r"

@@ -22,7 +22,8 @@ class Collections : public CommandLine {
   void write_study(const std::string& more = {}) const {
     file_with("all.prm",
               "set kind = collection\nset collection = meshes/*\nset methods = laplace\n"
-              "set degrees = 1\nset timing runs = 1\nset record every = 3\nset metrics = shape\n"
+              "set degrees = 1\nset timing runs = 1\nset record every = 3\nset metrics = "
+              "shape\nset refined degrees = 1\n"
               "subsection solution\n set name = sine\nend\n"
               "subsection finite elements\n set condition number = none\n"
               " set jacobi cg = never\nend\n" +
@@ -47,7 +48,8 @@ class Collections : public CommandLine {
   CsvTable table(const std::string& path) const { return CsvTable(content_of(file(path))); }
 
   void expect_same_tables(const std::string& a, const std::string& b) const {
-    for (const std::string name : {"iterations.csv", "summary.csv", "metrics.csv", "members.csv"})
+    for (const std::string name :
+         {"iterations.csv", "summary.csv", "metrics.csv", "refined.csv", "members.csv"})
       EXPECT_EQ(rows_without_times(file(a) / name), rows_without_times(file(b) / name)) << name;
   }
 };

@@ -229,6 +229,8 @@ TEST_F(StudyFile, BadValuesAreFoundWithTheirLine) {
   expect_error_at(5, one_mesh + "set record every = 0\n", "record every");
   expect_error_at(5, one_mesh + "set edge scale = 0.5\n", "0.5");
   expect_error_at(5, one_mesh + "set write series = maybe\n", "maybe");
+  EXPECT_THAT(error_of(one_mesh + "set degrees = 1\nset refined degrees = 2\n"),
+              ::testing::HasSubstr("'refined degrees' has 2"));
   EXPECT_THAT(error_of(one_mesh + "set metrics = shap\n"),
               ::testing::HasSubstr("did you mean 'shape'?"));
   expect_error_at(6, one_mesh + "subsection finite elements\n set cg tolerance = 1e-8x\nend\n",

@@ -101,6 +101,24 @@ TEST_F(RunStudy, MetricsAreThoseOfEveryRecordedMesh) {
             content_of(run(study(more), "one", 1) / "metrics.csv"));
 }
 
+TEST_F(RunStudy, RefinedMeshesAreSolvedOnceMore) {
+  write_mesh(file("grid.mesh"), shaken_grid(4, 0.0));
+  const fs::path out = run(study("set degrees = 1, 2\nset refined degrees = 1\n"));
+  expect_documented("refined.csv", content_of(out / "refined.csv"));
+  const CsvTable refined = table(out, "refined.csv");
+  ASSERT_EQ(refined.rows.size(), 3u);
+  const CsvTable summary = table(out, "summary.csv");
+  for (const auto& row : refined.rows) {
+    EXPECT_EQ(row.at("n_dofs"), "81");
+    EXPECT_EQ(row.at("degree"), "1");
+    EXPECT_EQ(row.at("status"), "ok");
+    const auto coarse = summary.select({{"method", row.at("method")}, {"degree", "1"}}).at(0);
+    const double ratio = std::stod(coarse.at("h1_error")) / std::stod(row.at("h1_error"));
+    EXPECT_GT(ratio, 1.5);  // the order is 1
+    EXPECT_LT(ratio, 2.5);
+  }
+}
+
 TEST_F(RunStudy, MetricsNeedNoSolution) {
   const fs::path out = run(study("set degrees =\nset metrics = max_angle\n"));
   const auto rows = table(out, "metrics.csv").rows;

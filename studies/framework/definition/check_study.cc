@@ -65,6 +65,14 @@ void check_problem(const Study& study) {
   });
 }
 
+void check_refined(const Study& study) {
+  for (const int degree : study.refined_degrees)
+    if (std::find(study.degrees.begin(), study.degrees.end(), degree) == study.degrees.end())
+      throw InputError(
+          "'refined degrees' has " + std::to_string(degree) +
+          ", which is not one of the study's degrees; add it to 'degrees' or take it out");
+}
+
 void check_thresholds(const Study& study) {
   const auto& reference = study.thresholds.reference;
   if (reference.empty()) return;
@@ -92,6 +100,7 @@ void check_study(const Study& study) {
   check_solution(study.solution);
   check_stages(study);
   check_problem(study);
+  check_refined(study);
   check_thresholds(study);
 }
 

@@ -143,6 +143,7 @@ std::vector<const Metric*> read_metrics(const std::string& list, const std::stri
 
 void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
+  study.refined_degrees = read_degrees(p.get("refined degrees"), file);
   study.only_results_of_seeds = p.get("record seeds") == "results";
   study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
   study.record_warpage = p.get_bool("record warpage");

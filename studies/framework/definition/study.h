@@ -89,7 +89,8 @@ struct Study {
   MeshDimensions dimensions;
   std::vector<StudyMesh> meshes;
   std::vector<StudyMethod> methods;
-  std::vector<int> degrees;  ///< of the finite elements; empty: smoothing only
+  std::vector<int> degrees;          ///< of the finite elements; empty: smoothing only
+  std::vector<int> refined_degrees;  ///< of these: initial and resulting meshes once more, refined
   StudySolution solution;
   PoissonOptions finite_elements;  ///< its degree is not used
   StudyThresholds thresholds;

@@ -144,6 +144,9 @@ void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::s
 void declare_problem(ParameterHandler& p) {
   p.declare_entry("degrees", "1, 2", Patterns::Anything(),
                   "Degrees of the finite elements; empty: smoothing only.");
+  p.declare_entry("refined degrees", "", Patterns::Anything(),
+                  "Degrees, of those above, at which initial and resulting meshes are solved once "
+                  "more with every cell split: refined.csv. Empty: none.");
   p.declare_entry("record every", "1", Patterns::Integer(1),
                   "Solve at every k-th iteration; the initial, the resulting and the last mesh "
                   "always.");

@@ -328,6 +328,9 @@ class StudyRun {
     write_iterations();
     write_atomically(options_.out / "summary.csv",
                      summary_csv(study_.header.name, summary_rows(data_)));
+    if (!study_.refined_degrees.empty())
+      write_atomically(options_.out / "refined.csv",
+                       refined_csv(study_.header.name, refined_rows(data_)));
     if (!study_.metrics.empty())
       write_atomically(
           options_.out / "metrics.csv",

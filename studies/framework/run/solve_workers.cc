@@ -3,7 +3,9 @@
 
 #include <mutex>
 
+#include "meshes/refinement/split_cells.h"
 #include "smoothing/base/scoped_timer.h"
+#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 
@@ -16,9 +18,22 @@ PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
   return options;
 }
 
-/// Results and series show nodal errors.
+/// Results and series show nodal errors; refined meshes are not shown.
 bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
-  return task.is_result || study.write_series;
+  return !task.job.is_refined && (task.is_result || study.write_series);
+}
+
+/// Solves a task's mesh after its cells are split: `solve` gets that mesh. Where splitting makes
+/// cells invalid, as it may hexahedra, it is not called.
+template <int dim, class Solve>
+SolutionRecord solve_refined(const StudyData<dim>& data, const SolveTask& task,
+                             const Solve& solve) {
+  const Mesh<dim> refined = with_split_cells(
+      Mesh<dim>(data.meshes[task.job.mesh].mesh.shared_topology(), data.coordinates_of(task)));
+  if (mesh_quality(refined).n_invalid == 0) return solve(refined);
+  SolutionRecord record;
+  record.status = invalid_mesh;
+  return record;
 }
 
 /// The solvers of planar meshes and degrees, made when first needed. Threads take copies, which
@@ -54,12 +69,13 @@ class PlanarWorker {
     SolutionRecord solution;
     {
       const ScopedTimer timer(seconds);
-      if (!solver_ || mesh_ != job.mesh || degree_ != job.degree) {
-        solver_ = solvers_->copy(job);
-        mesh_ = job.mesh;
-        degree_ = job.degree;
-      }
-      solution = solver_->solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+      solution = job.is_refined
+                     ? solve_refined(data_, task,
+                                     [&](const Mesh<2>& mesh) {
+                                       return PoissonSolver<2>(&mesh, options_of(data_, job))
+                                           .solve(mesh.coordinates(), *data_.solution);
+                                     })
+                     : solve(task);
       if (keeps_nodal_errors(data_.study, task))
         data_.checkpoint.save_numbers(job.name, task.record, solver_->nodal_errors());
     }
@@ -67,6 +83,16 @@ class PlanarWorker {
   }
 
  private:
+  SolutionRecord solve(const SolveTask& task) {
+    const SolveJob& job = task.job;
+    if (!solver_ || mesh_ != job.mesh || degree_ != job.degree) {
+      solver_ = solvers_->copy(job);
+      mesh_ = job.mesh;
+      degree_ = job.degree;
+    }
+    return solver_->solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+  }
+
   StudyData<2>& data_;
   std::shared_ptr<PlanarSolvers> solvers_;
   std::unique_ptr<PoissonSolver<2>> solver_;
@@ -85,19 +111,33 @@ class TeamWorker {
     SolutionRecord solution;
     {
       const ScopedTimer timer(seconds);
-      const bool other_solver =
-          job_ == nullptr || job_->mesh != job.mesh || job_->degree != job.degree;
-      if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
-      if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
-      job_ = &job;
-      solution = team_.solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+      solution =
+          job.is_refined
+              ? solve_refined(data_, task,
+                              [&](const Mesh<3>& mesh) {
+                                job_ = nullptr;  // the team has another solver now
+                                team_.make_solver(mesh, options_of(data_, job));
+                                return team_.solve(mesh.coordinates(), *data_.solution, true);
+                              })
+              : solve(task);
       if (keeps_nodal_errors(data_.study, task))
         data_.checkpoint.save_numbers(job.name, task.record, team_.nodal_errors());
     }
-    finish_task(task, std::move(solution), seconds, team_.eigenvectors(), data_.checkpoint);
+    finish_task(task, std::move(solution), seconds,
+                job.is_refined ? std::vector<double>() : team_.eigenvectors(), data_.checkpoint);
   }
 
  private:
+  SolutionRecord solve(const SolveTask& task) {
+    const SolveJob& job = task.job;
+    const bool other_solver =
+        job_ == nullptr || job_->mesh != job.mesh || job_->degree != job.degree;
+    if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
+    if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
+    job_ = &job;
+    return team_.solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+  }
+
   StudyData<3>& data_;
   SolverTeam& team_;
   const SolveJob* job_ = nullptr;  ///< last worked on

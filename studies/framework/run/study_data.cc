@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/study_data.h"
 
+#include <algorithm>
+
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtu_series.h"
 
@@ -18,13 +20,13 @@ struct Outcome {
   std::string status{};
 };
 
-std::vector<Outcome> outcomes(const Study& study, const Tasks& tasks, bool invalid) {
-  if (study.degrees.empty()) return {{.status = invalid ? "invalid mesh" : "not solved"}};
+std::vector<Outcome> outcomes(const std::vector<int>& degrees, const Tasks& tasks, bool invalid) {
+  if (degrees.empty()) return {{.status = invalid ? invalid_mesh : "not solved"}};
   std::vector<Outcome> result;
-  for (std::size_t d = 0; d < study.degrees.size(); ++d) {
-    const int degree = study.degrees[d];
+  for (std::size_t d = 0; d < degrees.size(); ++d) {
+    const int degree = degrees[d];
     if (invalid)
-      result.push_back({.degree = degree, .status = "invalid mesh"});
+      result.push_back({.degree = degree, .status = invalid_mesh});
     else if (tasks[d]->done)
       result.push_back({degree, tasks[d]->solution, tasks[d]->solution.status});
   }
@@ -39,7 +41,7 @@ void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::si
   const auto warpage = record < trajectory.warpage_of_records.size()
                            ? std::optional(trajectory.warpage_of_records[record])
                            : std::nullopt;
-  for (auto& outcome : outcomes(data.study, tasks, iteration.quality.n_invalid > 0))
+  for (auto& outcome : outcomes(data.study.degrees, tasks, iteration.quality.n_invalid > 0))
     rows.push_back({data.meshes[mesh].description.name, data.study.methods[method].name, iteration,
                     warpage, outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
 }
@@ -47,7 +49,7 @@ void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::si
 /// failure: why the row has no result; empty if it has one.
 void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
                     const std::string& failure, std::vector<SummaryRow>& rows) {
-  for (auto& outcome : outcomes(study, tasks, row.quality.n_invalid > 0)) {
+  for (auto& outcome : outcomes(study.degrees, tasks, row.quality.n_invalid > 0)) {
     row.degree = outcome.degree;
     row.solved = failure.empty() ? std::move(outcome.solved) : std::nullopt;
     row.status = failure.empty() ? std::move(outcome.status) : "failed: " + failure;
@@ -119,6 +121,7 @@ class TaskMaker {
       for (const auto& trajectory : data_.trajectories[m])
         of_mesh.methods.emplace_back(trajectory.snapshots.size());
       for (std::size_t d = 0; d < data_.study.degrees.size(); ++d) make_degree(m, d, of_mesh);
+      make_refined(m, of_mesh);
     }
   }
 
@@ -127,11 +130,11 @@ class TaskMaker {
     const std::string& mesh = data_.meshes[m].description.name;
     const int degree = data_.study.degrees[d];
     of_mesh.initial.push_back(
-        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d, 0), 0, true));
+        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d, 0, false), 0, true));
     for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
       const std::string& method = data_.study.methods[k].name;
       SolveJob& job = add_job(Checkpoint::name(mesh, method, degree),
-                              Checkpoint::name(mesh, method), m, d, k + 1);
+                              Checkpoint::name(mesh, method), m, d, k + 1, false);
       const Trajectory& trajectory = data_.trajectories[m][k];
       for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s) {
         const std::size_t record = trajectory.snapshots[s];
@@ -141,10 +144,31 @@ class TaskMaker {
     }
   }
 
+  /// Labels have no '~'.
+  void make_refined(std::size_t m, MeshTasks& of_mesh) {
+    const auto& degrees = data_.study.degrees;
+    const std::string& mesh = data_.meshes[m].description.name;
+    of_mesh.refined.resize(data_.study.methods.size() + 1);
+    for (const int degree : data_.study.refined_degrees)
+      for (std::size_t k = 0; k <= data_.study.methods.size(); ++k) {
+        const bool is_initial = k == 0;
+        const std::string method = is_initial ? "initial" : data_.study.methods[k - 1].name;
+        const std::size_t record = is_initial ? 0 : data_.trajectories[m][k - 1].result_record;
+        const auto& quality =
+            is_initial ? data_.meshes[m].quality : data_.trajectories[m][k - 1].quality;
+        if ((record == 0 && !is_initial) || quality.n_invalid > 0) continue;
+        const auto d = static_cast<std::size_t>(std::find(degrees.begin(), degrees.end(), degree) -
+                                                degrees.begin());
+        SolveJob& job = add_job(Checkpoint::name(mesh, method + "~refined", degree),
+                                is_initial ? "" : Checkpoint::name(mesh, method), m, d, k, true);
+        of_mesh.refined[k].push_back(add_task(job, record, true));
+      }
+  }
+
   SolveJob& add_job(std::string name, std::string trajectory, std::size_t mesh, std::size_t degree,
-                    std::size_t method) {
-    SolveJob& job =
-        data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree, method);
+                    std::size_t method, bool is_refined) {
+    SolveJob& job = data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree,
+                                            method, is_refined);
     if (auto solved = data_.checkpoint.load_solved(job.name)) job.solved = std::move(*solved);
     return job;
   }
@@ -177,12 +201,14 @@ std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const Solv
 template <int dim, int spacedim>
 SolveKind StudyData<dim, spacedim>::kind_of(const SolveTask& task) const {
   const SolveJob& job = task.job;
+  // A refined mesh has 2^dim times the nodes, and costs of its own.
+  const double times = job.is_refined ? 1 << dim : 1;
   return {.mesh = job.mesh,
-          .method = job.method,
+          .method = job.method + (job.is_refined ? study.methods.size() + 1 : 0),
           .degree = job.degree,
           .is_initial = job.method == 0,
           .is_result = task.is_result,
-          .n_nodes = static_cast<double>(meshes[job.mesh].mesh.n_nodes()),
+          .n_nodes = times * static_cast<double>(meshes[job.mesh].mesh.n_nodes()),
           .dimension = dim,
           .polynomial_degree = study.degrees[job.degree],
           .record = task.record};
@@ -256,6 +282,31 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
 }
 
 template <int dim, int spacedim>
+std::vector<RefinedRow> refined_rows(const StudyData<dim, spacedim>& data) {
+  std::vector<RefinedRow> rows;
+  if (data.study.refined_degrees.empty()) return rows;
+  for (std::size_t m = 0; m < data.meshes.size(); ++m) {
+    const auto& refined = data.mesh_tasks[m].refined;
+    const auto append = [&](const std::string& method, const Tasks& tasks, bool invalid,
+                            const std::string& failure) {
+      for (auto& outcome : outcomes(data.study.refined_degrees, tasks, invalid)) {
+        if (!failure.empty()) outcome.status = "failed: " + failure;
+        if (!failure.empty() || outcome.status == invalid_mesh) outcome.solved.reset();
+        rows.push_back({data.meshes[m].description.name, method, outcome.degree,
+                        std::move(outcome.solved), std::move(outcome.status)});
+      }
+    };
+    append("initial", refined[0], data.meshes[m].quality.n_invalid > 0, "");
+    for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
+      const Trajectory& trajectory = data.trajectories[m][k];
+      append(data.study.methods[k].name, refined[trajectory.result_record == 0 ? 0 : k + 1],
+             trajectory.quality.n_invalid > 0, trajectory.failure);
+    }
+  }
+  return rows;
+}
+
+template <int dim, int spacedim>
 std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
                                    const std::function<void()>& watch) {
   const auto& metrics = data.study.metrics;
@@ -309,6 +360,7 @@ void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::p
   template struct StudyData<__VA_ARGS__>;                                          \
   template void make_tasks(StudyData<__VA_ARGS__>&);                               \
   template std::vector<IterationRow> finished_rows(const StudyData<__VA_ARGS__>&); \
+  template std::vector<RefinedRow> refined_rows(const StudyData<__VA_ARGS__>&);    \
   template std::vector<SummaryRow> summary_rows(const StudyData<__VA_ARGS__>&);    \
   template std::vector<MetricRow> metric_rows(const StudyData<__VA_ARGS__>&,       \
                                               const std::function<void()>&);       \

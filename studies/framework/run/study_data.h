@@ -17,21 +17,26 @@
 
 namespace smoothfem {
 
+/// The status of meshes with invalid cells, which are not solved.
+inline constexpr const char* invalid_mesh = "invalid mesh";
+
 /// The finite element records of one mesh, method (or the initial mesh) and degree: what is
 /// checkpointed together.
 struct SolveJob {
   SolveJob(std::string name_, std::string trajectory_, std::size_t mesh_, std::size_t degree_,
-           std::size_t method_)
+           std::size_t method_, bool is_refined_)
       : name(std::move(name_)),
         trajectory(std::move(trajectory_)),
         mesh(mesh_),
         degree(degree_),
-        method(method_) {}
+        method(method_),
+        is_refined(is_refined_) {}
 
   std::string name;          ///< in the checkpoint
   std::string trajectory;    ///< name of the trajectory; empty: the initial mesh
   std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
   std::size_t method;        ///< index into the study's methods plus one; 0: the initial mesh
+  bool is_refined;           ///< of the mesh with split cells
   std::size_t n_tasks = 0;
   SolvedRecords solved{};
   std::chrono::steady_clock::time_point saved{};
@@ -56,6 +61,8 @@ struct SolveTask {
 struct MeshTasks {
   std::vector<SolveTask*> initial;
   std::vector<std::vector<std::vector<SolveTask*>>> methods;  ///< [method][snapshot][degree]
+  /// [method plus one; 0: initial][refined degree]; nothing of methods that improved nothing.
+  std::vector<std::vector<SolveTask*>> refined{};
 };
 
 /// What a study has computed so far.
@@ -70,6 +77,7 @@ struct StudyData {
   std::list<SolveTask> tasks{};                         ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
 
+  /// Of the mesh before its cells are split, if they are.
   std::vector<Point<spacedim>> coordinates_of(const SolveTask& task) const;
   SolveKind kind_of(const SolveTask& task) const;
 };
@@ -91,6 +99,10 @@ std::vector<IterationRow> finished_rows(const StudyData<dim, spacedim>& data);
 /// Rows for summary.csv; all tasks must be done.
 template <int dim, int spacedim>
 std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data);
+
+/// Rows for refined.csv; all tasks must be done.
+template <int dim, int spacedim>
+std::vector<RefinedRow> refined_rows(const StudyData<dim, spacedim>& data);
 
 /// Rows for metrics.csv of all recorded meshes, in the order of meshes, methods, records and
 /// metrics; those that none of its cells has are left out. Calls `watch` between two meshes.

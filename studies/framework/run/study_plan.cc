@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/study_plan.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "studies/framework/results/results_folder.h"
@@ -117,13 +118,13 @@ class Plan {
 
   void plan_solves(std::size_t m, std::size_t d, double n_nodes, int degree) {
     const SolveCosts costs;
-    const auto seconds = [&](std::size_t method, bool is_result) {
+    const auto seconds = [&](std::size_t method, bool is_result, double times = 1.0) {
       return costs.expected({.mesh = m,
                              .method = method,
                              .degree = d,
                              .is_initial = method == 0,
                              .is_result = is_result,
-                             .n_nodes = n_nodes,
+                             .n_nodes = times * n_nodes,
                              .dimension = dim,
                              .polynomial_degree = degree,
                              .record = 0});
@@ -133,6 +134,11 @@ class Plan {
                      (only_results ? 2.0 : static_cast<double>(records_per_method()));
     totals_.n_solves += 1.0 + n;
     totals_.solve_seconds += seconds(0, true) + n * seconds(1, false);
+    const auto& refined = study_.refined_degrees;
+    if (std::find(refined.begin(), refined.end(), degree) == refined.end()) return;
+    const auto n_refined = static_cast<double>(study_.methods.size() + 1);
+    totals_.n_solves += n_refined;
+    totals_.solve_seconds += n_refined * seconds(1, true, 1 << dim);
   }
 
   const Study& study_;

@@ -166,7 +166,7 @@ void write_collected_tables(const fs::path& out, const std::vector<MemberRow>& r
     if (row.at("status") == member_complete) complete = &row;
   }
   write_atomically(out / "members.csv", members.text());
-  for (const std::string name : {"iterations.csv", "summary.csv", "metrics.csv"})
+  for (const std::string name : {"iterations.csv", "summary.csv", "metrics.csv", "refined.csv"})
     if (complete != nullptr && fs::exists(member_folder(out, complete->at("member")) / name))
       write_atomically(out / name, [&](const fs::path& temporary) {
         CollectedTable(out, name).write(rows, temporary);

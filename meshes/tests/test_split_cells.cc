@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meshes/refinement/split_cells.h"
+#include "smoothing/geometry/cell_size.h"
+#include "smoothing/quality/mesh_quality.h"
+#include "smoothing/tests/volume_meshes.h"
+
+namespace smoothfem {
+namespace {
+
+using testing::ElementsAre;
+
+/// Parts are valid and fill the mesh, fit together, and the boundary's facets have four each.
+template <int dim>
+void expect_split(const Mesh<dim>& mesh, std::size_t n_parts, double size) {
+  const Mesh<dim> split = with_split_cells(mesh);
+  EXPECT_EQ(split.n_cells(), n_parts);
+  EXPECT_EQ(mesh_quality(split).n_invalid, 0u);
+  double sum = 0.0;
+  for (CellIndex c = 0; c < split.n_cells(); ++c) sum += signed_cell_size(split, c);
+  EXPECT_NEAR(sum, size, 1e-12 * size);
+  EXPECT_EQ(split.topology().boundary_facets().size(),
+            (dim == 2 ? 2 : 4) * mesh.topology().boundary_facets().size());
+  for (std::size_t i = 0; i < mesh.n_nodes(); ++i)
+    EXPECT_EQ(split.coordinates()[i], mesh.coordinates()[i]);
+}
+
+TEST(SplitCells, OfATriangleByHand) {
+  const PlanarMesh mesh = test::make_mesh({{0, 0}, {2, 0}, {0, 4}}, {{0, 1, 2}});
+  const PlanarMesh split = with_split_cells(mesh);
+  std::vector<std::pair<double, double>> points;
+  for (const auto& p : split.coordinates()) points.emplace_back(p[0], p[1]);
+  EXPECT_THAT(points, ElementsAre(std::pair(0, 0), std::pair(2, 0), std::pair(0, 4),
+                                  std::pair(1, 0), std::pair(0, 2), std::pair(1, 2)));
+  EXPECT_THAT(split.topology().cell_nodes(3), ElementsAre(3, 5, 4));
+}
+
+TEST(SplitCells, OfASquareHaveItsMiddle) {
+  const PlanarMesh mesh = test::make_mesh({{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {{0, 1, 2, 3}});
+  const PlanarMesh split = with_split_cells(mesh);
+  EXPECT_EQ(split.n_nodes(), 9u);
+  for (CellIndex c = 0; c < 4; ++c) {
+    bool has_middle = false;
+    for (const NodeIndex node : split.topology().cell_nodes(c))
+      has_middle |= split.coordinates()[node] == Point<2>(1, 1);
+    EXPECT_TRUE(has_middle) << c;
+  }
+}
+
+TEST(SplitCells, FillTheMeshInThePlane) {
+  PlanarMesh triangles = test::grid_mesh(4, test::GridCells::triangles);
+  PlanarMesh squares = test::grid_mesh(4, test::GridCells::quadrilaterals);
+  test::distort(triangles, 0.2, 1);
+  test::distort(squares, 0.2, 1);
+  expect_split(triangles, 4 * triangles.n_cells(), 16.0);
+  expect_split(squares, 4 * squares.n_cells(), 16.0);
+}
+
+TEST(SplitCells, FillTheMeshInSpace) {
+  using enum test::BoxCells;
+  for (const auto kind : {tetrahedra, prisms, hexahedra}) {
+    const VolumeMesh mesh = test::box_mesh(2, 3, 2, kind);
+    expect_split(mesh, 8 * mesh.n_cells(), 12.0);
+  }
+  const VolumeMesh pyramid_mesh = test::box_mesh(2, 3, 2, pyramids);
+  expect_split(pyramid_mesh, 10 * pyramid_mesh.n_cells(), 12.0);
+  const VolumeMesh of_all = test::box_mesh(2, 2, 8, mixed);
+  std::size_t n_parts = 0;
+  for (CellIndex c = 0; c < of_all.n_cells(); ++c)
+    n_parts += of_all.topology().cell_type(c) == ElementType::pyramid ? 10 : 8;
+  expect_split(of_all, n_parts, 32.0);
+}
+
+/// A flat one: the middles of 0-1 and 2-3 are 1 apart, those of the other opposite edges 2.
+TEST(SplitCells, OfATetrahedronAreCutAlongTheShortestDiagonal) {
+  const VolumeMesh mesh = test::make_volume_mesh({{-2, 0, 0}, {2, 0, 0}, {0, 2, 1}, {0, -2, 1}},
+                                                 test::rows_of({{0, 1, 2, 3}}));
+  const VolumeMesh split = with_split_cells(mesh);
+  ASSERT_EQ(split.n_cells(), 8u);
+  EXPECT_EQ(mesh_quality(split).n_invalid, 0u);
+  for (CellIndex c = 4; c < 8; ++c) {
+    const auto nodes = split.topology().cell_nodes(c);
+    EXPECT_EQ(split.coordinates()[nodes[0]], Point<3>(0, 0, 0));
+    EXPECT_EQ(split.coordinates()[nodes[1]], Point<3>(0, 0, 1));
+  }
+}
+
+TEST(SplitCells, TagsGoOnToTheParts) {
+  MeshLabels labels;
+  labels.cell_tags = {7, 8};
+  labels.facets.append(std::vector<NodeIndex>{0, 1});
+  labels.facet_tags = {5};
+  labels.names[{1, 5}] = "below";
+  auto topology = std::make_shared<const Topology>(2, 4, test::rows_of({{0, 1, 2}, {0, 2, 3}}),
+                                                   std::nullopt, labels);
+  const PlanarMesh split = with_split_cells(PlanarMesh(topology, {{0, 0}, {2, 0}, {2, 2}, {0, 2}}));
+  const MeshLabels& found = split.topology().labels();
+  EXPECT_THAT(found.cell_tags, ElementsAre(7, 7, 7, 7, 8, 8, 8, 8));
+  EXPECT_THAT(found.facet_tags, ElementsAre(5, 5));
+  EXPECT_EQ(found.facets[0][1], found.facets[1][0]);
+  EXPECT_EQ(split.coordinates()[found.facets[0][1]], Point<2>(1, 0));
+  EXPECT_EQ(found.names, labels.names);
+}
+
+TEST(SplitCells, PolygonsAreRefused) {
+  EXPECT_THROW((void)with_split_cells(test::pentagon_mesh()), InputError);
+}
+
+}  // namespace
+}  // namespace smoothfem
