@@ -38,7 +38,7 @@ class Payoff:
     error: float  # over that of the initial mesh at this degree
     error_interval: tuple
     time: float  # smoothing and solving, over solving on the initial mesh
-    at_equal_time: float  # error over the unsmoothed mesh's after the same time in all; NaN where not known
+    at_equal_time: float  # median of the error over the unsmoothed mesh's after the same time in all; NaN: not known
     at_equal_time_interval: tuple
     n_problems: int
 
@@ -57,13 +57,13 @@ def solving_costs(problems, methods):
 
 def errors_at_budget(problems, methods):
     """Method -> error over the initial one, with the time that the middle one of the methods takes in all; 1 where
-    the method has nothing better by then."""
+    the method has nothing better by then, or has ended with invalid cells: one goes back to the initial mesh."""
     errors = {method: [] for method in methods}
     for problem in problems:
         budget = np.median([curve["seconds"][-1] for curve in problem.curves.values()])
         for method in methods:
             curve = problem.curves.get(method)
-            if curve is None:
+            if curve is None or problem.broken.get(method, np.inf) <= budget:
                 errors[method].append(1.0)
                 continue
             in_time = curve[ERROR][curve["seconds"] <= budget]
@@ -98,7 +98,7 @@ def payoffs(problems, methods):
         first = next(iter(problem.curves.values()))
         error, seconds = first[ERROR][0], max(first["solving"][0], 1e-6)
         options = {(method, AS_IS): (curve[ERROR][-1], curve["seconds"][-1] + curve["solving"][-1])
-                   for method, curve in problem.curves.items()}
+                   for method, curve in problem.curves.items() if method not in problem.broken}
         higher = by_key.get((problem.member, str(int(problem.degree) + 1)))
         if higher:
             of_higher = next(iter(higher.curves.values()))
@@ -130,8 +130,8 @@ def payoff(family, degree, method, change, values):
     meshes, known = meshes.astype(str), np.isfinite(at_equal_time)
     return Payoff(family, degree, method, change, geometric_mean(errors),
                   interval(lambda rows: geometric_mean(errors[rows]), meshes, N_SAMPLES), geometric_mean(times),
-                  geometric_mean(at_equal_time[known]) if known.any() else np.nan,
-                  interval(lambda rows: geometric_mean(at_equal_time[known][rows]), meshes[known], N_SAMPLES)
+                  float(np.median(at_equal_time[known])) if known.any() else np.nan,
+                  interval(lambda rows: np.median(at_equal_time[known][rows]), meshes[known], N_SAMPLES)
                   if known.any() else (np.nan, np.nan), len(values))
 
 

@@ -142,9 +142,22 @@ def what_got_worse(results, problems):
         with_it = [problem for problem in problems if method in problem.curves]
         if not with_it:
             continue
-        worse = np.array([problem.curves[method][ERROR][-1] > problem.curves[method][ERROR][0] for problem in with_it])
-        groups = np.array([problem.group for problem in with_it], dtype=str)
-        between = interval(lambda rows, w=worse: 100.0 * np.mean(w[rows]), groups)
+        invalid = sum(method in problem.broken for problem in with_it)
+        if invalid:
+            sentences.append(f"{results.title(method)} ends with invalid cells in {100.0 * invalid / len(with_it):.0f} %"
+                             f"{bracket(percentages(lambda p, m=method: m in p.broken, with_it), '.0f')} of "
+                             f"{len(with_it)} problems.")
+        with_it = [problem for problem in with_it if method not in problem.broken]
+        if not with_it:
+            continue
+        between = percentages(lambda p, m=method: p.curves[m][ERROR][-1] > p.curves[m][ERROR][0], with_it)
+        worse = sum(problem.curves[method][ERROR][-1] > problem.curves[method][ERROR][0] for problem in with_it)
         sentences.append(f"{results.title(method)} ends with a larger error than the initial mesh's in "
-                         f"{100.0 * np.mean(worse):.0f} %{bracket(between, '.0f')} of {len(with_it)} problems.")
+                         f"{100.0 * worse / len(with_it):.0f} %{bracket(between, '.0f')} of {len(with_it)} problems.")
     return sentences
+
+
+def percentages(test, problems):
+    """Interval of the share of problems for which the test is true, in percent."""
+    true = np.array([test(problem) for problem in problems], dtype=float)
+    return interval(lambda rows: 100.0 * np.mean(true[rows]), np.array([problem.group for problem in problems], dtype=str))

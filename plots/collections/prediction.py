@@ -2,12 +2,13 @@
 """Which quality number predicts the error, and how good is good enough."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from ..results.collection import OUTCOMES, QUALITIES
-from ..statistics.bootstrap import interval
-from ..statistics.correlation import good_enough, spearman
+from ..statistics.bootstrap import interval, intervals
+from ..statistics.correlation import good_enough, ranks, spearman
 from .problems import group_column, kinds_of_meshes
 
 N_SAMPLES = 200
@@ -44,6 +45,7 @@ class Sample:
     relative: dict
 
 
+@lru_cache(maxsize=1)
 def samples_of(results):
     """A sample for each type of elements and degree, each mesh of a method counted once."""
     rows = results.iterations
@@ -70,23 +72,44 @@ def relative_to_least(values, members):
     return values / least[inverse]
 
 
-def predictions(results, samples=None):
+@lru_cache(maxsize=1)
+def predictions(results):
     """Every quality with every outcome, for each sample; those that nothing is known of are left out."""
     found = []
-    for sample in samples or samples_of(results):
-        for quality, q in sample.qualities.items():
-            for outcome, y in sample.relative.items():
-                known = np.isfinite(q) & np.isfinite(y)
-                if np.count_nonzero(known) >= 3:
-                    found.append(prediction(sample, quality, outcome, known))
+    for sample in samples_of(results):
+        intervals = across_intervals(sample)
+        for (quality, outcome), between in intervals.items():
+            known = np.isfinite(sample.qualities[quality]) & np.isfinite(sample.relative[outcome])
+            if np.count_nonzero(known) >= 3:
+                found.append(prediction(sample, quality, outcome, known, between))
     return found
 
 
-def prediction(sample, quality, outcome, known):
+def across_intervals(sample):
+    """(quality, outcome) -> interval of their correlation over all records. Of each draw the ranks are computed once for
+    all pairs without gaps."""
+    some = np.linspace(0, len(sample.groups) - 1, min(len(sample.groups), MOST_ROWS)).astype(int)
+    columns = {name: values[some] for name, values in (*sample.qualities.items(), *sample.relative.items())}
+    whole = {name for name, values in columns.items() if np.isfinite(values).all()}
+
+    def correlations(rows):
+        centred = {}
+        for name in whole:
+            of_rows = ranks(columns[name][rows])
+            of_rows -= of_rows.mean()
+            norm = np.sqrt(of_rows @ of_rows)
+            centred[name] = of_rows / norm if norm > 0 else np.full(len(rows), np.nan)
+        return [centred[quality] @ centred[outcome] if quality in whole and outcome in whole
+                else spearman(columns[quality][rows], columns[outcome][rows]) for quality, outcome in pairs]
+
+    pairs = [(quality, outcome) for quality in sample.qualities for outcome in sample.relative]
+    return dict(zip(pairs, intervals(correlations, len(pairs), sample.groups[some].astype(str), N_SAMPLES)))
+
+
+def prediction(sample, quality, outcome, known, across_interval):
     """One of them, of the records that are known."""
     q, y = sample.qualities[quality][known], sample.relative[outcome][known]
     members, groups = sample.members[known], sample.groups[known]
-    some = np.linspace(0, len(q) - 1, min(len(q), MOST_ROWS)).astype(int)
     own, own_groups = [], []
     order = np.argsort(members.astype(str), kind="stable")
     for chosen in np.split(order, np.flatnonzero(members[order][1:] != members[order][:-1]) + 1):
@@ -96,19 +119,20 @@ def prediction(sample, quality, outcome, known):
             own_groups.append(groups[chosen[0]])
     own = np.array(own)
     return Prediction(
-        quality, outcome, sample.elements, sample.degree, spearman(q, y),
-        interval(lambda rows: spearman(q[some][rows], y[some][rows]), groups[some].astype(str), N_SAMPLES),
+        quality, outcome, sample.elements, sample.degree, spearman(q, y), across_interval,
         float(np.median(own)) if len(own) else np.nan,
         interval(lambda rows: np.median(own[rows]), np.array(own_groups, dtype=str), N_SAMPLES),
         len(q), len(set(members)))
 
 
-def thresholds(results, samples=None, gain=0.05):
-    """(elements, degree, quality, least number beyond which the H1 error falls by less than `gain`, interval)."""
+def thresholds(results, gain=0.05):
+    """(elements, degree, quality, least number beyond which the H1 error falls by less than `gain`, interval), for mean
+    ratios."""
     found = []
-    for sample in samples or samples_of(results):
+    for sample in samples_of(results):
         error = sample.relative["h1_error"]
-        for quality, q in sample.qualities.items():
+        for quality in QUALITIES:
+            q = sample.qualities[quality]
             known = np.flatnonzero(np.isfinite(q) & np.isfinite(error))
             if len(known) < 3:
                 continue

@@ -23,6 +23,7 @@ class Problem:
     group: str  # what intervals draw it with: the family or the mesh
     degree: str
     curves: dict  # method -> {"seconds": ..., "solving": ..., "h1_error": ...}
+    broken: dict  # method -> seconds of its last mesh, for methods that end with invalid cells
     split: dict  # method, or `initial` -> (h1_error, seconds of solving) of its result with every cell split
 
     def errors(self):
@@ -41,7 +42,7 @@ def problems_of(results):
     by = group_column(rows)
     numbers = {name: rows.number(name) for name in ("smoothing_seconds", "preparation_seconds", ERROR)}
     seconds = numbers["smoothing_seconds"] + numbers["preparation_seconds"]
-    solving = solving_seconds(rows)
+    solving, invalid = solving_seconds(rows), rows.number("n_invalid")
     split = split_of(results.refined)
     members, degrees, methods = (rows.text(name) for name in ("member", "degree", "method"))
     places = {}
@@ -50,18 +51,20 @@ def problems_of(results):
             places.setdefault(key, {}).setdefault(methods[number], []).append(number)
     found = []
     for (member, degree), of_methods in places.items():
-        curves = {}
+        curves, broken = {}, {}
         for method, chosen in of_methods.items():
             chosen = np.array(chosen)
             solved = np.isfinite(numbers[ERROR][chosen])
             if solved[0]:
+                if invalid[chosen[-1]] > 0:
+                    broken[method] = seconds[chosen[-1]]
                 chosen = chosen[solved]
                 curves[method] = {"seconds": seconds[chosen], "solving": solving[chosen],
                                   ERROR: numbers[ERROR][chosen]}
         if curves:
             first = next(iter(of_methods.values()))[0]
             found.append(Problem(member, rows.text("family")[first], rows.text("elements")[first],
-                                 rows.text("mesh")[first], rows.text(by)[first], degree, curves,
+                                 rows.text("mesh")[first], rows.text(by)[first], degree, curves, broken,
                                  {method: numbers for method, numbers in split.get((member, degree), {}).items()
                                   if method == INITIAL or method in curves}))
     return found

@@ -34,7 +34,7 @@ class Data:
 
     @cached_property
     def predictions(self):
-        return predictions(self.results, self.samples)
+        return predictions(self.results)
 
 
 def plan_collection_figures(results):

@@ -24,7 +24,7 @@ REFINED = ("member", "method", "degree", *SOLVING, "h1_error")
 NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # compared by identity: what is computed from it is kept
 class CollectionResults:
     """One results folder."""
 
@@ -66,16 +66,26 @@ def read_some_columns(path, names):
 def metric_columns(path, rows):
     """name -> column for the rows of iterations.csv: of each metric the mean and the worst number of the same mesh."""
     metrics = read_some_columns(path, (*RECORD, *STATISTICS))
-    numbers = {}
-    for number, key in enumerate(zip(*(rows.text(name) for name in RECORD))):
-        numbers.setdefault(key, []).append(number)
+    records = {}  # those of several degrees are one
+    record_of_row = np.array([records.setdefault(key, len(records)) for key in zip(*(rows.text(name) for name in RECORD))])
+    record_of_line = np.array([records.get(key, -1) for key in zip(*(metrics.text(name) for name in RECORD))])
     columns = {}
-    lines = zip(zip(*(metrics.text(name) for name in RECORD)), *(metrics.text(name) for name in STATISTICS))
-    for key, metric, better, least, mean, greatest in lines:
+    for (metric, better), lines in numbers_of(zip(metrics.text("metric"), metrics.text("better"))):
+        lines = lines[record_of_line[lines] >= 0]
         name = metric.replace("_", " ")
-        for column, value in ((f"mean {name}", mean), (f"worst {name}", least if better == "larger" else greatest)):
-            columns.setdefault(column, np.full(len(rows), "", dtype=object))[numbers.get(key, [])] = value
+        for column, statistic in ((f"mean {name}", "mean"), (f"worst {name}", "min" if better == "larger" else "max")):
+            of_records = np.full(len(records), "", dtype=object)
+            of_records[record_of_line[lines]] = metrics.text(statistic)[lines]
+            columns[column] = of_records[record_of_row]
     return columns
+
+
+def numbers_of(keys):
+    """(key, array of the places where it stands), in the order of their first."""
+    found = {}
+    for number, key in enumerate(keys):
+        found.setdefault(key, []).append(number)
+    return [(key, np.array(numbers)) for key, numbers in found.items()]
 
 
 def read_collection_results(folder):

@@ -13,21 +13,28 @@ def interval(statistic, groups, n_samples=N_SAMPLES, level=LEVEL, seed=1):
     (low, high), NaN where fewer than two groups give no interval.
 
     groups: shape (n,), what each row belongs to. statistic: takes indices of rows, returns a number."""
+    return intervals(lambda rows: [statistic(rows)], 1, groups, n_samples, level, seed)[0]
+
+
+def intervals(statistics, n_statistics, groups, n_samples=N_SAMPLES, level=LEVEL, seed=1):
+    """The same of several statistics that are computed together, from the same draws. statistics: takes indices of
+    rows, returns n_statistics numbers."""
     groups = np.asarray(groups)
     _, inverse = np.unique(groups, return_inverse=True)
     members = [np.flatnonzero(inverse == g) for g in range(inverse.max(initial=-1) + 1)]
     if len(members) < 2:
-        return np.nan, np.nan
+        return [(np.nan, np.nan)] * n_statistics
     random = np.random.default_rng(seed)
     values = []
     for _ in range(n_samples):
         drawn = random.integers(len(members), size=len(members))
-        values.append(statistic(np.concatenate([members[g] for g in drawn])))
-    values = np.asarray(values)[np.isfinite(values)]
-    if not len(values):
-        return np.nan, np.nan
+        values.append(statistics(np.concatenate([members[g] for g in drawn])))
     tail = 50.0 * (1.0 - level)
-    return tuple(float(v) for v in np.percentile(values, [tail, 100.0 - tail]))
+    found = []
+    for column in np.asarray(values, dtype=float).T:
+        column = column[np.isfinite(column)]
+        found.append(tuple(float(v) for v in np.percentile(column, [tail, 100.0 - tail])) if len(column) else (np.nan, np.nan))
+    return found
 
 
 def paired_test(a, b, n_samples=10000, seed=1):

@@ -5,7 +5,7 @@ import math
 
 from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, payoffs, ranking
 from ..collections.findings import findings_as_markdown
-from ..collections.prediction import predictions, samples_of, thresholds
+from ..collections.prediction import predictions, thresholds
 from ..collections.problems import problems_of
 from ..results.rows import groups_of
 from ..results.symbols import Heading, symbol_of
@@ -42,8 +42,8 @@ def table_of(results, name, caption, keys, groups, notes):
 def make_collection_tables(results):
     """(tables, page of findings): members, correlations, thresholds, ranks, and whether smoothing pays; tables without
     rows are left out."""
-    samples, problems = samples_of(results), problems_of(results)
-    predicted, enough = predictions(results, samples), thresholds(results, samples)
+    problems = problems_of(results)
+    predicted, enough = predictions(results), thresholds(results)
     ranks, gains = ranking(problems, results.methods), payoffs(problems, results.methods)
     tables = (members_table(results), prediction_table(results, predicted), threshold_table(results, enough),
               ranking_table(results, ranks), payoff_table(results, gains))
@@ -106,7 +106,8 @@ def ranking_table(results, found):
                               ("interval", [between(entry.ratio_interval, ".3f") for entry in found])]),
          ("p", [("", [number(entry.p_value, ".2g") for entry in found])])],
         ["True H1 error, over all members and degrees, at the time that the middle one of the methods takes in all for "
-         "the same mesh; error / initial is a geometric mean. p: of a paired test of logarithms by sign flips against "
+         "the same mesh; error / initial is a geometric mean, 1 for a method that has ended with invalid "
+         "cells. p: of a paired test of logarithms by sign flips against "
          "the first method, as if problems were independent.", INTERVALS])
 
 
@@ -130,7 +131,7 @@ def payoff_table(results, found):
          ("Problems", [("", [number_cell(str(p.n_problems)) for p in found])])],
         ["Geometric means over a family's problems, beside the unsmoothed mesh at degree d: true H1 error, and time of "
          "smoothing with its preparations, of assembly, and of the fastest solver that was run: CG alone, with the diagonal, "
-         "or with multigrid and its setup. Cells split: into 4, in space into 8. At equal time: over the error that the unsmoothed "
+         "or with multigrid and its setup. Cells split: into 4, in space into 8. At equal time, the median: over the error that the unsmoothed "
          "mesh has after the same time in all, by the power law through its errors as it is and with cells split; below 1 "
-         "smoothing pays.",
+         "smoothing pays. Problems that a method leaves with invalid cells are not counted.",
          "Intervals hold 95 % of bootstrap samples that draw meshes. A dash: there is no number."])

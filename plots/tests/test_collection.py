@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from plots.__main__ import main
-from plots.collections.comparison import AS_IS, NEXT_DEGREE, SPLIT, Payoff, error_in_time, payoffs, ranking
-from plots.collections.findings import verdict
+from plots.collections.comparison import AS_IS, NEXT_DEGREE, SPLIT, Payoff, error_in_time, errors_at_budget, payoffs, ranking
+from plots.collections.findings import verdict, what_got_worse
 from plots.collections.prediction import predictions, relative_to_least, thresholds
 from plots.collections.problems import problems_of
 from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, REFINED, STATISTICS, read_collection_results
@@ -122,6 +122,22 @@ class Collection(InFolder):
         self.assertIn("splitting every cell of the unsmoothed mesh leaves 0.500 (0.500 to 0.500) for 4 times: smoothing pays", text)
         self.assertIn("- one, d = 1, at equal time in all: of the methods Good does best, with 0.707 (0.707 to 0.707)", text)
         self.assertIn("lower than the unsmoothed mesh's in 2 of 2 families and degrees, surely higher in 0;", text)
+
+    def test_methods_that_end_with_invalid_cells_have_no_result(self):
+        rows = self.results.iterations
+        rows.columns["n_invalid"][(rows.text("method") == "good") & (rows.number("smoothing_seconds") > 0.45)
+                                  & (rows.text("member") != "m3")] = "2"
+        rows.columns["h1_error"][rows.text("n_invalid") == "2"] = ""
+        problems = problems_of(self.results)
+        found = {(p.family, p.degree, p.method, p.change): p for p in payoffs(problems, self.results.methods)}
+        self.assertEqual(found["one", "1", "good", AS_IS].n_problems, 1)
+        self.assertNotIn(("two", "1", "good", AS_IS), found)
+        errors = errors_at_budget(problems, self.results.methods)["good"]
+        np.testing.assert_allclose(np.sort(errors)[:2], 0.5)
+        np.testing.assert_allclose(np.sort(errors)[2:], 1.0)
+        text = "\n".join(what_got_worse(self.results, problems))
+        self.assertIn("Good ends with invalid cells in 88 % (62 to 100) of 16 problems.", text)
+        self.assertIn("in 0 % (no interval: one mesh only) of 2 problems", text)
 
     def test_the_power_law_needs_two_points(self):
         self.assertAlmostEqual(error_in_time(1.0, 1.0, 0.5, 4.0)(16.0), 0.25)
