@@ -166,9 +166,9 @@ def make_study(options):
     for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
         tell(sentence)
     whole = not (options.only or options.no_figures or options.out or request != Request())
-    if whole and outputs.write_report:
+    if whole:
         try:
-            tell(f"wrote {outputs.write_report(None, None)}")
+            tell(f"wrote {outputs.write_page()}")
         except NoLibrary as error:  # the tables and figures are there without the page
             warn(str(error))
 
@@ -176,10 +176,7 @@ def make_study(options):
 def make_report(options):
     """Writes report.html; raises ResultsError, NoLibrary or OSError."""
     outputs = outputs_of(options.folder)
-    if outputs.write_report is None:
-        raise ResultsError(f"{options.folder}: only studies that smooth meshes have a report; this one has its tables in "
-                           f"{options.folder / 'tables'}.")
-    path = outputs.write_report(options.against, options.out)
+    path = outputs.write_page(options.against, options.out)
     if not options.quiet:
         print(f"wrote {path}")
 

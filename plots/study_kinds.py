@@ -40,7 +40,16 @@ class Outputs:
     remarks: tuple = ()  # sentences on what a user may look for in vain
     warnings: tuple = ()  # sentences on what is wrong with the results
     least_width: float = 0.0  # inches that the words in the figures need
-    write_report: Callable = None  # (against, path) -> the path of the page written; None: the kind has none
+    write_report: Callable = None  # (against, path) -> the path of the page written; None: that of tables and figures
+
+    def write_page(self, against=None, path=None):
+        """Writes report.html, or to a path; returns where. Raises ResultsError or NoLibrary."""
+        if self.write_report:
+            return self.write_report(against, path)
+        if against is not None:
+            raise ResultsError(f"{self.folder}: only studies that smooth meshes can be compared; leave out --against.")
+        from .report.tables_page import write_tables_report
+        return write_tables_report(self.folder, self.study_title, self.tables, self.plan(), tuple(self.texts.values()), path)
 
     @property
     def names(self):

@@ -31,6 +31,6 @@ def minified(path, package):
                           text=True, encoding="utf-8").stdout
 
 
-def scripts():
-    """The texts of all of them, in the order in which they need one another. Raises NoLibrary."""
-    return [minified(*PLOTLY), *(library(*file) for file in LIBRARIES)]
+def scripts(with_plots=True):
+    """The texts of all of them, Plotly's only if wanted, in the order in which they need one another. Raises NoLibrary."""
+    return [*([minified(*PLOTLY)] if with_plots else []), *(library(*file) for file in LIBRARIES)]

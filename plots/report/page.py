@@ -56,12 +56,11 @@ def against_section(results, against):
             "digit.</p>" + html_table(found, "Ratios", "against-table", ("Mesh", "Method", "degree")) + "</section>")
 
 
-def provenance_section(results):
+def provenance_section(study, provenance):
     """Where the numbers come from, and the command that makes them again."""
-    provenance = results.provenance
     program, machine = provenance.get("program", {}), provenance.get("machine", {})
     scale = provenance.get("scale", "default")
-    command = f"smoothfem study {shlex.quote(results.study)}" + ("" if scale == "default" else f" --scale {scale}")
+    command = f"smoothfem study {shlex.quote(study)}" + ("" if scale == "default" else f" --scale {scale}")
     if any(mesh.get("published") for mesh in provenance.get("meshes", []) if isinstance(mesh, dict)):
         command += " --published"
     changed = " with changes that are not committed" if program.get("uncommitted_changes") else ""
@@ -72,6 +71,17 @@ def provenance_section(results):
     listed = "".join(f"<dt>{escape(name)}</dt><dd>{escape(str(value))}</dd>" for name, value in facts)
     return (f'<section id="provenance"><h2>Provenance</h2><dl>{listed}</dl><details><summary>All of provenance.json</summary>'
             f"<pre>{escape(json.dumps(provenance, indent=1))}</pre></details></section>")
+
+
+def file_text(name):
+    """Of a file beside this one."""
+    return (HERE / name).read_text(encoding="utf-8")
+
+
+def common_words(with_plots=True):
+    """Style and scripts that every page has."""
+    return {"style": file_text("report.css"), "libraries": "".join(map(script, scripts(with_plots))),
+            "common": script(file_text("page.js"))}
 
 
 def counted(number, noun, plural="s"):
@@ -91,12 +101,11 @@ def page(results, outcomes=(), against=None):
         "summary": html_table(summary_table(results), "summary.csv: a row for each mesh, method and degree",
                               "summary-table", ("mesh", "method", "degree")),
         "claims": claims_section(outcomes), "against": against_section(results, against),
-        "provenance": provenance_section(results),
-        "style": (HERE / "report.css").read_text(encoding="utf-8"),
-        "libraries": "".join(map(script, scripts())),
+        "provenance": provenance_section(results.study, results.provenance),
+        **common_words(),
         "data": json.dumps(data, separators=(",", ":")).replace("</", "<\\/"),
-        "script": script((HERE / "report.js").read_text(encoding="utf-8"))}
-    return Template((HERE / "report.html").read_text(encoding="utf-8")).substitute(words)
+        "script": script(file_text("report.js"))}
+    return Template(file_text("report.html")).substitute(words)
 
 
 def write_report(results, outcomes=(), against=None, path=None):

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's curves, meshes and tables.
+// The report's curves and meshes.
 (function () {
   "use strict";
   const data = JSON.parse(document.getElementById("data").textContent);
   const $id = (id) => document.getElementById(id);
   const title = (name) => data.titles[name] || name;
 
-  // ---- theme
-  const isDark = () => {
-    const chosen = document.documentElement.dataset.theme;
-    return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-  };
-  const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const isDark = page.isDark, css = page.css;
   const layout = (more) => Object.assign({
     paper_bgcolor: css("--back"), plot_bgcolor: css("--back"), font: { color: css("--text") },
     margin: { l: 70, r: 15, t: 30, b: 50 }, legend: { orientation: "h", y: -0.2, yanchor: "top" } }, more);
@@ -219,39 +214,12 @@
     watch.observe($id("view"));
   }
 
-  // ---- tables
-  function initTables() {
-    jQuery("table.sortable").each(function () {
-      const table = this, filtered = table.dataset.filters.split(" ").filter(Boolean).map(Number);
-      const shown = jQuery(table).DataTable({ paging: false, order: [], orderCellsTop: true,
-        language: { search: "Filter the rows:" } });
-      filtered.forEach((column) => {
-        const header = shown.column(column).header(), select = document.createElement("select");
-        select.setAttribute("aria-label", "Only rows with this " + header.textContent);
-        const texts = [...new Set(shown.column(column).nodes().toArray().map((cell) => cell.textContent))].sort();
-        select.append(new Option("all", ""), ...texts.map((text) => new Option(text, text)));
-        select.addEventListener("click", (event) => event.stopPropagation());
-        select.addEventListener("change", () => shown.column(column).search(
-          select.value ? "^" + jQuery.fn.dataTable.util.escapeRegex(select.value) + "$" : "", true, false).draw());
-        header.append(select);
-      });
-    });
-  }
-
-  function redraw() {
+  page.redraw = () => {
     drawCurves();
     if (decoded.size) drawMeshes();
-  }
-  $id("theme").addEventListener("click", () => {
-    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
-    $id("theme").setAttribute("aria-pressed", String(isDark()));
-    redraw();
-  });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-  document.querySelectorAll("nav a").forEach((a) => { a.hidden = !document.querySelector(a.getAttribute("href")); });
+  };
 
   initCurves();
   initMeshes();
-  initTables();
-  document.documentElement.dataset.ready = "yes";
+  page.ready();
 })();

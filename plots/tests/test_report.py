@@ -14,9 +14,11 @@ from plots.report import libraries
 from plots.report.contents import comparison, contents, ratio
 from plots.report.mesh_views import mesh_view, metrics_of, seen_of
 from plots.report.page import page, write_report
+from plots.report.tables_page import html_text
 from plots.results.rows import ResultsError, read_rows
 from plots.results.smoothing import read_results
 from plots.results.vtu import UnstructuredGrid
+from plots.tests.test_collection import write_collection
 from plots.tests.synthetic_results import write_csv, write_results
 from plots.tests.test_read_results import InFolder
 
@@ -117,6 +119,24 @@ class Contents(InFolder):
                 write_report(read_results(folder))
 
 
+class TablesPage(InFolder):
+    def test_findings_tables_and_figures_stand_in_it(self):
+        folder = write_collection(self.folder / "r")
+        self.assertEqual(main([str(folder), "--quiet"]), 0)
+        text = (folder / "report.html").read_text()
+        self.assertIn("<h3>Which method</h3>", text)
+        self.assertIn("<li>At equal budgets of time Good has the lowest mean rank", text)
+        for name in ("table_members", "table_prediction", "table_good_enough", "table_ranking", "table_payoff"):
+            self.assertIn(f'<table id="{name}" class="sortable"', text)
+        self.assertEqual(text.count("<figure>"), 5)
+        self.assertLess(len(text.encode()), MOST_BYTES)
+        self.assertEqual(main(["report", str(folder), "--against", str(folder), "--quiet"]), 2)
+
+    def test_sentences_become_lists(self):
+        self.assertEqual(html_text("# Title\n\nA & b\n\n## More\n\n- one\n- <two>\n"),
+                         "<p>A &amp; b</p>\n<h3>More</h3>\n<ul>\n<li>one</li>\n<li>&lt;two&gt;</li>\n</ul>")
+
+
 class Browser(InFolder):
     """Opened as a reader opens it, in Chromium."""
 
@@ -214,6 +234,20 @@ class Browser(InFolder):
         self.assertEqual(self.js(ground), "rgb(255, 255, 255)")
         printed = base64.b64decode(self.browser.execute_cdp_cmd("Page.printToPDF", {})["data"])
         self.assertTrue(printed.startswith(b"%PDF"))
+        self.assertEqual(self.errors(), [])
+
+    def test_a_collection_sorts_filters_and_fits(self):
+        folder = write_collection(self.folder / "many")
+        self.assertEqual(main([str(folder), "--quiet"]), 0)
+        self.path = folder / "report.html"
+        self.open(width=400, dark=True)
+        self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 400)
+        rows = "return [...document.querySelectorAll('#table_payoff tbody tr')].map((row) => row.cells[0].textContent)"
+        self.assertEqual(set(self.js(rows)), {"one", "two"})
+        self.js("const s = document.querySelector('#table_payoff th select'); s.value = 'two';"
+                "s.dispatchEvent(new Event('change', {bubbles: true}))")
+        self.assertEqual(set(self.js(rows)), {"two"})
+        self.assertEqual(self.js("return [...document.images].filter((i) => i.complete && i.naturalWidth && i.alt).length"), 5)
         self.assertEqual(self.errors(), [])
 
     def test_everything_that_can_be_set_has_a_name(self):

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes report.html for studies without meshes of their own: their sentences, tables and figures as one file that opens
+without a network."""
+
+import base64
+import csv
+import io
+from html import escape
+from string import Template
+
+from ..results.rows import read_provenance
+from ..results.write_files import write_atomically
+from ..tables.formats import as_csv
+from .page import NAME, common_words, file_text, html_table, provenance_section
+
+
+def html_text(markdown):
+    """Headings, lists and paragraphs, which is all that this program's texts of sentences have; the first heading is the
+    page's own."""
+    lines, in_list = [], False
+    for line in markdown.splitlines():
+        is_item = line.startswith("- ")
+        if is_item != in_list:
+            lines.append("<ul>" if is_item else "</ul>")
+            in_list = is_item
+        if is_item:
+            lines.append(f"<li>{escape(line[2:])}</li>")
+        elif line.startswith("## "):
+            lines.append(f"<h3>{escape(line[3:])}</h3>")
+        elif line and not line.startswith("# "):
+            lines.append(f"<p>{escape(line)}</p>")
+    return "\n".join(lines + ["</ul>"] * in_list)
+
+
+def sortable(field):
+    """A cell of a table; numbers are sorted as such."""
+    try:
+        return {"text": field, "order": float(field)}
+    except ValueError:
+        return {"text": field}
+
+
+def tables_section(tables):
+    """All tables; those columns can be chosen from that say what a row is about."""
+    found = []
+    for table in tables:
+        headings, *rows = csv.reader(io.StringIO(as_csv(table)))
+        found.append(html_table({"headings": headings, "rows": [[sortable(field) for field in row] for row in rows]}, table.caption,
+                                table.name, headings[:len(table.key_headings)]))
+        found += [f"<p>{escape(sentence)}</p>" for _, sentence in table.notes]
+    return '<section id="tables"><h2>Tables</h2>' + "\n".join(found) + "</section>" if found else ""
+
+
+def figures_section(folder, planned):
+    """The figures that have been drawn."""
+    found = []
+    for figure in planned:
+        path = folder / "figures" / f"{figure.name}.png"
+        if path.is_file():
+            image = base64.b64encode(path.read_bytes()).decode()
+            found.append(f'<figure><img alt="{escape(figure.title, quote=True)}" src="data:image/png;base64,{image}">'
+                         f"<figcaption>{escape(figure.title)}</figcaption></figure>")
+    return '<section id="figures"><h2>Figures</h2>' + "\n".join(found) + "</section>" if found else ""
+
+
+def write_tables_report(folder, title, tables, planned, texts, path=None):
+    """Writes report.html into the results folder, or to a path; returns where. texts: Markdown. Raises NoLibrary."""
+    provenance = read_provenance(folder / "provenance.json")
+    sentences = "\n".join(html_text(text) for text in texts)
+    words = {
+        "title": escape(title),
+        "texts": f'<section id="texts"><h2>Findings</h2>{sentences}</section>' if sentences else "",
+        "tables": tables_section(tables), "figures": figures_section(folder, planned),
+        "provenance": provenance_section(str(provenance.get("study") or folder.resolve().name), provenance),
+        **common_words(with_plots=False)}
+    return write_atomically(path or folder / NAME, Template(file_text("tables.html")).substitute(words))
