@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the built-in studies for results/reference: all at the scale `paper`, the gear on the published
-meshes as it is. Goes on where it was stopped: a study whose reference is of this commit is left alone,
+meshes as it is, collections at their usual scale. Goes on where it was stopped: a study whose reference is of this commit is left alone,
 one that was interrupted goes on by itself. Shortest ones first.
 
     make_reference.py SOURCE PROGRAM WORK [STUDY...]
@@ -17,7 +17,9 @@ import sys
 from pathlib import Path
 
 KEPT = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json", "tables")
-DRAWN = ("gear", "volume")  # whose figures are kept, too
+COLLECTIONS = ("field",)  # run at their usual scale
+KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")  # all records are too many
+DRAWN = ("gear", "volume", "field")  # whose figures are kept, too
 PUBLISHED = ("gear", "energy")  # which are of the published meshes
 SCALE = "subsection scale paper"
 UNKNOWN_SECONDS = 1e9  # studies without a reference come last
@@ -48,7 +50,7 @@ def seconds(folder):
 
 def options(study):
     """How a study is run for the reference."""
-    return ["--published"] if study in PUBLISHED else ["--scale", "paper"]
+    return ["--published"] if study in PUBLISHED else [] if study in COLLECTIONS else ["--scale", "paper"]
 
 
 def keep(results, reference, study):
@@ -56,7 +58,8 @@ def keep(results, reference, study):
     new = reference / f".{study}.new"
     shutil.rmtree(new, ignore_errors=True)
     new.mkdir(parents=True)
-    for name in KEPT + (("figures",) if study in DRAWN else ()):
+    kept = KEPT_OF_COLLECTIONS if study in COLLECTIONS else KEPT
+    for name in kept + (("figures",) if study in DRAWN else ()):
         source = results / name
         if source.is_dir():
             shutil.copytree(source, new / name, ignore=shutil.ignore_patterns("*.pdf"))

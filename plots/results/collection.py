@@ -71,6 +71,8 @@ def metric_columns(path, rows):
     record_of_line = np.array([records.get(key, -1) for key in zip(*(metrics.text(name) for name in RECORD))])
     columns = {}
     for (metric, better), lines in numbers_of(zip(metrics.text("metric"), metrics.text("better"))):
+        if metric == "mean_ratio":
+            continue  # q_min and q_mean are these
         lines = lines[record_of_line[lines] >= 0]
         name = metric.replace("_", " ")
         for column, statistic in ((f"mean {name}", "mean"), (f"worst {name}", "min" if better == "larger" else "max")):
