@@ -11,25 +11,9 @@
 
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
+#include "studies/framework/results/csv_text.h"
 
 namespace smoothfem {
-
-/// One CSV line's fields. Understands quotes, so that it also reads what a spreadsheet would.
-inline std::vector<std::string> csv_fields(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      fields.back() += line[i++];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      fields.emplace_back();
-    else
-      fields.back() += line[i];
-  }
-  return fields;
-}
 
 /// A CSV text without line breaks in its fields: one map from column to field for each line.
 struct CsvTable {

@@ -4,8 +4,26 @@
 #include <charconv>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace smoothfem {
+
+/// The fields of a line that CsvText has written, without line breaks in them.
+inline std::vector<std::string> csv_fields(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      fields.back() += line[i++];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += line[i];
+  }
+  return fields;
+}
 
 /// Lines of comma-separated fields; numbers in the shortest form that reads back the same.
 class CsvText {

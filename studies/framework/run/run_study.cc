@@ -86,9 +86,10 @@ class StudyRun {
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
       progress_.update(data_.meshes.size(), description.name);
-      data_.meshes.push_back(
-          prepare_mesh<dim, spacedim>(description, study_, options_.mesh_dir,
-                                      earlier_.status.empty() ? fs::path() : options_.out));
+      data_.meshes.push_back(prepare_mesh<dim, spacedim>(
+          description, study_, options_.mesh_dir,
+          earlier_.status.empty() && !options_.initial_meshes_are_there ? fs::path()
+                                                                        : options_.out));
       stop_if_interrupted();
     }
     progress_.end();

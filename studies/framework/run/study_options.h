@@ -20,9 +20,10 @@ struct StudyOptions {
   std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
   bool force = false;              ///< start anew; the folder of an earlier run is renamed
   bool quiet = false;
-  RunUntil until = RunUntil::results;  ///< of studies of smoothing methods
-  bool dry_run = false;                ///< say what would be done, and do nothing
-  unsigned int n_threads = 0;          ///< for the finite elements of planar meshes; 0: all cores
+  RunUntil until = RunUntil::results;     ///< of studies of smoothing methods
+  bool initial_meshes_are_there = false;  ///< in `out`, though no run has begun there
+  bool dry_run = false;                   ///< say what would be done, and do nothing
+  unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
   unsigned int smoothing_threads = 1;
   std::string shard{};  ///< "3/10": of a collection the third part of ten only; empty: all
   Ranks ranks{};        ///< that share the finite elements of volume meshes

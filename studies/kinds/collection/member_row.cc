@@ -24,22 +24,6 @@ std::string header(const std::vector<std::string>& columns) {
   return text;
 }
 
-/// The fields of a line that CsvText has written.
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i)
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      fields.back() += line[i++];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      fields.emplace_back();
-    else
-      fields.back() += line[i];
-  return fields;
-}
-
 void add_fields(CsvText& csv, const std::vector<std::string>& columns, const MemberRow& row) {
   for (const auto& column : columns) {
     const auto found = row.find(column);
@@ -137,7 +121,7 @@ MemberRow read_row(const fs::path& folder) {
   std::string columns, line;
   if (!std::getline(stream, columns)) return {};
   std::getline(stream, line);
-  const auto names = fields_of(columns), fields = fields_of(line);
+  const auto names = csv_fields(columns), fields = csv_fields(line);
   if (names != member_columns() || fields.size() != names.size())
     throw InputError((folder / row_file).string() +
                      " is not what this program writes; take the folder away to have the member "

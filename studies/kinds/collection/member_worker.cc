@@ -71,6 +71,7 @@ fs::path MemberWorker::folder_of(const Member& member) const {
 
 std::string MemberWorker::run(const Member& member) {
   options_.out = folder_of(member);
+  options_.initial_meshes_are_there = options_.until == RunUntil::meshes && share_mesh(member);
   if (options_.until == RunUntil::smoothing) share_smoothing(member);
   const MeshOutline outline = outline_of(collection_, member, options_.out);
   const Study study = member_study(collection_, member, outline);
@@ -82,6 +83,23 @@ std::string MemberWorker::run(const Member& member) {
   }
   run_study(study, options_);
   return options_.until == RunUntil::meshes ? facts_of(options_.out, outline) : "";
+}
+
+/// A mesh is made once for all members that it has, one for each solution. Returns whether it is
+/// there.
+bool MemberWorker::share_mesh(const Member& member) const {
+  if (member.mesh.domain.empty()) return false;  // files are read again
+  const fs::path name = fs::path("meshes") / (member.mesh.name + "_initial.mesh");
+  for (const auto& other : collection_.members) {
+    if (other.mesh.name != member.mesh.name || other.name == member.name) continue;
+    if (read_row(folder_of(other))["status"] != member_meshed) continue;
+    if (!fs::exists(folder_of(other) / name)) continue;
+    const fs::path own = folder_of(member) / name;
+    fs::create_directories(own.parent_path());
+    fs::copy_file(folder_of(other) / name, own, fs::copy_options::overwrite_existing);
+    return true;
+  }
+  return false;
 }
 
 /// A mesh is smoothed once for all members that it has, one for each solution: the trajectories of

@@ -24,6 +24,7 @@ class MemberWorker {
   class Mpi;
 
   std::filesystem::path folder_of(const Member& member) const;
+  bool share_mesh(const Member& member) const;
   void share_smoothing(const Member& member) const;
 
   const Collection& collection_;

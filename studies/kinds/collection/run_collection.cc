@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <set>
 
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
@@ -117,7 +118,8 @@ class CollectionRun {
         rows_.begin(), rows_.end(), [&](const auto& row) { return row.at("status") == status; }));
   }
 
-  /// Members that the phase is for, the smaller ones first.
+  /// Members that the phase is for: the smaller ones first, and before them, as long as meshes are
+  /// made, one of each mesh, which the others of it take over.
   std::vector<std::size_t> members_for(const Phase& phase) const {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -125,6 +127,12 @@ class CollectionRun {
     std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
       return size_of(rows_[a]) < size_of(rows_[b]);
     });
+    if (phase.until == RunUntil::meshes) {
+      std::set<std::string> meshes;
+      std::stable_partition(chosen.begin(), chosen.end(), [&](std::size_t i) {
+        return meshes.insert(members_[i]->mesh.name).second;
+      });
+    }
     return chosen;
   }
 
