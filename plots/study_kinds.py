@@ -41,6 +41,7 @@ class Outputs:
     warnings: tuple = ()  # sentences on what is wrong with the results
     least_width: float = 0.0  # inches that the words in the figures need
     write_report: Callable = None  # (against, path) -> the path of the page written; None: that of tables and figures
+    plots: Callable = lambda: None  # of that page in place of figures, as data
 
     def write_page(self, against=None, path=None):
         """Writes report.html, or to a path; returns where. Raises ResultsError or NoLibrary."""
@@ -49,7 +50,8 @@ class Outputs:
         if against is not None:
             raise ResultsError(f"{self.folder}: only studies that smooth meshes can be compared; leave out --against.")
         from .report.tables_page import write_tables_report
-        return write_tables_report(self.folder, self.study_title, self.tables, self.plan(), tuple(self.texts.values()), path)
+        return write_tables_report(self.folder, self.study_title, self.tables, self.plan(), tuple(self.texts.values()),
+                                   self.plots(), path)
 
     @property
     def names(self):
@@ -113,8 +115,12 @@ def collection_outputs(folder, request):
     def plan():
         from .figures.collection import plan_collection_figures
         return plan_collection_figures(results)
+
+    def plots():
+        from .report.collection_plots import collection_plots
+        return collection_plots(results)
     return Outputs(results.folder, results.study_title, tuple(tables), plan, texts={"findings": findings},
-                   least_width=LEAST_WIDTH)
+                   least_width=LEAST_WIDTH, plots=plots)
 
 
 SMOOTHING = "smoothing"  # the kind of a study that names none

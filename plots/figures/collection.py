@@ -1,58 +1,32 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures of a collection: what predicts the error, and how methods compare over all problems."""
 
-from functools import cached_property
-
 import matplotlib.pyplot as pyplot
 import numpy as np
 
-from ..collections.comparison import solving_costs
+from ..collections.diagrams import DIAGRAMS, diagrams
 from ..collections.prediction import predictions, samples_of
-from ..collections.problems import problems_of
 from ..results.symbols import symbol_of
-from ..statistics.profiles import anytime, performance_profile, runtime_distribution
 from . import style
 from .planned import PlannedFigure
 
-N_TIMES = 100  # of anytime curves
 MOST_POINTS = 3000  # of a scatter plot
-
-
-class Data:
-    """What several figures are made of, computed when the first of them needs it."""
-
-    def __init__(self, results):
-        self.results = results
-
-    @cached_property
-    def problems(self):
-        return problems_of(self.results)
-
-    @cached_property
-    def samples(self):
-        return samples_of(self.results)
-
-    @cached_property
-    def predictions(self):
-        return predictions(self.results)
 
 
 def plan_collection_figures(results):
     """All of them; none where no member is complete."""
     if not len(results.iterations):
         return []
-    data = Data(results)
-    return [PlannedFigure(name, title, lambda draw=draw: draw(data)) for name, title, draw in (
-        ("prediction", "rank correlation of quality and outcome", draw_prediction),
-        ("prediction_extremes", "the best and the worst predictor of the H1 error", draw_extremes),
-        ("profile", "performance profiles", draw_profile),
-        ("runtime", "runtime to targets", draw_runtime),
-        ("anytime", "error against time", draw_anytime))]
+    return [PlannedFigure("prediction", "rank correlation of quality and outcome", lambda: draw_prediction(results)),
+            PlannedFigure("prediction_extremes", "the best and the worst predictor of the H1 error",
+                          lambda: draw_extremes(results)),
+            *(PlannedFigure(name, title, lambda name=name: draw_diagram(results, diagrams(results).get(name)))
+              for name, title in DIAGRAMS.items())]
 
 
-def draw_prediction(data):
+def draw_prediction(results):
     """A heat map: qualities by outcomes, a panel for each type of elements and degree."""
-    found = data.predictions
+    found = predictions(results)
     kinds = list(dict.fromkeys((p.elements, p.degree) for p in found))
     if not kinds:
         return None
@@ -83,9 +57,9 @@ def draw_prediction(data):
     return figure
 
 
-def draw_extremes(data):
+def draw_extremes(results):
     """Scatter plots of the strongest and the weakest correlation with the H1 error."""
-    found = sorted((p for p in data.predictions if p.outcome == "h1_error" and np.isfinite(p.across)),
+    found = sorted((p for p in predictions(results) if p.outcome == "h1_error" and np.isfinite(p.across)),
                    key=lambda p: p.across)
     if not found:
         return None
@@ -93,7 +67,7 @@ def draw_extremes(data):
     figure, axes = pyplot.subplots(1, len(shown), squeeze=False, constrained_layout=True,
                                    figsize=(style.full_width(), 2.8))
     for ax, p in zip(axes.flat, shown):
-        sample = next(s for s in data.samples if (s.elements, s.degree) == (p.elements, p.degree))
+        sample = next(s for s in samples_of(results) if (s.elements, s.degree) == (p.elements, p.degree))
         q, error = sample.qualities[p.quality], sample.relative["h1_error"]
         some = np.linspace(0, len(q) - 1, min(len(q), MOST_POINTS)).astype(int)
         ax.plot(q[some], error[some], ".", markersize=2, alpha=0.5, color=style.ELEMENT_COLOURS["triangle"],
@@ -105,60 +79,27 @@ def draw_extremes(data):
     return figure
 
 
-def draw_steps(data, curves, x_label, y_label):
-    """A step line for each method: (x ascending, share)."""
-    styles = style.method_styles(data.results.methods)
-    figure, ax = pyplot.subplots(figsize=(style.width_of(1.4 * style.SINGLE_WIDTH), 3.0), constrained_layout=True)
-    for method, (x, share) in curves.items():
-        look = styles[method]
-        if len(x):
-            ax.step(x, share, where="post", color=look.colour, dashes=look.dashes or (1, 0), marker=look.marker,
-                    markevery=max(1, len(x) // 6), markersize=3, markerfacecolor=look.marker_fill,
-                    label=data.results.title(method))
-    if not ax.get_lines():
-        pyplot.close(figure)
+def draw_diagram(results, diagram):
+    """A line for each method; nothing where there is no diagram."""
+    if diagram is None:
         return None
-    ax.set_xscale("log")
-    ax.set_ylim(0, 1.02)
-    ax.set_xlabel(x_label)
-    ax.set_ylabel(y_label)
-    ax.legend(fontsize=7)
-    return figure
-
-
-def draw_profile(data):
-    """Dolan and More's profiles of the time to an error within 5 % of the least."""
-    return draw_steps(data, performance_profile(solving_costs(data.problems, data.results.methods)),
-                      "Smoothing time / least of any method", "Share of problems solved")
-
-
-def draw_runtime(data):
-    """COCO's distributions of runtimes to targets."""
-    times = runtime_distribution([problem.errors() for problem in data.problems])
-    curves = {}
-    for method, values in times.items():
-        reached = np.sort(values[np.isfinite(values)])
-        curves[method] = np.maximum(reached, 1e-6), np.arange(1, len(reached) + 1) / max(1, len(values))
-    return draw_steps(data, curves, "Smoothing time (s)", "Share of problems and targets")
-
-
-def draw_anytime(data):
-    """Median and quartiles of the error so far over the initial one."""
-    problems = [problem.errors() for problem in data.problems]
-    ends = [times[-1] for curves in problems for times, _ in curves.values() if times[-1] > 0]
-    if not ends:
-        return None
-    grid = np.geomspace(max(min(ends) / 10, 1e-6), max(ends), N_TIMES)
-    styles = style.method_styles(data.results.methods)
+    styles = style.method_styles(results.methods)
     figure, ax = pyplot.subplots(figsize=(style.width_of(1.4 * style.SINGLE_WIDTH), 3.0), constrained_layout=True)
-    for method in data.results.methods:
-        lower, median, upper = anytime(problems, method, grid)
-        look = styles[method]
-        ax.fill_between(grid, lower, upper, color=look.colour, alpha=0.12, linewidth=0)
-        ax.plot(grid, median, color=look.colour, dashes=look.dashes or (1, 0), label=data.results.title(method))
+    for curve in diagram.curves:
+        look, label = styles[curve.method], results.title(curve.method)
+        common = {"color": look.colour, "dashes": look.dashes or (1, 0), "label": label}
+        if diagram.is_share:
+            ax.step(curve.x, curve.y, where="post", marker=look.marker, markevery=max(1, len(curve.x) // 6), markersize=3,
+                    markerfacecolor=look.marker_fill, **common)
+        else:
+            ax.fill_between(curve.x, curve.lower, curve.upper, color=look.colour, alpha=0.12, linewidth=0)
+            ax.plot(curve.x, curve.y, **common)
     ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlabel("Smoothing time (s)")
-    ax.set_ylabel("H1 error / initial")
+    if diagram.is_share:
+        ax.set_ylim(0, 1.02)
+    else:
+        ax.set_yscale("log")
+    ax.set_xlabel(diagram.x_label)
+    ax.set_ylabel(diagram.y_label)
     ax.legend(fontsize=7)
     return figure

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every page has: light or dark, tables to sort and filter, links to the sections that are there.
+// What pages share: light or dark, tables to sort and filter, links to the sections that are there, the look of plots.
 const page = (function () {
   "use strict";
 
@@ -29,11 +29,53 @@ const page = (function () {
     });
   }
 
+  // ---- plots
+  const layout = (more) => Object.assign({
+    paper_bgcolor: css("--back"), plot_bgcolor: css("--back"), font: { color: css("--text") },
+    margin: { l: 70, r: 15, t: 30, b: 50 },
+    legend: { orientation: "h", y: innerWidth < 700 ? -0.45 : -0.2, yanchor: "top" } }, more);
+  const axis = (words, type) => ({ title: words, type: type, gridcolor: css("--faint"), zeroline: false,
+    exponentformat: "power" });
+  // Black lines would not be seen on dark ground.
+  const seen = (colour) => (isDark() && colour === "#000000" ? "#ffffff" : colour);
+
+  // What takes a moment is drawn when it is about to be seen, or printed.
+  function whenSeen(id, draw) {
+    const drawOnce = () => {
+      watch.disconnect();
+      removeEventListener("beforeprint", drawOnce);
+      draw();
+    };
+    const watch = new IntersectionObserver((entries) => {
+      if (entries.some((entry) => entry.isIntersecting)) drawOnce();
+    }, { rootMargin: "300px" });
+    watch.observe(document.getElementById(id));
+    addEventListener("beforeprint", drawOnce);
+  }
+
+  // ---- what can be chosen
+  function fill(select, names, words) {
+    const before = select.value;
+    select.replaceChildren(...names.map((name) => new Option(words ? words(name) : name, name)));
+    if (names.includes(before)) select.value = before;
+  }
+  function addBoxes(id, names, words) {
+    names.forEach((name) => {
+      const label = document.createElement("label"), box = document.createElement("input");
+      Object.assign(box, { type: "checkbox", value: name, checked: true });
+      label.append(box, " " + words(name));
+      document.getElementById(id).append(label);
+    });
+  }
+  const checked = (id) => [...document.querySelectorAll("#" + id + " input:checked")].map((box) => box.value);
+
   // redraw: what follows the colours; ready: when everything else is there.
-  const shared = { isDark: isDark, css: css, redraw: () => {}, ready: () => {
-    initTables();
-    document.documentElement.dataset.ready = "yes";
-  } };
+  const shared = { isDark: isDark, css: css, layout: layout, axis: axis, seen: seen, fill: fill, addBoxes: addBoxes,
+    checked: checked, whenSeen: whenSeen, plotting: { responsive: true, displaylogo: false, toImageButtonOptions: { format: "svg" } },
+    data: () => JSON.parse(document.getElementById("data").textContent), redraw: () => {}, ready: () => {
+      initTables();
+      document.documentElement.dataset.ready = "yes";
+    } };
   document.getElementById("theme").addEventListener("click", () => {
     document.documentElement.dataset.theme = isDark() ? "light" : "dark";
     document.getElementById("theme").setAttribute("aria-pressed", String(isDark()));

@@ -22,6 +22,11 @@ def script(text):
     return "<script>" + text.replace("</script", "<\\/script") + "</script>"
 
 
+def json_in_page(data):
+    """JSON within a page: nothing in it ends the element."""
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+
+
 def html_table(table, caption, identifier, filters=()):
     """Headings and rows of cells {text, order} as a table that DataTables sorts and filters."""
     def td(cell):
@@ -31,8 +36,10 @@ def html_table(table, caption, identifier, filters=()):
     head = "".join(f'<th scope="col">{escape(heading)}</th>' for heading in table["headings"])
     body = "\n".join("<tr>" + "".join(td(cell) for cell in row) + "</tr>" for row in table["rows"])
     columns = " ".join(str(table["headings"].index(name)) for name in filters if name in table["headings"])
-    return (f'<table id="{identifier}" class="sortable" data-filters="{columns}"><caption>{escape(caption)}</caption>'
-            f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>")
+    name = escape(caption, quote=True)
+    return (f'<div class="scroll" role="region" tabindex="0" aria-label="{name}">'
+            f'<table id="{identifier}" class="sortable" data-filters="{columns}"><caption>{name}</caption>'
+            f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table></div>")
 
 
 def claims_section(outcomes):
@@ -103,7 +110,7 @@ def page(results, outcomes=(), against=None):
         "claims": claims_section(outcomes), "against": against_section(results, against),
         "provenance": provenance_section(results.study, results.provenance),
         **common_words(),
-        "data": json.dumps(data, separators=(",", ":")).replace("</", "<\\/"),
+        "data": json_in_page(data),
         "script": script(file_text("report.js"))}
     return Template(file_text("report.html")).substitute(words)
 

@@ -2,37 +2,20 @@
 // The report's curves and meshes.
 (function () {
   "use strict";
-  const data = JSON.parse(document.getElementById("data").textContent);
+  const data = page.data();
   const $id = (id) => document.getElementById(id);
   const title = (name) => data.titles[name] || name;
 
-  const isDark = page.isDark, css = page.css;
-  const layout = (more) => Object.assign({
-    paper_bgcolor: css("--back"), plot_bgcolor: css("--back"), font: { color: css("--text") },
-    margin: { l: 70, r: 15, t: 30, b: 50 }, legend: { orientation: "h", y: -0.2, yanchor: "top" } }, more);
-  const config = { responsive: true, displaylogo: false, toImageButtonOptions: { format: "svg" } };
-  // Black lines would not be seen on dark ground.
-  const seen = (colour) => (isDark() && colour === "#000000" ? "#ffffff" : colour);
-
-  function fill(select, names, words) {
-    const before = select.value;
-    select.replaceChildren(...names.map((name) => new Option(words ? words(name) : name, name)));
-    if (names.includes(before)) select.value = before;
-  }
+  const { css, layout, seen, fill, plotting: config } = page;
 
   // ---- curves
   const keys = data.curves.keys, columns = data.curves.columns;
   const heading = (name) => data.curves.headings[name] || name;
-  const smoothers = data.methods.slice(1);
-
-  function chosenMethods() {
-    return [...document.querySelectorAll("#curve-methods input:checked")].map((box) => box.value);
-  }
 
   function drawCurves() {
     const mesh = $id("curve-mesh").value, degree = $id("curve-degree").value;
     const x = $id("curve-x").value, y = $id("curve-y").value;
-    const traces = chosenMethods().map((method) => {
+    const traces = page.checked("curve-methods").map((method) => {
       const rows = [];
       keys.mesh.forEach((name, i) => {
         if (name === mesh && keys.method[i] === method && keys.degree[i] === degree) rows.push(i);
@@ -42,8 +25,7 @@
         line: { color: seen(data.colours[method]) },
         hovertemplate: "%{y:.6g} at %{x:.6g}<extra>" + title(method) + "</extra>" };
     });
-    const axis = (name, box) => ({ title: heading(name), type: $id(box).checked ? "log" : "linear",
-      gridcolor: css("--faint"), zeroline: false, exponentformat: "power" });
+    const axis = (name, box) => page.axis(heading(name), $id(box).checked ? "log" : "linear");
     Plotly.react("curve", traces, layout({ xaxis: axis(x, "log-x"), yaxis: axis(y, "log-y"), showlegend: true }), config);
     $id("curve").setAttribute("aria-label", heading(y) + " against " + heading(x) + " on " + title(mesh) +
       " for " + traces.map((t) => t.name).join(", ") + "; the numbers are in the table below");
@@ -57,12 +39,7 @@
     fill($id("curve-y"), names, heading);
     $id("curve-x").value = columns.smoothing_seconds ? "smoothing_seconds" : "iteration";
     $id("curve-y").value = ["h1_error", "q_mean", "q_min"].find((name) => columns[name]) || names[0];
-    smoothers.forEach((method) => {
-      const label = document.createElement("label"), box = document.createElement("input");
-      Object.assign(box, { type: "checkbox", value: method, checked: true });
-      label.append(box, " " + title(method));
-      $id("curve-methods").append(label);
-    });
+    page.addBoxes("curve-methods", data.methods.slice(1), title);
     document.querySelectorAll("#curves select, #curves input").forEach((e) => e.addEventListener("change", drawCurves));
     drawCurves();
   }
@@ -205,13 +182,7 @@
     }
     fill($id("view-mesh"), names, title);
     document.querySelectorAll("#meshes select, #meshes input").forEach((e) => e.addEventListener("change", drawMeshes));
-    // A mesh takes a moment: when it is about to be seen.
-    const watch = new IntersectionObserver((seen) => {
-      if (!seen.some((entry) => entry.isIntersecting)) return;
-      watch.disconnect();
-      drawMeshes();
-    }, { rootMargin: "300px" });
-    watch.observe($id("view"));
+    page.whenSeen("view", drawMeshes);
   }
 
   page.redraw = () => {

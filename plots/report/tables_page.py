@@ -11,7 +11,7 @@ from string import Template
 from ..results.rows import read_provenance
 from ..results.write_files import write_atomically
 from ..tables.formats import as_csv
-from .page import NAME, common_words, file_text, html_table, provenance_section
+from .page import NAME, common_words, file_text, html_table, json_in_page, provenance_section, script
 
 
 def html_text(markdown):
@@ -63,14 +63,20 @@ def figures_section(folder, planned):
     return '<section id="figures"><h2>Figures</h2>' + "\n".join(found) + "</section>" if found else ""
 
 
-def write_tables_report(folder, title, tables, planned, texts, path=None):
-    """Writes report.html into the results folder, or to a path; returns where. texts: Markdown. Raises NoLibrary."""
+def plots_section(plots):
+    """What can be drawn anew in the page."""
+    return Template(file_text("collection.html")).substitute(data=json_in_page(plots))
+
+
+def write_tables_report(folder, title, tables, planned, texts, plots=None, path=None):
+    """Writes report.html into the results folder, or to a path; returns where. texts: Markdown. plots: of a collection, in
+    place of the figures. Raises NoLibrary."""
     provenance = read_provenance(folder / "provenance.json")
     sentences = "\n".join(html_text(text) for text in texts)
     words = {
         "title": escape(title),
         "texts": f'<section id="texts"><h2>Findings</h2>{sentences}</section>' if sentences else "",
-        "tables": tables_section(tables), "figures": figures_section(folder, planned),
+        "tables": tables_section(tables), "figures": plots_section(plots) if plots else figures_section(folder, planned),
         "provenance": provenance_section(str(provenance.get("study") or folder.resolve().name), provenance),
-        **common_words(with_plots=False)}
+        "script": script(file_text("collection.js")) if plots else "", **common_words(with_plots=bool(plots))}
     return write_atomically(path or folder / NAME, Template(file_text("tables.html")).substitute(words))

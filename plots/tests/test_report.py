@@ -10,15 +10,19 @@ from unittest import mock
 import numpy as np
 
 from plots.__main__ import main
+from plots.collections.diagrams import Curve, Diagram
 from plots.report import libraries
+from plots.report.collection_plots import MOST_STEPS, collection_plots, diagram_data
 from plots.report.contents import comparison, contents, ratio
 from plots.report.mesh_views import mesh_view, metrics_of, seen_of
 from plots.report.page import page, write_report
 from plots.report.tables_page import html_text
+from plots.results.collection import read_collection_results
 from plots.results.rows import ResultsError, read_rows
 from plots.results.smoothing import read_results
 from plots.results.vtu import UnstructuredGrid
 from plots.tests.test_collection import write_collection
+from plots.tests.synthetic_polygons import write_polygon_results
 from plots.tests.synthetic_results import write_csv, write_results
 from plots.tests.test_read_results import InFolder
 
@@ -128,9 +132,40 @@ class TablesPage(InFolder):
         self.assertIn("<li>At equal budgets of time Good has the lowest mean rank", text)
         for name in ("table_members", "table_prediction", "table_good_enough", "table_ranking", "table_payoff"):
             self.assertIn(f'<table id="{name}" class="sortable"', text)
-        self.assertEqual(text.count("<figure>"), 5)
+        self.assertIn('id="diagram"', text)
         self.assertLess(len(text.encode()), MOST_BYTES)
         self.assertEqual(main(["report", str(folder), "--against", str(folder), "--quiet"]), 2)
+
+    def test_figures_of_other_kinds_are_pictures(self):
+        folder = write_polygon_results(self.folder / "p")
+        self.assertEqual(main([str(folder), "--quiet"]), 0)
+        text = (folder / "report.html").read_text()
+        self.assertEqual(text.count("<figure>"), len(list((folder / "figures").glob("*.png"))))
+        self.assertGreater(text.count("<figure>"), 0)
+        self.assertNotIn('id="diagram"', text)
+
+    def test_plots_have_the_numbers_of_the_collection(self):
+        results = read_collection_results(write_collection(self.folder / "r"))
+        plots = collection_plots(results)
+        json.dumps(plots, allow_nan=False)
+        diagrams = {diagram["name"]: diagram for diagram in plots["diagrams"]}
+        anytime = {curve["method"]: curve for curve in diagrams["anytime"]["curves"]}
+        self.assertEqual((anytime["good"]["y"][-1], anytime["idle"]["y"][-1]), (0.5, 1.0))
+        self.assertEqual(anytime["good"]["x"][-1], 1.0)
+        self.assertEqual(diagrams["profile"]["curves"][0]["y"][-1], 1.0)
+        first, row, column = plots["kinds"][0], plots["qualities"].index("q_mean"), plots["outcomes"].index("h1_error")
+        self.assertEqual(first["name"], "Triangles, d = 1")
+        self.assertAlmostEqual(first["rho"][row][column], -1.0, places=2)  # equal errors differ by rounding
+        self.assertIsNone(first["rho"][plots["qualities"].index("q_min")][column])  # always the same
+        self.assertEqual(len(first["qualities"]["q_mean"]), len(first["relative"]["h1_error"]))
+        self.assertEqual((min(first["relative"]["h1_error"]), max(first["qualities"]["q_mean"])), (1.0, 0.8))
+
+    def test_of_long_curves_some_steps_are_drawn(self):
+        n = 10 * MOST_STEPS
+        found = diagram_data(Diagram("x", "y", True, (Curve("m", np.arange(1.0, n + 1), np.arange(1, n + 1) / n),)))
+        self.assertEqual(len(found["curves"][0]["x"]), MOST_STEPS)
+        self.assertEqual((found["curves"][0]["x"][0], found["curves"][0]["x"][-1], found["curves"][0]["y"][-1]), (1, n, 1))
+        self.assertNotIn("lower", found["curves"][0])
 
     def test_sentences_become_lists(self):
         self.assertEqual(html_text("# Title\n\nA & b\n\n## More\n\n- one\n- <two>\n"),
@@ -160,11 +195,11 @@ class Browser(InFolder):
         write_results(self.folder / "before", meshes=("tri", "quad"))
         self.path = write_report(read_results(self.results), against=self.folder / "before")
 
-    def open(self, width=1280, dark=False):
+    def open(self, width=1280, dark=False, height=900):
         command = self.browser.execute_cdp_cmd
         command("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme",
                                                              "value": "dark" if dark else "light"}]})
-        command("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1,
+        command("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1,
                                                        "mobile": False})
         self.browser.get(self.path.as_uri())
         self.assertEqual(self.js("return document.documentElement.dataset.ready"), "yes")
@@ -232,8 +267,14 @@ class Browser(InFolder):
         self.assertEqual(self.js(ground), "rgb(22, 24, 27)")
         self.js("document.getElementById('theme').click()")
         self.assertEqual(self.js(ground), "rgb(255, 255, 255)")
+        self.assertEqual(self.errors(), [])
+
+    def test_what_has_not_been_seen_is_printed(self):
+        self.open(height=200)
+        self.assertFalse(self.js("return Boolean(document.getElementById('view').data)"))
         printed = base64.b64decode(self.browser.execute_cdp_cmd("Page.printToPDF", {})["data"])
         self.assertTrue(printed.startswith(b"%PDF"))
+        self.assertTrue(self.js("return document.getElementById('view').data.length"))
         self.assertEqual(self.errors(), [])
 
     def test_a_collection_sorts_filters_and_fits(self):
@@ -247,7 +288,37 @@ class Browser(InFolder):
         self.js("const s = document.querySelector('#table_payoff th select'); s.value = 'two';"
                 "s.dispatchEvent(new Event('change', {bubbles: true}))")
         self.assertEqual(set(self.js(rows)), {"two"})
-        self.assertEqual(self.js("return [...document.images].filter((i) => i.complete && i.naturalWidth && i.alt).length"), 5)
+        self.assertEqual(self.errors(), [])
+
+    def test_a_collection_has_plots_to_choose(self):
+        folder = write_collection(self.folder / "many")
+        self.assertEqual(main([str(folder), "--quiet"]), 0)
+        self.path = folder / "report.html"
+        self.open()
+        change = "const e = document.getElementById(arguments[0]); e.value = arguments[1];" \
+                 "e.dispatchEvent(new Event('change', {bubbles: true}))"
+        self.js(change, "diagram-name", "anytime")
+        traces = self.js("return document.getElementById('diagram').data.map((t) => [t.name, t.y[t.y.length - 1]])")
+        self.assertEqual([trace for trace in traces if "quartiles" not in trace[0]], [["Good", 0.5], ["Idle", 1]])
+        self.assertEqual(self.js("return document.getElementById('diagram').layout.xaxis.type"), "log")
+        self.js("document.getElementById('diagram-log-x').click()")
+        self.assertEqual(self.js("return document.getElementById('diagram').layout.xaxis.type"), "linear")
+        self.js("document.querySelector('#diagram-methods input').click()")
+        self.assertEqual(self.js("return document.getElementById('diagram').data.length"), 2)  # a curve and its band
+        self.js(change, "quality", "q_mean")
+        self.js(change, "kind", "Triangles, d = 2")
+        records = self.js("const d = document.getElementById('records').data[0]; return [d.x, d.y, d.text]")
+        self.assertEqual((max(records[0]), min(records[1])), (0.8, 1))
+        self.assertEqual({name[0] for name in records[2]}, {"m"})
+        rows = self.js("const d = document.getElementById('correlations').data[0]; return d.customdata.map((r, i) => [r[1][0], d.z[i][1]])")
+        self.assertEqual([quality for quality, _ in rows], ["q_star_min", "q_mean"])  # q_min is always the same
+        self.assertAlmostEqual(rows[1][1], -1, places=2)
+        self.js("document.getElementById('correlations').emit('plotly_click', {points: [{customdata: ['q_min', 'l2_error']}]})")
+        self.assertEqual(self.js("return [document.getElementById('quality').value, document.getElementById('outcome').value]"),
+                         ["q_min", "l2_error"])
+        self.assertEqual(self.js("return [...document.querySelectorAll('#figures [aria-label=\"\"]')].length"), 0)
+        self.js("document.getElementById('theme').click()")
+        self.assertEqual(self.js("return document.getElementById('records').layout.paper_bgcolor"), "#16181b")
         self.assertEqual(self.errors(), [])
 
     def test_everything_that_can_be_set_has_a_name(self):

@@ -9,7 +9,8 @@ PACKAGE = Path(__file__).resolve().parents[1]
 # Claims are shown as a table.
 KNOWN_ROOMS = {"results": set(), "statistics": set(), "collections": {"results", "statistics"},
                "tables": {"results", "collections"}, "figures": {"results", "collections", "statistics"},
-               "claims": {"results", "tables"}, "report": {"results", "tables", "claims", "figures"}}
+               "claims": {"results", "tables"},
+               "report": {"results", "collections", "tables", "claims", "figures"}}
 
 
 def imported_rooms(path):
