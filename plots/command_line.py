@@ -4,6 +4,7 @@
 import argparse
 import re
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from .results.names import select, short_name
@@ -52,6 +53,11 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}; --help shows what there is.\n")
 
 
+def is_figure(path):
+    """Whether a path, if there is one, is to be a figure."""
+    return path is not None and path.suffix[1:] in FORMATS
+
+
 def parse_study(arguments):
     """The command line for a results folder."""
     parser = Parser(
@@ -77,11 +83,15 @@ def parse_study(arguments):
                         "7 inches unless given, less where there is little to show")
     parser.add_argument("--format", type=formats, default=FORMATS[:2], metavar="FORMATS",
                         help="pdf, png or svg; pdf,png unless given")
-    parser.add_argument("--out", type=Path, metavar="DIR",
-                        help="folder for the folders tables and figures; FOLDER unless given")
+    parser.add_argument("-o", "--out", type=Path, metavar="PATH",
+                        help="folder for the folders tables and figures, FOLDER unless given; or, with the suffix "
+                        f"{', '.join(f'.{name}' for name in FORMATS[:-1])} or .{FORMATS[-1]}, a file for the figure chosen, without tables; of several "
+                        "each name says which it is")
     parser.add_argument("--no-figures", action="store_true", help="make the tables only")
     parser.add_argument("--quiet", action="store_true", help="print neither tables nor paths")
     options = parser.parse_args(arguments)
+    if options.no_figures and is_figure(options.out):
+        parser.error(f"{options.out} is a figure, but --no-figures asks for none; leave out one of them")
     if options.no_figures and (options.x or options.y or options.log_x or options.log_y):
         parser.error("--x, --y, --log-x and --log-y are about figures: leave out --no-figures")
     return options
@@ -148,6 +158,8 @@ def make_study(options):
     wanted = (select(options.only, {**dict.fromkeys(outputs.names, ""), **drawn}) if options.only else
               set(drawn) if request.has_history else {*outputs.names, *drawn})
     tables = [table for table in outputs.tables if table.name in wanted]
+    if is_figure(options.out):
+        return make_chosen_figures(options, [figure for figure in figures if figure.name in wanted], outputs.study_title)
     texts = [(table.name + suffix, write(table)) for table in tables
              for suffix, write in ((".csv", as_csv), (".md", as_markdown), (".tex", as_latex))]
     texts += [(f"{name}.md", text) for name, text in outputs.texts.items() if name in wanted]
@@ -171,6 +183,30 @@ def make_study(options):
             tell(f"wrote {outputs.write_page()}")
         except NoLibrary as error:  # the tables and figures are there without the page
             warn(str(error))
+
+
+def own_names(names, stem):
+    """File names for figures by a stem: for one the stem, for several with what tells them apart behind it."""
+    if len(names) == 1:
+        return [stem]
+    words = [name.split("_") for name in names]
+    shared = 0
+    while all(len(own) > shared + 1 for own in words) and len({own[shared] for own in words}) == 1:
+        shared += 1
+    return ["_".join((stem, *own[shared:])) for own in words]
+
+
+def make_chosen_figures(options, chosen, study_title):
+    """Draws the figures chosen into the file asked for, or into such files; raises ResultsError or OSError."""
+    from .figures.planned import save_figures
+    renamed = [replace(figure, name=name)
+               for figure, name in zip(chosen, own_names([figure.name for figure in chosen], options.out.stem))]
+    paths = save_figures(renamed, study_title, options.out.parent, (options.out.suffix[1:],), warn)
+    if not paths:
+        raise ResultsError(f"{options.folder}: there is no figure to draw into {options.out}; choose others by --only or --y.")
+    if not options.quiet:
+        for path in paths:
+            print(f"wrote {path}")
 
 
 def make_report(options):

@@ -9,10 +9,12 @@ import re
 import struct
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from unittest import mock
 
 from plots.__main__ import main
+from plots.command_line import own_names
 from plots.tests.synthetic_polygons import write_polygon_results
 from plots.tests.synthetic_results import change_provenance, write_csv, write_results
 from plots.tests.test_read_results import InFolder
@@ -119,6 +121,23 @@ class Options(CommandLine):
                 width, = struct.unpack(">I", path.read_bytes()[16:20])  # of the PNG's header
                 self.assertAlmostEqual(width / 40, inches, delta=0.03, msg=path.name)
 
+    def test_one_figure_into_a_file(self):
+        before = sorted(self.results.rglob("*"))
+        for options, names in ((("--only", "history_log_time"), {"fig.pdf"}), (("--y", "q_min", "--width", "3.4in"), {"fig.pdf"}),
+                               (("--x", "smoothing_seconds", "--y", "e_h1"), {"fig_d1.pdf", "fig_d2.pdf"})):
+            with tempfile.TemporaryDirectory() as folder:
+                code, output, errors = self.run_main(self.results, "--methods", "getme", *options, "-o", f"{folder}/fig.pdf")
+                self.assertEqual((code, errors), (0, ""))
+                self.assertEqual({path.name for path in Path(folder).iterdir()}, names)
+                self.assertEqual(output, "".join(f"wrote {folder}/{name}\n" for name in sorted(names)))
+        self.assertEqual(sorted(self.results.rglob("*")), before)
+        self.assertIn("no figure to draw into fig.svg", self.refused("--only", "claims", "-o", "fig.svg"))
+        self.assertIn("fig.svg is a figure", self.refused("--no-figures", "-o", "fig.svg"))
+
+    def test_names_that_tell_figures_apart(self):
+        self.assertEqual(own_names(["history_a_d1", "history_b_d1"], "f"), ["f_a_d1", "f_b_d1"])
+        self.assertEqual(own_names(["meshes", "meshes_full"], "f"), ["f_meshes", "f_meshes_full"])
+
     def test_a_study_of_the_users_has_no_numbers_of_the_thesis(self):
         change_provenance(self.results, built_in=False)
         names, _ = self.made("--format", "pdf")
@@ -218,9 +237,9 @@ class Library(CommandLine):
     def test_the_readmes_command_lines(self):
         text = (PACKAGE / "README.md").read_text(encoding="utf-8")
         lines = re.findall(r"^smoothfem plot results/gear(.*?)(?: +#.*)?$", text, re.MULTILINE)
-        self.assertEqual(len(lines), 4)
+        self.assertEqual(len(lines), 5)
         for line in lines:
-            self.made(*line.replace("--out paper", "").replace("smart-laplace", "own").split())
+            self.made(*line.replace("--out paper", "").replace("-o fig.pdf", "").replace("smart-laplace", "own").split())
 
     def test_another_kind_of_study(self):
         folder = write_polygon_results(self.folder / "p")
