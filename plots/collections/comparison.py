@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..statistics.bootstrap import interval, paired_test
-from ..statistics.profiles import mean_ranks, time_to_target
+from ..statistics.profiles import ranks_of_problems, time_to_target
 from .problems import ERROR
 
 N_SAMPLES = 500
@@ -77,14 +77,13 @@ def ranking(problems, methods):
         return []
     errors = errors_at_budget(problems, methods)
     groups = np.array([problem.group for problem in problems], dtype=str)
-    ranks = mean_ranks(errors)
-    best = min(methods, key=ranks.get)
+    ranks = ranks_of_problems(errors)
+    best = min(methods, key=lambda method: np.mean(ranks[method]))
     found = [Rank(
-        method, ranks[method],
-        interval(lambda rows, m=method: mean_ranks({k: v[rows] for k, v in errors.items()})[m], groups, N_SAMPLES // 5),
+        method, float(np.mean(ranks[method])), interval(lambda rows, m=method: np.mean(ranks[m][rows]), groups, N_SAMPLES),
         geometric_mean(errors[method]),
         interval(lambda rows, m=method: geometric_mean(errors[m][rows]), groups, N_SAMPLES),
-        np.nan if method == best else paired_test(np.log(errors[method]), np.log(errors[best])))
+        np.nan if method == best else paired_test(np.log(errors[method]), np.log(errors[best]), groups))
         for method in methods]
     return sorted(found, key=lambda entry: entry.rank)
 

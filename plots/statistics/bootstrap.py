@@ -37,19 +37,23 @@ def intervals(statistics, n_statistics, groups, n_samples=N_SAMPLES, level=LEVEL
     return found
 
 
-def paired_test(a, b, n_samples=10000, seed=1):
+def paired_test(a, b, groups=None, n_samples=10000, seed=1):
     """Probability of a mean difference of pairs as large as that of a and b, in absolute value, if which of a
-    pair is whose were chance (sign flips; all of them for up to 13 pairs that differ). 1 if none differs. a, b:
-    shape (n,), finite."""
+    pair is whose were chance (sign flips; all of them for up to 13 that differ). 1 if none differs. a, b: shape
+    (n,), finite. groups: shape (n,), pairs of a group are swapped together; each is its own unless given."""
     difference = np.asarray(a, dtype=float) - np.asarray(b, dtype=float)
+    if groups is not None:
+        _, inverse = np.unique(np.asarray(groups), return_inverse=True)
+        difference = np.bincount(inverse, weights=difference)
     difference = difference[difference != 0]
     n = len(difference)
     if n == 0:
         return 1.0
     if n <= 13:
         signs = 1.0 - 2.0 * ((np.arange(2**n)[:, None] >> np.arange(n)) & 1)
+        sums = np.abs(signs @ difference)
     else:
-        signs = 1.0 - 2.0 * np.random.default_rng(seed).integers(2, size=(n_samples, n))
-    sums = np.abs(signs @ difference)
+        random = np.random.default_rng(seed)
+        sums = np.abs([random.choice((-1.0, 1.0), size=n) @ difference for _ in range(n_samples)])
     reached = np.count_nonzero(sums >= abs(difference.sum()) * (1.0 - 1e-12))
     return float(reached / len(sums)) if n <= 13 else float((reached + 1) / (len(sums) + 1))

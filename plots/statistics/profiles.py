@@ -69,10 +69,10 @@ def anytime(problems, method, grid):
     return np.percentile(np.array(rows), [25, 50, 75], axis=0) if rows else np.full((3, len(grid)), np.nan)
 
 
-def mean_ranks(costs):
-    """Mean rank of each method over the problems, 1 for the least cost; methods that have not solved a problem
-    share its last ranks. {method: rank}. costs: as for performance_profile."""
+def ranks_of_problems(costs):
+    """Rank of each method on each problem, 1 for the least cost; methods that have not solved a problem share its last
+    ranks. {method: array of shape (n_problems,)}. costs: as for performance_profile."""
     names = list(costs)
     table = np.array([np.where(np.isfinite(costs[name]), costs[name], np.inf) for name in names], dtype=float)
-    by_problem = np.array([ranks(column) for column in table.T])
-    return dict(zip(names, by_problem.mean(axis=0))) if len(by_problem) else {name: np.nan for name in names}
+    by_problem = np.array([ranks(column) for column in table.T]).reshape(table.shape[1], len(names))
+    return dict(zip(names, by_problem.T))

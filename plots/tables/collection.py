@@ -108,7 +108,7 @@ def ranking_table(results, found):
         ["True H1 error, over all members and degrees, at the time that the middle one of the methods takes in all for "
          "the same mesh; error / initial is a geometric mean, 1 for a method that has ended with invalid "
          "cells. p: of a paired test of logarithms by sign flips against "
-         "the first method, as if problems were independent.", INTERVALS])
+         "the first method; what intervals draw together is swapped together.", INTERVALS])
 
 
 def way_of(results, p):

@@ -83,6 +83,14 @@ class Bootstrap(unittest.TestCase):
         self.assertEqual(bootstrap.paired_test([1, 2], [1, 2]), 1.0)
         self.assertEqual(bootstrap.paired_test([1, 1, 1, 1], [0, 0, 0, 0]), 2 / 16)
 
+    def test_pairs_of_a_group_are_swapped_together(self):
+        self.assertEqual(bootstrap.paired_test([1, 1, 1, 1], [0, 0, 0, 0], ["x", "x", "y", "y"]), 2 / 4)
+        a, groups = np.random.default_rng(3).normal(0.1, 1.0, 400), np.repeat(np.arange(100), 4)
+        sums = a.reshape(100, 4).sum(axis=1)
+        expected = stats.permutation_test((sums, np.zeros(100)), lambda x, y, axis: np.mean(x - y, axis=axis),
+                                          permutation_type="samples", vectorized=True, n_resamples=20000, random_state=1).pvalue
+        self.assertAlmostEqual(bootstrap.paired_test(a, np.zeros(400), groups), expected, places=2)
+
 
 class Profiles(unittest.TestCase):
     def test_profile_by_hand(self):
@@ -107,10 +115,12 @@ class Profiles(unittest.TestCase):
     def test_mean_ranks_are_friedmans(self):
         random = np.random.default_rng(4)
         costs = {name: random.lognormal(size=25) for name in "abcd"}
-        found = profiles.mean_ranks(costs)
+        found = {name: ranks.mean() for name, ranks in profiles.ranks_of_problems(costs).items()}
         by_scipy = np.mean([stats.rankdata([costs[n][i] for n in "abcd"]) for i in range(25)], axis=0)
         np.testing.assert_allclose([found[n] for n in "abcd"], by_scipy)
-        self.assertEqual(profiles.mean_ranks({"a": [np.nan, 1.0], "b": [2.0, 3.0]}), {"a": 1.5, "b": 1.5})
+        found = profiles.ranks_of_problems({"a": [np.nan, 1.0], "b": [2.0, 3.0]})
+        self.assertEqual({name: ranks.tolist() for name, ranks in found.items()}, {"a": [2.0, 1.0], "b": [1.0, 2.0]})
+        self.assertEqual(len(profiles.ranks_of_problems({"a": [], "b": []})["a"]), 0)
 
 
 if __name__ == "__main__":
