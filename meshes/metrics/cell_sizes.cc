@@ -90,14 +90,13 @@ template <int dim, int spacedim>
 std::vector<double> size_gradations(const Mesh<dim, spacedim>& mesh) {
   const std::vector<double> sizes = signed_sizes(mesh);
   const std::vector<CellFacet> facets = sorted_facets(mesh.topology());
-  std::vector<double> values(mesh.n_cells(), 0.0);
+  std::vector<double> values(mesh.n_cells(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t f = 1; f < facets.size(); ++f) {
     const CellFacet &a = facets[f - 1], &b = facets[f];
     if (a.nodes != b.nodes) continue;
     const double between = ratio(sizes[a.cell], sizes[b.cell]);
-    for (const CellIndex c : {a.cell, b.cell}) values[c] = std::max(values[c], between);
+    for (const CellIndex c : {a.cell, b.cell}) values[c] = std::fmax(values[c], between);
   }
-  std::erase(values, 0.0);  // cells without a neighbour
   return values;
 }
 

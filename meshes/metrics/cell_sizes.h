@@ -15,7 +15,7 @@ std::vector<double> relative_sizes_squared(const Mesh<dim, spacedim>& mesh);
 
 /// How abruptly sizes change: the largest ratio, at least 1, of a cell's area or volume to that of
 /// a cell with which it has a facet in common, or the other way round. Without signs; infinite (see
-/// metric.h) beside nothing. Of the cells that have such a neighbour, in their order.
+/// metric.h) beside nothing. NaN for cells without such a neighbour.
 template <int dim, int spacedim>
 std::vector<double> size_gradations(const Mesh<dim, spacedim>& mesh);
 

@@ -25,8 +25,8 @@ struct Metric {
   std::optional<double> ideal{};  ///< of a regular cell; none where types of cells differ in it
   /// Of cells, all others have none.
   std::vector<ElementType> types{};
-  /// Of the cells that have one, in their order: finite numbers of at most infinite_metric, the
-  /// same for every number of threads.
+  /// Of each cell, at most infinite_metric; NaN where it has none. The same for every number of
+  /// threads.
   std::function<std::vector<double>(const MeshReference&)> values{};
 
   bool is_defined_for(ElementType type) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 
 namespace smoothfem {
@@ -18,6 +19,7 @@ double quantile(std::span<const double> ascending, double fraction) {
 
 MetricStatistics metric_statistics(const Metric& metric, const MeshReference& mesh) {
   std::vector<double> values = metric.values(mesh);
+  std::erase_if(values, [](double value) { return std::isnan(value); });
   MetricStatistics statistics{.metric = metric.name, .n_cells = values.size()};
   if (values.empty()) return statistics;
   std::sort(values.begin(), values.end());

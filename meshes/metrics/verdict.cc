@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "meshes/metrics/metric.h"
 #include "smoothing/base/parallel.h"
@@ -191,21 +192,19 @@ template <int dim, int spacedim>
 std::vector<double> verdict_values(const VerdictMetric& metric, const Mesh<dim, spacedim>& mesh) {
   constexpr std::size_t grain = 4096;
   const Topology& topology = mesh.topology();
-  std::vector<CellIndex> cells;
-  for (CellIndex c = 0; c < topology.n_cells(); ++c)
-    if (metric.of(topology.cell_type(c))) cells.push_back(c);
-  std::vector<double> values(cells.size());
+  std::vector<double> values(mesh.n_cells(), std::numeric_limits<double>::quiet_NaN());
   const double worst = metric.larger_is_better ? 0.0 : infinite_metric;
-  parallel_for_ranges(cells.size(), grain, [&](std::size_t first, std::size_t last) {
+  parallel_for_ranges(values.size(), grain, [&](std::size_t first, std::size_t last) {
     VtkCellOfEachType vtk_cells;
-    for (std::size_t i = first; i < last; ++i) {
-      const CellIndex c = cells[i];
+    for (CellIndex c = static_cast<CellIndex>(first); c < last; ++c) {
       const ElementType type = topology.cell_type(c);
-      double value = metric.of(type)(
-          vtk_cells.set<spacedim>(type, topology.cell_nodes(c), mesh.coordinates()));
+      const auto function = metric.of(type);
+      if (!function) continue;
+      double value =
+          function(vtk_cells.set<spacedim>(type, topology.cell_nodes(c), mesh.coordinates()));
       if (dim == 2 && signed_cell_size(mesh, c) < 0.0)
         value = turned_over(metric.turned_over, value);
-      values[i] = std::isnan(value) ? worst : std::clamp(value, -infinite_metric, infinite_metric);
+      values[c] = std::isnan(value) ? worst : std::clamp(value, -infinite_metric, infinite_metric);
     }
   });
   return values;

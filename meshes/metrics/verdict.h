@@ -34,8 +34,8 @@ struct VerdictMetric {
 /// Those that depend on a cell's shape alone, not on its size or place.
 const std::vector<VerdictMetric>& verdict_metrics();
 
-/// Of the cells whose types the metric knows, in their order, each at most infinite_metric; the
-/// worst value, 0 or that, for cells that Verdict makes nothing of.
+/// Of each cell, at most infinite_metric; NaN where the metric does not know its type, and the
+/// worst value, 0 or infinite_metric, where Verdict makes nothing of it.
 template <int dim, int spacedim>
 std::vector<double> verdict_values(const VerdictMetric& metric, const Mesh<dim, spacedim>& mesh);
 

@@ -7,6 +7,7 @@
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/metrics/metric.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
 #include "smoothing/base/find_named.h"
@@ -64,9 +65,20 @@ std::vector<double> cell_sizes(const Mesh<dim, spacedim>& mesh) {
 
 template <int dim, int spacedim>
 std::vector<double> cell_numbers(const Mesh<dim, spacedim>& mesh, const std::string& metric) {
-  static const std::vector<std::string> metrics{"mean_ratio", "size"};
-  if (find_named("metric", metric, metrics) == "size") return cell_sizes(mesh);
-  return cell_mean_ratios(mesh);
+  if (metric == "size") return cell_sizes(mesh);
+  const auto metrics = metrics_named(metric);
+  if (metrics.size() != 1)
+    throw InputError("quality takes one metric, not '" + metric + "'; call it once for each");
+  return metrics[0]->values(&mesh);
+}
+
+/// name -> (meaning, whether larger is better, value of a regular cell or none).
+py::dict metric_facts() {
+  py::dict facts;
+  for (const Metric& metric : metric_catalogue())
+    facts[metric.name.c_str()] =
+        py::make_tuple(metric.meaning, metric.larger_is_better, metric.ideal);
+  return facts;
 }
 
 py::array_t<double> quality(const PythonMesh& mesh, const std::string& metric) {
@@ -114,6 +126,7 @@ void bind_files(py::module_& module) {
   });
   module.def("distort", &distort_mesh);
   module.def("quality", &quality);
+  module.def("metrics", &metric_facts);
   module.def("summary", [](const PythonMesh& mesh) {
     const py::gil_scoped_release others_may_run;
     return mesh.visit([](const auto& m) { return mesh_quality(m); });

@@ -22,7 +22,7 @@ from ._core import InputError, Iteration, Mesh, Quality, Result, Stage  # noqa: 
 from ._study import Results, Study  # noqa: E402
 
 __all__ = ["InputError", "Iteration", "Mesh", "Quality", "Result", "Results", "Stage", "Study", "distort", "domains", "generate",
-           "methods", "parameters", "problems", "quality", "read", "smooth", "solve", "summary", "write"]
+           "methods", "metrics", "parameters", "problems", "quality", "read", "smooth", "solve", "summary", "write"]
 
 
 def read(path):
@@ -68,9 +68,19 @@ def distort(mesh, q_mean=None, *, radius=None, kind="worst-candidate", seed=1, c
 
 
 def quality(mesh, metric="mean_ratio"):
-    """n_cells numbers: "mean_ratio", in [0, 1], 1 for regular cells and 0 for invalid ones; or "size", the
-    area or volume with its sign (planar and volume meshes)."""
+    """n_cells numbers: "mean_ratio", in [0, 1], 1 for regular cells and 0 for invalid ones; "size", the area or
+    volume with its sign (planar and volume meshes); or another of metrics(), NaN for cells that it knows nothing of.
+
+    Raises InputError for other names.
+    """
     return _core.quality(mesh, metric)
+
+
+def metrics():
+    """{name: {"meaning", "larger_is_better", "ideal"}} of what quality() takes, most of them Verdict's (VTK); ideal: of a
+    regular cell, None where types of cells differ in it."""
+    keys = ("meaning", "larger_is_better", "ideal")
+    return {name: dict(zip(keys, entry)) for name, entry in _core.metrics().items()}
 
 
 def summary(mesh):

@@ -29,6 +29,20 @@ class QualityAndDistortion(unittest.TestCase):
         self.assertRegex(repr(summary), r"^Quality\(q_min=0, ")
         with self.assertRaisesRegex(smoothfem.InputError, "did you mean 'mean_ratio'"):
             smoothfem.quality(mesh, "mean_rato")
+        with self.assertRaisesRegex(smoothfem.InputError, "one metric"):
+            smoothfem.quality(mesh, "all")
+
+    def test_every_metric(self):
+        mesh = smoothfem.Mesh([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0]], [[0, 1, 2, 3], [1, 4, 2]])
+        for name, facts in smoothfem.metrics().items():
+            with self.subTest(name):
+                values = smoothfem.quality(mesh, name)
+                self.assertEqual(values.shape, (2,))
+                if facts["ideal"] is not None and not name.endswith(("size_squared", "gradation")):
+                    self.assertAlmostEqual(values[0], facts["ideal"])
+        np.testing.assert_array_equal(smoothfem.quality(mesh, "size_gradation"), 2.0)
+        self.assertTrue(np.isnan(smoothfem.quality(mesh, "stretch")[1]))  # quadrilaterals and hexahedra only
+        self.assertFalse(smoothfem.metrics()["edge_ratio"]["larger_is_better"])
 
     def test_distortion(self):
         mesh = smoothfem.generate("gear", elements="triangles", edge_scale=4)
