@@ -5,8 +5,8 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/node_order.h"
-#include "meshes/io/number_text.h"
 #include "meshes/io/vtk_files.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 

@@ -10,8 +10,8 @@
 #include "meshes/io/abaqus_lines.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_assembly.h"
-#include "meshes/io/number_text.h"
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 

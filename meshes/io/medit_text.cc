@@ -13,8 +13,8 @@
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
-#include "meshes/io/number_text.h"
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 

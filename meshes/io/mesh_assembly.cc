@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
-#include "meshes/io/number_text.h"
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/text.h"
 #include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "meshes/io/number_text.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 

@@ -121,7 +121,7 @@ MeshFile read_polygonal_text(const std::filesystem::path& path) {
 
 namespace {
 
-void append_number(std::string& text, double value, char end) {
+void append_padded(std::string& text, double value, char end) {
   char digits[32];
   const int n = std::snprintf(digits, sizeof digits, "%+.17e%c", value, end);
   text.append(digits, static_cast<std::size_t>(n));
@@ -136,8 +136,8 @@ void write_polygonal_text(const std::filesystem::path& path, const MeshView& vie
   std::string text(title);
   text += "\nnodes " + std::to_string(mesh.n_nodes()) + "\n";
   for (const auto& point : mesh.coordinates()) {
-    append_number(text, point.x(), ' ');
-    append_number(text, point.y(), '\n');
+    append_padded(text, point.x(), ' ');
+    append_padded(text, point.y(), '\n');
   }
   text += "polygons " + std::to_string(mesh.n_cells()) + "\n";
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
@@ -152,7 +152,7 @@ void write_polygonal_text(const std::filesystem::path& path, const MeshView& vie
     if (topology.is_fixed(i)) text += std::to_string(i) + "\n";
   text += "polygon_mean_ratio_quality_numbers " + std::to_string(mesh.n_cells()) + "\n";
   for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    append_number(text, cell_mean_ratio(mesh, c), '\n');
+    append_padded(text, cell_mean_ratio(mesh, c), '\n');
   write_atomically(path, text);
 }
 

@@ -8,11 +8,18 @@
 
 namespace smoothfem {
 
-/// A number with as many digits (at most 17) as give back the same bits when read.
+/// Appends a number with as many digits (at most 17) as give back the same bits when read.
+template <class Number>
+void append_number(std::string& text, Number value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
 template <class Number>
 std::string number_text(Number value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+  std::string text;
+  append_number(text, value);
+  return text;
 }
 
 /// The items of a list that are separated by commas, without spaces around them; empty ones are

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "meshes/io/number_text.h"
+#include "smoothing/base/text.h"
 #include "studies/framework/results/csv_text.h"
 
 namespace smoothfem {
