@@ -49,7 +49,6 @@ class Sample:
 def samples_of(results):
     """A sample for each type of elements and degree, each mesh of a method counted once."""
     rows = results.iterations
-    by = group_column(rows)
     found = []
     for elements, degree in kinds_of_meshes(rows):
         chosen = rows.select(elements=elements, degree=degree)
@@ -57,7 +56,7 @@ def samples_of(results):
         fingerprints = list(zip(chosen.text("member"), *(chosen.text(q) for q in QUALITIES)))
         chosen = chosen.where(sorted({key: number for number, key in reversed(list(enumerate(fingerprints)))}.values()))
         members = chosen.text("member")
-        found.append(Sample(elements, degree, members, chosen.text(by),
+        found.append(Sample(elements, degree, members, chosen.text(group_column(chosen)),
                             {name: chosen.number(name) for name in results.qualities},
                             {name: relative_to_least(chosen.number(name), members) for name in OUTCOMES}))
     return found

@@ -9,7 +9,7 @@ import numpy as np
 
 from plots.claims.overview import BEGIN, END, reference
 from plots.results.data_folder import data_folder
-from plots.results.smoothing import read_results
+from plots.results.rows import read_rows
 
 CODE = r"```.*?```"
 # What has digits and is no measurement: names, and references to the thesis.
@@ -35,7 +35,7 @@ def source(path, pattern):
 
 def most_dofs(study):
     """The largest number of degrees of freedom."""
-    return int(np.nanmax(read_results(reference() / study).summary.number("n_dofs"), initial=0))
+    return int(np.nanmax(read_rows(reference() / study / "summary.csv").number("n_dofs"), initial=0))
 
 
 def largest_system():
@@ -89,7 +89,7 @@ class ResultsReadmeNumbers(unittest.TestCase):
         text = without_made("results/README.md")
         bound = float(re.search(r"Below (\S+) but for `cg-lanczos`", text)[1])
         for path in reference().glob("*/summary.csv"):
-            rows = read_results(path.parent).summary
+            rows = read_rows(path)
             known = rows.where((rows.text("condition_residual") != "") & (rows.text("condition_method") != "cg-lanczos"))
             self.assertTrue((known.number("condition_residual") < bound).all(), path)
 
