@@ -7,6 +7,7 @@
 
 #include "fem/finite_element_space.h"
 #include "fem/manufactured_solution.h"
+#include "smoothing/loop/problem.h"
 
 namespace smoothfem {
 
@@ -49,7 +50,17 @@ class Energy {
   std::vector<double> recovery_differences(const std::vector<Point<dim>>& x,
                                            const Eigen::VectorXd& u) const;
 
+  /// Mean over each cell of (G - grad u_1)(G - grad u_1)^T.
+  std::vector<CellTensor<dim>> recovery_tensors(const std::vector<Point<dim>>& x,
+                                                const Eigen::VectorXd& u) const;
+
  private:
+  /// Calls visit(cell, weight of a point, G - grad u_1 there) and end(cell, its size) for each
+  /// cell, group after group.
+  template <class Visit, class End>
+  void for_each_difference(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
+                           const Visit& visit, const End& end) const;
+
   /// What integrate_load leaves of the cells of one element.
   struct GroupLoad {
     EnergyRules rules;

@@ -99,10 +99,11 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   }
 
   std::vector<double> recovery_indicators() const override {
-    const auto differences = energy_->recovery_differences(x_, u_);
-    std::vector<double> indicators(topology_->n_cells());
-    for (std::size_t k = 0; k < differences.size(); ++k) indicators[cells_[k]] = differences[k];
-    return indicators;
+    return in_order_of_cells(energy_->recovery_differences(x_, u_));
+  }
+
+  std::vector<CellTensor<dim>> recovery_tensors() const override {
+    return in_order_of_cells(energy_->recovery_tensors(x_, u_));
   }
 
   SolveEffort effort() const override { return effort_; }
@@ -140,6 +141,14 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
     Eigen::VectorXd natural = Eigen::VectorXd::Zero(n_free);
     add_natural_load(*space_, x_, solution_, natural);
     return j - 2.0 * natural.dot(u_.head(n_free));
+  }
+
+  /// Of the mesh, what the space has in its own.
+  template <class T>
+  std::vector<T> in_order_of_cells(const std::vector<T>& of_space) const {
+    std::vector<T> of_cells(topology_->n_cells());
+    for (std::size_t k = 0; k < of_space.size(); ++k) of_cells[cells_[k]] = of_space[k];
+    return of_cells;
   }
 
   /// The mesh's cell of each of the space's, by its nodes.

@@ -125,6 +125,7 @@ TEST_P(EnergyTest, HasTheSameBitsWithEveryNumberOfThreads) {
     double energy = 0.0;
     std::vector<Point<dim>> gradient;
     std::vector<double> indicators;
+    std::vector<CellTensor<dim>> tensors;
     for (const int threads : {1, 2, 3}) {
       set_n_threads(threads);
       const auto solver = prepared<dim>(*problem, mesh);
@@ -133,10 +134,12 @@ TEST_P(EnergyTest, HasTheSameBitsWithEveryNumberOfThreads) {
         energy = value;
         gradient = solver->energy_gradient();
         indicators = solver->recovery_indicators();
+        tensors = solver->recovery_tensors();
       }
       EXPECT_EQ(value, energy);
       EXPECT_EQ(solver->energy_gradient(), gradient);
       EXPECT_EQ(solver->recovery_indicators(), indicators);
+      EXPECT_EQ(solver->recovery_tensors(), tensors);
     }
   });
   set_n_threads(default_threads);
@@ -178,6 +181,28 @@ TEST_P(EnergyTest, RecoveryTellsTheSizeOfTheError) {
     EXPECT_LT(fine, 3.0);
     EXPECT_LT(coarse, 1.5 * fine);
     EXPECT_GT(coarse, 0.67 * fine);
+  });
+}
+
+/// Their traces are the indicators' squares; where the solution changes along x alone, and the mesh
+/// is one of a product, the gradient errs along x alone.
+TEST_P(EnergyTest, RecoveryTensorsTellTheDirectionOfTheError) {
+  if (GetParam().cells == Cells::mixed) GTEST_SKIP() << "cells of two sizes";
+  with_dimension(dimension_of(GetParam().cells), []<int dim>() {
+    const auto mesh = unit_mesh<dim>(6, GetParam().cells, 0.1);
+    const auto problem = make_poisson_problem<dim>(derived_solution<dim>("x^3", {}, {}));
+    const auto solver = prepared<dim>(*problem, mesh);
+    solver->solve(mesh.coordinates());
+    const auto indicators = solver->recovery_indicators();
+    const auto tensors = solver->recovery_tensors();
+    ASSERT_EQ(tensors.size(), indicators.size());
+    CellTensor<dim> sum = CellTensor<dim>::Zero();
+    for (std::size_t c = 0; c < tensors.size(); ++c) {
+      EXPECT_NEAR(tensors[c].trace(), indicators[c] * indicators[c], 1e-12);
+      EXPECT_EQ(tensors[c](0, 1), tensors[c](1, 0));
+      sum += tensors[c];
+    }
+    EXPECT_GT(sum(0, 0), 0.9 * sum.trace());
   });
 }
 

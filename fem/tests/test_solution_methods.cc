@@ -181,7 +181,33 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMethodWithAProblem, testing::ValuesIn(n
 
 TEST(MethodsWithAProblem, AreNotAmongAll) {
   for (const auto& info : method_catalogue()) EXPECT_FALSE(info.needs_problem) << info.name;
-  EXPECT_THAT(names(), testing::IsSupersetOf({"energy-descent", "indicator-weighted"}));
+  EXPECT_THAT(names(),
+              testing::IsSupersetOf({"energy-descent", "indicator-weighted", "indicator-aligned"}));
+}
+
+/// Where the solution has a layer, cells become thin across it and keep their length along it.
+TEST(MethodsWithAProblem, IndicatorAlignedMakesCellsThinAcrossALayer) {
+  const auto mesh = unit_square(24, Cells::quadrilaterals, 0.0);
+  const auto extents = [&](const std::string& name) {
+    auto made = make_method<2>(name);
+    made.problem = make_poisson_problem<2>(derived_solution<2>("exp(-20*x)", {}, {}));
+    Mesh<2> result = mesh;
+    smooth(result, made);
+    Point<2> sum = Point<2>::Zero();  // of the cells at the middle of the layer
+    for (const CellIndex c : {CellIndex{11 * 24}, CellIndex{12 * 24}}) {
+      const auto nodes = result.topology().cell_nodes(c);
+      Point<2> lower = result.coordinates()[nodes[0]], upper = lower;
+      for (const NodeIndex i : nodes) {
+        lower = lower.cwiseMin(result.coordinates()[i]);
+        upper = upper.cwiseMax(result.coordinates()[i]);
+      }
+      sum += 0.5 * 24.0 * (upper - lower);
+    }
+    return sum;
+  };
+  const Point<2> aligned = extents("indicator-aligned");
+  EXPECT_LT(aligned[0], 0.5);
+  EXPECT_NEAR(aligned[1], 1.0, 0.1);
 }
 
 /// No cell becomes worse than the floor, or than the worst of the start.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -15,6 +16,10 @@ struct SolveEffort {
   std::size_t n_solves = 0;
   double seconds = 0.0;
 };
+
+/// Symmetric.
+template <int dim>
+using CellTensor = Eigen::Matrix<double, dim, dim>;
 
 /// Solves a boundary value problem on the meshes that a method goes through, for methods that move
 /// nodes by its solution u_h. Here an interface only: who implements it knows finite elements. The
@@ -41,6 +46,10 @@ class ProblemSolver {
   /// Root mean square over each cell of the difference between grad u_h and the continuous gradient
   /// that is recovered from it by averages at the nodes (Zienkiewicz, Zhu 1987); of the last solve.
   virtual std::vector<double> recovery_indicators() const = 0;
+
+  /// Mean over each cell of d d^T, where d is that difference: into which directions the gradient
+  /// errs. The trace is the square of the indicator.
+  virtual std::vector<CellTensor<dim>> recovery_tensors() const = 0;
 
   virtual SolveEffort effort() const = 0;
 };

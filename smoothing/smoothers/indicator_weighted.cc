@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/geometry/cell_size.h"
@@ -11,11 +13,55 @@
 namespace smoothfem {
 namespace {
 
+/// Weight rho^p of a cell, rho = sqrt(1 + (e / mean e)^2) with the error indicator e.
+template <int dim>
+struct OfAllDirections {
+  using Weight = double;
+
+  static std::vector<double> indicators(const ProblemSolver<dim>& solver) {
+    return solver.recovery_indicators();
+  }
+  static double size(double e) { return e; }
+  static double weight(double e, double mean, double power) {
+    return std::pow(1.0 + (e / mean) * (e / mean), 0.5 * power);
+  }
+  static double identity() { return 1.0; }
+  /// A fraction of the mean of pulls: sum by their weights.
+  static Point<dim> step(double fraction, const Point<dim>& sum, double weights) {
+    return weights > 0.0 ? Point<dim>(fraction / weights * sum) : Point<dim>(Point<dim>::Zero());
+  }
+};
+
+/// The same by the indicator's tensor T, whose trace is e^2: (I + T / (mean e)^2)^(p/2). Where the
+/// gradient errs into one direction nodes are pulled along it by rho^p, but across it by 1, so that
+/// cells become thin there and not small.
+template <int dim>
+struct OfEachDirection {
+  using Weight = CellTensor<dim>;
+
+  static std::vector<Weight> indicators(const ProblemSolver<dim>& solver) {
+    return solver.recovery_tensors();
+  }
+  static double size(const Weight& t) { return std::sqrt(t.trace()); }
+  static Weight weight(const Weight& t, double mean, double power) {
+    const Eigen::SelfAdjointEigenSolver<Weight> eigen(t / (mean * mean));
+    Point<dim> weights;
+    for (int d = 0; d < dim; ++d)
+      weights[d] = std::pow(1.0 + std::max(0.0, eigen.eigenvalues()[d]), 0.5 * power);
+    return eigen.eigenvectors() * weights.asDiagonal() * eigen.eigenvectors().transpose();
+  }
+  static Weight identity() { return Weight::Identity(); }
+  static Point<dim> step(double fraction, const Point<dim>& sum, const Weight& weights) {
+    return weights.trace() > 0.0 ? Point<dim>(fraction * (weights.inverse() * sum))
+                                 : Point<dim>(Point<dim>::Zero());
+  }
+};
+
 /// Cells in which the solution's error is large pull their nodes together: weighted Laplace with
-/// the cells' sizes times rho^p in place of the sizes (Eq. 1.2), rho from an error indicator of the
+/// the cells' sizes times a weight in place of the sizes (Eq. 1.2), from an error indicator of the
 /// solution at hand. Some sweeps, then the next solve. The result is the mesh of the lowest energy,
 /// and with it of the lowest true error.
-template <int dim>
+template <int dim, template <int> class Directions>
 class IndicatorWeighted final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "weights"; }
@@ -72,24 +118,27 @@ class IndicatorWeighted final : public Smoother<dim> {
   }
 
  private:
+  using Weight = typename Directions<dim>::Weight;
+
   int n_solves(const SmoothingState<dim>& state) const {
     return static_cast<int>(state.solver->effort().n_solves - n_solves_before_);
   }
 
-  /// rho^p of each cell.
-  std::vector<double> cell_weights(const SmoothingState<dim>& state) const {
-    auto weights = state.solver->recovery_indicators();
+  std::vector<Weight> cell_weights(const SmoothingState<dim>& state) const {
+    auto weights = Directions<dim>::indicators(*state.solver);
     for (int k = 0; k < n_averagings_; ++k) average(state.mesh.topology(), weights);
-    const double mean =
-        std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
-    for (double& e : weights)
-      e = mean > 0.0 ? std::pow(1.0 + (e / mean) * (e / mean), 0.5 * power_) : 1.0;
+    double mean = 0.0;
+    for (const Weight& e : weights) mean += Directions<dim>::size(e);
+    mean /= static_cast<double>(weights.size());
+    for (Weight& e : weights)
+      e = mean > 0.0 ? Directions<dim>::weight(e, mean, power_) : Directions<dim>::identity();
     return weights;
   }
 
   /// Each cell gets the mean of its nodes, which have the mean of the cells around them.
-  static void average(const Topology& topology, std::vector<double>& of_cells) {
-    std::vector<double> of_nodes(topology.n_nodes(), 0.0);
+  static void average(const Topology& topology, std::vector<Weight>& of_cells) {
+    const Weight zero = 0.0 * Directions<dim>::identity();
+    std::vector<Weight> of_nodes(topology.n_nodes(), zero);
     for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
       const auto cells = topology.node_cells(i);
       for (const CellIndex c : cells) of_nodes[i] += of_cells[c];
@@ -97,14 +146,14 @@ class IndicatorWeighted final : public Smoother<dim> {
     }
     for (CellIndex c = 0; c < topology.n_cells(); ++c) {
       const auto nodes = topology.cell_nodes(c);
-      of_cells[c] = 0.0;
+      of_cells[c] = zero;
       for (const NodeIndex i : nodes) of_cells[c] += of_nodes[i];
       of_cells[c] /= static_cast<double>(nodes.size());
     }
   }
 
   /// One sweep of all nodes at once; returns how many were put back.
-  std::size_t sweep_nodes(SmoothingState<dim>& state, const std::vector<double>& weights,
+  std::size_t sweep_nodes(SmoothingState<dim>& state, const std::vector<Weight>& weights,
                           double lowest_quality) {
     Mesh<dim>& mesh = state.mesh;
     const Topology& topology = mesh.topology();
@@ -135,17 +184,17 @@ class IndicatorWeighted final : public Smoother<dim> {
   Point<dim> relaxed_mean(const Mesh<dim>& mesh, NodeIndex i) const {
     const Point<dim>& here = mesh.coordinates()[i];
     Point<dim> sum = Point<dim>::Zero();
-    double total = 0.0;
+    Weight total = 0.0 * Directions<dim>::identity();
     for (const CellIndex c : mesh.topology().node_cells(i)) {
       sum += pulls_[c].weight * (pulls_[c].centroid - here);
       total += pulls_[c].weight;
     }
-    return total > 0.0 ? Point<dim>(here + relaxation_ / total * sum) : here;
+    return here + Directions<dim>::step(relaxation_, sum, total);
   }
 
   struct Pull {
     Point<dim> centroid;
-    double weight;
+    Weight weight;
   };
 
   int degree_ = 1;
@@ -163,12 +212,20 @@ class IndicatorWeighted final : public Smoother<dim> {
   std::vector<Point<dim>> previous_;
 };
 
-template <int dim>
-Stages<dim> weighted() {
+template <int dim, template <int> class Directions>
+Stages<dim> weighted_by() {
   Stages<dim> stages;
   stages.push_back(std::make_unique<StartMethod<dim>>());
-  stages.push_back(std::make_unique<IndicatorWeighted<dim>>());
+  stages.push_back(std::make_unique<IndicatorWeighted<dim, Directions>>());
   return stages;
+}
+template <int dim>
+Stages<dim> weighted() {
+  return weighted_by<dim, OfAllDirections>();
+}
+template <int dim>
+Stages<dim> aligned() {
+  return weighted_by<dim, OfEachDirection>();
 }
 
 /// Large movements first, then those that only the energy sees.
@@ -187,6 +244,14 @@ const RegisteredMethod registered(
      .source = "indicator of Zienkiewicz and Zhu 1987",
      .needs_problem = true},
     {weighted<2>, weighted<3>});
+const RegisteredMethod by_direction(
+    {.name = "indicator-aligned",
+     .title = "Indicator-aligned",
+     .description = "as indicator-weighted, with weights for each direction: cells become thin "
+                    "across a front or layer, and stay long along it",
+     .source = "indicator of Zienkiewicz and Zhu 1987",
+     .needs_problem = true},
+    {aligned<2>, aligned<3>});
 const RegisteredMethod with_descent(
     {.name = "indicator-weighted-descent",
      .title = "Indicator-weighted, descent",
