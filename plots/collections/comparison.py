@@ -115,8 +115,8 @@ def payoffs(problems, methods):
 
 
 def error_in_time(error, seconds, split_error, split_seconds):
-    """What the unsmoothed mesh has after a time in all, by the power law through its error as it is and with every cell
-    split; NaN unless that is better and dearer."""
+    """What a mesh has after a time in all, by the power law through its error as it is and with every cell split or
+    refined otherwise; NaN unless that is better and dearer."""
     if not (split_error < error and split_seconds > seconds):
         return lambda time: np.nan
     order = np.log(error / split_error) / np.log(split_seconds / seconds)

@@ -9,6 +9,7 @@ for both.
 
 import math
 
+from ..collections.comparison import error_in_time
 from ..results.rows import groups_of, solving_seconds
 from ..results.symbols import SYMBOLS, Heading
 from .descriptions import KEY_HEADINGS
@@ -100,16 +101,18 @@ def pays_table(results):
     if not rows:
         return None
     ours, refined = [both[0] for _, both in rows], [both[1] for _, both in rows]
+    beside = zip(formatted([at_equal_time(*three) for _, three in rows], ".2f"),
+                 formatted([equal_refinement(*three) for _, three in rows], ".1f"))
 
     def group(heading, name, specification):
         texts = zip(formatted([each[name] for each in ours], specification),
                     formatted([each[name] for each in refined], specification))
-        return Group(Heading(heading, heading), ("here", "refined"),
-                     tuple((number_cell(a), number_cell(b)) for a, b in texts))
-    verdicts = tuple((text_cell(verdict(*both)),) for _, both in rows)
+        return pairs(heading, ("here", "refined"), texts)
+    verdicts = tuple((text_cell(verdict(*both[:2])),) for _, both in rows)
     cells, rules = key_cells([key for key, _ in rows], results)
     return Table(study=results.study, name="table_energy_pays", keys=cells, rules=rules,
                  groups=(group("H1 error", "error", ".3e"), group("Seconds", "seconds", ".3f"),
+                         pairs("Against refinement", ("at equal time", "unknowns"), beside),
                          Group(Heading("", ""), ("Verdict",), verdicts)),
                  caption=f"{results.study_title}: against {results.title(reference)} on the refined mesh",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
@@ -117,19 +120,46 @@ def pays_table(results):
                  notes=(("", "Seconds of smoothing, with what comes before it and the method's own solves, and for "
                              "the solution on the resulting mesh of assembly, where the results have it, and of the "
                              "fastest solver that was run. A method pays where neither its error nor its time is "
-                             "larger than on the refined mesh."),))
+                             "larger than on the refined mesh. At equal time: its error over the one that refinement has "
+                             "after the same time, by the power law through both meshes of "
+                             f"{results.title(reference)}, where its time grows with the mesh; below 1 the method is the "
+                             "better use of the time. Unknowns: how "
+                             "many times as many that law takes for the method's error."),))
+
+
+def pairs(heading, headings, texts):
+    """A group of two columns of numbers."""
+    return Group(Heading(heading, heading), headings, tuple((number_cell(a), number_cell(b)) for a, b in texts))
 
 
 def compared(results, key, reference):
-    """(here, refined): error and seconds of the results; None where there is no refined mesh."""
+    """(here, refined, unrefined): error, seconds and unknowns of the method's result and of the reference method's on
+    the refined mesh and on this one; None where there is no refined mesh."""
     mesh, degree, method = key
-    pair = [results.summary.select(mesh=name, degree=degree, method=which)
-            for name, which in ((mesh, method), (mesh + REFINED, reference))]
-    if reference is None or not all(len(rows) for rows in pair):
+    three = [results.summary.select(mesh=name, degree=degree, method=which)
+             for name, which in ((mesh, method), (mesh + REFINED, reference), (mesh, reference))]
+    if reference is None or not all(len(rows) for rows in three):
         return None
     return tuple({"error": rows.number("h1_error")[0],
                   "seconds": rows.number("smoothing_seconds")[0] + rows.number("preparation_seconds")[0]
-                  + solving_seconds(rows)[0]} for rows in pair)
+                  + solving_seconds(rows)[0], "unknowns": rows.number("n_free")[0]} for rows in three)
+
+
+def at_equal_time(here, refined, unrefined):
+    """The method's error over what refinement has after the same time; NaN unless that is better, and so much dearer that
+    its time is one of its size: it grows at least as the root of the unknowns."""
+    if not refined["seconds"] / unrefined["seconds"] >= math.sqrt(refined["unknowns"] / unrefined["unknowns"]):
+        return math.nan
+    law = error_in_time(unrefined["error"], unrefined["seconds"], refined["error"], refined["seconds"])
+    return here["error"] / law(here["seconds"])
+
+
+def equal_refinement(here, refined, unrefined):
+    """By what the unknowns have to be multiplied until refinement has the method's error; NaN unless it lowers errors."""
+    gain = unrefined["error"] / refined["error"]
+    if not gain > 1.0:
+        return math.nan
+    return (unrefined["error"] / here["error"])**(math.log(refined["unknowns"] / unrefined["unknowns"]) / math.log(gain))
 
 
 def verdict(here, refined):

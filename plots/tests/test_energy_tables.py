@@ -58,5 +58,25 @@ class EnergyTables(InFolder):
         self.assertEqual(self.verdict("c", here=("0.5", "3.0")), ["does not pay"])
         self.assertEqual(self.verdict("d", here=("", "1.0")), ["–"])
 
+    def test_against_refinement(self):
+        """Refined, four times the unknowns have half the error in four times the time: order 1/2 in both."""
+        folder = self.folder / "r"
+        write_solves(folder, here=("0.25", "4.0"), refined=("1.0", "4.0"))
+        summary = rows_of(folder / "summary.csv")
+        for row in summary:
+            row["n_free"] = "40" if row["mesh"] == "tri-fine" else "10"
+            if (row["mesh"], row["method"]) == ("tri", "weighted-laplace"):
+                row.update(h1_error="2.0", smoothing_seconds="1.0", cg_seconds="0.0")
+        write_csv(folder / "summary.csv", list(summary[0]), summary)
+        _, pays = make_energy_tables(read_results(folder))
+        self.assertEqual(texts(pays.groups[2])[0], ["0.25", "64.0"])
+        self.assertEqual(texts(pays.groups[-1])[0], ["pays"])
+        for row in summary:
+            if (row["mesh"], row["method"]) == ("tri-fine", "weighted-laplace"):
+                row["smoothing_seconds"] = "1.9"  # not of its size
+        write_csv(folder / "summary.csv", list(summary[0]), summary)
+        _, pays = make_energy_tables(read_results(folder))
+        self.assertEqual(texts(pays.groups[2])[0], ["–", "64.0"])
+
     def test_studies_without_solves_have_none(self):
         self.assertEqual(make_energy_tables(read_results(write_results(self.folder / "r"))), [])
