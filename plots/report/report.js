@@ -93,13 +93,22 @@
     return traces;
   }
 
+  function flatBox(view) {
+    const most = (values) => values.reduce((a, b) => Math.max(a, b)), least = (values) => values.reduce((a, b) => Math.min(a, b));
+    const [x, y] = coordinates(view, view.states.initial).map((values) => most(values) - least(values));
+    const size = 1.9 / Math.max(x, y);
+    return { x: size * x, y: size * y, z: 0.1 };
+  }
+
   function sceneOf(view, domain) {
     const axis = { visible: false };
     const camera = view.planar
       ? { projection: { type: "orthographic" }, eye: { x: 0, y: 0, z: 2 }, up: { x: 0, y: 1, z: 0 } }
       : { projection: { type: "perspective" }, eye: { x: 1.3, y: -1.3, z: 0.9 }, up: { x: 0, y: 0, z: 1 } };
-    return { domain: domain, xaxis: axis, yaxis: axis, zaxis: axis, aspectmode: "data", camera: camera,
-      dragmode: view.planar ? "pan" : "turntable", bgcolor: css("--back") };
+    // Orthographic cameras see the more the smaller the box is; a flat one by itself would be too large.
+    const aspect = view.planar ? { aspectmode: "manual", aspectratio: flatBox(view) } : { aspectmode: "data" };
+    return Object.assign({ domain: domain, xaxis: axis, yaxis: axis, zaxis: axis, camera: camera,
+      dragmode: view.planar ? "pan" : "turntable", bgcolor: css("--back") }, aspect);
   }
 
   function drawMeshes() {

@@ -255,6 +255,8 @@ class Browser(InFolder):
         self.js("document.getElementById('view').scrollIntoView()")
         traces = self.wait_for("const d = document.getElementById('view').data; return d && d.map((t) => [t.type, t.scene])")
         self.assertEqual([scene for kind, scene in traces if kind == "mesh3d"], ["scene", "scene2"])
+        box = self.js("return document.getElementById('view').layout.scene.aspectratio")
+        self.assertAlmostEqual(box["x"] / box["y"], 3 / 1.8, places=2)  # as wide and as high as the mesh
         colours = self.js("return Array.from(document.getElementById('view').data[0].intensity)")
         self.assertEqual(len(colours), 1 + 2 + 3)  # triangles of a triangle, a quadrilateral, a pentagon
         self.assertEqual(len(self.js("return [...document.querySelectorAll('#worst table')].map((t) => t.rows.length)")), 2)
