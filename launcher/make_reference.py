@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the built-in studies for results/reference: all at the scale `paper`, the gear on the published
-meshes as it is, collections at their usual scale. Goes on where it was stopped: a study whose reference is of this commit is left alone,
-one that was interrupted goes on by itself. Shortest ones first.
+meshes as it is, collections at their usual scale. Goes on where it was stopped: a study whose reference is
+of this commit is left alone, one that was interrupted goes on by itself. Shortest ones first.
 
     make_reference.py SOURCE PROGRAM WORK [STUDY...]
 

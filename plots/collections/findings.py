@@ -140,24 +140,18 @@ def what_got_worse(results, problems):
     sentences = []
     for method in results.methods:
         with_it = [problem for problem in problems if method in problem.curves]
-        if not with_it:
-            continue
-        invalid = sum(method in problem.broken for problem in with_it)
-        if invalid:
-            sentences.append(f"{results.title(method)} ends with invalid cells in {100.0 * invalid / len(with_it):.0f} %"
-                             f"{bracket(percentages(lambda p, m=method: m in p.broken, with_it), '.0f')} of "
-                             f"{len(with_it)} problems.")
+        if any(method in problem.broken for problem in with_it):
+            sentences.append(f"{results.title(method)} ends with invalid cells in "
+                             f"{share(lambda p, m=method: m in p.broken, with_it)}.")
         with_it = [problem for problem in with_it if method not in problem.broken]
-        if not with_it:
-            continue
-        between = percentages(lambda p, m=method: p.curves[m][ERROR][-1] > p.curves[m][ERROR][0], with_it)
-        worse = sum(problem.curves[method][ERROR][-1] > problem.curves[method][ERROR][0] for problem in with_it)
-        sentences.append(f"{results.title(method)} ends with a larger error than the initial mesh's in "
-                         f"{100.0 * worse / len(with_it):.0f} %{bracket(between, '.0f')} of {len(with_it)} problems.")
+        if with_it:
+            sentences.append(f"{results.title(method)} ends with a larger error than the initial mesh's in "
+                             f"{share(lambda p, m=method: p.curves[m][ERROR][-1] > p.curves[m][ERROR][0], with_it)}.")
     return sentences
 
 
-def percentages(test, problems):
-    """Interval of the share of problems for which the test is true, in percent."""
-    true = np.array([test(problem) for problem in problems], dtype=float)
-    return interval(lambda rows: 100.0 * np.mean(true[rows]), np.array([problem.group for problem in problems], dtype=str))
+def share(test, problems):
+    """Of problems, in how many the test is true: "23 % (4 to 51) of 972 problems"."""
+    percent = np.array([100.0 * test(problem) for problem in problems])
+    between = interval(lambda rows: np.mean(percent[rows]), np.array([problem.group for problem in problems], dtype=str))
+    return f"{np.mean(percent):.0f} %{bracket(between, '.0f')} of {len(problems)} problems"

@@ -2,6 +2,7 @@
 """The problems of a collection: one member solved at one degree, on the meshes of every method."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -36,6 +37,7 @@ def group_column(rows):
     return "family" if len(set(rows.text("family"))) >= LEAST_FAMILIES else "mesh"
 
 
+@lru_cache(maxsize=1)
 def problems_of(results):
     """All problems whose initial mesh is solved, in the order of the file."""
     rows = results.iterations

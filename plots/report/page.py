@@ -85,10 +85,12 @@ def file_text(name):
     return (HERE / name).read_text(encoding="utf-8")
 
 
-def common_words(with_plots=True):
-    """Style and scripts that every page has."""
-    return {"style": file_text("report.css"), "libraries": "".join(map(script, scripts(with_plots))),
-            "common": script(file_text("page.js"))}
+def html_page(title, main, facts="", script_file=None):
+    """A whole page. main, facts: HTML. script_file: beside this one, of a page with plots. Raises NoLibrary."""
+    return Template(file_text("page.html")).substitute(
+        title=escape(title), facts=facts, main=main, style=file_text("report.css"),
+        libraries="".join(map(script, scripts(with_plots=script_file is not None))), common=script(file_text("page.js")),
+        script=script(file_text(script_file)) if script_file else "")
 
 
 def counted(number, noun, plural="s"):
@@ -98,21 +100,17 @@ def counted(number, noun, plural="s"):
 
 def page(results, outcomes=(), against=None):
     """The text of the page; outcomes: of the study's claims. Raises NoLibrary or ResultsError."""
-    data = contents(results)
-    words = {
-        "title": escape(results.study_title), "note": escape(results.note),
-        "facts": escape(f"{counted(len(results.meshes), 'mesh', 'es')}, {counted(len(results.methods), 'method')}, "
-                        f"degree {' and '.join(results.degrees) or 'none (smoothing only)'}"),
-        "failures": "".join(f"<li>{escape(f'{results.title(method)}, {results.title(mesh)}: {status}')}</li>"
-                            for (mesh, method), status in results.failures.items()),
-        "summary": html_table(summary_table(results), "summary.csv: a row for each mesh, method and degree",
-                              "summary-table", ("mesh", "method", "degree")),
-        "claims": claims_section(outcomes), "against": against_section(results, against),
-        "provenance": provenance_section(results.study, results.provenance),
-        **common_words(),
-        "data": json_in_page(data),
-        "script": script(file_text("report.js"))}
-    return Template(file_text("report.html")).substitute(words)
+    counts = escape(f"{counted(len(results.meshes), 'mesh', 'es')}, {counted(len(results.methods), 'method')}, "
+                    f"degree {' and '.join(results.degrees) or 'none (smoothing only)'}")
+    failures = "".join(f"<li>{escape(f'{results.title(method)}, {results.title(mesh)}: {status}')}</li>"
+                       for (mesh, method), status in results.failures.items())
+    main = Template(file_text("smoothing.html")).substitute(
+        summary=html_table(summary_table(results), "summary.csv: a row for each mesh, method and degree", "summary-table",
+                           ("mesh", "method", "degree")),
+        claims=claims_section(outcomes), against=against_section(results, against),
+        provenance=provenance_section(results.study, results.provenance), data=json_in_page(contents(results)))
+    return html_page(results.study_title, main, f'<p>{counts}. {escape(results.note)}</p>\n<ul class="failures">{failures}</ul>',
+                     "report.js")
 
 
 def write_report(results, outcomes=(), against=None, path=None):

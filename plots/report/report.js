@@ -201,5 +201,4 @@
 
   initCurves();
   initMeshes();
-  page.ready();
 })();

@@ -11,7 +11,7 @@ from string import Template
 from ..results.rows import read_provenance
 from ..results.write_files import write_atomically
 from ..tables.formats import as_csv
-from .page import NAME, common_words, file_text, html_table, json_in_page, provenance_section, script
+from .page import NAME, file_text, html_page, html_table, json_in_page, provenance_section
 
 
 def html_text(markdown):
@@ -73,10 +73,8 @@ def write_tables_report(folder, title, tables, planned, texts, plots=None, path=
     place of the figures. Raises NoLibrary."""
     provenance = read_provenance(folder / "provenance.json")
     sentences = "\n".join(html_text(text) for text in texts)
-    words = {
-        "title": escape(title),
-        "texts": f'<section id="texts"><h2>Findings</h2>{sentences}</section>' if sentences else "",
-        "tables": tables_section(tables), "figures": plots_section(plots) if plots else figures_section(folder, planned),
-        "provenance": provenance_section(str(provenance.get("study") or folder.resolve().name), provenance),
-        "script": script(file_text("collection.js")) if plots else "", **common_words(with_plots=bool(plots))}
-    return write_atomically(path or folder / NAME, Template(file_text("tables.html")).substitute(words))
+    main = "\n".join((
+        f'<section id="texts"><h2>Findings</h2>{sentences}</section>' if sentences else "",
+        plots_section(plots) if plots else figures_section(folder, planned), tables_section(tables),
+        provenance_section(str(provenance.get("study") or folder.resolve().name), provenance)))
+    return write_atomically(path or folder / NAME, html_page(title, main, script_file="collection.js" if plots else None))
