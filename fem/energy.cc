@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "fem/cell_integrals.h"
 #include "fem/cell_load.h"
@@ -246,9 +247,11 @@ struct LinearInterpolant {
 }  // namespace
 
 template <int dim>
-template <class Visit, class End>
-void Energy<dim>::for_each_difference(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
-                                      const Visit& visit, const End& end) const {
+template <class Square>
+auto Energy<dim>::mean_squares(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
+                               const Square& square) const {
+  using Value = std::invoke_result_t<Square, Point<dim>>;
+  std::vector<Value> means;
   std::vector<Point<dim>> recovered(x.size(), Point<dim>::Zero());
   std::vector<double> sizes_at_nodes(x.size(), 0.0), sizes;
   for_each_energy_group(*space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
@@ -271,51 +274,39 @@ void Energy<dim>::for_each_difference(const std::vector<Point<dim>>& x, const Ei
   });
   for (std::size_t i = 0; i < recovered.size(); ++i)
     if (sizes_at_nodes[i] > 0.0) recovered[i] /= sizes_at_nodes[i];
-  std::size_t number = 0;
   for_each_energy_group(*space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
                                      const ElementCells& group, std::size_t) {
     const QuadratureTable& table = group.element.matrices;
-    for (std::size_t cell = 0; cell < group.n_cells(); ++cell, ++number) {
+    for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
+      Value sum = square(Point<dim>::Zero());
       LinearInterpolant<dim, n_vertices>(*space_, group, cell, x, u)
           .for_each_point(table, [&](std::size_t q, double weight, const Point<dim>& gradient) {
             Point<dim> difference = -gradient;
             for (std::size_t v = 0; v < n_vertices; ++v)
               difference += table.geometry[q * n_vertices + v] *
                             recovered[group.vertices[cell * n_vertices + v]];
-            visit(number, weight, difference);
+            sum += weight * square(difference);
           });
-      end(number, sizes[number]);
+      means.push_back(sum / sizes[means.size()]);
     }
   });
+  return means;
 }
 
 template <int dim>
 std::vector<double> Energy<dim>::recovery_differences(const std::vector<Point<dim>>& x,
                                                       const Eigen::VectorXd& u) const {
-  std::vector<double> squares;
-  for_each_difference(
-      x, u,
-      [&](std::size_t cell, double weight, const Point<dim>& difference) {
-        squares.resize(cell + 1, 0.0);
-        squares[cell] += weight * difference.squaredNorm();
-      },
-      [&](std::size_t cell, double size) { squares[cell] = std::sqrt(squares[cell] / size); });
-  return squares;
+  auto values = mean_squares(x, u, [](const Point<dim>& d) { return d.squaredNorm(); });
+  for (double& value : values) value = std::sqrt(value);
+  return values;
 }
 
 template <int dim>
 std::vector<CellTensor<dim>> Energy<dim>::recovery_tensors(const std::vector<Point<dim>>& x,
                                                            const Eigen::VectorXd& u) const {
-  std::vector<CellTensor<dim>> tensors;
-  for_each_difference(
-      x, u,
-      [&](std::size_t cell, double weight, const Point<dim>& difference) {
-        tensors.resize(cell + 1, CellTensor<dim>::Zero());
-        const CellTensor<dim> square = difference * difference.transpose();  // exactly symmetric
-        tensors[cell] += weight * square;
-      },
-      [&](std::size_t cell, double size) { tensors[cell] /= size; });
-  return tensors;
+  return mean_squares(x, u, [](const Point<dim>& d) -> CellTensor<dim> {
+    return d * d.transpose();  // exactly symmetric, as that times a weight need not be
+  });
 }
 
 template class Energy<2>;

@@ -55,11 +55,10 @@ class Energy {
                                                 const Eigen::VectorXd& u) const;
 
  private:
-  /// Calls visit(cell, weight of a point, G - grad u_1 there) and end(cell, its size) for each
-  /// cell, group after group.
-  template <class Visit, class End>
-  void for_each_difference(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
-                           const Visit& visit, const End& end) const;
+  /// Mean of square(G - grad u_1) over each cell, group after group.
+  template <class Square>
+  auto mean_squares(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
+                    const Square& square) const;
 
   /// What integrate_load leaves of the cells of one element.
   struct GroupLoad {

@@ -213,25 +213,17 @@ class IndicatorWeighted final : public Smoother<dim> {
 };
 
 template <int dim, template <int> class Directions>
-Stages<dim> weighted_by() {
+Stages<dim> weighted() {
   Stages<dim> stages;
   stages.push_back(std::make_unique<StartMethod<dim>>());
   stages.push_back(std::make_unique<IndicatorWeighted<dim, Directions>>());
   return stages;
 }
-template <int dim>
-Stages<dim> weighted() {
-  return weighted_by<dim, OfAllDirections>();
-}
-template <int dim>
-Stages<dim> aligned() {
-  return weighted_by<dim, OfEachDirection>();
-}
 
 /// Large movements first, then those that only the energy sees.
 template <int dim>
 Stages<dim> weighted_and_descent() {
-  auto stages = weighted<dim>();
+  auto stages = weighted<dim, OfAllDirections>();
   stages.push_back(std::move(stages_of<dim>("energy-descent").back()));
   return stages;
 }
@@ -243,7 +235,7 @@ const RegisteredMethod registered(
                     "the solution; a solve an iteration",
      .source = "indicator of Zienkiewicz and Zhu 1987",
      .needs_problem = true},
-    {weighted<2>, weighted<3>});
+    {weighted<2, OfAllDirections>, weighted<3, OfAllDirections>});
 const RegisteredMethod by_direction(
     {.name = "indicator-aligned",
      .title = "Indicator-aligned",
@@ -251,7 +243,7 @@ const RegisteredMethod by_direction(
                     "across a front or layer, and stay long along it",
      .source = "indicator of Zienkiewicz and Zhu 1987",
      .needs_problem = true},
-    {aligned<2>, aligned<3>});
+    {weighted<2, OfEachDirection>, weighted<3, OfEachDirection>});
 const RegisteredMethod with_descent(
     {.name = "indicator-weighted-descent",
      .title = "Indicator-weighted, descent",

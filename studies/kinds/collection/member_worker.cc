@@ -85,35 +85,37 @@ std::string MemberWorker::run(const Member& member) {
   return options_.until == RunUntil::meshes ? facts_of(options_.out, outline) : "";
 }
 
+std::optional<fs::path> MemberWorker::at_another(const Member& member, const std::string& status,
+                                                 const fs::path& name) const {
+  for (const auto& other : collection_.members) {
+    if (other.mesh.name != member.mesh.name || other.name == member.name) continue;
+    const fs::path folder = folder_of(other);
+    if (read_row(folder)["status"] == status && fs::exists(folder / name)) return folder / name;
+  }
+  return std::nullopt;
+}
+
 /// A mesh is made once for all members that it has, one for each solution. Returns whether it is
 /// there.
 bool MemberWorker::share_mesh(const Member& member) const {
   if (member.mesh.domain.empty()) return false;  // files are read again
   const fs::path name = fs::path("meshes") / (member.mesh.name + "_initial.mesh");
-  for (const auto& other : collection_.members) {
-    if (other.mesh.name != member.mesh.name || other.name == member.name) continue;
-    if (read_row(folder_of(other))["status"] != member_meshed) continue;
-    if (!fs::exists(folder_of(other) / name)) continue;
-    const fs::path own = folder_of(member) / name;
-    fs::create_directories(own.parent_path());
-    fs::copy_file(folder_of(other) / name, own, fs::copy_options::overwrite_existing);
-    return true;
-  }
-  return false;
+  const auto made = at_another(member, member_meshed, name);
+  if (!made) return false;
+  const fs::path own = folder_of(member) / name;
+  fs::create_directories(own.parent_path());
+  fs::copy_file(*made, own, fs::copy_options::overwrite_existing);
+  return true;
 }
 
 /// A mesh is smoothed once for all members that it has, one for each solution: the trajectories of
 /// one of them are those of the others.
 void MemberWorker::share_smoothing(const Member& member) const {
+  const auto checkpoint = at_another(member, member_smoothed, "checkpoint");
+  if (!checkpoint) return;
   const fs::path own = folder_of(member) / "checkpoint";
-  for (const auto& other : collection_.members) {
-    if (other.mesh.name != member.mesh.name || other.name == member.name) continue;
-    if (read_row(folder_of(other))["status"] != member_smoothed) continue;
-    const fs::path checkpoint = folder_of(other) / "checkpoint";
-    if (!fs::exists(checkpoint)) continue;
-    link_files(checkpoint, own, ".numbers");
-    return link_files(checkpoint, own, ".trajectory");  // which refer to the numbers
-  }
+  link_files(*checkpoint, own, ".numbers");
+  link_files(*checkpoint, own, ".trajectory");  // which refer to the numbers
 }
 
 void add_facts(const std::string& facts, MemberRow& row) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "studies/framework/run/study_options.h"
 #include "studies/kinds/collection/member_row.h"
@@ -24,6 +25,9 @@ class MemberWorker {
   class Mpi;
 
   std::filesystem::path folder_of(const Member& member) const;
+  /// What another member with the same mesh has in its folder, if one has come to this status.
+  std::optional<std::filesystem::path> at_another(const Member& member, const std::string& status,
+                                                  const std::filesystem::path& name) const;
   bool share_mesh(const Member& member) const;
   void share_smoothing(const Member& member) const;
 
