@@ -13,7 +13,6 @@
 #include <cstring>
 #include <string_view>
 #include <thread>
-#include <vector>
 
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/interruption.h"
@@ -37,20 +36,6 @@ using Clock = std::chrono::steady_clock;
   _exit(127);
 }
 
-/// This process' environment without what mpirun has told it: a program that uses MPI itself would
-/// take itself for one of our ranks.
-std::vector<char*> environment_of_children() {
-  std::vector<char*> entries;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view text = *entry;
-    if (!text.starts_with("OMPI_") && !text.starts_with("PMIX_") && !text.starts_with("PMI_") &&
-        !text.starts_with("ORTE_"))
-      entries.push_back(*entry);
-  }
-  entries.push_back(nullptr);
-  return entries;
-}
-
 /// Waits, longer and longer between two looks, so that short runs are timed well.
 int wait_for(pid_t child, double timeout_seconds, CommandEnd& end) {
   const auto start = Clock::now();
@@ -72,6 +57,18 @@ int wait_for(pid_t child, double timeout_seconds, CommandEnd& end) {
 }
 
 }  // namespace
+
+std::vector<char*> environment_of_children() {
+  std::vector<char*> entries;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    if (!text.starts_with("OMPI_") && !text.starts_with("PMIX_") && !text.starts_with("PMI_") &&
+        !text.starts_with("ORTE_"))
+      entries.push_back(*entry);
+  }
+  entries.push_back(nullptr);
+  return entries;
+}
 
 CommandEnd run_command(const std::string& command, const fs::path& folder, double timeout_seconds) {
   const fs::path printed = folder / ".printed";

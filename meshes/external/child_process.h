@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace smoothfem {
 
@@ -20,6 +21,10 @@ struct CommandEnd {
 /// interruption.h), and InputError if no process can be started.
 CommandEnd run_command(const std::string& command, const std::filesystem::path& folder,
                        double timeout_seconds);
+
+/// This process' environment without what mpirun has told it: a program that uses MPI itself would
+/// take itself for one of our ranks. Ends with a null pointer.
+std::vector<char*> environment_of_children();
 
 /// The file that /bin/sh starts for this name; empty if there is none.
 std::filesystem::path find_program(const std::string& name);

@@ -144,6 +144,7 @@ void add_study_command(CLI::App& app) {
   command->add_flag(
       "--print-ranks", arguments->print_ranks,
       "only print the number of processes that this study runs fastest with on this machine");
+  command->add_option("--task-socket", arguments->options.task_socket)->group("");  // not shown
   add_plugin_option(*command);
   add_examples(*command, {"smoothfem study gear --quick", "smoothfem study my.prm --dry-run",
                           "smoothfem study gear --plugin ./libmine.so"});

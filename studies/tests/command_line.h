@@ -24,7 +24,32 @@ class CommandLine : public FileTest {
 
   /// Runs `smoothfem words...` in the test's folder.
   Outcome smoothfem(const std::vector<std::string>& words) const {
-    std::string command = "cd " + quoted(file("").string()) + " && " + quoted(SMOOTHFEM_PROGRAM);
+    std::vector<std::string> command{SMOOTHFEM_PROGRAM};
+    command.insert(command.end(), words.begin(), words.end());
+    return run(command);
+  }
+
+  /// The same on some ranks of mpirun; whoever is root here has chosen to be.
+  Outcome smoothfem_on_ranks(int n_ranks, const std::vector<std::string>& words) const {
+    std::vector<std::string> command{"env",
+                                     "OMPI_ALLOW_RUN_AS_ROOT=1",
+                                     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                     "mpirun",
+                                     "--quiet",
+                                     "--oversubscribe",
+                                     "--bind-to",
+                                     "none",
+                                     "-np",
+                                     std::to_string(n_ranks),
+                                     SMOOTHFEM_PROGRAM};
+    command.insert(command.end(), words.begin(), words.end());
+    return run(command);
+  }
+
+ private:
+  /// Runs a command in the test's folder.
+  Outcome run(const std::vector<std::string>& words) const {
+    std::string command = "cd " + quoted(file("").string()) + " &&";
     for (const auto& word : words) command += " " + quoted(word);
     command += " > " + quoted(file(".out").string()) + " 2> " + quoted(file(".err").string());
     const int status = std::system(command.c_str());

@@ -25,8 +25,9 @@ struct StudyOptions {
   bool dry_run = false;                   ///< say what would be done, and do nothing
   unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
   unsigned int smoothing_threads = 1;
-  std::string shard{};  ///< "3/10": of a collection the third part of ten only; empty: all
-  Ranks ranks{};        ///< that share the finite elements of volume meshes
+  std::string shard{};   ///< "3/10": of a collection the third part of ten only; empty: all
+  int task_socket = -1;  ///< where another process of the same run says what to do; -1: none does
+  Ranks ranks{};         ///< that share the finite elements of volume meshes, or members
   /// Set from outside to stop: the rows finished so far are written and the process ends with 130.
   const std::atomic<bool>* interrupted = nullptr;
 

@@ -16,7 +16,7 @@
 #include "studies/framework/run/progress.h"
 #include "studies/kinds/collection/member_row.h"
 #include "studies/kinds/collection/member_worker.h"
-#include "studies/kinds/collection/worker_processes.h"
+#include "studies/kinds/collection/task_team.h"
 
 namespace smoothfem {
 
@@ -41,6 +41,26 @@ const char* title_of(const Phase& phase) {
                                               : "Finite elements";
 }
 
+/// What a process is asked to do.
+std::string task_text(const Phase& phase, const Member& member) {
+  return std::string(phase.name) + " " + member.name;
+}
+
+/// The reverse. Throws InputError if there is no such member any more.
+std::pair<const Phase&, const Member&> phase_and_member(const Collection& collection,
+                                                        const std::string& task) {
+  const auto blank = task.find(' ');
+  const auto phase = std::find_if(std::begin(phases), std::end(phases), [&](const Phase& p) {
+    return task.compare(0, blank, p.name) == 0;
+  });
+  const auto member = std::find_if(
+      collection.members.begin(), collection.members.end(),
+      [&](const Member& m) { return task.compare(blank + 1, std::string::npos, m.name) == 0; });
+  if (phase == std::end(phases) || member == collection.members.end())
+    throw InputError("the study's members have changed while it ran; start it again");
+  return {*phase, *member};
+}
+
 /// What a member's work grows with; 1 as long as nothing is known of it.
 double size_of(const MemberRow& row) {
   const auto n_cells = row.find("n_cells");
@@ -52,7 +72,8 @@ class CollectionRun {
   CollectionRun(const Collection& collection, const StudyOptions& options)
       : collection_(collection),
         options_(options),
-        n_processes_(options.threads()),
+        n_processes_(options.ranks.size() > 1 ? static_cast<unsigned int>(options.ranks.size())
+                                              : options.threads()),
         progress_(options.quiet) {
     const Shard shard = options.shard.empty() ? Shard{} : Shard::parse(options.shard);
     for (const auto& member : collection.members)
@@ -60,6 +81,7 @@ class CollectionRun {
   }
 
   void run() {
+    team_.emplace(options_.ranks, n_processes_);
     require_writable(options_.out);
     lock_.emplace(options_.out);
     if (options_.force) rename_existing(options_.out);
@@ -144,17 +166,15 @@ class CollectionRun {
     for (const std::size_t i : chosen) to_do += size_of(rows_[i]);
     progress_.begin(title_of(phase), chosen.size());
     const auto started = std::chrono::steady_clock::now();
-    run_in_workers(
-        chosen.size(), is_timed ? 1U : n_processes_,
-        [&] {
-          return [worker = std::make_shared<MemberWorker>(collection_, options_, phase.until), this,
-                  &chosen](std::size_t task) { return worker->run(*members_[chosen[task]]); };
-        },
-        [&](const TaskEnd& end) {
-          const std::size_t i = chosen[end.task];
+    std::vector<std::string> tasks;
+    for (const std::size_t i : chosen) tasks.push_back(task_text(phase, *members_[i]));
+    team_->run(
+        tasks, is_timed ? TaskTeam::AtOnce::one_on_each_machine : TaskTeam::AtOnce::all,
+        [&](std::size_t task, const TaskAnswer& answer) {
+          const std::size_t i = chosen[task];
           done += size_of(rows_[i]);
           ++n_done;
-          note(i, phase, end);
+          note(i, phase, answer);
         },
         [&] {
           const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
@@ -168,7 +188,7 @@ class CollectionRun {
   }
 
   /// Writes what a member has come to.
-  void note(std::size_t i, const Phase& phase, const TaskEnd& end) {
+  void note(std::size_t i, const Phase& phase, const TaskAnswer& end) {
     MemberRow& row = rows_[i];
     row["status"] = end.failure.empty() ? phase.makes : member_failed;
     row["reason"] = end.failure;
@@ -180,6 +200,7 @@ class CollectionRun {
   void write_tables() { write_collected_tables(options_.out, rows_); }
 
   void end_interrupted() {
+    team_.reset();  // before what it works on is collected
     write_collected_tables(options_.out, rows_);
     write_provenance("interrupted");
     progress_.say("Interrupted: " + std::to_string(count(member_complete)) + " of " +
@@ -223,20 +244,34 @@ class CollectionRun {
   std::optional<FolderLock> lock_;
   const std::string started_ = now_utc();
   PhaseTimes times_;
+  std::optional<TaskTeam> team_;
 };
+
+/// Does what CollectionRun gives to one of its processes.
+void work_on_members(const Collection& collection, const StudyOptions& options) {
+  std::map<std::string, MemberWorker> workers;  // of the phases
+  answer_tasks(options.task_socket, [&](const std::string& task) {
+    const auto [phase, member] = phase_and_member(collection, task);
+    return workers.try_emplace(phase.name, collection, options, phase.until)
+        .first->second.run(member);
+  });
+}
 
 }  // namespace
 
 void run_collection(const Collection& collection, const StudyOptions& options) {
-  if (options.ranks.size() > 1)
-    throw InputError("the study " + collection.header.name +
-                     " starts its own processes: start it without mpirun, or share it by --shard");
+  if (options.task_socket >= 0) return work_on_members(collection, options);
   if (!options.mesh_dir.empty())
     throw InputError("--mesh-dir is given, but the meshes of the study " + collection.header.name +
                      " are those it names itself; leave it out");
-  CollectionRun run(collection, options);
-  if (options.dry_run) return run.print_plan();
-  run.run();
+  CollectionRun run(collection, options);  // on all ranks, which so find the same faults
+  if (!options.ranks.is_root()) {
+    if (!options.dry_run) serve_task_team(options.ranks);
+  } else if (options.dry_run) {
+    run.print_plan();
+  } else {
+    run.run();
+  }
 }
 
 }  // namespace smoothfem
