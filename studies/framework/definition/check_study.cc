@@ -56,13 +56,11 @@ void check_stages(const Study& study) {
 /// Methods that need a problem have that of the study.
 void check_problem(const Study& study) {
   if (!study.degrees.empty()) return;
-  with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
-    for (const auto& method : study.methods)
-      if (method.make<dim, spacedim>().info.needs_problem)
-        throw InputError("method " + method.name +
-                         " moves nodes by the solution of the study's problem, but the study "
-                         "solves none; write 'set degrees = 1', or leave the method out");
-  });
+  for (const auto& method : study.methods)
+    if (method.needs_problem(study.dimensions))
+      throw InputError("method " + method.name +
+                       " moves nodes by the solution of the study's problem, but the study "
+                       "solves none; write 'set degrees = 1', or leave the method out");
 }
 
 void check_refined(const Study& study) {

@@ -240,6 +240,12 @@ template Method<2> StudyMethod::make() const;
 template Method<3> StudyMethod::make() const;
 template Method<2, 3> StudyMethod::make() const;
 
+bool StudyMethod::needs_problem(MeshDimensions dimensions) const {
+  return with_dimensions(dimensions, [&]<int dim, int spacedim>() {
+    return make<dim, spacedim>().info.needs_problem;
+  });
+}
+
 Study read_study(const std::filesystem::path& file, const std::string& scale) {
   return study_of_text(read_study_text(file), file, scale);
 }

@@ -60,6 +60,9 @@ struct StudyMethod {
   /// The method with its settings.
   template <int dim, int spacedim = dim>
   Method<dim, spacedim> make() const;
+
+  /// Whether it moves nodes by the solution of the study's problem.
+  bool needs_problem(MeshDimensions dimensions) const;
 };
 
 /// Where the manufactured solution comes from: a name, one formula, or expressions of all parts.

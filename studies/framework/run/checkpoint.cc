@@ -66,6 +66,14 @@ std::optional<T> load_cbor(const fs::path& folder, const std::string& name) {
   }
 }
 
+/// A file of a checkpoint is written once and replaced in one piece: a link is as good as a copy.
+void link_file(const fs::path& from, const fs::path& to) {
+  if (fs::exists(to)) return;
+  std::error_code cannot_link;
+  fs::create_hard_link(from, to, cannot_link);
+  if (cannot_link) fs::copy_file(from, to);
+}
+
 /// Whether its indices are those of records that it has.
 bool is_consistent(const Trajectory& t) {
   const std::size_t n_records = t.records.size();
@@ -103,6 +111,15 @@ std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_
 void Checkpoint::save(const std::string& name, const Trajectory& trajectory) const {
   if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the numbers it refers to
   save_as_cbor(folder_, name + ".trajectory", trajectory);
+}
+
+void Checkpoint::adopt(const fs::path& other, const std::string& name) const {
+  const std::string trajectory = name + ".trajectory";
+  if (!fs::exists(other / trajectory) || fs::exists(folder_ / trajectory)) return;
+  fs::create_directories(folder_ / name);
+  for (const auto& entry : fs::directory_iterator(other / name))
+    link_file(entry.path(), folder_ / name / entry.path().filename());
+  link_file(other / trajectory, folder_ / trajectory);  // last: it refers to the others
 }
 
 std::optional<Trajectory> Checkpoint::load_trajectory(const std::string& name) const {

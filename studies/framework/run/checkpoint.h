@@ -40,6 +40,9 @@ class Checkpoint {
   /// Saved when all its snapshots have been.
   void save(const std::string& name, const Trajectory& trajectory) const;
   std::optional<Trajectory> load_trajectory(const std::string& name) const;
+  /// Takes over the trajectory of this name, and its snapshots, if the checkpoint in another folder
+  /// has them and this one has not.
+  void adopt(const std::filesystem::path& other, const std::string& name) const;
 
   void save(const std::string& name, const SolvedRecords& solved) const;
   std::optional<SolvedRecords> load_solved(const std::string& name) const;

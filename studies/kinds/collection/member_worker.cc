@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "studies/framework/run/checkpoint.h"
 #include "studies/framework/run/run_study.h"
 #include "studies/framework/run/solve_workers.h"
 
@@ -25,19 +26,6 @@ std::string facts_of(const fs::path& folder, const MeshOutline& outline) {
   for (const std::string key : {"n_nodes", "n_cells", "q_min", "q_mean"})
     facts[key] = provenance.at("meshes").at(0).at(key).dump();
   return facts.dump();
-}
-
-/// Links the files of one kind in a checkpoint to another one. A file is written once and replaced
-/// in one piece, so that links are as good as copies.
-void link_files(const fs::path& from, const fs::path& to, const std::string& extension) {
-  for (const auto& entry : fs::recursive_directory_iterator(from)) {
-    const fs::path target = to / fs::relative(entry.path(), from);
-    if (entry.path().extension() != extension || fs::exists(target)) continue;
-    std::error_code cannot_link;
-    fs::create_directories(target.parent_path());
-    fs::create_hard_link(entry.path(), target, cannot_link);
-    if (cannot_link) fs::copy_file(entry.path(), target);
-  }
 }
 
 }  // namespace
@@ -72,9 +60,9 @@ fs::path MemberWorker::folder_of(const Member& member) const {
 std::string MemberWorker::run(const Member& member) {
   options_.out = folder_of(member);
   options_.initial_meshes_are_there = options_.until == RunUntil::meshes && share_mesh(member);
-  if (options_.until == RunUntil::smoothing) share_smoothing(member);
   const MeshOutline outline = outline_of(collection_, member, options_.out);
   const Study study = member_study(collection_, member, outline);
+  if (options_.until == RunUntil::smoothing) share_smoothing(member, study);
   if (options_.until == RunUntil::results && needs_mpi(study)) {
     if (!mpi_) mpi_ = std::make_unique<Mpi>();
     options_.ranks = Ranks(MPI_COMM_WORLD);
@@ -109,13 +97,14 @@ bool MemberWorker::share_mesh(const Member& member) const {
 }
 
 /// A mesh is smoothed once for all members that it has, one for each solution: the trajectories of
-/// one of them are those of the others.
-void MemberWorker::share_smoothing(const Member& member) const {
-  const auto checkpoint = at_another(member, member_smoothed, "checkpoint");
-  if (!checkpoint) return;
-  const fs::path own = folder_of(member) / "checkpoint";
-  link_files(*checkpoint, own, ".numbers");
-  link_files(*checkpoint, own, ".trajectory");  // which refer to the numbers
+/// one of them are those of the others, unless the method moves nodes by the solution.
+void MemberWorker::share_smoothing(const Member& member, const Study& study) const {
+  const auto other = at_another(member, member_smoothed, "checkpoint");
+  if (!other) return;
+  const Checkpoint own(folder_of(member) / "checkpoint");
+  for (const auto& method : study.methods)
+    if (!method.needs_problem(study.dimensions))
+      own.adopt(*other, Checkpoint::name(member.mesh.name, method.name));
 }
 
 void add_facts(const std::string& facts, MemberRow& row) {

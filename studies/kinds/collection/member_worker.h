@@ -10,7 +10,7 @@
 
 namespace smoothfem {
 
-/// Works on members in a process of its own.
+/// Works on members in a process that does nothing else.
 class MemberWorker {
  public:
   /// options: of the collection.
@@ -29,7 +29,7 @@ class MemberWorker {
   std::optional<std::filesystem::path> at_another(const Member& member, const std::string& status,
                                                   const std::filesystem::path& name) const;
   bool share_mesh(const Member& member) const;
-  void share_smoothing(const Member& member) const;
+  void share_smoothing(const Member& member, const Study& study) const;
 
   const Collection& collection_;
   std::filesystem::path out_;
