@@ -79,11 +79,30 @@ ManufacturedSolution<2> corner_solution() {
           .load = [](const Point<2>&) { return 0.0; }};
 }
 
+/// r^(1/2): its gradient is infinite in the re-entrant corner of seven octants, but not along the
+/// three edges that meet there, where that of solutions with a smooth load is, too.
+ManufacturedSolution<3> fichera_solution() {
+  constexpr double exponent = 0.5;
+  const auto value = [=](const Point<3>& p) { return std::pow(p.norm(), exponent); };
+  return {.name = "corner",
+          .formula = "r^(1/2)",
+          .source = "Fichera corner (benchmark of Hermes3D)",
+          .value = value,
+          .value_and_gradient = [=](const Point<3>& p) -> ValueAndGradient<3> {
+            return {value(p), exponent * std::pow(p.norm(), exponent - 2.0) * p};
+          },
+          .load =
+              [=](const Point<3>& p) {
+                return -exponent * (exponent + 1.0) * std::pow(p.norm(), exponent - 2.0);
+              }};
+}
+
 const RegisteredSolution<2> planar_front(front_solution<2>());
 const RegisteredSolution<3> volume_front(front_solution<3>());
 const RegisteredSolution<2> planar_peak(peak_solution<2>());
 const RegisteredSolution<3> volume_peak(peak_solution<3>());
-const RegisteredSolution<2> corner(corner_solution());
+const RegisteredSolution<2> planar_corner(corner_solution());
+const RegisteredSolution<3> volume_corner(fichera_solution());
 
 }  // namespace
 

@@ -30,6 +30,31 @@ TEST(Prosthesis, HasTheNodesOfTheThesis) {
   expect_edge_scales("prosthesis", 1);
 }
 
+TEST(Cubes, HaveTheirVolumeAndNodesInTheirCorners) {
+  struct Expected {
+    const char* name;
+    double volume;
+    std::size_t n_hexahedra;
+    std::vector<Point<3>> corners;
+  };
+  for (const auto& [name, volume, n_hexahedra, corners] :
+       {Expected{"cube", 1.0, 512u, {{0, 0, 0}, {1, 1, 1}, {1, 0, 1}}},
+        Expected{"fichera", 7.0, 448u, {{0, 0, 0}, {-1, -1, -1}, {1, 0, 0}, {1, 1, -1}}}})
+    for (const char* elements : {"tetrahedra", "hexahedra"}) {
+      SCOPED_TRACE(std::string(name) + " of " + elements);
+      const VolumeMesh mesh = mesh_of_domain<3>(name, {.elements = elements, .edge_scale = 4.0});
+      expect_valid(mesh);
+      EXPECT_EQ(euler_characteristic(mesh), 1);
+      if (elements == std::string("hexahedra")) EXPECT_EQ(mesh.n_cells(), n_hexahedra);
+      EXPECT_NEAR(volume_inside(mesh), volume, 1e-12 * volume);
+      for (const Point<3>& corner : corners)
+        EXPECT_TRUE(std::any_of(mesh.coordinates().begin(), mesh.coordinates().end(),
+                                [&](const auto& p) { return (p - corner).norm() < 1e-12; }));
+    }
+  expect_edge_scales("cube", 8);
+  expect_edge_scales("fichera", 8);
+}
+
 TEST(Axle, IsGradedAndHasItsGenus) {
   const VolumeMesh mesh = mesh_of_domain<3>("axle", {.edge_scale = 2.0});
   expect_valid(mesh);
