@@ -90,8 +90,8 @@
   if (data.outcomes.includes("h1_error")) $id("outcome").value = "h1_error";
   onChange(["diagram-name", "diagram-log-x", "diagram-log-y", "diagram-methods"], drawDiagram);
   onChange(["kind", "quality", "outcome", "records-log-x", "records-log-y"], drawPrediction);
-  page.whenSeen("diagram", drawDiagram);
-  page.whenSeen("correlations", drawPrediction);
+  page.whenSeen($id("diagram"), drawDiagram);
+  page.whenSeen($id("correlations"), drawPrediction);
   page.redraw = () => {
     drawDiagram();
     drawPrediction();

@@ -11,21 +11,19 @@ const page = (function () {
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // ---- tables
-  function initTables() {
-    jQuery("table.sortable").each(function () {
-      const table = this, filtered = table.dataset.filters.split(" ").filter(Boolean).map(Number);
-      const shown = jQuery(table).DataTable({ paging: false, order: [], orderCellsTop: true,
-        language: { search: "Filter the rows:" } });
-      filtered.forEach((column) => {
-        const header = shown.column(column).header(), select = document.createElement("select");
-        select.setAttribute("aria-label", "Only rows with this " + header.textContent);
-        const texts = [...new Set(shown.column(column).nodes().toArray().map((cell) => cell.textContent))].sort();
-        select.append(new Option("all", ""), ...texts.map((text) => new Option(text, text)));
-        select.addEventListener("click", (event) => event.stopPropagation());
-        select.addEventListener("change", () => shown.column(column).search(
-          select.value ? "^" + jQuery.fn.dataTable.util.escapeRegex(select.value) + "$" : "", true, false).draw());
-        header.append(select);
-      });
+  function makeSortable(table) {
+    const filtered = table.dataset.filters.split(" ").filter(Boolean).map(Number);
+    const shown = jQuery(table).DataTable({ paging: false, order: [], orderCellsTop: true,
+      language: { search: "Filter the rows:" } });
+    filtered.forEach((column) => {
+      const header = shown.column(column).header(), select = document.createElement("select");
+      select.setAttribute("aria-label", "Only rows with this " + header.textContent);
+      const texts = [...new Set(shown.column(column).nodes().toArray().map((cell) => cell.textContent))].sort();
+      select.append(new Option("all", ""), ...texts.map((text) => new Option(text, text)));
+      select.addEventListener("click", (event) => event.stopPropagation());
+      select.addEventListener("change", () => shown.column(column).search(
+        select.value ? "^" + jQuery.fn.dataTable.util.escapeRegex(select.value) + "$" : "", true, false).draw());
+      header.append(select);
     });
   }
 
@@ -40,7 +38,7 @@ const page = (function () {
   const seen = (colour) => (isDark() && colour === "#000000" ? "#ffffff" : colour);
 
   // What takes a moment is drawn when it is about to be seen, or printed.
-  function whenSeen(id, draw) {
+  function whenSeen(element, draw) {
     const drawOnce = () => {
       watch.disconnect();
       removeEventListener("beforeprint", drawOnce);
@@ -49,7 +47,7 @@ const page = (function () {
     const watch = new IntersectionObserver((entries) => {
       if (entries.some((entry) => entry.isIntersecting)) drawOnce();
     }, { rootMargin: "300px" });
-    watch.observe(document.getElementById(id));
+    watch.observe(element);
     addEventListener("beforeprint", drawOnce);
   }
 
@@ -73,7 +71,7 @@ const page = (function () {
   const shared = { isDark: isDark, css: css, layout: layout, axis: axis, seen: seen, fill: fill, addBoxes: addBoxes,
     checked: checked, whenSeen: whenSeen, plotting: { responsive: true, displaylogo: false, toImageButtonOptions: { format: "svg" } },
     data: () => JSON.parse(document.getElementById("data").textContent), redraw: () => {}, ready: () => {
-      initTables();
+      document.querySelectorAll("table.sortable").forEach((table) => whenSeen(table, () => makeSortable(table)));
       document.documentElement.dataset.ready = "yes";
     } };
   document.getElementById("theme").addEventListener("click", () => {

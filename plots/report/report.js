@@ -191,7 +191,7 @@
     }
     fill($id("view-mesh"), names, title);
     document.querySelectorAll("#meshes select, #meshes input").forEach((e) => e.addEventListener("change", drawMeshes));
-    page.whenSeen("view", drawMeshes);
+    page.whenSeen($id("view"), drawMeshes);
   }
 
   page.redraw = () => {

@@ -216,6 +216,11 @@ class Browser(InFolder):
             time.sleep(0.1)
         raise AssertionError(f"not within {seconds} s: {script}")
 
+    def see_table(self, name):
+        """Scrolled to, it can be sorted."""
+        self.js("document.getElementById(arguments[0]).scrollIntoView()", name)
+        self.wait_for(f"return document.querySelector('#{name}.dataTable')")
+
     def errors(self):
         return [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
 
@@ -236,6 +241,7 @@ class Browser(InFolder):
 
     def test_tables_sort_and_filter(self):
         self.open()
+        self.see_table("summary-table")
         visible = "return [...document.querySelectorAll('#summary-table tbody tr')].map((row) => row.cells[%d].textContent)"
         everything = self.js(visible % 1)
         self.assertEqual(len(everything), 12)
@@ -285,6 +291,7 @@ class Browser(InFolder):
         self.path = folder / "report.html"
         self.open(width=400, dark=True)
         self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 400)
+        self.see_table("table_payoff")
         rows = "return [...document.querySelectorAll('#table_payoff tbody tr')].map((row) => row.cells[0].textContent)"
         self.assertEqual(set(self.js(rows)), {"one", "two"})
         self.js("const s = document.querySelector('#table_payoff th select'); s.value = 'two';"
