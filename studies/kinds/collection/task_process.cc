@@ -89,8 +89,8 @@ void TaskProcess::start() {
   const std::vector<char*> environment = environment_of_children();
   const pid_t parent = ::getpid();
   process_ = ::fork();
-  if (process_ == 0) {                     // nothing but calls of the system is safe here
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);    // it ends with the process that gives the tasks
+  if (process_ == 0) {                      // nothing but calls of the system is safe here
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);     // it ends with the process that gives the tasks
     if (::getppid() != parent) ::_exit(1);  // which has ended before that
     ::fcntl(ends[1], F_SETFD, 0);
     ::execve("/proc/self/exe", arguments.data(), environment.data());

@@ -11,7 +11,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Between two looks at what has come: without it waiting would take a processor of those that work.
+/// Between two looks at what has come: without it, waiting would take a processor of those that
+/// work.
 constexpr auto pause = std::chrono::milliseconds(2);
 
 enum Tag : int { outcome_tag, failure_tag, task_tag, end_tag };
