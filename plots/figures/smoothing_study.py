@@ -3,6 +3,7 @@
 
 from ..results.smoothing import INITIAL
 from .element_types import draw_element_types, is_mixed
+from .error_meshes import draw_error_meshes, error_blocks
 from .grids import read_grids
 from .histograms import draw_histogram_differences, draw_histograms
 from .meshes import (DETAIL_CENTRE, DETAIL_WIDTH, MOST_COLUMNS as PLANAR_COLUMNS, columns_of,
@@ -98,6 +99,10 @@ def plan_planar_figures(results, grids, plan, report):
         for variant, window in (("", detail), ("_full", None)):
             plan(lambda shown=shown, window=window: draw_meshes(shown, window), "meshes", variant,
                  "meshes" if window is None else "details of the meshes", part=part)
+    errors = error_blocks(results, grids)
+    for mesh, block in errors.items():
+        plan(lambda block=block: draw_error_meshes(block), "meshes_errors", "", "meshes and the errors on them",
+             part=f"_{mesh}" if len(errors) > 1 else "")
 
 
 def plan_volume_figures(results, grids, plan, report, suffix):

@@ -105,6 +105,11 @@ def solving_seconds(rows):
     return np.nan_to_num(assembly) + np.fmin(np.fmin(alone, jacobi), setup + multigrid)
 
 
+def solves_itself(rows):
+    """Whether iterations of a method have solved the problem by themselves."""
+    return bool((rows.text("n_solves") != "").any())
+
+
 def groups_of(rows, *names):
     """The rows as (values of these columns, rows that have them), in the order of the file."""
     keys = list(zip(*(rows.text(name) for name in names)))

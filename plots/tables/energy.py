@@ -9,8 +9,10 @@ for both.
 
 import math
 
+import numpy as np
+
 from ..collections.comparison import error_in_time
-from ..results.rows import groups_of, solving_seconds
+from ..results.rows import groups_of, solves_itself, solving_seconds
 from ..results.symbols import SYMBOLS, Heading
 from .descriptions import KEY_HEADINGS
 from .number_format import MISSING, formatted
@@ -19,19 +21,21 @@ from .table import Group, Table, number_cell, text_cell
 SOLVES = (5, 10, 20)
 START = "start"  # the stage whose mesh all stages after it are compared with
 REFINED = "-fine"  # a mesh's name with this is that of the same domain with shorter edges
+SIZES = ("", REFINED, "-finer")  # of three of them, from whose errors orders are taken
+NEVER = "never"
 ERRORS = (("H1", "h1_error"), ("L2", "l2_error"))
 
 
 def make_energy_tables(results):
-    """Both tables, those that have a row."""
-    tables = [factor_table(results), pays_table(results)]
+    """All tables, those that have a row."""
+    tables = [factor_table(results), pays_table(results), orders_table(results)]
     return [table for table in tables if table is not None]
 
 
 def solving_groups(results):
     """((mesh, degree, method), rows) of methods that solve, in the order of the study."""
     groups = [(key, rows) for key, rows in groups_of(results.iterations, "mesh", "degree", "method")
-              if key[2] in results.methods and (rows.text("n_solves") != "").any()]
+              if key[2] in results.methods and solves_itself(rows)]
     return sorted(groups, key=lambda group: (results.meshes.index(group[0][0]),
                                              results.degrees.index(group[0][1]),
                                              results.methods.index(group[0][2])))
@@ -95,24 +99,25 @@ def factor_table(results):
 def pays_table(results):
     """Errors and times beside those of the refined mesh, and whether the method pays."""
     reference = next((method for method in results.methods
-                      if not (results.iterations.select(method=method).text("n_solves") != "").any()), None)
+                      if not solves_itself(results.iterations.select(method=method))), None)
     rows = [(key, compared(results, key, reference)) for key, _ in solving_groups(results)]
     rows = [(key, both) for key, both in rows if both is not None]
     if not rows:
         return None
     ours, refined = [both[0] for _, both in rows], [both[1] for _, both in rows]
     beside = zip(formatted([at_equal_time(*three) for _, three in rows], ".2f"),
-                 formatted([equal_refinement(*three) for _, three in rows], ".1f"))
+                 formatted([equal_refinement(*three) for _, three in rows], ".1f"),
+                 [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")])
 
     def group(heading, name, specification):
         texts = zip(formatted([each[name] for each in ours], specification),
                     formatted([each[name] for each in refined], specification))
-        return pairs(heading, ("here", "refined"), texts)
+        return numbers(heading, ("here", "refined"), texts)
     verdicts = tuple((text_cell(verdict(*both[:2])),) for _, both in rows)
     cells, rules = key_cells([key for key, _ in rows], results)
     return Table(study=results.study, name="table_energy_pays", keys=cells, rules=rules,
                  groups=(group("H1 error", "error", ".3e"), group("Seconds", "seconds", ".3f"),
-                         pairs("Against refinement", ("at equal time", "unknowns"), beside),
+                         numbers("Against refinement", ("at equal time", "unknowns", "solves until it pays"), beside),
                          Group(Heading("", ""), ("Verdict",), verdicts)),
                  caption=f"{results.study_title}: against {results.title(reference)} on the refined mesh",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
@@ -124,25 +129,58 @@ def pays_table(results):
                              "after the same time, by the power law through both meshes of "
                              f"{results.title(reference)}, where its time grows with the mesh; below 1 the method is the "
                              "better use of the time. Unknowns: how "
-                             "many times as many that law takes for the method's error."),))
+                             "many times as many that law takes for the method's error. Solves until it pays: how many "
+                             "solutions, as of time steps, one mesh has to serve until the method has taken less time "
+                             "than that many unknowns, whose times are laws of the same kind."),))
 
 
-def pairs(heading, headings, texts):
-    """A group of two columns of numbers."""
-    return Group(Heading(heading, heading), headings, tuple((number_cell(a), number_cell(b)) for a, b in texts))
+def orders_table(results):
+    """With which power of the edge length the errors fall: fitted to three sizes of a domain's mesh."""
+    families = [mesh for mesh in results.meshes if all(mesh + size in results.meshes for size in SIZES)]
+    keys = [(mesh, degree, method) for mesh in families for degree in results.degrees for method in results.methods]
+    if not keys or not solving_groups(results):
+        return None
+    dimensions = {mesh["name"]: mesh["dimension"] for mesh in results.provenance["meshes"]}
+    values = [orders(results, key, dimensions[key[0]]) for key in keys]
+    cells, rules = key_cells(keys, results)
+    groups = tuple(Group(Heading(f"Order of {name}", f"Order of {name}"), ("",),
+                         tuple((number_cell(text),) for text in formatted([each[k] for each in values], ".2f")))
+                   for k, (name, _) in enumerate(ERRORS))
+    return Table(study=results.study, name="table_energy_orders", keys=cells, rules=rules, groups=groups,
+                 caption=f"{results.study_title}: orders of the errors in the edge length",
+                 key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")), left_aligned=(),
+                 notes=(("", "Slopes of the straight line, by least squares, through the logarithms of true errors of the "
+                             f"resulting meshes of {len(SIZES)} sizes over those of an edge length that is the number of "
+                             "unknowns to the power of minus one over the dimension."),))
+
+
+def orders(results, key, dimension):
+    """Of the H1 and the L2 error; NaN where one of the sizes has none."""
+    mesh, degree, method = key
+    rows = [results.summary.select(mesh=mesh + size, degree=degree, method=method) for size in SIZES]
+    if not all(len(each) for each in rows):
+        return [math.nan] * len(ERRORS)
+    lengths = [-math.log(each.number("n_free")[0]) / dimension for each in rows]
+    return [np.polyfit(lengths, [np.log(each.number(column)[0]) for each in rows], 1)[0] for _, column in ERRORS]
+
+
+def numbers(heading, headings, texts):
+    """A group of columns of numbers; texts: of each row."""
+    return Group(Heading(heading, heading), headings, tuple(tuple(map(number_cell, row)) for row in texts))
 
 
 def compared(results, key, reference):
-    """(here, refined, unrefined): error, seconds and unknowns of the method's result and of the reference method's on
+    """(here, refined, unrefined): error, seconds of smoothing, of one solution and of both, and unknowns of the method's result and of the reference method's on
     the refined mesh and on this one; None where there is no refined mesh."""
     mesh, degree, method = key
     three = [results.summary.select(mesh=name, degree=degree, method=which)
              for name, which in ((mesh, method), (mesh + REFINED, reference), (mesh, reference))]
     if reference is None or not all(len(rows) for rows in three):
         return None
-    return tuple({"error": rows.number("h1_error")[0],
-                  "seconds": rows.number("smoothing_seconds")[0] + rows.number("preparation_seconds")[0]
-                  + solving_seconds(rows)[0], "unknowns": rows.number("n_free")[0]} for rows in three)
+    smoothing = [rows.number("smoothing_seconds")[0] + rows.number("preparation_seconds")[0] for rows in three]
+    solution = [solving_seconds(rows)[0] for rows in three]
+    return tuple({"error": rows.number("h1_error")[0], "smoothing": once, "solution": each, "seconds": once + each,
+                  "unknowns": rows.number("n_free")[0]} for rows, once, each in zip(three, smoothing, solution))
 
 
 def at_equal_time(here, refined, unrefined):
@@ -160,6 +198,22 @@ def equal_refinement(here, refined, unrefined):
     if not gain > 1.0:
         return math.nan
     return (unrefined["error"] / here["error"])**(math.log(refined["unknowns"] / unrefined["unknowns"]) / math.log(gain))
+
+
+def solves_to_pay(here, refined, unrefined):
+    """How many solutions on one mesh make the method cheaper than refinement with its error; infinite if a solution there
+    is no dearer; NaN unless refinement lowers errors, or where times are not known."""
+    gain = unrefined["error"] / refined["error"]
+    if not (gain > 1.0 and unrefined["smoothing"] > 0.0 and unrefined["solution"] > 0.0):
+        return math.nan
+    size = math.log(unrefined["error"] / here["error"]) / math.log(gain)
+    once, each = (unrefined[what] * (refined[what] / unrefined[what])**size for what in ("smoothing", "solution"))
+    more_once, less_each = here["smoothing"] - once, each - here["solution"]
+    if math.isnan(more_once) or math.isnan(less_each):
+        return math.nan
+    if more_once <= less_each:
+        return 1
+    return math.ceil(more_once / less_each) if less_each > 0.0 else math.inf
 
 
 def verdict(here, refined):

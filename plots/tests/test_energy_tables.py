@@ -2,9 +2,11 @@
 """Tables of methods that move nodes by the solution."""
 
 import csv
+import json
+import math
 
 from plots.results.smoothing import read_results
-from plots.tables.energy import make_energy_tables
+from plots.tables.energy import make_energy_tables, solves_to_pay
 from plots.tests.synthetic_results import COLUMNS, write_csv, write_results
 from plots.tests.test_read_results import InFolder
 
@@ -69,14 +71,43 @@ class EnergyTables(InFolder):
                 row.update(h1_error="2.0", smoothing_seconds="1.0", cg_seconds="0.0")
         write_csv(folder / "summary.csv", list(summary[0]), summary)
         _, pays = make_energy_tables(read_results(folder))
-        self.assertEqual(texts(pays.groups[2])[0], ["0.25", "64.0"])
+        self.assertEqual(texts(pays.groups[2])[0], ["0.25", "64.0", "–"])
         self.assertEqual(texts(pays.groups[-1])[0], ["pays"])
         for row in summary:
             if (row["mesh"], row["method"]) == ("tri-fine", "weighted-laplace"):
                 row["smoothing_seconds"] = "1.9"  # not of its size
         write_csv(folder / "summary.csv", list(summary[0]), summary)
         _, pays = make_energy_tables(read_results(folder))
-        self.assertEqual(texts(pays.groups[2])[0], ["–", "64.0"])
+        self.assertEqual(texts(pays.groups[2])[0], ["–", "64.0", "–"])
+
+    def test_from_how_many_solves_on_a_method_pays(self):
+        """Half the error by refinement: 4 times the smoothing, 8 times the solution. The method: a quarter, so 16 and 64."""
+        unrefined = {"error": 2.0, "smoothing": 1.0, "solution": 0.5}
+        refined = {"error": 1.0, "smoothing": 4.0, "solution": 4.0}
+        self.assertEqual(solves_to_pay({"error": 0.5, "smoothing": 116.0, "solution": 0.5}, refined, unrefined), 4)
+        self.assertEqual(solves_to_pay({"error": 0.5, "smoothing": 16.0, "solution": 0.5}, refined, unrefined), 1)
+        self.assertEqual(solves_to_pay({"error": 0.5, "smoothing": 116.0, "solution": 33.0}, refined, unrefined), math.inf)
+        self.assertTrue(math.isnan(solves_to_pay({"error": 0.5, "smoothing": 1.0, "solution": 0.5}, unrefined, refined)))
+
+    def test_orders_are_those_of_three_sizes(self):
+        """Half the edge length: four times the unknowns in the plane, a quarter of the L2 error, half the H1 error."""
+        folder = self.folder / "r"
+        write_solves(folder)
+        meshes = (*MESHES, "tri-finer")
+        summary, iterations = rows_of(folder / "summary.csv"), rows_of(folder / "iterations.csv")
+        one_mesh = [row for row in summary if row["mesh"] == "tri"]
+        sized = [{**row, "mesh": mesh, "n_free": str(100 * 4**k), "h1_error": str(3 / 2**k), "l2_error": str(5 / 4**k)}
+                 for k, mesh in enumerate(meshes) for row in one_mesh]
+        write_csv(folder / "summary.csv", list(summary[0]), sized)
+        write_csv(folder / "iterations.csv", list(iterations[0]),
+                  iterations + [{**row, "mesh": "tri-finer"} for row in iterations if row["mesh"] == "tri"])
+        provenance = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
+        provenance["meshes"] = [{**provenance["meshes"][0], "name": mesh, "dimension": 2} for mesh in meshes]
+        (folder / "provenance.json").write_text(json.dumps(provenance), encoding="utf-8")
+        *_, orders = make_energy_tables(read_results(folder))
+        self.assertEqual(orders.name, "table_energy_orders")
+        self.assertEqual(texts(orders.groups[0])[0], ["1.00"])
+        self.assertEqual(texts(orders.groups[1])[0], ["2.00"])
 
     def test_studies_without_solves_have_none(self):
         self.assertEqual(make_energy_tables(read_results(write_results(self.folder / "r"))), [])
