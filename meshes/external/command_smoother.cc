@@ -7,6 +7,7 @@
 #include "meshes/external/command_line.h"
 #include "meshes/external/returned_mesh.h"
 #include "meshes/external/text_vtk.h"
+#include "meshes/io/medit_text.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/text.h"
@@ -16,6 +17,11 @@ namespace smoothfem {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Two formats have the extension .mesh: for planar meshes `mesh` is polygonal text.
+std::string extension(const std::string& format) {
+  return format == "medit" ? "mesh" : format;
+}
 
 /// What users say about a command.
 struct CommandParameters {
@@ -31,7 +37,10 @@ struct CommandParameters {
          "mesh files (without {out} it changes {in}), {iterations} is how many it shall do, "
          "{folder} the folder that names of files are relative to",
          &command},
-        {"format", "of {in}: vtk (legacy, as text), vtu, msh (text), mesh or inp", &format},
+        {"format",
+         "of {in}: vtk (legacy, as text), vtu, msh (text), mesh, inp, or medit: in.mesh with the "
+         "edges or faces of the boundary, planar too",
+         &format},
         {"out_format", "of {out}; empty: that of {in}", &out_format},
         {"files", "files to copy beside {in}, separated by commas", &files},
         {"max_iterations", "{iterations} is this at most, in the last run", &max_iterations, 1.0,
@@ -62,9 +71,9 @@ struct CommandParameters {
 
   bool counts_iterations() const { return has_placeholder(command, "iterations"); }
   std::string file_out_format() const { return out_format.empty() ? format : out_format; }
-  std::string in() const { return "in." + format; }
+  std::string in() const { return "in." + extension(format); }
   std::string out() const {
-    return has_placeholder(command, "out") ? "out." + file_out_format() : in();
+    return has_placeholder(command, "out") ? "out." + extension(file_out_format()) : in();
   }
 
   /// Throws InputError where they say nothing that can be run.
@@ -74,8 +83,8 @@ struct CommandParameters {
     if (!has_placeholder(command, "in"))
       throw InputError("the command '" + command + "' has no {in} for the file of its mesh" +
                        needs);
-    for (const auto& extension : {format, file_out_format()})
-      require_mesh_path("mesh." + extension);
+    for (const auto& given : {format, file_out_format()})
+      require_mesh_path("mesh." + extension(given));
     const bool counts = counts_iterations();
     if (!series.empty() && !has_placeholder(series, "iteration"))
       throw InputError("the series '" + series +
@@ -258,6 +267,8 @@ class CommandSmoother final : public Smoother<dim> {
   void lay_out(const Mesh<dim>& mesh, const fs::path& folder) const {
     if (p_.format == "vtk")
       write_text_vtk(folder / p_.in(), mesh);
+    else if (p_.format == "medit")
+      write_medit_with_boundary(folder / p_.in(), mesh);
     else
       write_mesh(folder / p_.in(), mesh, {}, {.msh_binary = false});
     for (const auto& file : given_files()) {

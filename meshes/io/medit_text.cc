@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "meshes/io/atomic_file.h"
@@ -57,9 +58,11 @@ class MeditReader {
     if (word("the first word") != title)
       reader_.fail("the first word is not '" + std::string(title) + "'");
     integer("the version");
-    for (auto keyword = next_keyword(); !keyword.empty() && keyword != "End";
-         keyword = next_keyword())
-      read_section(keyword);
+    for (auto keyword = next_keyword(); !keyword.empty(); keyword = next_keyword())
+      if (keyword != "End")
+        read_section(keyword);
+      else if (!section_follows())
+        break;
     return std::move(parts_);
   }
 
@@ -77,10 +80,20 @@ class MeditReader {
     return reader_.number(what);
   }
 
-  void read_section(std::string_view keyword) {
+  static const Section* find_section(std::string_view keyword) {
     const auto* section = std::find_if(sections.begin(), sections.end(),
                                        [&](const Section& s) { return s.keyword == keyword; });
-    if (section != sections.end()) {
+    return section == sections.end() ? nullptr : section;
+  }
+
+  /// Some programs write 'End' behind each section. What else stands behind it is not read.
+  bool section_follows() const {
+    LineReader ahead = reader_;
+    return ahead.find_word('#') && find_section(ahead.word()) != nullptr;
+  }
+
+  void read_section(std::string_view keyword) {
+    if (const Section* section = find_section(keyword)) {
       read_elements(*section);
     } else if (keyword == "Dimension") {
       dimension_ = integer("the dimension", 4);
@@ -226,32 +239,76 @@ void append_section(std::string& text, const Section& section,
     if (rows[i].size() == section.n_nodes) append_row(text, rows[i], tags.empty() ? 0 : tags[i]);
 }
 
-}  // namespace
+struct Facets {
+  CompressedRows<NodeIndex> nodes;
+  std::vector<int> tags;
+};
 
-void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
-                      const MeshWriteOptions&) {
+std::vector<NodeIndex> sorted(std::span<const NodeIndex> nodes) {
+  std::vector<NodeIndex> key(nodes.begin(), nodes.end());
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+/// The labelled facets, and those of the boundary that have no label, with reference 0.
+Facets facets_with_boundary(const Topology& topology) {
+  Facets facets{topology.labels().facets, topology.labels().facet_tags};
+  std::set<std::vector<NodeIndex>> labelled;
+  for (std::size_t f = 0; f < facets.nodes.size(); ++f) labelled.insert(sorted(facets.nodes[f]));
+  const auto& boundary = topology.boundary_facets();
+  for (std::size_t f = 0; f < boundary.size(); ++f) {
+    if (labelled.contains(sorted(boundary[f]))) continue;
+    facets.nodes.append(boundary[f]);
+    facets.tags.push_back(0);
+  }
+  return facets;
+}
+
+void write(const std::filesystem::path& path, const MeshView& mesh,
+           const CompressedRows<NodeIndex>& facets, const std::vector<int>& facet_tags) {
   const Topology& topology = mesh.topology();
-  const MeshLabels& labels = topology.labels();
+  const int space_dimension = mesh.planar() != nullptr ? 2 : 3;
   std::string text(title);
-  text += " 2\nDimension 3\nVertices\n" + std::to_string(mesh.n_nodes()) + "\n";
+  text += " 2\nDimension " + std::to_string(space_dimension) + "\nVertices\n" +
+          std::to_string(mesh.n_nodes()) + "\n";
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    for (const double x : mesh.point(i)) {
-      append_number(text, x);
+    const Point<3> point = mesh.point(i);
+    for (int d = 0; d < space_dimension; ++d) {
+      append_number(text, point[d]);
       text += ' ';
     }
     text += "0\n";
   }
   for (const Section& section : sections) {
-    if (section.dimension == 3)
-      append_section(text, section, topology.cells(), labels.cell_tags);
-    else if (section.dimension == 2)
-      append_section(text, section, labels.facets, labels.facet_tags);
+    if (section.dimension == mesh.dimension())
+      append_section(text, section, topology.cells(), topology.labels().cell_tags);
+    else if (section.dimension == mesh.dimension() - 1)
+      append_section(text, section, facets, facet_tags);
   }
   text += "RequiredVertices\n" + std::to_string(mesh.n_nodes() - topology.free_nodes().size());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     if (topology.is_fixed(i)) text += "\n" + std::to_string(i + 1);
   text += "\nEnd\n";
   write_atomically(path, text);
+}
+
+}  // namespace
+
+void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
+                      const MeshWriteOptions&) {
+  const MeshLabels& labels = mesh.topology().labels();
+  write(path, mesh, labels.facets, labels.facet_tags);
+}
+
+void write_medit_with_boundary(const std::filesystem::path& path, const MeshView& mesh) {
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+    if (mesh.topology().cell_type(c) == ElementType::polygon)
+      throw InputError("cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
+                       std::to_string(mesh.topology().cell_nodes(c).size()) +
+                       " nodes, Medit's cells of planar meshes have three or four; take the format "
+                       "vtk or mesh");
+  const Facets facets = facets_with_boundary(mesh.topology());
+  write(path, mesh, facets.nodes, facets.tags);
 }
 
 namespace {

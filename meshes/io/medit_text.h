@@ -13,8 +13,8 @@ namespace smoothfem {
 /// mesh, in this order; without them Triangles and Quadrilaterals a planar one. References are the
 /// physical tags (0: none) of cells and facets; those of vertices are ignored, as are sections that
 /// are not named here. RequiredVertices are fixed besides the boundary nodes. All nodes are kept.
-/// Without its last word, End, a file is taken if it ends behind a complete section and a line's
-/// end. Refused: elements with mid-nodes.
+/// Sections may each have an End of their own. Without its last word, End, a file is taken if it
+/// ends behind a complete section and a line's end. Refused: elements with mid-nodes.
 MeshFile read_medit_text(const std::filesystem::path& path);
 
 /// True if the first word of the content announces this format.
@@ -25,5 +25,11 @@ bool is_medit_text(std::string_view content);
 /// boundary node is free.
 void write_medit_text(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options);
+
+/// For other programs: planar meshes as well (Dimension 2), and all facets of the boundary, those
+/// without label with reference 0. Some programs fix the nodes of these and no others. Throws
+/// InputError for cells with five nodes and more of planar meshes, and files that cannot be
+/// written.
+void write_medit_with_boundary(const std::filesystem::path& path, const MeshView& mesh);
 
 }  // namespace smoothfem

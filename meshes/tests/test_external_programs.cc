@@ -10,6 +10,7 @@
 #include "meshes/external/command_line.h"
 #include "meshes/external/returned_mesh.h"
 #include "meshes/external/text_vtk.h"
+#include "meshes/io/medit_text.h"
 #include "meshes/tests/labelled_box.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/loop/smoother.h"
@@ -129,6 +130,37 @@ TEST_F(ExternalProgram, TextOfVtkIsReadBackWithAllBits) {
     EXPECT_EQ(read_volume(file("box.vtk")).copied_coordinates(), box.copied_coordinates());
     EXPECT_EQ(read_volume(file("box.vtk")).topology().cells(), box.topology().cells());
   }
+}
+
+/// Entries of a section of a Medit file.
+std::size_t section_size(const std::filesystem::path& path, const std::string& section) {
+  const std::string text = content_of(path);
+  const auto at = text.find("\n" + section + "\n");
+  return at == std::string::npos ? 0 : std::stoul(text.substr(at + section.size() + 2));
+}
+
+TEST_F(ExternalProgram, MeditForProgramsHasTheWholeBoundary) {
+  const PlanarMesh planar = mixed_mesh(false);
+  write_medit_with_boundary(file("planar.mesh"), planar);
+  const PlanarMesh read = read_planar(file("planar.mesh")).mesh;
+  EXPECT_EQ(read.copied_coordinates(), planar.copied_coordinates());
+  EXPECT_EQ(read.topology().n_cells(), planar.n_cells());
+  EXPECT_EQ(read.topology().free_nodes(), planar.topology().free_nodes());
+  EXPECT_EQ(section_size(file("planar.mesh"), "Edges"), planar.topology().boundary_facets().size());
+
+  EXPECT_THAT(input_error_of([&] { write_medit_with_boundary(file("a.mesh"), mixed_mesh(true)); }),
+              HasSubstr("has 5 nodes"));
+
+  const VolumeMesh bare = test::box_mesh(2, 2, 4, test::BoxCells::hexahedra);
+  write_medit_with_boundary(file("bare.mesh"), bare);
+  EXPECT_EQ(section_size(file("bare.mesh"), "Quadrilaterals"), 40u);
+
+  // Facets that have a label keep it; every tenth has two.
+  const VolumeMesh box = labelled_box(test::BoxCells::hexahedra);
+  write_medit_with_boundary(file("box.mesh"), box);
+  EXPECT_EQ(section_size(file("box.mesh"), "Quadrilaterals"), 40u + 4u);
+  EXPECT_EQ(read_volume(file("box.mesh")).topology().labels().facet_tags,
+            box.topology().labels().facet_tags);
 }
 
 PlanarMesh with_cells(const PlanarMesh& mesh, CompressedRows<NodeIndex> cells) {

@@ -128,6 +128,14 @@ TEST_F(VolumeFiles, MeditNeedsNoLastWordBehindCompleteSections) {
   EXPECT_EQ(read_volume(file_with("a.mesh", content)).n_cells(), 4u);
 }
 
+TEST_F(VolumeFiles, MeditSectionsMayEachHaveALastWord) {
+  std::string content = medit_by_hand;
+  for (const std::string section : {"Pyramids", "Tetrahedra"})
+    content.insert(content.find(section), "\nEnd\n\n");
+  EXPECT_EQ(read_volume(file_with("a.mesh", content)).n_cells(), 4u);
+  EXPECT_EQ(read_volume(file_with("a.mesh", content + "whatever\n1 2\n")).n_cells(), 4u);
+}
+
 TEST_F(VolumeFiles, AbaqusSetsAreNames) {
   const MeshFile read = read_mesh(file_with(
       "a.inp",

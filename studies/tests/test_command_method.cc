@@ -83,6 +83,13 @@ TEST_F(CommandMethod, TakesEveryKthIterationAndOtherFormats) {
   expect_laplace({"0", "3", "6", "7"});
 }
 
+TEST_F(CommandMethod, MeditIsWrittenForPlanarMeshesToo) {
+  EXPECT_EQ(status_of(" set command = grep -q Edges {in} && " + laplace("1") +
+                      "\n set format = medit\n set out_format = vtk\n"),
+            "ok");
+  expect_laplace({"0", "1"});
+}
+
 TEST_F(CommandMethod, RepeatsOnWhatItHasMade) {
   EXPECT_EQ(status_of(" set command = " + laplace("1") + "\n set repeat = 3\n"), "ok");
   expect_laplace({"0", "1", "2", "3"});
