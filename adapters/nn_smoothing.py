@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Smoothing of planar triangles by a neural network: each free node moves to where the network sees the best
-place for it in the polygon of its neighbours (Guo et al., NN-Smoothing). The weights are yours: give the path of a
-TorchScript file (`torch.jit.save`), which holds a function and no program of somebody else's; pickles are not
-loaded. Needs torch, which Debian 12 does not have.
+place for it in the polygon of its neighbours (Guo et al., Computational Mechanics 69, 2022). The weights are yours:
+a folder of TorchScript files (`torch.jit.save`), which do what a network does and nothing else; pickles are not
+loaded (nn_weights.py takes the published numbers out of them). Needs python3-torch.
 
     subsection method nn
       set type    = python:nn_smoothing.py:NeuralNetwork
