@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The adapters for programs that Debian has take part in a study, a record per iteration."""
+"""The adapters, and programs that need none, take part in a study, a record per iteration. Tests of programs that are
+not on PATH are skipped."""
 
 import csv
+import importlib.util
+import math
+import shutil
 import tempfile
+import textwrap
 import unittest
 from pathlib import Path
 
+import numpy as np
+
 from .build_folder import SMOOTHFEM, SOURCE, run
 
-METHOD = """subsection method {label}
-  set command = {command}
-  set format = {format}
-  set max_iterations = {iterations}
-  set time_pattern = time ([0-9.]+) s
-end
-"""
 STUDY = """set dimension = {dimension}
 set meshes = m
 set methods = {methods}
@@ -32,17 +32,32 @@ end
 """
 
 
-class Adapters(unittest.TestCase):
+def adapter(command, file_format, iterations):
+    """Keys of a method that is an adapter which prints its time."""
+    return {"command": SOURCE / "adapters" / command, "format": file_format, "max_iterations": iterations,
+            "time_pattern": "time ([0-9.]+) s"}
+
+
+def needs(program):
+    return unittest.skipUnless(shutil.which(program), f"{program} is not on PATH")
+
+
+needs_torch = unittest.skipUnless(importlib.util.find_spec("torch"), "python3-torch is not installed")
+
+
+class Study(unittest.TestCase):
+    """A folder, and studies in it."""
+
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
     def study(self, methods, **mesh):
-        """Rows of summary.csv by method, and of iterations.csv."""
-        text = STUDY.format(methods=", ".join(methods), **mesh) + "".join(
-            METHOD.format(label=label, command=SOURCE / "adapters" / command, format=file_format, iterations=n)
-            for label, (command, file_format, n) in methods.items())
+        """Rows of summary.csv by method, and of iterations.csv. methods: their keys."""
+        text = STUDY.format(methods=", ".join(methods), **mesh)
+        for label, keys in methods.items():
+            text += f"subsection method {label}\n" + "".join(f"  set {key} = {keys[key]}\n" for key in keys) + "end\n"
         (self.folder / "s.prm").write_text(text)
         run(SMOOTHFEM, "study", "s.prm", "--out", "out", "--quiet", "--force", folder=self.folder)
         tables = []
@@ -51,33 +66,38 @@ class Adapters(unittest.TestCase):
                 tables.append(list(csv.DictReader(stream)))
         return {row["method"]: row for row in tables[0]}, tables[1]
 
-    def check(self, summary, rows, label, iterations):
-        """A method has moved nodes, for the better, and has a record of each of these iterations."""
+    def check(self, summary, rows, label, iterations, resolution=0.0):
+        """A method has moved nodes, for the better, and has a record of each of these iterations, with a time: 0 if it
+        is below the resolution."""
         self.assertEqual(summary[label]["status"], "ok", label)
         self.assertGreater(float(summary[label]["q_mean"]), float(summary["initial"]["q_mean"]), label)
         mine = [row for row in rows if row["method"] == label]
         self.assertEqual([row["iteration"] for row in mine], iterations, label)
         for row in mine[1:]:
-            self.assertLess(0.0, float(row["smoothing_seconds"]))
+            self.assertLess(0.0, float(row["smoothing_seconds"]) + resolution)
             self.assertLess(float(row["smoothing_seconds"]), float(row["wall_seconds"]))
+
+
+class Debian(Study):
+    """Programs that Debian has."""
 
     def test_planar(self):
         summary, rows = self.study(
-            {"gmsh": ("gmsh_optimize.py {in} {out} Laplace2D {iterations}", "msh", 4)},
+            {"gmsh": adapter("gmsh_optimize.py {in} {out} Laplace2D {iterations}", "msh", 4)},
             dimension=2, domain="gear", elements="triangles", scale=2, quality=0.7, solution="gear")
         self.check(summary, rows, "gmsh", ["0", "1", "2", "4"])
 
     def test_planar_quadrilaterals(self):
         summary, rows = self.study(
-            {"sfepy": ("sfepy_taubin.py {in} {out} {iterations}", "vtk", 4)},
+            {"sfepy": adapter("sfepy_taubin.py {in} {out} {iterations}", "vtk", 4)},
             dimension=2, domain="gear", elements="quadrilaterals", scale=3, quality=0.8, solution="gear")
         self.check(summary, rows, "sfepy", ["0", "1", "2", "4"])
 
     def test_volume(self):
         summary, rows = self.study(
-            {"gmsh": ("gmsh_optimize.py {in} {out} Relocate3D {iterations}", "msh", 2),
-             "swaps": ("gmsh_optimize.py {in} {out} default {iterations}", "msh", 1),
-             "sfepy": ("sfepy_taubin.py {in} {out} {iterations}", "vtk", 2)},
+            {"gmsh": adapter("gmsh_optimize.py {in} {out} Relocate3D {iterations}", "msh", 2),
+             "swaps": adapter("gmsh_optimize.py {in} {out} default {iterations}", "msh", 1),
+             "sfepy": adapter("sfepy_taubin.py {in} {out} {iterations}", "vtk", 2)},
             dimension=3, domain="flange", elements="tetrahedra", scale=4, quality=0.7, solution="volume")
         self.check(summary, rows, "gmsh", ["0", "1", "2"])
         self.check(summary, rows, "sfepy", ["0", "1", "2"])
@@ -92,10 +112,159 @@ class Adapters(unittest.TestCase):
         words[words.index("netgen_driver.cc")] = str(SOURCE / "adapters" / "netgen_driver.cc")
         run(*words, folder=self.folder)
         summary, rows = self.study(
-            {"netgen": (f"{self.folder / 'netgen_driver'} {{in}} {{out}} {{iterations}}", "vtk", 4)},
+            {"netgen": adapter(f"{self.folder / 'netgen_driver'} {{in}} {{out}} {{iterations}}", "vtk", 4)},
             dimension=3, domain="flange", elements="tetrahedra", scale=4, quality=0.5, solution="volume")
         self.check(summary, rows, "netgen", ["0", "1", "2", "4"])
         self.assertGreater(float(summary["netgen"]["q_mean"]), 0.7)
+
+
+FLANGE = {"dimension": 3, "domain": "flange", "elements": "tetrahedra", "scale": 4, "quality": 0.5,
+          "solution": "volume"}
+HEXAHEDRA = {**FLANGE, "elements": "hexahedra", "quality": 0.3}
+GEAR = {"dimension": 2, "domain": "gear", "elements": "triangles", "scale": 2, "quality": 0.6, "solution": "gear"}
+# Mmg prints "0.301s", after a minute "1m5s ( 65.123s)".
+MMG_TIME = r"PHASE 2 COMPLETED\.(?: .*\(| ) *([0-9.]+)s"
+
+
+class Mmg(Study):
+    def mmg(self, program, n_runs, options=""):
+        return {"command": f"{program} -noinsert -noswap -nosurf {options} -v 1 {{in}} {{out}}", "format": "medit",
+                "repeat": n_runs, "time_pattern": MMG_TIME}
+
+    @needs("mmg2d_O3")
+    def test_planar(self):
+        summary, rows = self.study({"mmg": self.mmg("mmg2d_O3", 3)}, **GEAR)
+        self.check(summary, rows, "mmg", ["0", "1", "2", "3"], resolution=1e-9)
+
+    @needs("mmg3d_O3")
+    def test_volume(self):
+        """Without insertions and swaps the sizes that it aims at count for nothing, and a second run moves nothing."""
+        summary, rows = self.study({"mmg": self.mmg("mmg3d_O3", 2), "optim": self.mmg("mmg3d_O3", 1, "-optim"),
+                                    "sizes": self.mmg("mmg3d_O3", 1, "-hsiz 0.3")}, **FLANGE)
+        self.check(summary, rows, "mmg", ["0", "1", "2"], resolution=1e-9)
+        for other in ("optim", "sizes"):
+            self.assertEqual(summary[other]["q_mean"], summary["mmg"]["q_mean"], other)
+        self.assertEqual(*(row["q_mean"] for row in rows if row["method"] == "mmg" and row["iteration"] in ("1", "2")))
+
+
+class HexSmoothing(Study):
+    def hexsmoothing(self, **keys):
+        return {"command": "parallelMixedSmoothing {in} {out} {iterations}", "format": "medit", "max_iterations": 4,
+                "time_pattern": "Parallel smoothing > Smoothing = ([0-9.]+)s", **keys}
+
+    @needs("parallelMixedSmoothing")
+    def test_boundary_stays_where_the_file_has_it(self):
+        """It fixes the nodes of faces in the file and no others, and its VTK has four decimals."""
+        summary, rows = self.study(
+            {"medit": self.hexsmoothing(), "bare": self.hexsmoothing(format="mesh"),
+             "rounded": self.hexsmoothing(out_format="vtk")}, **FLANGE)
+        self.check(summary, rows, "medit", ["0", "1", "2", "4"], resolution=1e-9)
+        for label in ("bare", "rounded"):
+            self.assertRegex(summary[label]["status"], r"^failed: it has moved \d+ fixed nodes", label)
+
+    @needs("parallelMixedSmoothing")
+    def test_hexahedra(self):
+        summary, rows = self.study({"hexsmoothing": self.hexsmoothing()}, **HEXAHEDRA)
+        self.check(summary, rows, "hexsmoothing", ["0", "1", "2", "4"], resolution=1e-9)
+
+
+class Mfem(Study):
+    def mfem(self, options):
+        command = f"mfem_optimize.py mesh-optimizer {{in}} {{out}} {{iterations}} -qo 4 {options}"
+        return {"command": SOURCE / "adapters" / command, "max_iterations": 4}
+
+    @needs("mesh-optimizer")
+    def test_all_elements(self):
+        for mesh in (GEAR, {**GEAR, "elements": "quadrilaterals"}, FLANGE, HEXAHEDRA):
+            metric = "-mid 2 -tid 1" if mesh["dimension"] == 2 else "-mid 303 -tid 1"
+            with self.subTest(elements=mesh["elements"]):
+                summary, rows = self.study({"mfem": self.mfem(metric)}, **mesh)
+                self.check(summary, rows, "mfem", ["0", "1", "2", "4"], resolution=1e-9)
+
+    def test_its_nodes_are_those_of_the_file(self):
+        """What it writes, by hand: all x, then all y."""
+        program = self.folder / "optimizer"
+        program.write_text("#!/bin/sh\necho $* > words\ncat > optimized.mesh << end\n" + textwrap.dedent("""\
+            MFEM mesh v1.0
+
+            vertices
+            4
+
+            nodes
+            FiniteElementSpace
+            FiniteElementCollection: H1_2D_P1
+            VDim: 2
+            Ordering: 0
+
+            0
+            1
+            1.25
+            0
+            0
+            0
+            1.5
+            1
+            end
+            """))
+        program.chmod(0o755)
+        (self.folder / "in.vtk").write_text(
+            "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+            "0 0 0\n1 0 0\n1 1 0\n0 1 0\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n")
+        run(SOURCE / "adapters" / "mfem_optimize.py", program, "in.vtk", "out.vtk", 7, "-mid", 2, folder=self.folder)
+        self.assertEqual((self.folder / "words").read_text(), "-m in.vtk -o 1 -ni 7 -fix-bnd -no-vis -mid 2\n")
+        before, after = ((self.folder / name).read_text().splitlines() for name in ("in.vtk", "out.vtk"))
+        self.assertEqual([line.split() for line in after[5:9]],
+                         [["0.0", "0.0", "0.0"], ["1.0", "0.0", "0.0"], ["1.25", "1.5", "0.0"], ["0.0", "1.0", "0.0"]])
+        self.assertEqual(before[:5] + before[9:], after[:5] + after[9:])
+        program.unlink()
+        missing = run(SOURCE / "adapters" / "mfem_optimize.py", program, "in.vtk", "out.vtk", 7, folder=self.folder,
+                      check=False)
+        self.assertEqual((missing.returncode, missing.stderr), (1, f"there is no program {program}\n"))
+
+
+@needs_torch
+class Networks(Study):
+    def test_exact_network(self):
+        """Networks that know the mean of the neighbours make Laplace smoothing, but for the digits of a float. In the
+        convex square that makes no cell invalid, from which smoothers in Python are kept."""
+        import torch
+
+        class Mean(torch.nn.Module):
+            def forward(self, polygon):
+                return polygon.mean(dim=1)
+
+        for n in range(3, 20):
+            torch.jit.script(Mean()).save(str(self.folder / f"{n}.pt"))
+        stopping = {"tolerance": 0, "max_iterations": 4}
+        summary, rows = self.study(
+            {"laplace": stopping, "nn": {"type": f"python:{SOURCE / 'adapters' / 'nn_smoothing.py'}:NeuralNetwork",
+                                         "weights": self.folder, **stopping}},
+            dimension=2, domain="square", elements="triangles", scale=4, quality=0.7, solution="sine")
+        self.assertEqual(summary["nn"]["status"], "ok")
+        laplace, nn = ([row for row in rows if row["method"] == label] for label in ("laplace", "nn"))
+        self.assertEqual(len(nn), 5)
+        for row, known in zip(nn, laplace, strict=True):
+            for column in ("q_min", "q_mean", "l2_error"):
+                self.assertTrue(math.isclose(float(row[column]), float(known[column]), rel_tol=1e-4, abs_tol=1e-6), column)
+
+    def test_weights_are_taken_out_of_pickles(self):
+        """A network of linear layers in torch's old format, and one that would do something when loaded."""
+        import torch
+
+        torch.manual_seed(3)
+        layers = torch.nn.Sequential(torch.nn.Linear(10, 20), torch.nn.Sigmoid(), torch.nn.Linear(20, 7),
+                                     torch.nn.Sigmoid(), torch.nn.Linear(7, 2))
+        (self.folder / "from").mkdir()
+        torch.save(layers, self.folder / "from" / "opt5.pkl", _use_new_zipfile_serialization=False)
+        convert = SOURCE / "adapters" / "nn_weights.py"
+        run(convert, "from", "to", folder=self.folder)
+        polygon = torch.rand(1, 5, 2)
+        np.testing.assert_allclose(torch.jit.load(str(self.folder / "to" / "5.pt"))(polygon).detach(),
+                                   layers(polygon.reshape(1, 10)).detach(), atol=1e-6)
+
+        (self.folder / "from" / "opt5.pkl").write_bytes(b"cos\nsystem\n(S'touch loaded'\ntR." * 5)
+        self.assertNotEqual(run(convert, "from", "bad", folder=self.folder, check=False).returncode, 0)
+        self.assertFalse((self.folder / "loaded").exists())
 
 
 if __name__ == "__main__":
