@@ -45,7 +45,9 @@ TEST(Cubes, HaveTheirVolumeAndNodesInTheirCorners) {
       const VolumeMesh mesh = mesh_of_domain<3>(name, {.elements = elements, .edge_scale = 4.0});
       expect_valid(mesh);
       EXPECT_EQ(euler_characteristic(mesh), 1);
-      if (elements == std::string("hexahedra")) EXPECT_EQ(mesh.n_cells(), n_hexahedra);
+      if (elements == std::string("hexahedra")) {
+        EXPECT_EQ(mesh.n_cells(), n_hexahedra);
+      }
       EXPECT_NEAR(volume_inside(mesh), volume, 1e-12 * volume);
       for (const Point<3>& corner : corners)
         EXPECT_TRUE(std::any_of(mesh.coordinates().begin(), mesh.coordinates().end(),
