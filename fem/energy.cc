@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
 
-#include "fem/cell_integrals.h"
+#include "fem/cell_function.h"
 #include "fem/cell_load.h"
 #include "fem/chosen_points.h"
 #include "smoothing/base/parallel.h"
@@ -25,56 +24,32 @@ void for_parts(const ElementCells& group, const Work& work) {
   });
 }
 
-/// A function on one cell.
+/// Adds what the energy's derivatives in the vertices have from |grad u|^2.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
-struct CellFunction {
-  std::array<Vector<dim, double>, n_vertices> vertices;
-  std::array<double, n_dofs> values;
-
-  CellFunction(const ElementCells& group, std::size_t cell, const std::vector<Point<dim>>& x,
-               const Eigen::VectorXd& u)
-      : vertices(cell_vertices<dim, n_vertices>(group, cell, x)) {
-    for (std::size_t i = 0; i < n_dofs; ++i) values[i] = u[group.dofs[cell * n_dofs + i]];
-  }
-
-  MappedPoint<dim, double> map(const QuadratureTable& table, std::size_t q) const {
-    return map_point<dim, double>(table, q, vertices);
-  }
-
-  Point<dim> gradient(const QuadratureTable& table, std::size_t q,
-                      const MappedPoint<dim, double>& mapped) const {
-    std::array<double, dim> reference{};
-    for (std::size_t i = 0; i < n_dofs; ++i)
-      for (std::size_t d = 0; d < dim; ++d)
-        reference[d] += values[i] * table.shape_gradient[dim * (q * n_dofs + i) + d];
-    return point_of(mapped.jacobian.gradient(reference.data()));
-  }
-
-  /// Adds what the energy's derivatives in the vertices have from |grad u|^2.
-  void add_dirichlet_term(const QuadratureTable& table,
-                          std::array<Point<dim>, n_vertices>& sums) const {
-    for (std::size_t q = 0; q < table.n_points; ++q) {
-      const auto mapped = map(table, q);
-      const Point<dim> slope = gradient(table, q, mapped);
-      const double square = slope.squaredNorm();
-      for (std::size_t v = 0; v < n_vertices; ++v) {
-        const Point<dim> hat = point_of(
-            mapped.jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]));
-        sums[v] += mapped.weight * (square * hat - 2.0 * slope.dot(hat) * slope);
-      }
+void add_dirichlet_term(const CellFunction<dim, n_dofs, n_vertices>& u,
+                        const QuadratureTable& table, std::array<Point<dim>, n_vertices>& sums) {
+  for (std::size_t q = 0; q < table.n_points; ++q) {
+    const auto mapped = u.map(table, q);
+    const Point<dim> slope = u.gradient(table, q, mapped);
+    const double square = slope.squaredNorm();
+    for (std::size_t v = 0; v < n_vertices; ++v) {
+      const Point<dim> hat =
+          point_of(mapped.jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]));
+      sums[v] += mapped.weight * (square * hat - 2.0 * slope.dot(hat) * slope);
     }
   }
+}
 
-  /// The same from f u; weighted_f: at the table's points.
-  void add_load_term(const QuadratureTable& table, const double* weighted_f,
-                     std::array<Point<dim>, n_vertices>& sums) const {
-    for (std::size_t q = 0; q < table.n_points; ++q) {
-      const Point<dim> slope = 2.0 * weighted_f[q] * gradient(table, q, map(table, q));
-      for (std::size_t v = 0; v < n_vertices; ++v)
-        sums[v] += table.geometry[q * n_vertices + v] * slope;
-    }
+/// The same from f u; weighted_f: at the table's points.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+void add_load_term(const CellFunction<dim, n_dofs, n_vertices>& u, const QuadratureTable& table,
+                   const double* weighted_f, std::array<Point<dim>, n_vertices>& sums) {
+  for (std::size_t q = 0; q < table.n_points; ++q) {
+    const Point<dim> slope = 2.0 * weighted_f[q] * u.gradient(table, q, u.map(table, q));
+    for (std::size_t v = 0; v < n_vertices; ++v)
+      sums[v] += table.geometry[q * n_vertices + v] * slope;
   }
-};
+}
 
 template <std::size_t n_dofs, std::size_t n_vertices>
 const QuadratureTable& gradient_rule(const ElementCells& group, const EnergyRules& rules, int dim) {
@@ -105,16 +80,6 @@ Energy<dim>::Energy(std::shared_ptr<const FiniteElementSpace<dim>> space)
   }
 }
 
-/// Calls visit.operator()<n_dofs, n_vertices>(group, number of the group).
-template <int dim, class Visit>
-static void for_each_energy_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
-  for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
-    if constexpr (dim == 2 || (n_vertices != 5 && n_vertices != 6))
-      visit.template operator()<n_dofs, n_vertices>(
-          group, static_cast<std::size_t>(&group - space.groups.data()));
-  });
-}
-
 template <int dim>
 void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x,
                                  const ManufacturedSolution<dim>& solution) {
@@ -143,7 +108,7 @@ void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x,
       }
     });
   };
-  for_each_energy_group(*space_, run);
+  for_each_smooth_group(*space_, run);
 }
 
 template <int dim>
@@ -177,7 +142,7 @@ double Energy<dim>::value(const std::vector<Point<dim>>& x, const Eigen::VectorX
     });
     total = std::accumulate(of_parts.begin(), of_parts.end(), total);
   };
-  for_each_energy_group(*space_, run);
+  for_each_smooth_group(*space_, run);
   return total;
 }
 
@@ -195,7 +160,7 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
       for (std::size_t cell = first; cell < last; ++cell) {
         const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
         of_cells[cell].fill(Point<dim>::Zero());
-        function.add_dirichlet_term(table, of_cells[cell]);
+        add_dirichlet_term(function, table, of_cells[cell]);
         if constexpr (is_linear<dim, n_dofs, n_vertices>) {
           const Point<dim> slope = function.gradient(table, 0, function.map(table, 0));
           // Vertices and dofs of these elements have the same order.
@@ -203,7 +168,7 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
             of_cells[cell][v] += 2.0 * load.values[cell * n_dofs + v] * slope;
         } else {
           const auto& rule = load.rules.load[load.levels[cell]];
-          function.add_load_term(rule, weighted_f, of_cells[cell]);
+          add_load_term(function, rule, weighted_f, of_cells[cell]);
           weighted_f += rule.n_points;
         }
       }
@@ -211,102 +176,8 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
     for (std::size_t k = 0; k < group.vertices.size(); ++k)
       sums[group.vertices[k]] += of_cells[k / n_vertices][k % n_vertices];
   };
-  for_each_energy_group(*space_, run);
+  for_each_smooth_group(*space_, run);
   return sums;
-}
-
-namespace {
-
-/// The function on one cell that is linear, as the mapping is, with the same values at the nodes.
-template <int dim, std::size_t n_vertices>
-struct LinearInterpolant {
-  std::array<Vector<dim, double>, n_vertices> vertices;
-  std::array<double, n_vertices> values;
-
-  LinearInterpolant(const FiniteElementSpace<dim>& space, const ElementCells& group,
-                    std::size_t cell, const std::vector<Point<dim>>& x, const Eigen::VectorXd& u)
-      : vertices(cell_vertices<dim, n_vertices>(group, cell, x)) {
-    for (std::size_t v = 0; v < n_vertices; ++v)
-      values[v] = u[space.vertex_dof[group.vertices[cell * n_vertices + v]]];
-  }
-
-  /// Calls visit(q, weight, gradient) for the points of a rule.
-  template <class Visit>
-  void for_each_point(const QuadratureTable& table, const Visit& visit) const {
-    for (std::size_t q = 0; q < table.n_points; ++q) {
-      const auto mapped = map_point<dim, double>(table, q, vertices);
-      std::array<double, dim> reference{};
-      for (std::size_t v = 0; v < n_vertices; ++v)
-        for (std::size_t d = 0; d < dim; ++d)
-          reference[d] += values[v] * table.geometry_gradient[dim * (q * n_vertices + v) + d];
-      visit(q, mapped.weight, point_of(mapped.jacobian.gradient(reference.data())));
-    }
-  }
-};
-
-}  // namespace
-
-template <int dim>
-template <class Square>
-auto Energy<dim>::mean_squares(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
-                               const Square& square) const {
-  using Value = std::invoke_result_t<Square, Point<dim>>;
-  std::vector<Value> means;
-  std::vector<Point<dim>> recovered(x.size(), Point<dim>::Zero());
-  std::vector<double> sizes_at_nodes(x.size(), 0.0), sizes;
-  for_each_energy_group(*space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
-                                     const ElementCells& group, std::size_t) {
-    for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
-      Point<dim> integral = Point<dim>::Zero();
-      double size = 0.0;
-      LinearInterpolant<dim, n_vertices>(*space_, group, cell, x, u)
-          .for_each_point(group.element.matrices,
-                          [&](std::size_t, double weight, const Point<dim>& gradient) {
-                            integral += weight * gradient;
-                            size += weight;
-                          });
-      for (std::size_t v = 0; v < n_vertices; ++v) {
-        recovered[group.vertices[cell * n_vertices + v]] += integral;
-        sizes_at_nodes[group.vertices[cell * n_vertices + v]] += size;
-      }
-      sizes.push_back(size);
-    }
-  });
-  for (std::size_t i = 0; i < recovered.size(); ++i)
-    if (sizes_at_nodes[i] > 0.0) recovered[i] /= sizes_at_nodes[i];
-  for_each_energy_group(*space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
-                                     const ElementCells& group, std::size_t) {
-    const QuadratureTable& table = group.element.matrices;
-    for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
-      Value sum = square(Point<dim>::Zero());
-      LinearInterpolant<dim, n_vertices>(*space_, group, cell, x, u)
-          .for_each_point(table, [&](std::size_t q, double weight, const Point<dim>& gradient) {
-            Point<dim> difference = -gradient;
-            for (std::size_t v = 0; v < n_vertices; ++v)
-              difference += table.geometry[q * n_vertices + v] *
-                            recovered[group.vertices[cell * n_vertices + v]];
-            sum += weight * square(difference);
-          });
-      means.push_back(sum / sizes[means.size()]);
-    }
-  });
-  return means;
-}
-
-template <int dim>
-std::vector<double> Energy<dim>::recovery_differences(const std::vector<Point<dim>>& x,
-                                                      const Eigen::VectorXd& u) const {
-  auto values = mean_squares(x, u, [](const Point<dim>& d) { return d.squaredNorm(); });
-  for (double& value : values) value = std::sqrt(value);
-  return values;
-}
-
-template <int dim>
-std::vector<CellTensor<dim>> Energy<dim>::recovery_tensors(const std::vector<Point<dim>>& x,
-                                                           const Eigen::VectorXd& u) const {
-  return mean_squares(x, u, [](const Point<dim>& d) -> CellTensor<dim> {
-    return d * d.transpose();  // exactly symmetric, as that times a weight need not be
-  });
 }
 
 template class Energy<2>;

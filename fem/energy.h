@@ -11,11 +11,11 @@
 
 namespace smoothfem {
 
-/// The energy J = a(u_h, u_h) - 2 (f, u_h) of solutions on meshes of one topology, and what
-/// smoothers read from them. On triangles, quadrilaterals, tetrahedra and hexahedra, with -laplace
-/// as the operator, on one process. f is integrated by rules that each cell gets as fine as it
-/// needs: where f is not resolved, J falls by what its quadrature misses, and the error rises. The
-/// same bits for every number of threads.
+/// The energy J = a(u_h, u_h) - 2 (f, u_h) of solutions on meshes of one topology, and its
+/// gradient in node positions. On triangles, quadrilaterals, tetrahedra and hexahedra, with
+/// -laplace as the operator, on one process. f is integrated by rules that each cell gets as fine
+/// as it needs: where f is not resolved, J falls by what its quadrature misses, and the error
+/// rises. The same bits for every number of threads.
 template <int dim>
 class Energy {
  public:
@@ -42,24 +42,7 @@ class Energy {
   std::vector<Point<dim>> gradient(const std::vector<Point<dim>>& x,
                                    const Eigen::VectorXd& u) const;
 
-  /// Root mean square over each cell, group after group, of G - grad u_1: u_1 is linear (as the
-  /// mapping is) with the values of u at the nodes, G the same with the means of grad u_1 in the
-  /// cells around the nodes. With elements of degree 1 that is an estimate of the error
-  /// (Zienkiewicz, Zhu 1987); with those of degree 2, whose gradient such means do not improve, it
-  /// says where u bends.
-  std::vector<double> recovery_differences(const std::vector<Point<dim>>& x,
-                                           const Eigen::VectorXd& u) const;
-
-  /// Mean over each cell of (G - grad u_1)(G - grad u_1)^T.
-  std::vector<CellTensor<dim>> recovery_tensors(const std::vector<Point<dim>>& x,
-                                                const Eigen::VectorXd& u) const;
-
  private:
-  /// Mean of square(G - grad u_1) over each cell, group after group.
-  template <class Square>
-  auto mean_squares(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
-                    const Square& square) const;
-
   /// What integrate_load leaves of the cells of one element.
   struct GroupLoad {
     EnergyRules rules;

@@ -8,7 +8,9 @@
 #include "fem/assembly.h"
 #include "fem/conjugate_gradients.h"
 #include "fem/energy.h"
+#include "fem/gradient_recovery.h"
 #include "fem/natural_load.h"
+#include "fem/residual_indicator.h"
 #include "fem/trilinos_matrix.h"
 #include "smoothing/base/scoped_timer.h"
 
@@ -99,16 +101,26 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   }
 
   std::vector<double> recovery_indicators() const override {
-    return in_order_of_cells(energy_->recovery_differences(x_, u_));
+    return in_order_of_cells(recovery().differences());
   }
 
   std::vector<CellTensor<dim>> recovery_tensors() const override {
-    return in_order_of_cells(energy_->recovery_tensors(x_, u_));
+    return in_order_of_cells(recovery().difference_tensors());
+  }
+
+  std::vector<double> residual_indicators() const override {
+    return in_order_of_cells(smoothfem::residual_indicators(*space_, x_, u_, solution_));
+  }
+
+  std::vector<CellTensor<dim>> recovered_hessians() const override {
+    return in_order_of_cells(recovery().hessians());
   }
 
   SolveEffort effort() const override { return effort_; }
 
  private:
+  GradientRecovery<dim> recovery() const { return {*space_, x_, u_}; }
+
   void check(const Topology& topology) const {
     if (solution_.diffusivity)
       throw InputError(

@@ -256,6 +256,14 @@ EnergyRules make_rules_of_energy(ElementType type, int degree) {
   return rules;
 }
 
+template <int dim>
+QuadratureTable make_table_at_support(ElementType type, int degree) {
+  const auto element = lagrange_element<dim>(type, degree);
+  const auto& points = element->get_unit_support_points();
+  return make_table<dim>(*element, *lagrange_element<dim>(type, 1),
+                         dealii::Quadrature<dim>(points, std::vector<double>(points.size(), 0.0)));
+}
+
 /// dim: of the facet.
 template <int dim>
 FacetElement make_facet(bool simplex, int degree) {
@@ -282,6 +290,12 @@ FacetElement make_facet(bool simplex, int degree) {
 FacetElement make_facet_element(std::size_t n_vertices, int degree) {
   keep_deal_ii_on_this_thread();
   return n_vertices == 2 ? make_facet<1>(false, degree) : make_facet<2>(n_vertices == 3, degree);
+}
+
+QuadratureTable make_support_table(ElementType type, int degree) {
+  keep_deal_ii_on_this_thread();
+  return dimension_of(type) == 2 ? make_table_at_support<2>(type, degree)
+                                 : make_table_at_support<3>(type, degree);
 }
 
 EnergyRules make_energy_rules(ElementType type, int degree) {

@@ -64,6 +64,9 @@ struct FacetElement {
 /// points: those of chosen_points::ladder, of which each cell takes what it needs.
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
 
+/// Values at the support points of the element's dofs, in their order; without weights.
+QuadratureTable make_support_table(ElementType type, int degree);
+
 /// What the energy of a solution on an element needs besides its matrices (fem/energy.h).
 struct EnergyRules {
   QuadratureTable gradients;          ///< of simplices: exact for products of two gradients

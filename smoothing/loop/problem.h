@@ -51,6 +51,15 @@ class ProblemSolver {
   /// errs. The trace is the square of the indicator.
   virtual std::vector<CellTensor<dim>> recovery_tensors() const = 0;
 
+  /// Of each cell: its share of the estimate of the error by the residual, with the jumps of the
+  /// gradient across its facets (Kelly et al. 1983), divided by the square root of its size; of
+  /// the last solve. A mean over the cell as the indicator of the recovery is, up to a constant.
+  virtual std::vector<double> residual_indicators() const = 0;
+
+  /// Mean over each cell of the symmetric derivative of that continuous gradient: the solution's
+  /// second derivatives.
+  virtual std::vector<CellTensor<dim>> recovered_hessians() const = 0;
+
   virtual SolveEffort effort() const = 0;
 };
 
