@@ -89,6 +89,7 @@ struct Pass {
   const Mesh<dim, spacedim>& mesh;
   const ElementRegularization<dim, spacedim>& element;
   const NeighbourSizes<dim, spacedim>& sizes;  ///< up to date if the element's step needs them
+  const double* prescribed;                    ///< of each cell, instead of them; or null
   Weighting weighting;
   Fits fits;
 
@@ -111,9 +112,16 @@ struct Pass {
   }
 
   template <std::size_t n>
+  Lanes size_of(const CellBatch<n>& batch) const {
+    if (prescribed == nullptr) return sizes.of(batch);
+    return Lanes{prescribed[batch.cells[0]], prescribed[batch.cells[1]], prescribed[batch.cells[2]],
+                 prescribed[batch.cells[3]]};
+  }
+
+  template <std::size_t n>
   Lanes regularized(const CellBatch<n>& batch, const std::array<Vector<dim, Lanes>, n>& corners,
                     std::array<Vector<dim, Lanes>, n>& transformed) const {
-    const Lanes size = fits ? sizes.of(batch) : Lanes{};
+    const Lanes size = fits ? size_of(batch) : Lanes{};
     const std::span<const Vector<dim, Lanes>, n> from(corners);
     const std::span<Vector<dim, Lanes>, n> to(transformed);
     if constexpr (dim == 2)
@@ -129,7 +137,7 @@ struct Pass {
     double quality = 0.0;
     with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
       with_result(corners, [&](auto transformed) {
-        const double size = fits ? sizes.of(nodes) : 0.0;
+        const double size = !fits ? 0.0 : prescribed ? prescribed[cell] : sizes.of(nodes);
         quality = regularize(element, upper_side(mesh, cell), corners, transformed, size);
         const double weight = weighting.weight(cell, quality);
         for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -190,10 +198,14 @@ template <int dim, int spacedim>
 struct ElementPass<dim, spacedim>::Tables {
   std::optional<ElementRegularization<dim, spacedim>> element;
   NeighbourSizes<dim, spacedim> sizes;
+  const double* prescribed = nullptr;
   NodeSums sums;
   std::vector<PartialQuality> qualities;   ///< of each block of cells
   std::vector<std::uint8_t> marked_nodes;  ///< whose sums have to be added again
   std::vector<std::uint8_t> marked_cells;  ///< that add to them
+
+  /// Elements' steps have to be told sizes that the mesh has.
+  bool measures() const { return element->fits_neighbours() && prescribed == nullptr; }
 
   /// The nodes of all cells around some nodes that are not marked yet; marks them.
   std::vector<NodeIndex> nodes_around(const Topology& topology, std::span<const NodeIndex> nodes) {
@@ -224,19 +236,25 @@ template <int dim, int spacedim>
 void ElementPass<dim, spacedim>::prepare(const Topology& topology,
                                          const ElementParameters<dim>& parameters) {
   tables_->element.emplace(parameters);
+  tables_->prescribed = nullptr;
   tables_->sums.prepare(topology);
   tables_->qualities.resize(topology.blocks().size());
   sums_ = tables_->sums[0];
 }
 
 template <int dim, int spacedim>
+void ElementPass<dim, spacedim>::prescribe_sizes(std::span<const double> of_cells) {
+  tables_->prescribed = of_cells.data();
+}
+
+template <int dim, int spacedim>
 MeshQuality ElementPass<dim, spacedim>::transform_all(SmoothingState<dim, spacedim>& state,
                                                       double eta) {
   const Topology& topology = state.mesh.topology();
-  if (tables_->element->fits_neighbours()) tables_->sizes.update(state.mesh);
+  if (tables_->measures()) tables_->sizes.update(state.mesh);
   with_scaling<dim, spacedim>(tables_->element->fits_neighbours(), [&](auto fits) {
     const Pass<dim, spacedim, QualityWeighting, decltype(fits)> pass{
-        state.mesh, *tables_->element, tables_->sizes, {eta}, fits};
+        state.mesh, *tables_->element, tables_->sizes, tables_->prescribed, {eta}, fits};
     tables_->sums.compute([&](std::size_t b, double* sums) {
       add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
       tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
@@ -255,7 +273,7 @@ MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spa
   marked_nodes.assign(topology.n_nodes(), 0);
   marked_cells.assign(topology.n_cells(), 0);
   auto changed_sums = tables_->nodes_around(topology, nodes);
-  if (tables_->element->fits_neighbours()) {  // cells of other sizes change the steps of others
+  if (tables_->measures()) {  // cells of other sizes change the steps of others
     tables_->sizes.update(state.mesh, changed_sums);
     const auto further = tables_->nodes_around(topology, changed_sums);
     changed_sums.insert(changed_sums.end(), further.begin(), further.end());
@@ -269,7 +287,9 @@ MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spa
     if (marked_cells[c]) cells.push_back(c);
 
   const Pass<dim, spacedim, QualityWeighting> pass{
-      state.mesh, *tables_->element, tables_->sizes, {eta}, tables_->element->fits_neighbours()};
+      state.mesh,     *tables_->element,
+      tables_->sizes, tables_->prescribed,
+      {eta},          tables_->element->fits_neighbours()};
   tables_->sums.compute_some(
       changed_sums, cells,
       [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
@@ -284,17 +304,15 @@ void ElementPass<dim, spacedim>::transform_some(const SmoothingState<dim, spaced
                                                 std::span<const NodeIndex> nodes,
                                                 std::span<const CellIndex> cells,
                                                 std::span<const double> weights, double threshold) {
-  if (tables_->element->fits_neighbours()) {
+  if (tables_->measures()) {
     if (cells.size() == state.mesh.n_cells())
       tables_->sizes.update(state.mesh);
     else
       tables_->sizes.update(state.mesh, tables_->nodes_of(state.mesh.topology(), cells));
   }
-  const Pass<dim, spacedim, ThresholdWeighting> pass{state.mesh,
-                                                     *tables_->element,
-                                                     tables_->sizes,
-                                                     {weights.data(), threshold},
-                                                     tables_->element->fits_neighbours()};
+  const Pass<dim, spacedim, ThresholdWeighting> pass{
+      state.mesh,          *tables_->element,           tables_->sizes,
+      tables_->prescribed, {weights.data(), threshold}, tables_->element->fits_neighbours()};
   auto& marked_nodes = tables_->marked_nodes;
   marked_nodes.assign(state.mesh.n_nodes(), 0);
   for (const NodeIndex i : nodes) marked_nodes[i] = 1;

@@ -22,6 +22,11 @@ class ElementPass {
   /// Call before a run; parameters: how elements are transformed.
   void prepare(const Topology& topology, const ElementParameters<dim>& parameters);
 
+  /// Sizes that transformed elements get from now on, by their mean node simplices as in
+  /// NeighbourSizes, for elements whose scaling fits the neighbours: each its own size in place of
+  /// that. One for each element, positive; they have to last.
+  void prescribe_sizes(std::span<const double> of_cells);
+
   /// Transforms all elements, with weights w_j = (1 - q(E_j))^eta. Writes the quality of each to
   /// state.cell_quality, and returns that of the mesh.
   MeshQuality transform_all(SmoothingState<dim, spacedim>& state, double eta);

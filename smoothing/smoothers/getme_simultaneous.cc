@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/base/parallel.h"
 #include "smoothing/getme/element_pass.h"
+#include "smoothing/getme/simultaneous_elements.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/mesh/node_constraints.h"
 
 namespace smoothfem {
 namespace {
-
-template <int dim>
-ElementParameters<dim> default_parameters() {
-  if constexpr (dim == 2)
-    return {.lambda = 7.0 / 20.0, .theta_degrees = 15.0, .rho = 1.0};
-  else  // tetrahedra and hexahedra as in Section 6.3; pyramids and prisms, which do not settle for
-        // large sigma, as in Section 5.4
-    return {.tetrahedron = {0.7, 50.7},
-            .pyramid = {1.86, 1.86},
-            .prism = {1.59, 1.59},
-            .hexahedron = {0.7, 50.7},
-            .rho = 1.0};
-}
 
 /// Transforms every element; each free node moves to the weighted mean of its positions in its
 /// transformed elements (thesis, Section 4.2, Eq. 4.2 and Fig. 4.2). One pass over the elements
@@ -76,7 +64,7 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     mesh.swap_coordinates(previous_);
   }
 
-  ElementParameters<dim> element_ = default_parameters<dim>();
+  ElementParameters<dim> element_ = simultaneous_elements<dim>();
   double eta_ = 0.0;
   QualityGainStopping stopping_;
   ElementPass<dim, spacedim> pass_;
