@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "smoothing/base/parallel.h"
-#include "smoothing/geometry/cell_size.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
+#include "smoothing/solution/cell_averages.h"
+#include "smoothing/solution/error_indicators.h"
+#include "smoothing/solution/solution_driven.h"
 #include "smoothing/solution/start_method.h"
 
 namespace smoothfem {
@@ -18,8 +20,9 @@ template <int dim>
 struct OfAllDirections {
   using Weight = double;
 
-  static std::vector<double> indicators(const ProblemSolver<dim>& solver) {
-    return solver.recovery_indicators();
+  static Parameters parameters(int* indicator) { return {indicator_choice(indicator)}; }
+  static std::vector<double> indicators(const ProblemSolver<dim>& solver, int indicator) {
+    return error_indicators(solver, indicator);
   }
   static double size(double e) { return e; }
   static double weight(double e, double mean, double power) {
@@ -39,7 +42,8 @@ template <int dim>
 struct OfEachDirection {
   using Weight = CellTensor<dim>;
 
-  static std::vector<Weight> indicators(const ProblemSolver<dim>& solver) {
+  static Parameters parameters(int* /*indicator*/) { return {}; }
+  static std::vector<Weight> indicators(const ProblemSolver<dim>& solver, int /*indicator*/) {
     return solver.recovery_tensors();
   }
   static double size(const Weight& t) { return std::sqrt(t.trace()); }
@@ -59,74 +63,44 @@ struct OfEachDirection {
 
 /// Cells in which the solution's error is large pull their nodes together: weighted Laplace with
 /// the cells' sizes times a weight in place of the sizes (Eq. 1.2), from an error indicator of the
-/// solution at hand. Some sweeps, then the next solve. The result is the mesh of the lowest energy,
-/// and with it of the lowest true error.
+/// solution at hand. Some sweeps, then the next solve.
 template <int dim, template <int> class Directions>
-class IndicatorWeighted final : public Smoother<dim> {
+class IndicatorWeighted final : public SolutionDriven<dim> {
  public:
+  IndicatorWeighted() : SolutionDriven<dim>(0.1) {}
+
   std::string_view name() const override { return "weights"; }
   Parameters parameters() override {
-    return {
-        {"degree", "of the finite elements whose error is to fall", &degree_, 1.0, 2.0},
-        {"solves", "of the problem at most, the one on the mesh it begins with included",
-         &n_solves_, 1.0, 1e6},
+    Parameters all = this->common_parameters();
+    const Parameters own{
         {"power",
          "exponent p of the weights rho^p, rho = sqrt(1 + (e / mean e)^2) with the indicator "
          "e; 4 and more has been seen to break meshes",
          &power_, 0.0, 100.0},
         {"sweeps", "of weighted Laplace between two solves", &n_sweeps_, 1.0, 1e6},
         {"relaxation", "fraction of the way that nodes go", &relaxation_, 0.0, 1.0, true},
-        {"averagings", "of the indicator over cells around the nodes", &n_averagings_, 0.0, 1e3},
-        {"quality_floor",
-         "mean ratio below which nodes of cells are put back; the lowest of the mesh at hand "
-         "where that is lower",
-         &quality_floor_, 0.0, 1.0}};
-  }
-  SmootherTraits traits() const override {
-    return {.quality_use = QualityUse::smoother, .result = ResultMesh::best_score};
-  }
-  StoppingRule stopping() const override {
-    return {.criterion = StoppingRule::Criterion::step_says_so};
-  }
-
-  void initialize(const SmoothingState<dim>& state) override {
-    is_done_ = state.mesh.topology().free_nodes().empty();
-    if (is_done_) return;
-    n_solves_before_ = state.solver->effort().n_solves;
-    state.solver->prepare(state.mesh, degree_);
-    energy_ = state.solver->solve(state.mesh.coordinates());
-    is_done_ = !std::isfinite(energy_);
-  }
-  double initial_score() const override { return -energy_; }
-
-  StepReport step(SmoothingState<dim>& state) override {
-    StepReport report;
-    is_done_ = is_done_ || n_solves(state) >= n_solves_;
-    if (!is_done_) {
-      const auto weights = cell_weights(state);
-      const double lowest_quality = std::min(
-          quality_floor_, *std::min_element(state.cell_quality.begin(), state.cell_quality.end()));
-      for (int sweep = 0; sweep < n_sweeps_; ++sweep)
-        report.n_reset += sweep_nodes(state, weights, lowest_quality);
-      energy_ = state.solver->solve(state.mesh.coordinates());
-      is_done_ = !std::isfinite(energy_) || n_solves(state) >= n_solves_;
-    }
-    report.score = -energy_;
-    report.quality = mesh_quality(state.mesh.topology(), state.cell_quality);
-    report.converged = is_done_;
-    return report;
+        {"averagings", "of the indicator over cells around the nodes", &n_averagings_, 0.0, 1e3}};
+    all.insert(all.end(), own.begin(), own.end());
+    for (const Parameter& parameter : Directions<dim>::parameters(&indicator_))
+      all.push_back(parameter);
+    return all;
   }
 
  private:
   using Weight = typename Directions<dim>::Weight;
 
-  int n_solves(const SmoothingState<dim>& state) const {
-    return static_cast<int>(state.solver->effort().n_solves - n_solves_before_);
+  std::size_t move_nodes(SmoothingState<dim>& state) override {
+    const auto weights = cell_weights(state);
+    std::size_t n_reset = 0;
+    for (int sweep = 0; sweep < n_sweeps_; ++sweep) n_reset += sweep_nodes(state, weights);
+    return n_reset;
   }
 
   std::vector<Weight> cell_weights(const SmoothingState<dim>& state) const {
-    auto weights = Directions<dim>::indicators(*state.solver);
-    for (int k = 0; k < n_averagings_; ++k) average(state.mesh.topology(), weights);
+    auto weights = Directions<dim>::indicators(*state.solver, indicator_);
+    const Weight zero = 0.0 * Directions<dim>::identity();
+    for (int k = 0; k < n_averagings_; ++k)
+      average_over_nodes(state.mesh.topology(), zero, weights);
     double mean = 0.0;
     for (const Weight& e : weights) mean += Directions<dim>::size(e);
     mean /= static_cast<double>(weights.size());
@@ -135,28 +109,9 @@ class IndicatorWeighted final : public Smoother<dim> {
     return weights;
   }
 
-  /// Each cell gets the mean of its nodes, which have the mean of the cells around them.
-  static void average(const Topology& topology, std::vector<Weight>& of_cells) {
-    const Weight zero = 0.0 * Directions<dim>::identity();
-    std::vector<Weight> of_nodes(topology.n_nodes(), zero);
-    for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
-      const auto cells = topology.node_cells(i);
-      for (const CellIndex c : cells) of_nodes[i] += of_cells[c];
-      if (!cells.empty()) of_nodes[i] /= static_cast<double>(cells.size());
-    }
-    for (CellIndex c = 0; c < topology.n_cells(); ++c) {
-      const auto nodes = topology.cell_nodes(c);
-      of_cells[c] = zero;
-      for (const NodeIndex i : nodes) of_cells[c] += of_nodes[i];
-      of_cells[c] /= static_cast<double>(nodes.size());
-    }
-  }
-
   /// One sweep of all nodes at once; returns how many were put back.
-  std::size_t sweep_nodes(SmoothingState<dim>& state, const std::vector<Weight>& weights,
-                          double lowest_quality) {
+  std::size_t sweep_nodes(SmoothingState<dim>& state, const std::vector<Weight>& weights) {
     Mesh<dim>& mesh = state.mesh;
-    const Topology& topology = mesh.topology();
     pulls_.resize(mesh.n_cells());
     previous_.resize(mesh.n_nodes());
     constexpr std::size_t grain = 512;
@@ -166,11 +121,12 @@ class IndicatorWeighted final : public Smoother<dim> {
     });
     parallel_for_ranges(mesh.n_nodes(), grain, [&](std::size_t first, std::size_t last) {
       for (auto i = static_cast<NodeIndex>(first); i < last; ++i)
-        previous_[i] = topology.is_fixed(i) ? mesh.coordinates()[i] : relaxed_mean(mesh, i);
+        previous_[i] = this->nodes().contains(i) ? relaxed_mean(mesh, i) : mesh.coordinates()[i];
     });
     mesh.swap_coordinates(previous_);
     compute_cell_mean_ratios(mesh, state.cell_quality);
-    return reset_nodes_of_invalid_cells(mesh, previous_, state.cell_quality, lowest_quality).size();
+    return reset_nodes_of_invalid_cells(mesh, previous_, state.cell_quality, this->lowest_quality())
+        .size();
   }
 
   static Point<dim> centroid(const Mesh<dim>& mesh, CellIndex c) {
@@ -189,7 +145,7 @@ class IndicatorWeighted final : public Smoother<dim> {
       sum += pulls_[c].weight * (pulls_[c].centroid - here);
       total += pulls_[c].weight;
     }
-    return here + Directions<dim>::step(relaxation_, sum, total);
+    return here + this->nodes().along(i, Directions<dim>::step(relaxation_, sum, total));
   }
 
   struct Pull {
@@ -197,17 +153,12 @@ class IndicatorWeighted final : public Smoother<dim> {
     Weight weight;
   };
 
-  int degree_ = 1;
-  int n_solves_ = 10;
+  int indicator_ = recovery;
   double power_ = 2.5;
   int n_sweeps_ = 15;
   double relaxation_ = 0.8;
   int n_averagings_ = 1;
-  double quality_floor_ = 0.1;
 
-  std::size_t n_solves_before_ = 0;
-  double energy_ = 0.0;
-  bool is_done_ = false;
   std::vector<Pull> pulls_;  ///< of each cell on its nodes
   std::vector<Point<dim>> previous_;
 };

@@ -9,7 +9,7 @@ namespace smoothfem {
 
 /// The limited-memory BFGS approximation of an inverse Hessian from the last steps s and the
 /// changes y of the gradient along them (Nocedal 1980), with gamma L^-1 in place of a multiple of
-/// the identity as the matrix that it starts from.
+/// the identity as the matrix that it starts from; inverse(r) in what follows is L^-1 r.
 class LimitedMemory {
  public:
   explicit LimitedMemory(std::size_t n_pairs) : n_pairs_(n_pairs) {}
@@ -27,8 +27,9 @@ class LimitedMemory {
   bool empty() const { return pairs_.empty(); }
 
   /// The approximate inverse Hessian times a gradient.
-  NodeVectors apply(const NodeVectors& gradient, const NodeLaplacian& laplacian) const {
-    if (pairs_.empty()) return laplacian.solve(gradient);
+  template <class Inverse>
+  NodeVectors apply(const NodeVectors& gradient, const Inverse& inverse) const {
+    if (pairs_.empty()) return inverse(gradient);
     NodeVectors q = gradient;
     std::deque<double> factors;
     for (auto pair = pairs_.rbegin(); pair != pairs_.rend(); ++pair) {
@@ -36,8 +37,8 @@ class LimitedMemory {
       q -= factors.front() * pair->y;
     }
     const Pair& last = pairs_.back();
-    const double gamma = last.curvature / dot(last.y, laplacian.solve(last.y));
-    NodeVectors r = gamma * laplacian.solve(q);
+    const double gamma = last.curvature / dot(last.y, inverse(last.y));
+    NodeVectors r = gamma * inverse(q);
     for (const Pair& pair : pairs_) {
       r += (factors.front() - dot(pair.y, r) / pair.curvature) * pair.s;
       factors.pop_front();

@@ -2,7 +2,6 @@
 #include "smoothing/solution/node_laplacian.h"
 
 #include <Eigen/SparseCholesky>
-#include <vector>
 
 namespace smoothfem {
 
@@ -11,21 +10,20 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 
 /// The lower triangle, which is all that the factorization looks at.
-Matrix graph_laplacian(const Topology& topology) {
-  // Keeps the matrix positive definite where free nodes have no way to a fixed one.
+Matrix graph_laplacian(const Topology& topology, const std::vector<NodeIndex>& nodes) {
+  // Keeps the matrix positive definite where nodes have no way to one that stays.
   constexpr double shift = 1e-9;
-  const auto& free_nodes = topology.free_nodes();
   std::vector<int> number(topology.n_nodes(), -1);
-  for (std::size_t k = 0; k < free_nodes.size(); ++k) number[free_nodes[k]] = static_cast<int>(k);
+  for (std::size_t k = 0; k < nodes.size(); ++k) number[nodes[k]] = static_cast<int>(k);
   std::vector<Eigen::Triplet<double>> entries;
-  for (const NodeIndex i : free_nodes) {
+  for (const NodeIndex i : nodes) {
     const auto neighbours = topology.node_neighbours(i);
     entries.emplace_back(number[i], number[i],
                          (1.0 + shift) * static_cast<double>(neighbours.size()));
     for (const NodeIndex j : neighbours)
       if (number[j] >= 0 && number[j] < number[i]) entries.emplace_back(number[i], number[j], -1.0);
   }
-  const auto n = static_cast<Eigen::Index>(free_nodes.size());
+  const auto n = static_cast<Eigen::Index>(nodes.size());
   Matrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -37,9 +35,9 @@ struct NodeLaplacian::Factorization {
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower> of_matrix;
 };
 
-NodeLaplacian::NodeLaplacian(const Topology& topology)
+NodeLaplacian::NodeLaplacian(const Topology& topology, const std::vector<NodeIndex>& nodes)
     : factorization_(std::make_unique<Factorization>()) {
-  factorization_->of_matrix.compute(graph_laplacian(topology));
+  factorization_->of_matrix.compute(graph_laplacian(topology, nodes));
 }
 
 NodeLaplacian::~NodeLaplacian() = default;

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <limits>
+
+#include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/invalid_node_reset.h"
+#include "smoothing/solution/cell_averages.h"
+#include "smoothing/solution/error_metric.h"
+#include "smoothing/solution/mesh_functional.h"
+#include "smoothing/solution/node_descent.h"
+#include "smoothing/solution/solution_driven.h"
+#include "smoothing/solution/start_method.h"
+
+namespace smoothfem {
+namespace {
+
+/// Moving mesh method of Huang and Kamenski (2015): cells become alike in a metric that the second
+/// derivatives of the solution make, small where it bends and thin across the direction it bends
+/// in. Between two solves nodes go down the mesh functional, with the metric staying in its place.
+/// Theirs go with the gradient flow in a time of the mesh; here the Laplacian of the nodes and BFGS
+/// take far fewer steps to the same place.
+template <int dim>
+class IndicatorMmpde final : public SolutionDriven<dim> {
+ public:
+  IndicatorMmpde() : SolutionDriven<dim>(0.02) {}
+
+  std::string_view name() const override { return "mmpde"; }
+  Parameters parameters() override {
+    Parameters all = this->common_parameters();
+    const Parameters own{
+        {"concentration",
+         "c: a fraction 1 - 1/c of the cells goes where the solution bends; c - 1 is halved when "
+         "the estimated error has fallen by less than 1 %",
+         &concentration_, 1.0, 1e6, true},
+        {"averagings", "of the second derivatives over cells around the nodes", &n_averagings_, 0.0,
+         1e3},
+        {"steps", "down the functional between two solves, at most", &n_steps_, 1.0, 1e6}};
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+  }
+
+ private:
+  void prepare(const SmoothingState<dim>& state) override {
+    functional_ = std::make_unique<MeshFunctional<dim>>(state.mesh);
+    descent_ = std::make_unique<NodeDescent<dim>>(state.mesh.topology(), this->nodes(), n_pairs);
+    concentration_now_ = concentration_;
+    least_error_ = std::numeric_limits<double>::infinity();
+  }
+
+  std::size_t move_nodes(SmoothingState<dim>& state) override {
+    choose_concentration(state);
+    const auto before = state.mesh.copied_coordinates();
+    functional_->set_metric(metric(state));
+    go_down(state.mesh);
+    compute_cell_mean_ratios(state.mesh, state.cell_quality);
+    return reset_nodes_of_invalid_cells(state.mesh, before, state.cell_quality,
+                                        this->lowest_quality())
+        .size();
+  }
+
+  /// Where cells are too few for that much, as beside a boundary that stays, less is better.
+  void choose_concentration(const SmoothingState<dim>& state) {
+    constexpr double least_gain = 0.01;
+    const double error = this->estimated_error(state);
+    if (error > (1.0 - least_gain) * least_error_)
+      concentration_now_ = 0.5 * (1.0 + concentration_now_);
+    least_error_ = std::min(least_error_, error);
+  }
+
+  bool has_more_to_try() const override {
+    constexpr double hardly_any = 1.2;
+    return concentration_now_ > std::min(hardly_any, 0.5 * (1.0 + concentration_));
+  }
+
+  TensorField<dim> metric(const SmoothingState<dim>& state) const {
+    auto hessians = state.solver->recovered_hessians();
+    for (int k = 0; k < n_averagings_; ++k)
+      average_over_nodes(state.mesh.topology(), CellTensor<dim>(CellTensor<dim>::Zero()), hessians);
+    const auto sizes = this->cell_sizes(state.mesh);
+    return TensorField<dim>(state.mesh, error_metric<dim>(hessians, sizes, concentration_now_),
+                            sizes);
+  }
+
+  /// The functional is infinite where a cell is not valid, so that none becomes so.
+  void go_down(Mesh<dim>& mesh) {
+    constexpr double least_gain = 1e-6;
+    auto base = mesh.copied_coordinates();
+    double lowest = functional_->value(mesh);
+    bool has_direction = false;
+    descent_->restart();
+    for (int k = 0; k < n_steps_ && !descent_->is_stuck(); ++k) {
+      if (!has_direction) descent_->choose_direction(mesh, functional_->gradient());
+      descent_->move_from(base, mesh);
+      const double value = functional_->value(mesh);
+      has_direction = !(value < lowest);
+      if (has_direction) {
+        descent_->reject();
+        continue;
+      }
+      descent_->accept(base, mesh);
+      base = mesh.copied_coordinates();
+      const double gain = (lowest - value) / lowest;
+      lowest = value;
+      if (gain < least_gain) return;
+    }
+    mesh.set_coordinates(base);
+  }
+
+  static constexpr int n_pairs = 10;  ///< for BFGS
+
+  double concentration_ = 5.0;
+  int n_averagings_ = 2;
+  int n_steps_ = 200;
+
+  double concentration_now_ = 0.0, least_error_ = 0.0;
+  std::unique_ptr<MeshFunctional<dim>> functional_;
+  std::unique_ptr<NodeDescent<dim>> descent_;
+};
+
+template <int dim>
+Stages<dim> make_stages() {
+  Stages<dim> stages;
+  stages.push_back(std::make_unique<StartMethod<dim>>());
+  stages.push_back(std::make_unique<IndicatorMmpde<dim>>());
+  return stages;
+}
+
+/// Large movements first, then those that only the energy sees.
+template <int dim>
+Stages<dim> with_descent() {
+  auto stages = make_stages<dim>();
+  stages.push_back(std::move(stages_of<dim>("energy-descent").back()));
+  return stages;
+}
+
+const RegisteredMethod registered(
+    {.name = "indicator-mmpde",
+     .title = "MMPDE",
+     .description = "GETMe, then a moving mesh method: cells become alike in a metric of the "
+                    "solution's recovered second derivatives; a solve an iteration",
+     .source = "Huang, Kamenski 2015, arXiv 1410.7872",
+     .needs_problem = true},
+    {make_stages<2>, make_stages<3>});
+const RegisteredMethod and_descent({.name = "indicator-mmpde-descent",
+                                    .title = "MMPDE, descent",
+                                    .description = "indicator-mmpde from GETMe's mesh, then "
+                                                   "energy-descent",
+                                    .source = "the two",
+                                    .needs_problem = true},
+                                   {with_descent<2>, with_descent<3>});
+
+}  // namespace
+}  // namespace smoothfem

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "smoothing/geometry/cell_size.h"
+#include "smoothing/loop/smoother.h"
+#include "smoothing/solution/movable_nodes.h"
+
+namespace smoothfem {
+
+/// What methods share that move nodes by what a solution says, then solve anew, and so on. The
+/// result is the mesh of the lowest energy, and with it of the lowest true error; where boundary
+/// nodes slide energies cannot be compared (their boundary values change), and the total of the
+/// recovery's error estimates takes their place.
+template <int dim>
+class SolutionDriven : public Smoother<dim> {
+ public:
+  SmootherTraits traits() const override {
+    return {.quality_use = QualityUse::smoother, .result = ResultMesh::best_score};
+  }
+  StoppingRule stopping() const override {
+    return {.criterion = StoppingRule::Criterion::step_says_so};
+  }
+
+  void initialize(const SmoothingState<dim>& state) override {
+    nodes_ = MovableNodes<dim>(state.mesh, boundary_ == slide);
+    is_done_ = nodes_.nodes().empty();
+    if (is_done_) return;
+    n_solves_before_ = state.solver->effort().n_solves;
+    state.solver->prepare(state.mesh, degree_);
+    prepare(state);
+    solve(state);
+    is_done_ = !std::isfinite(score_);
+  }
+  double initial_score() const override { return score_; }
+
+  StepReport step(SmoothingState<dim>& state) override {
+    StepReport report;
+    is_done_ = is_done_ || n_solves(state) >= n_solves_;
+    if (!is_done_) {
+      lowest_quality_ = std::min(
+          quality_floor_, *std::min_element(state.cell_quality.begin(), state.cell_quality.end()));
+      report.n_reset = move_nodes(state);
+      solve(state);
+      is_done_ = !std::isfinite(score_) || n_solves(state) >= n_solves_ || !has_more_to_try();
+    }
+    report.score = score_;
+    report.quality = mesh_quality(state.mesh.topology(), state.cell_quality);
+    report.converged = is_done_;
+    return report;
+  }
+
+ protected:
+  explicit SolutionDriven(double quality_floor) : quality_floor_(quality_floor) {}
+
+  Parameters common_parameters() {
+    return {
+        {"degree", "of the finite elements whose error is to fall", &degree_, 1.0, 2.0},
+        {"solves", "of the problem at most, the one on the mesh it begins with included",
+         &n_solves_, 1.0, 1e6},
+        {"boundary",
+         "whether nodes of straight lines and plane faces of the boundary slide on these, or stay",
+         Choice{&boundary_, {"fixed", "slide"}}},
+        {"quality_floor",
+         "mean ratio below which nodes of cells are put back; the lowest of the mesh at hand "
+         "where that is lower",
+         &quality_floor_, 0.0, 1.0}};
+  }
+
+  /// Called before the first solve; for what depends on the mesh that the method begins with.
+  virtual void prepare(const SmoothingState<dim>& /*state*/) {}
+
+  /// Moves nodes by the solution at hand, and puts those of cells below lowest_quality() back.
+  /// Returns how many. Leaves state.cell_quality up to date.
+  virtual std::size_t move_nodes(SmoothingState<dim>& state) = 0;
+
+  /// False ends the stage before its solves are used up.
+  virtual bool has_more_to_try() const { return true; }
+
+  const MovableNodes<dim>& nodes() const { return nodes_; }
+  double lowest_quality() const { return lowest_quality_; }
+
+  /// What the recovery says of the last solve.
+  static double estimated_error(const SmoothingState<dim>& state) {
+    const auto errors = state.solver->recovery_indicators();
+    const auto sizes = cell_sizes(state.mesh);
+    double square = 0.0;
+    for (CellIndex c = 0; c < sizes.size(); ++c) square += sizes[c] * errors[c] * errors[c];
+    return std::sqrt(square);
+  }
+
+  static std::vector<double> cell_sizes(const Mesh<dim>& mesh) {
+    std::vector<double> sizes(mesh.n_cells());
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c) sizes[c] = std::abs(signed_cell_size(mesh, c));
+    return sizes;
+  }
+
+ private:
+  enum Boundary { fixed, slide };
+
+  int n_solves(const SmoothingState<dim>& state) const {
+    return static_cast<int>(state.solver->effort().n_solves - n_solves_before_);
+  }
+
+  void solve(const SmoothingState<dim>& state) {
+    score_ = -state.solver->solve(state.mesh.coordinates());
+    if (boundary_ == slide && std::isfinite(score_)) score_ = -estimated_error(state);
+  }
+
+  int degree_ = 1;
+  int n_solves_ = 10;
+  int boundary_ = fixed;
+  double quality_floor_;
+
+  MovableNodes<dim> nodes_;
+  std::size_t n_solves_before_ = 0;
+  double score_ = 0.0, lowest_quality_ = 0.0;
+  bool is_done_ = false;
+};
+
+}  // namespace smoothfem
