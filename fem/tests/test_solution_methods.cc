@@ -210,6 +210,63 @@ TEST(MethodsWithAProblem, IndicatorAlignedMakesCellsThinAcrossALayer) {
   EXPECT_NEAR(aligned[1], 1.0, 0.1);
 }
 
+/// Nodes of the sides stay on them, corners where they are, and the error falls further.
+TEST(MethodsWithAProblem, LetBoundaryNodesSlide) {
+  for (const std::string method : {"indicator-weighted", "indicator-aligned", "indicator-getme",
+                                   "indicator-mmpde", "indicator-mmpde-descent"})
+    for (const Cells cells : {Cells::triangles, Cells::quadrilaterals}) {
+      const auto mesh = unit_square(12, cells, 0.1);
+      PoissonSolver<2> solver(&mesh, {.galerkin_load = true,
+                                      .condition_number = ConditionNumberMethod::none,
+                                      .jacobi_cg = Recorded::never});
+      const auto error_with = [&](const std::string& boundary) {
+        auto made = make_method<2>(method);
+        made.problem = make_poisson_problem<2>(layer<2>());
+        for (const auto& parameter : made.parameters())
+          if (parameter.name.ends_with(".boundary")) made.set(parameter.name, boundary);
+        Mesh<2> result = mesh;
+        smooth(result, made, [&](const IterationRecord& record, const auto&) {
+          EXPECT_EQ(record.quality.n_invalid, 0u);
+        });
+        std::size_t n_moved = 0;
+        for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+          const Point<2>&from = mesh.coordinates()[i], &to = result.coordinates()[i];
+          for (int d = 0; d < 2; ++d)
+            if (from[d] == 0.0 || from[d] == 1.0) {
+              EXPECT_NEAR(to[d], from[d], 1e-12);
+            }
+          n_moved += mesh.topology().on_boundary()[i] && (to - from).norm() > 1e-6;
+        }
+        EXPECT_EQ(n_moved > 0, boundary == "slide");
+        return solver.solve(result.coordinates(), layer<2>()).h1_error;
+      };
+      EXPECT_LT(error_with("slide"), error_with("fixed")) << method;
+    }
+}
+
+/// The residual leads to small cells in the same places.
+TEST(MethodsWithAProblem, TakeTheResidualForAnIndicator) {
+  for (const std::string method : {"indicator-weighted.weights", "indicator-getme.sizes"}) {
+    const auto dot = method.find('.');
+    for (const auto& mesh : distorted_meshes<2>()) {
+      PoissonSolver<2> solver(&mesh, {.galerkin_load = true,
+                                      .condition_number = ConditionNumberMethod::none,
+                                      .jacobi_cg = Recorded::never});
+      const auto error_with = [&](const std::string& indicator) {
+        auto made = make_method<2>(method.substr(0, dot));
+        made.problem = make_poisson_problem<2>(layer<2>());
+        made.set(method.substr(dot + 1) + ".indicator", indicator);
+        Mesh<2> result = mesh;
+        smooth(result, made);
+        return solver.solve(result.coordinates(), layer<2>()).h1_error;
+      };
+      const double recovery = error_with("recovery"), residual = error_with("residual");
+      EXPECT_NE(recovery, residual);
+      EXPECT_LT(residual, 1.2 * recovery);
+    }
+  }
+}
+
 /// No cell becomes worse than the floor, or than the worst of the start.
 TEST(MethodsWithAProblem, EnergyDescentKeepsItsQualityFloor) {
   auto mesh = unit_square(12, Cells::triangles, 0.2);

@@ -129,7 +129,7 @@ class Smoother {
   /// Score of the mesh given to initialize, for ResultMesh::best_score.
   virtual double initial_score() const { return 0.0; }
 
-  /// Moves free nodes of state.mesh: one iteration. Must not move fixed nodes.
+  /// Moves free nodes of state.mesh: one iteration. Fixed ones stay, unless users let them slide.
   virtual StepReport step(SmoothingState<dim, spacedim>& state) = 0;
 };
 
