@@ -170,8 +170,8 @@ def numbers(heading, headings, texts):
 
 
 def compared(results, key, reference):
-    """(here, refined, unrefined): error, seconds of smoothing, of one solution and of both, and unknowns of the method's result and of the reference method's on
-    the refined mesh and on this one; None where there is no refined mesh."""
+    """(here, refined, unrefined): error, seconds of smoothing, of one solution and of both, and unknowns of the method's
+    result and of the reference method's on the refined mesh and on this one; None where there is no refined mesh."""
     mesh, degree, method = key
     three = [results.summary.select(mesh=name, degree=degree, method=which)
              for name, which in ((mesh, method), (mesh + REFINED, reference), (mesh, reference))]

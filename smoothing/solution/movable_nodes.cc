@@ -3,8 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <map>
+
+#include "smoothing/mesh/boundary_tags.h"
 
 namespace smoothfem {
 
@@ -23,25 +23,6 @@ std::vector<Point<3>> normals(std::span<const NodeIndex> face, std::span<const P
     all.push_back(next.cross(last).normalized());
   }
   return all;
-}
-
-/// Tags of the boundary's facets, 0 for those without; empty where there are none.
-std::vector<int> boundary_tags(const Topology& topology) {
-  const MeshLabels& labels = topology.labels();
-  const auto sorted = [](std::span<const NodeIndex> nodes) {
-    std::vector<NodeIndex> result(nodes.begin(), nodes.end());
-    std::sort(result.begin(), result.end());
-    return result;
-  };
-  std::map<std::vector<NodeIndex>, int> tags;
-  for (std::size_t f = 0; f < labels.facets.size(); ++f)
-    tags[sorted(labels.facets[f])] = labels.facet_tags[f];
-  std::vector<int> result;
-  for (std::size_t f = 0; f < topology.boundary_facets().size(); ++f) {
-    const auto found = tags.find(sorted(topology.boundary_facets()[f]));
-    result.push_back(found == tags.end() ? 0 : found->second);
-  }
-  return result;
 }
 
 /// What the facets around a boundary node say about where it may go.
@@ -87,7 +68,7 @@ MovableNodes<dim>::MovableNodes(const Mesh<dim>& mesh, bool boundary_slides)
     const auto tags = boundary_tags(topology);
     for (std::size_t f = 0; f < facets.size(); ++f)
       for (const Point<dim>& normal : normals(facets[f], mesh.coordinates()))
-        for (const NodeIndex i : facets[f]) around[i].add(normal, tags[f]);
+        for (const NodeIndex i : facets[f]) around[i].add(normal, tags.empty() ? 0 : tags[f]);
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
       if (topology.on_boundary()[i]) {
         projections_[i] = around[i].projection();

@@ -1,35 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/surface/sliding_boundary.h"
 
-#include <algorithm>
-#include <map>
-
+#include "smoothing/mesh/boundary_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
 
 namespace smoothfem {
 
 namespace {
-
-std::vector<NodeIndex> sorted(std::span<const NodeIndex> nodes) {
-  std::vector<NodeIndex> result(nodes.begin(), nodes.end());
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-/// Tags of the boundary facets, 0 for those without label.
-std::vector<int> boundary_tags(const Topology& topology) {
-  const MeshLabels& labels = topology.labels();
-  if (labels.facets.empty()) return {};
-  std::map<std::vector<NodeIndex>, int> tags;
-  for (std::size_t f = 0; f < labels.facets.size(); ++f)
-    tags[sorted(labels.facets[f])] = labels.facet_tags[f];
-  std::vector<int> result;
-  for (std::size_t f = 0; f < topology.boundary_facets().size(); ++f) {
-    const auto found = tags.find(sorted(topology.boundary_facets()[f]));
-    result.push_back(found == tags.end() ? 0 : found->second);
-  }
-  return result;
-}
 
 /// Over the sides of all facets: each is one of two.
 double mean_edge_length(const CompressedRows<NodeIndex>& facets, std::span<const Point<3>> x) {
