@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """against_program.py BUILD MESH [--pairs 10] [--method getme]: what smoothing in memory costs from Python, beside the
-program on the same mesh. Every run is a new process on one thread; the two take turns, and which one is first, too.
+same call in C++ (BUILD/bench/smooth_call) and the program, on the same mesh. Every run is a new process on one thread;
+they take turns, and which one is first, too.
 
-loops: the methods' main loops, as both tell them. call: in Python the clock around smoothfem.smooth; of the program,
-which only tells of its loops and of their preparation, the sum of these. Reading and writing count in neither."""
+loops: the methods' main loops, as all three tell them. call: the clock around smooth() in Python and in C++; the
+program tells no such time. Reading and writing count in neither."""
 
 import argparse
 import json
@@ -35,14 +36,19 @@ def python_run(build, mesh, method):
     return json.loads(text)
 
 
-def program_run(build, mesh, method):
+def call_run(build, mesh, method):
     """Times in seconds, and what came out."""
+    return json.loads(subprocess.run([build / "bench" / "smooth_call", mesh, method], check=True, capture_output=True,
+                                     text=True).stdout)
+
+
+def program_run(build, mesh, method):
+    """Time of the loops in seconds, and what came out."""
     with tempfile.TemporaryDirectory() as folder:
         text = subprocess.run([build / "bin" / "smoothfem", "smooth", mesh, "-m", method, "--threads", "1",
                                "-o", Path(folder) / "out.vtu"], check=True, capture_output=True, text=True).stdout
-    told = re.search(r": (\S+) iterations in (\S+) s, and (\S+) s of preparation", text)
-    iterations, loops, preparation = told.groups()
-    return {"loops": float(loops), "call": float(loops) + float(preparation), "iterations": iterations,
+    iterations, loops = re.search(r": (\S+) iterations in (\S+) s, and \S+ s of preparation", text).groups()
+    return {"loops": float(loops), "iterations": iterations,
             "q_mean": re.search(r"^after +\S+ +\S+ +(\S+)", text, re.MULTILINE)[1]}
 
 
@@ -54,7 +60,7 @@ def main():
     parser.add_argument("--method", default="getme")
     arguments = parser.parse_args()
     build, mesh = arguments.build.resolve(), arguments.mesh.resolve()
-    kinds = {"Python": python_run, "program": program_run}
+    kinds = {"Python": python_run, "C++": call_run, "program": program_run}
     runs = {name: [] for name in kinds}
     for pair in range(arguments.pairs):
         for name in sorted(kinds, reverse=pair % 2 == 1):
@@ -63,11 +69,12 @@ def main():
     results = {(run["iterations"], run["q_mean"]) for name in kinds for run in runs[name]}
     if len(results) > 1:
         sys.exit(f"the results differ: {sorted(results)}")
-    for what in ("loops", "call"):
-        seconds = {name: [run[what] for run in runs[name]] for name in kinds}
-        ratios = sorted(a / b for a, b in zip(seconds["Python"], seconds["program"], strict=True))
+    for what, other in (("loops", "program"), ("loops", "C++"), ("call", "C++")):
+        seconds = {name: [run[what] for run in runs[name]] for name in ("Python", other)}
+        ratios = sorted(a / b for a, b in zip(seconds["Python"], seconds[other], strict=True))
         medians = ", ".join(f"{name} {statistics.median(times):.3f} s" for name, times in seconds.items())
-        print(f"{what}: medians {medians}; ratio in pairs: median {statistics.median(ratios):.4f}, from {ratios[0]:.4f} to {ratios[-1]:.4f}")
+        print(f"{what}: medians {medians}; ratio in pairs: median {statistics.median(ratios):.4f}, "
+              f"from {ratios[0]:.4f} to {ratios[-1]:.4f}")
 
 
 main()

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "fem/mpi_session.h"
 #include "fem/poisson_solver.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
@@ -19,8 +20,7 @@ void require_mpi() {
   int is_on = 0;
   MPI_Initialized(&is_on);
   if (is_on) return;
-  int provided = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+  begin_mpi();
   std::atexit([] {
     int is_over = 0;
     MPI_Finalized(&is_over);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <mpi.h>
-
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "fem/mpi_session.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/interruption.h"
 #include "studies/cli/commands.h"
@@ -41,22 +40,11 @@ bool started_by_mpirun() {
   return false;
 }
 
-/// MPI for as long as it lives. A process not started by mpirun needs it for Trilinos only.
-class Mpi {
- public:
-  Mpi() {
-    int provided = 0;  // the root's calls come from one thread at a time
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-  }
-  ~Mpi() { MPI_Finalize(); }
-  Mpi(const Mpi&) = delete;
-};
-
 ReadyStudy read(const Arguments& arguments) {
   return read_any_study(find_study(arguments.study), arguments.quick ? "quick" : arguments.scale);
 }
 
-void run(Arguments& arguments, std::optional<Mpi>& mpi) {
+void run(Arguments& arguments, std::optional<MpiSession>& mpi) {
   StudyOptions& options = arguments.options;
   if (options.ranks.is_root()) {
     std::signal(SIGINT, on_interrupt);
@@ -79,7 +67,7 @@ void run(Arguments& arguments, std::optional<Mpi>& mpi) {
 }
 
 void run_on_all_ranks(Arguments& arguments) {
-  std::optional<Mpi> mpi;
+  std::optional<MpiSession> mpi;
   if (started_by_mpirun()) {
     mpi.emplace();
     arguments.options.ranks = Ranks(MPI_COMM_WORLD);

@@ -52,6 +52,9 @@ void require_scale(const std::string& scale, const std::vector<std::string>& kno
 }
 
 StudyParameters all_parameters(ParameterHandler& p) {
+  // Compiled once: studies have hundreds of lines, and a list reads all studies.
+  static const std::regex begin("\\s*subsection (.*)"), end("\\s*end\\s*"),
+      set("\\s*set (.*?)\\s*=\\s*(.*)");
   StudyParameters result;
   std::ostringstream text;
   p.print_parameters(text, ParameterHandler::ShortPRM);
@@ -59,11 +62,11 @@ StudyParameters all_parameters(ParameterHandler& p) {
   std::vector<std::string> prefix;
   for (std::string line; std::getline(lines, line);) {
     std::smatch match;
-    if (std::regex_match(line, match, std::regex("\\s*subsection (.*)")))
+    if (std::regex_match(line, match, begin))
       prefix.push_back(match[1].str() + "/");
-    else if (std::regex_match(line, std::regex("\\s*end\\s*")))
+    else if (std::regex_match(line, end))
       prefix.pop_back();
-    else if (std::regex_match(line, match, std::regex("\\s*set (.*?)\\s*=\\s*(.*)"))) {
+    else if (std::regex_match(line, match, set)) {
       std::string key;
       for (const auto& part : prefix) key += part;
       result.emplace_back(key + match[1].str(), match[2].str());

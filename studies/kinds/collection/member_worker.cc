@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/kinds/collection/member_worker.h"
 
-#include <mpi.h>
-
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -30,18 +27,6 @@ std::string facts_of(const fs::path& folder, const MeshOutline& outline) {
 
 }  // namespace
 
-/// MPI, which Trilinos needs; started as if there were no mpirun.
-class MemberWorker::Mpi {
- public:
-  Mpi() {
-    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);  // without a daemon, which takes long
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-  }
-  ~Mpi() { MPI_Finalize(); }
-  Mpi(const Mpi&) = delete;
-};
-
 MemberWorker::MemberWorker(const Collection& collection, const StudyOptions& options,
                            RunUntil until)
     : collection_(collection), out_(options.out) {
@@ -64,7 +49,7 @@ std::string MemberWorker::run(const Member& member) {
   const Study study = member_study(collection_, member, outline);
   if (options_.until == RunUntil::smoothing) share_smoothing(member, study);
   if (options_.until == RunUntil::results && needs_mpi(study)) {
-    if (!mpi_) mpi_ = std::make_unique<Mpi>();
+    if (!mpi_) mpi_ = std::make_unique<MpiSession>();
     options_.ranks = Ranks(MPI_COMM_WORLD);
   } else {
     options_.ranks = Ranks();

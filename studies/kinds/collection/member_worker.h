@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "fem/mpi_session.h"
 #include "studies/framework/run/study_options.h"
 #include "studies/kinds/collection/member_row.h"
 #include "studies/kinds/collection/member_study.h"
@@ -22,8 +23,6 @@ class MemberWorker {
   std::string run(const Member& member);
 
  private:
-  class Mpi;
-
   std::filesystem::path folder_of(const Member& member) const;
   /// What another member with the same mesh has in its folder, if one has come to this status.
   std::optional<std::filesystem::path> at_another(const Member& member, const std::string& status,
@@ -34,7 +33,7 @@ class MemberWorker {
   const Collection& collection_;
   std::filesystem::path out_;
   StudyOptions options_;  ///< of members
-  std::unique_ptr<Mpi> mpi_;
+  std::unique_ptr<MpiSession> mpi_;
 };
 
 /// Adds to a row what a worker has found out of the mesh.
