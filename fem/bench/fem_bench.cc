@@ -14,6 +14,7 @@
 #include "fem/assembly.h"
 #include "fem/bench/stock_path.h"
 #include "fem/conjugate_gradients.h"
+#include "fem/poisson_problem.h"
 #include "fem/poisson_solver.h"
 #include "fem/trilinos_matrix.h"
 #include "meshes/domains/catalogue.h"
@@ -241,6 +242,26 @@ void multigrid_cg(benchmark::State& state, const Case& c) {
   state.counters["iterations"] = static_cast<double>(result.iterations);
 }
 
+/// What the next step of a method that goes down the energy costs beside its solve, on one process.
+void energy_gradient(benchmark::State& state, const Case& c) {
+  if (ranks().size() > 1) return state.SkipWithError("solves for methods are those of one process");
+  const auto* mesh = flange(c.type);
+  const auto solver = make_poisson_problem(solution(), {})->make_solver();
+  solver->prepare(*mesh, c.degree);
+  std::array x{coordinates_of(mesh), moved_coordinates(mesh)};
+  solver->solve(x[1]);
+  double solve = 0.0, gradient = 0.0;
+  for (auto _ : state) {
+    solve += seconds_of([&] { solver->solve(x[0]); });
+    const double own = seconds_of([&] { benchmark::DoNotOptimize(solver->energy_gradient()); });
+    gradient += own;
+    state.SetIterationTime(own);
+    std::swap(x[0], x[1]);
+  }
+  state.counters["solve_s"] = solve / static_cast<double>(state.iterations());
+  state.counters["over_solve"] = gradient / solve;
+}
+
 /// On the root, while the others wait; beside a record by all ranks.
 void stock_path(benchmark::State& state, const Case& c) {
   const auto* mesh = flange(c.type);
@@ -276,6 +297,7 @@ void register_all() {
       Named{"product", product, 10},
       Named{"cg", cg, 3},
       Named{"multigrid_cg", multigrid_cg, 3},
+      Named{"energy_gradient", energy_gradient, 3},
       Named{"stock_path", stock_path, 1},
   };
   for (const ElementType type : {ElementType::tetrahedron, ElementType::hexahedron})
