@@ -246,7 +246,8 @@ void multigrid_cg(benchmark::State& state, const Case& c) {
 void energy_gradient(benchmark::State& state, const Case& c) {
   if (ranks().size() > 1) return state.SkipWithError("solves for methods are those of one process");
   const auto* mesh = flange(c.type);
-  const auto solver = make_poisson_problem(solution(), {})->make_solver();
+  const auto problem = make_poisson_problem(solution());
+  const auto solver = problem->make_solver();
   solver->prepare(*mesh, c.degree);
   std::array x{coordinates_of(mesh), moved_coordinates(mesh)};
   solver->solve(x[1]);
