@@ -75,7 +75,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
     constexpr TensorPoints points{.quadrilateral = 5, .hexahedron = 4};
     space_ = make_finite_element_space(&mesh, degree, points, {}, natural_groups_);
     topology_ = mesh.shared_topology();
-    energy_ = std::make_unique<Energy<dim>>(space_);
+    energy_ = std::make_unique<Energy<dim>>(space_, solution_);
     system_ = make_system(*space_);
     linear_ = std::make_unique<LinearSolver>(*space_, system_.matrix);
     number_cells();
@@ -119,13 +119,9 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   SolveEffort effort() const override { return effort_; }
 
  private:
-  GradientRecovery<dim> recovery() const { return {*space_, x_, u_}; }
+  GradientRecovery<dim> recovery() const { return {*space_, x_, u_, solution_.diffusivity}; }
 
   void check(const Topology& topology) const {
-    if (solution_.diffusivity)
-      throw InputError(
-          "methods that move nodes by the solution know -laplace(u) = f only, and this problem has "
-          "a 'diffusivity'; take it out, or another method");
     for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
       if (topology.on_boundary()[i] && !topology.is_fixed(i))
         throw InputError("node " + std::to_string(i) +
@@ -136,7 +132,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   bool solve_here() {
     assemble(*space_, x_, solution_, Load::none, system_);
     if (system_.n_folded_cells > 0) return false;
-    energy_->integrate_load(x_, solution_);
+    energy_->integrate_load(x_);
     energy_->add_load(system_.right_hand_side);
     Eigen::VectorXd free_values;
     if (!linear_->solve(system_.matrix, system_.right_hand_side, free_values)) return false;
