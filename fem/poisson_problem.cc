@@ -13,6 +13,7 @@
 #include "fem/residual_indicator.h"
 #include "fem/trilinos_matrix.h"
 #include "smoothing/base/scoped_timer.h"
+#include "smoothing/solution/combined_solver.h"
 
 namespace smoothfem {
 
@@ -193,14 +194,18 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
 template <int dim>
 class PoissonProblem final : public Problem<dim> {
  public:
-  PoissonProblem(ManufacturedSolution<dim> solution, std::vector<std::string> natural_groups)
-      : solution_(std::move(solution)), natural_groups_(std::move(natural_groups)) {}
+  PoissonProblem(std::vector<ManufacturedSolution<dim>> solutions,
+                 std::vector<std::string> natural_groups)
+      : solutions_(std::move(solutions)), natural_groups_(std::move(natural_groups)) {}
   std::unique_ptr<ProblemSolver<dim>> make_solver() const override {
-    return std::make_unique<PoissonProblemSolver<dim>>(solution_, natural_groups_);
+    std::vector<std::unique_ptr<ProblemSolver<dim>>> solvers;
+    for (const auto& solution : solutions_)
+      solvers.push_back(std::make_unique<PoissonProblemSolver<dim>>(solution, natural_groups_));
+    return combined_solver(std::move(solvers));
   }
 
  private:
-  ManufacturedSolution<dim> solution_;
+  std::vector<ManufacturedSolution<dim>> solutions_;
   std::vector<std::string> natural_groups_;
 };
 
@@ -209,12 +214,22 @@ class PoissonProblem final : public Problem<dim> {
 template <int dim>
 std::shared_ptr<const Problem<dim>> make_poisson_problem(ManufacturedSolution<dim> solution,
                                                          std::vector<std::string> natural_groups) {
-  return std::make_shared<PoissonProblem<dim>>(std::move(solution), std::move(natural_groups));
+  return make_poisson_problem(std::vector{std::move(solution)}, std::move(natural_groups));
 }
 
-template std::shared_ptr<const Problem<2>> make_poisson_problem(ManufacturedSolution<2>,
-                                                                std::vector<std::string>);
-template std::shared_ptr<const Problem<3>> make_poisson_problem(ManufacturedSolution<3>,
-                                                                std::vector<std::string>);
+template <int dim>
+std::shared_ptr<const Problem<dim>> make_poisson_problem(
+    std::vector<ManufacturedSolution<dim>> solutions, std::vector<std::string> natural_groups) {
+  return std::make_shared<PoissonProblem<dim>>(std::move(solutions), std::move(natural_groups));
+}
+
+#define SMOOTHFEM_INSTANTIATE(dim)                                                             \
+  template std::shared_ptr<const Problem<dim>> make_poisson_problem(ManufacturedSolution<dim>, \
+                                                                    std::vector<std::string>); \
+  template std::shared_ptr<const Problem<dim>> make_poisson_problem(                           \
+      std::vector<ManufacturedSolution<dim>>, std::vector<std::string>);
+SMOOTHFEM_INSTANTIATE(2)
+SMOOTHFEM_INSTANTIATE(3)
+#undef SMOOTHFEM_INSTANTIATE
 
 }  // namespace smoothfem

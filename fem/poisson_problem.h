@@ -19,4 +19,11 @@ template <int dim>
 std::shared_ptr<const Problem<dim>> make_poisson_problem(
     ManufacturedSolution<dim> solution, std::vector<std::string> natural_groups = {});
 
+/// Several of these on the same mesh, whose solutions count alike: see combined_solver. Each has a
+/// matrix of its own, and is assembled and solved by itself. solutions: at least one; with one it
+/// is the problem above.
+template <int dim>
+std::shared_ptr<const Problem<dim>> make_poisson_problem(
+    std::vector<ManufacturedSolution<dim>> solutions, std::vector<std::string> natural_groups = {});
+
 }  // namespace smoothfem
