@@ -140,6 +140,19 @@ void add_diffusivity(const DiffusivityFormulas<dim>& formulas,
     const auto a = values.at(p);
     return Eigen::Map<const Eigen::Matrix<double, dim, dim, Eigen::RowMajor>>(a.data());
   };
+  std::vector<ex> derivatives;
+  for (std::size_t k = 0; k < dim; ++k)
+    for (const ex& entry : entries) derivatives.push_back(entry.diff(formula_variables()[k]));
+  const auto slopes = on_formula("diffusivity", formulas.text, one_formula(dim),
+                                 [&] { return Values<dim, n_entries * dim>(derivatives); });
+  solution.diffusivity_derivatives = [slopes](const Point<dim>& p) {
+    const auto values = slopes.at(p);
+    std::array<Diffusivity<dim>, dim> all;
+    for (std::size_t k = 0; k < dim; ++k)
+      all[k] = Eigen::Map<const Eigen::Matrix<double, dim, dim, Eigen::RowMajor>>(
+          &values[k * n_entries]);
+    return all;
+  };
   if (!solution.conditions) add_conditions(entries, solution);
 }
 

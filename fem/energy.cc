@@ -40,6 +40,29 @@ void add_dirichlet_term(const CellFunction<dim, n_dofs, n_vertices>& u,
   }
 }
 
+/// The same from A grad u . grad u.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+void add_diffusion_term(const CellFunction<dim, n_dofs, n_vertices>& u,
+                        const QuadratureTable& table, const ManufacturedSolution<dim>& solution,
+                        std::array<Point<dim>, n_vertices>& sums) {
+  for (std::size_t q = 0; q < table.n_points; ++q) {
+    const auto mapped = u.map(table, q);
+    const Point<dim> position = point_of(mapped.position), slope = u.gradient(table, q, mapped),
+                     flux = solution.diffusivity(position) * slope;
+    const auto derivatives = solution.diffusivity_derivatives(position);
+    Point<dim> by_place;
+    for (std::size_t k = 0; k < dim; ++k)
+      by_place[static_cast<int>(k)] = slope.dot(derivatives[k] * slope);
+    const double square = slope.dot(flux);
+    for (std::size_t v = 0; v < n_vertices; ++v) {
+      const Point<dim> hat =
+          point_of(mapped.jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]));
+      sums[v] += mapped.weight * (square * hat - 2.0 * flux.dot(hat) * slope +
+                                  table.geometry[q * n_vertices + v] * by_place);
+    }
+  }
+}
+
 /// The same from f u; weighted_f: at the table's points.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 void add_load_term(const CellFunction<dim, n_dofs, n_vertices>& u, const QuadratureTable& table,
@@ -51,11 +74,6 @@ void add_load_term(const CellFunction<dim, n_dofs, n_vertices>& u, const Quadrat
   }
 }
 
-template <std::size_t n_dofs, std::size_t n_vertices>
-const QuadratureTable& gradient_rule(const ElementCells& group, const EnergyRules& rules, int dim) {
-  return n_vertices == static_cast<std::size_t>(dim) + 1 ? rules.gradients : group.element.matrices;
-}
-
 /// Elements whose functions have one gradient: the integrals of f phi_i say all about f.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 constexpr bool is_linear = n_dofs == n_vertices&& n_vertices == dim + 1;
@@ -63,8 +81,13 @@ constexpr bool is_linear = n_dofs == n_vertices&& n_vertices == dim + 1;
 }  // namespace
 
 template <int dim>
-Energy<dim>::Energy(std::shared_ptr<const FiniteElementSpace<dim>> space)
-    : space_(std::move(space)) {
+Energy<dim>::Energy(std::shared_ptr<const FiniteElementSpace<dim>> space,
+                    const ManufacturedSolution<dim>& solution)
+    : space_(std::move(space)), solution_(solution) {
+  if (solution_.diffusivity && !solution_.diffusivity_derivatives)
+    throw InputError(
+        "the energy of a solution needs the derivatives of its 'diffusivity' in node positions; "
+        "give the diffusivity as a formula");
   for (const auto& group : space_->groups) {
     const ElementType type = group.element.type;
     if (type == ElementType::pyramid || type == ElementType::prism)
@@ -80,9 +103,17 @@ Energy<dim>::Energy(std::shared_ptr<const FiniteElementSpace<dim>> space)
   }
 }
 
+/// Matrices of simplices are exact with few points, unless A varies.
 template <int dim>
-void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x,
-                                 const ManufacturedSolution<dim>& solution) {
+template <std::size_t n_dofs, std::size_t n_vertices>
+const QuadratureTable& Energy<dim>::gradient_rule(const ElementCells& group,
+                                                  const EnergyRules& rules) const {
+  const bool is_exact = n_vertices == static_cast<std::size_t>(dim) + 1 && !solution_.diffusivity;
+  return is_exact ? rules.gradients : group.element.matrices;
+}
+
+template <int dim>
+void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x) {
   const auto run = [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group,
                                                                    std::size_t g) {
     GroupLoad& load = loads_[g];
@@ -93,11 +124,11 @@ void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x,
       std::vector<double> weighted_f(rules.back().n_points);
       for (std::size_t cell = first; cell < last; ++cell) {
         const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
-        CellLoad<n_dofs> integrals(rules[0], vertices, solution, weighted_f.data());
+        CellLoad<n_dofs> integrals(rules[0], vertices, solution_, weighted_f.data());
         bool is_settled = false;
         std::size_t level = 0;
         while (!is_settled && level + 1 < rules.size()) {
-          const CellLoad<n_dofs> finer(rules[++level], vertices, solution, weighted_f.data());
+          const CellLoad<n_dofs> finer(rules[++level], vertices, solution_, weighted_f.data());
           is_settled = integrals.is_near(finer, chosen_points::tolerance);
           integrals = finer;
         }
@@ -127,14 +158,19 @@ double Energy<dim>::value(const std::vector<Point<dim>>& x, const Eigen::VectorX
   const auto run = [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group,
                                                                    std::size_t g) {
     const GroupLoad& load = loads_[g];
-    const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules, dim);
+    const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules);
     std::vector<double> of_parts(load.weighted_f.size(), 0.0);
     for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
       for (std::size_t cell = first; cell < last; ++cell) {
         const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
         for (std::size_t q = 0; q < table.n_points; ++q) {
           const auto mapped = function.map(table, q);
-          of_parts[part] += mapped.weight * function.gradient(table, q, mapped).squaredNorm();
+          const Point<dim> slope = function.gradient(table, q, mapped);
+          of_parts[part] +=
+              mapped.weight *
+              (solution_.diffusivity
+                   ? slope.dot(solution_.diffusivity(point_of(mapped.position)) * slope)
+                   : slope.squaredNorm());
         }
         for (std::size_t i = 0; i < n_dofs; ++i)
           of_parts[part] -= 2.0 * load.values[cell * n_dofs + i] * (function.values[i] - c);
@@ -153,14 +189,17 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
   const auto run = [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group,
                                                                    std::size_t g) {
     const GroupLoad& load = loads_[g];
-    const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules, dim);
+    const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules);
     std::vector<std::array<Point<dim>, n_vertices>> of_cells(group.n_cells());
     for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
       const double* weighted_f = load.weighted_f[part].data();
       for (std::size_t cell = first; cell < last; ++cell) {
         const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
         of_cells[cell].fill(Point<dim>::Zero());
-        add_dirichlet_term(function, table, of_cells[cell]);
+        if (solution_.diffusivity)
+          add_diffusion_term(function, table, solution_, of_cells[cell]);
+        else
+          add_dirichlet_term(function, table, of_cells[cell]);
         if constexpr (is_linear<dim, n_dofs, n_vertices>) {
           const Point<dim> slope = function.gradient(table, 0, function.map(table, 0));
           // Vertices and dofs of these elements have the same order.

@@ -11,19 +11,22 @@
 
 namespace smoothfem {
 
-/// The energy J = a(u_h, u_h) - 2 (f, u_h) of solutions on meshes of one topology, and its
-/// gradient in node positions. On triangles, quadrilaterals, tetrahedra and hexahedra, with
-/// -laplace as the operator, on one process. f is integrated by rules that each cell gets as fine
-/// as it needs: where f is not resolved, J falls by what its quadrature misses, and the error
-/// rises. The same bits for every number of threads.
+/// The energy J = a(u_h, u_h) - 2 (f, u_h), a(u, v) = (A grad u, grad v), of solutions on meshes of
+/// one topology, and its gradient in node positions. On triangles, quadrilaterals, tetrahedra and
+/// hexahedra, on one process. f is integrated by rules that each cell gets as fine as it needs:
+/// where f is not resolved, J falls by what its quadrature misses, and the error rises. a(u_h, u_h)
+/// is integrated as the matrix is. The same bits for every number of threads.
 template <int dim>
 class Energy {
  public:
   /// The space's cells that are no simplices have a fixed number of points (TensorPoints).
-  explicit Energy(std::shared_ptr<const FiniteElementSpace<dim>> space);
+  /// solution: has to outlive this; f and A are taken from it. Throws InputError for pyramids and
+  /// prisms, and for A without derivatives.
+  Energy(std::shared_ptr<const FiniteElementSpace<dim>> space,
+         const ManufacturedSolution<dim>& solution);
 
   /// Integrates f over the cells of a mesh, for all that follows. x: coordinates of its nodes.
-  void integrate_load(const std::vector<Point<dim>>& x, const ManufacturedSolution<dim>& solution);
+  void integrate_load(const std::vector<Point<dim>>& x);
 
   /// b_i += integral of f phi_i, for the free dofs.
   void add_load(Eigen::VectorXd& right_hand_side) const;
@@ -35,10 +38,13 @@ class Energy {
 
   /// dJ / dx_v for the values u of the solution, which stand for themselves: J is stationary in
   /// them. For nodes v inside,
-  ///   sum over cells of integrals of -2 (grad u . grad N_v) grad u + |grad u|^2 grad N_v
-  ///                                  + 2 f N_v grad u,
-  /// N_v the hat function of the node, with which cells are mapped. (The last term is that of f u,
-  /// whose derivative is -2 (N_v u grad f + f u grad N_v), integrated by parts: no grad f.)
+  ///   sum over cells of integrals of -2 (A grad u . grad N_v) grad u
+  ///     + (A grad u . grad u) grad N_v + N_v (dA/dx grad u . grad u) + 2 f N_v grad u,
+  /// N_v the hat function of the node, with which cells are mapped, and the third term the vector
+  /// over the directions of dA/dx_k: A stays where it is, and the cells move through it. (The last
+  /// term is that of f u, whose derivative is -2 (N_v u grad f + f u grad N_v), integrated by
+  /// parts: no grad f. Of A that would leave jumps of grad u on all facets.) Where A jumps inside
+  /// cells J has kinks, of which this does not know.
   std::vector<Point<dim>> gradient(const std::vector<Point<dim>>& x,
                                    const Eigen::VectorXd& u) const;
 
@@ -52,7 +58,12 @@ class Energy {
     std::vector<std::vector<double>> weighted_f;
   };
 
+  /// Of a(u_h, u_h).
+  template <std::size_t n_dofs, std::size_t n_vertices>
+  const QuadratureTable& gradient_rule(const ElementCells& group, const EnergyRules& rules) const;
+
   std::shared_ptr<const FiniteElementSpace<dim>> space_;
+  const ManufacturedSolution<dim>& solution_;
   std::vector<GroupLoad> loads_;
 };
 

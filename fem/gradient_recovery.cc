@@ -2,7 +2,6 @@
 #include "fem/gradient_recovery.h"
 
 #include <cmath>
-#include <type_traits>
 
 #include "fem/cell_function.h"
 
@@ -23,7 +22,7 @@ struct LinearInterpolant {
       values[v] = u[space.vertex_dof[group.vertices[cell * n_vertices + v]]];
   }
 
-  /// Calls visit(q, weight, gradient, jacobian) for the points of a rule.
+  /// Calls visit(q, mapped point, gradient) for the points of a rule.
   template <class Visit>
   void for_each_point(const QuadratureTable& table, const Visit& visit) const {
     for (std::size_t q = 0; q < table.n_points; ++q) {
@@ -32,8 +31,7 @@ struct LinearInterpolant {
       for (std::size_t v = 0; v < n_vertices; ++v)
         for (std::size_t d = 0; d < dim; ++d)
           reference[d] += values[v] * table.geometry_gradient[dim * (q * n_vertices + v) + d];
-      visit(q, mapped.weight, point_of(mapped.jacobian.gradient(reference.data())),
-            mapped.jacobian);
+      visit(q, mapped, point_of(mapped.jacobian.gradient(reference.data())));
     }
   }
 };
@@ -41,9 +39,14 @@ struct LinearInterpolant {
 }  // namespace
 
 template <int dim>
-GradientRecovery<dim>::GradientRecovery(const FiniteElementSpace<dim>& space,
-                                        const std::vector<Point<dim>>& x, const Eigen::VectorXd& u)
-    : space_(space), x_(x), u_(u), recovered_(x.size(), Point<dim>::Zero()) {
+GradientRecovery<dim>::GradientRecovery(
+    const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
+    const Eigen::VectorXd& u, const std::function<Diffusivity<dim>(const Point<dim>&)>& diffusivity)
+    : space_(space),
+      x_(x),
+      u_(u),
+      diffusivity_(diffusivity),
+      recovered_(x.size(), Point<dim>::Zero()) {
   std::vector<double> sizes_at_nodes(x.size(), 0.0);
   for_each_smooth_group(space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
                                     const ElementCells& group, std::size_t) {
@@ -52,9 +55,9 @@ GradientRecovery<dim>::GradientRecovery(const FiniteElementSpace<dim>& space,
       double size = 0.0;
       LinearInterpolant<dim, n_vertices>(space_, group, cell, x, u)
           .for_each_point(group.element.matrices,
-                          [&](std::size_t, double weight, const Point<dim>& gradient, const auto&) {
-                            integral += weight * gradient;
-                            size += weight;
+                          [&](std::size_t, const auto& mapped, const Point<dim>& gradient) {
+                            integral += mapped.weight * gradient;
+                            size += mapped.weight;
                           });
       for (std::size_t v = 0; v < n_vertices; ++v) {
         recovered_[group.vertices[cell * n_vertices + v]] += integral;
@@ -68,24 +71,24 @@ GradientRecovery<dim>::GradientRecovery(const FiniteElementSpace<dim>& space,
 }
 
 template <int dim>
-template <class Square>
-auto GradientRecovery<dim>::mean_squares(const Square& square) const {
-  using Value = std::invoke_result_t<Square, Point<dim>>;
+template <class Value, class Square>
+std::vector<Value> GradientRecovery<dim>::mean_squares(const Value& zero,
+                                                       const Square& square) const {
   std::vector<Value> means;
   for_each_smooth_group(space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
                                     const ElementCells& group, std::size_t) {
     const QuadratureTable& table = group.element.matrices;
     for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
-      Value sum = square(Point<dim>::Zero());
+      Value sum = zero;
       LinearInterpolant<dim, n_vertices>(space_, group, cell, x_, u_)
-          .for_each_point(
-              table, [&](std::size_t q, double weight, const Point<dim>& gradient, const auto&) {
-                Point<dim> difference = -gradient;
-                for (std::size_t v = 0; v < n_vertices; ++v)
-                  difference += table.geometry[q * n_vertices + v] *
-                                recovered_[group.vertices[cell * n_vertices + v]];
-                sum += weight * square(difference);
-              });
+          .for_each_point(table,
+                          [&](std::size_t q, const auto& mapped, const Point<dim>& gradient) {
+                            Point<dim> difference = -gradient;
+                            for (std::size_t v = 0; v < n_vertices; ++v)
+                              difference += table.geometry[q * n_vertices + v] *
+                                            recovered_[group.vertices[cell * n_vertices + v]];
+                            sum += mapped.weight * square(difference, point_of(mapped.position));
+                          });
       means.push_back(sum / sizes_[means.size()]);
     }
   });
@@ -93,21 +96,35 @@ auto GradientRecovery<dim>::mean_squares(const Square& square) const {
 }
 
 template <int dim>
+double GradientRecovery<dim>::energy(const Point<dim>& d, const Point<dim>& position) const {
+  return diffusivity_ ? d.dot(diffusivity_(position) * d) : d.squaredNorm();
+}
+
+template <int dim>
 std::vector<double> GradientRecovery<dim>::differences() const {
-  auto values = mean_squares([](const Point<dim>& d) { return d.squaredNorm(); });
+  auto values = mean_squares(
+      0.0, [&](const Point<dim>& d, const Point<dim>& position) { return energy(d, position); });
   for (double& value : values) value = std::sqrt(value);
   return values;
 }
 
 template <int dim>
 std::vector<CellTensor<dim>> GradientRecovery<dim>::difference_tensors() const {
-  return mean_squares([](const Point<dim>& d) -> CellTensor<dim> {
-    return d * d.transpose();  // exactly symmetric, as that times a weight need not be
-  });
+  const CellTensor<dim> zero = CellTensor<dim>::Zero();
+  return mean_squares(
+      zero, [&](const Point<dim>& d, const Point<dim>& position) -> CellTensor<dim> {
+        const CellTensor<dim> square =
+            d * d.transpose();  // exactly symmetric, as that times a weight need not be
+        if (!diffusivity_ || !(square.trace() > 0.0)) return square;
+        return energy(d, position) / square.trace() * square;
+      });
 }
 
 template <int dim>
 std::vector<CellTensor<dim>> GradientRecovery<dim>::hessians() const {
+  const auto root_of_scale = [&](const auto& mapped) {
+    return diffusivity_ ? std::sqrt(diffusivity_(point_of(mapped.position)).trace() / dim) : 1.0;
+  };
   std::vector<CellTensor<dim>> means;
   for_each_smooth_group(space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
                                     const ElementCells& group, std::size_t) {
@@ -115,11 +132,11 @@ std::vector<CellTensor<dim>> GradientRecovery<dim>::hessians() const {
     for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
       CellTensor<dim> sum = CellTensor<dim>::Zero();
       LinearInterpolant<dim, n_vertices>(space_, group, cell, x_, u_)
-          .for_each_point(table, [&](std::size_t q, double weight, const Point<dim>&,
-                                     const auto& jacobian) {
+          .for_each_point(table, [&](std::size_t q, const auto& mapped, const Point<dim>&) {
+            const double weight = mapped.weight * root_of_scale(mapped);
             for (std::size_t v = 0; v < n_vertices; ++v) {
-              const Point<dim> hat =
-                  point_of(jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]));
+              const Point<dim> hat = point_of(
+                  mapped.jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]));
               sum += weight * (recovered_[group.vertices[cell * n_vertices + v]] * hat.transpose());
             }
           });

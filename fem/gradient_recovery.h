@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fem/finite_element_space.h"
+#include "fem/manufactured_solution.h"
 #include "smoothing/loop/problem.h"
 
 namespace smoothfem {
@@ -14,32 +15,42 @@ namespace smoothfem {
 /// nodes. With elements of degree 1 the difference is an estimate of the error; with those of
 /// degree 2 it says where u bends. (Means at the dofs of the gradient of degree 2 itself are no
 /// better than it is: on even quadrilaterals they err as it does, and the estimate was a hundredth
-/// of the error.) On triangles, quadrilaterals, tetrahedra and hexahedra; what is said of cells
+/// of the error.) Where there is a diffusivity A sizes are those of the energy norm, in which the
+/// solution is the best; the gradient is recovered all the same, and where A jumps G averages over
+/// the jump. On triangles, quadrilaterals, tetrahedra and hexahedra; what is said of cells
 /// runs group after group.
 template <int dim>
 class GradientRecovery {
  public:
-  /// x: coordinates of the space's nodes, u: at its dofs; both have to outlive this.
+  /// x: coordinates of the space's nodes, u: at its dofs, diffusivity: A, empty for the identity;
+  /// all have to outlive this.
   GradientRecovery(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
-                   const Eigen::VectorXd& u);
+                   const Eigen::VectorXd& u,
+                   const std::function<Diffusivity<dim>(const Point<dim>&)>& diffusivity);
 
-  /// Root mean square over each cell of G - grad u_1.
+  /// Root of the mean over each cell of d . A d, where d = G - grad u_1.
   std::vector<double> differences() const;
 
-  /// Mean over each cell of (G - grad u_1)(G - grad u_1)^T.
+  /// Mean over each cell of (d . A d) d d^T / |d|^2: the direction is that in which the gradient
+  /// errs, the trace is the square of differences().
   std::vector<CellTensor<dim>> difference_tensors() const;
 
-  /// Mean over each cell of the symmetric part of grad G: second derivatives.
+  /// Mean over each cell of the symmetric part of grad G, second derivatives, times the root of the
+  /// mean eigenvalue of A, by which errors there count in the energy norm.
   std::vector<CellTensor<dim>> hessians() const;
 
  private:
-  /// Mean of square(G - grad u_1) over each cell.
-  template <class Square>
-  auto mean_squares(const Square& square) const;
+  /// Mean of square(d, position) over each cell.
+  template <class Value, class Square>
+  std::vector<Value> mean_squares(const Value& zero, const Square& square) const;
+
+  /// d . A d.
+  double energy(const Point<dim>& d, const Point<dim>& position) const;
 
   const FiniteElementSpace<dim>& space_;
   const std::vector<Point<dim>>& x_;
   const Eigen::VectorXd& u_;
+  const std::function<Diffusivity<dim>(const Point<dim>&)>& diffusivity_;
   std::vector<Point<dim>> recovered_;  ///< G at each node
   std::vector<double> sizes_;          ///< of the cells
 };

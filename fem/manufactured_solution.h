@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct ManufacturedSolution {
   std::function<ValueAndGradient<dim>(const Point<dim>&)> value_and_gradient;
   std::function<double(const Point<dim>&)> load;                     ///< f
   std::function<Diffusivity<dim>(const Point<dim>&)> diffusivity{};  ///< A; empty: the identity
+  /// dA / dx_k for each direction k, which only the energy's gradient in node positions needs;
+  /// empty with A, or where nobody has derived it.
+  std::function<std::array<Diffusivity<dim>, dim>(const Point<dim>&)> diffusivity_derivatives{};
   /// What the conditions of its formulas compare with zero: where one changes its sign another
   /// piece begins. Empty: no conditions.
   std::function<std::vector<double>(const Point<dim>&)> conditions{};

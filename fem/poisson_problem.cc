@@ -13,6 +13,7 @@
 #include "fem/residual_indicator.h"
 #include "fem/trilinos_matrix.h"
 #include "smoothing/base/scoped_timer.h"
+#include "smoothing/solution/combined_solver.h"
 
 namespace smoothfem {
 
@@ -75,7 +76,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
     constexpr TensorPoints points{.quadrilateral = 5, .hexahedron = 4};
     space_ = make_finite_element_space(&mesh, degree, points, {}, natural_groups_);
     topology_ = mesh.shared_topology();
-    energy_ = std::make_unique<Energy<dim>>(space_);
+    energy_ = std::make_unique<Energy<dim>>(space_, solution_);
     system_ = make_system(*space_);
     linear_ = std::make_unique<LinearSolver>(*space_, system_.matrix);
     number_cells();
@@ -119,13 +120,9 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   SolveEffort effort() const override { return effort_; }
 
  private:
-  GradientRecovery<dim> recovery() const { return {*space_, x_, u_}; }
+  GradientRecovery<dim> recovery() const { return {*space_, x_, u_, solution_.diffusivity}; }
 
   void check(const Topology& topology) const {
-    if (solution_.diffusivity)
-      throw InputError(
-          "methods that move nodes by the solution know -laplace(u) = f only, and this problem has "
-          "a 'diffusivity'; take it out, or another method");
     for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
       if (topology.on_boundary()[i] && !topology.is_fixed(i))
         throw InputError("node " + std::to_string(i) +
@@ -136,7 +133,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   bool solve_here() {
     assemble(*space_, x_, solution_, Load::none, system_);
     if (system_.n_folded_cells > 0) return false;
-    energy_->integrate_load(x_, solution_);
+    energy_->integrate_load(x_);
     energy_->add_load(system_.right_hand_side);
     Eigen::VectorXd free_values;
     if (!linear_->solve(system_.matrix, system_.right_hand_side, free_values)) return false;
@@ -197,14 +194,18 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
 template <int dim>
 class PoissonProblem final : public Problem<dim> {
  public:
-  PoissonProblem(ManufacturedSolution<dim> solution, std::vector<std::string> natural_groups)
-      : solution_(std::move(solution)), natural_groups_(std::move(natural_groups)) {}
+  PoissonProblem(std::vector<ManufacturedSolution<dim>> solutions,
+                 std::vector<std::string> natural_groups)
+      : solutions_(std::move(solutions)), natural_groups_(std::move(natural_groups)) {}
   std::unique_ptr<ProblemSolver<dim>> make_solver() const override {
-    return std::make_unique<PoissonProblemSolver<dim>>(solution_, natural_groups_);
+    std::vector<std::unique_ptr<ProblemSolver<dim>>> solvers;
+    for (const auto& solution : solutions_)
+      solvers.push_back(std::make_unique<PoissonProblemSolver<dim>>(solution, natural_groups_));
+    return combined_solver(std::move(solvers));
   }
 
  private:
-  ManufacturedSolution<dim> solution_;
+  std::vector<ManufacturedSolution<dim>> solutions_;
   std::vector<std::string> natural_groups_;
 };
 
@@ -213,12 +214,22 @@ class PoissonProblem final : public Problem<dim> {
 template <int dim>
 std::shared_ptr<const Problem<dim>> make_poisson_problem(ManufacturedSolution<dim> solution,
                                                          std::vector<std::string> natural_groups) {
-  return std::make_shared<PoissonProblem<dim>>(std::move(solution), std::move(natural_groups));
+  return make_poisson_problem(std::vector{std::move(solution)}, std::move(natural_groups));
 }
 
-template std::shared_ptr<const Problem<2>> make_poisson_problem(ManufacturedSolution<2>,
-                                                                std::vector<std::string>);
-template std::shared_ptr<const Problem<3>> make_poisson_problem(ManufacturedSolution<3>,
-                                                                std::vector<std::string>);
+template <int dim>
+std::shared_ptr<const Problem<dim>> make_poisson_problem(
+    std::vector<ManufacturedSolution<dim>> solutions, std::vector<std::string> natural_groups) {
+  return std::make_shared<PoissonProblem<dim>>(std::move(solutions), std::move(natural_groups));
+}
+
+#define SMOOTHFEM_INSTANTIATE(dim)                                                             \
+  template std::shared_ptr<const Problem<dim>> make_poisson_problem(ManufacturedSolution<dim>, \
+                                                                    std::vector<std::string>); \
+  template std::shared_ptr<const Problem<dim>> make_poisson_problem(                           \
+      std::vector<ManufacturedSolution<dim>>, std::vector<std::string>);
+SMOOTHFEM_INSTANTIATE(2)
+SMOOTHFEM_INSTANTIATE(3)
+#undef SMOOTHFEM_INSTANTIATE
 
 }  // namespace smoothfem

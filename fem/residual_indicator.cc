@@ -86,32 +86,35 @@ class Residuals {
     add_cells();
     add_jumps();
     for (std::size_t c = 0; c < squares_.size(); ++c)
-      squares_[c] = std::sqrt(squares_[c] / sizes_[c]);
+      squares_[c] = std::sqrt(squares_[c] / sizes_[c] / scales_[c]);
     return std::move(squares_);
   }
 
  private:
-  /// h_K^2 |f + laplace u|^2, and the gradients at the dofs, which the jumps need.
+  /// h_K^2 |f + div A grad u|^2, and A grad u at the dofs, which the jumps need.
   void add_cells() {
-    gradients_.resize(space_.groups.size());
+    fluxes_.resize(space_.groups.size());
     for_each_smooth_group(space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
                                       const ElementCells& group, std::size_t g) {
       const std::size_t before = squares_.size();
       const auto at_dofs = make_support_table(group.element.type, space_.degree);
-      gradients_[g].resize(group.n_cells() * n_dofs);
+      fluxes_[g].resize(group.n_cells() * n_dofs);
       squares_.resize(before + group.n_cells());
       sizes_.resize(squares_.size());
+      scales_.resize(squares_.size());
       parallel_for_ranges(group.n_cells(), grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t cell = first; cell < last; ++cell) {
           const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x_, u_);
-          Point<dim>* gradients = &gradients_[g][cell * n_dofs];
+          Point<dim>* fluxes = &fluxes_[g][cell * n_dofs];
+          double scale = 0.0;
           for (std::size_t i = 0; i < n_dofs; ++i)
-            gradients[i] = function.gradient(at_dofs, i, function.map(at_dofs, i));
+            fluxes[i] = flux(function.map(at_dofs, i), function, at_dofs, i, scale);
           const std::span nodes(&group.vertices[cell * n_vertices], n_vertices);
+          scales_[before + cell] = scale / static_cast<double>(n_dofs);
           const double h = diameter(nodes, x_);
           squares_[before + cell] =
               h * h *
-              squared_residual(group.element.errors, function, gradients, sizes_[before + cell]);
+              squared_residual(group.element.errors, function, fluxes, sizes_[before + cell]);
         }
       });
     });
@@ -120,20 +123,35 @@ class Residuals {
   template <std::size_t n_dofs, std::size_t n_vertices>
   double squared_residual(const QuadratureTable& table,
                           const CellFunction<dim, n_dofs, n_vertices>& function,
-                          const Point<dim>* gradients, double& size) const {
+                          const Point<dim>* fluxes, double& size) const {
     double sum = 0.0;
     size = 0.0;
     for (std::size_t q = 0; q < table.n_points; ++q) {
       const auto mapped = function.map(table, q);
-      double laplacian = 0.0;
+      double divergence = 0.0;
       for (std::size_t i = 0; i < n_dofs; ++i)
-        laplacian += gradients[i].dot(
+        divergence += fluxes[i].dot(
             point_of(mapped.jacobian.gradient(&table.shape_gradient[dim * (q * n_dofs + i)])));
-      const double residual = solution_.load(point_of(mapped.position)) + laplacian;
+      const double residual = solution_.load(point_of(mapped.position)) + divergence;
       sum += mapped.weight * residual * residual;
       size += mapped.weight;
     }
     return sum;
+  }
+
+  /// A grad u at a dof; adds the mean eigenvalue of A to `scale`.
+  template <std::size_t n_dofs, std::size_t n_vertices>
+  Point<dim> flux(const MappedPoint<dim, double>& mapped,
+                  const CellFunction<dim, n_dofs, n_vertices>& function,
+                  const QuadratureTable& at_dofs, std::size_t i, double& scale) const {
+    const Point<dim> gradient = function.gradient(at_dofs, i, mapped);
+    if (!solution_.diffusivity) {
+      scale += 1.0;
+      return gradient;
+    }
+    const Diffusivity<dim> a = solution_.diffusivity(point_of(mapped.position));
+    scale += a.trace() / dim;
+    return a * gradient;
   }
 
   /// All facets, the two sides of inner ones one after the other.
@@ -170,7 +188,7 @@ class Residuals {
       }
   }
 
-  /// Integral of [du/dn]^2.
+  /// Integral of [A grad u . n]^2.
   double squared_jump(const CellFacet& here, const CellFacet& there) const {
     const Point<dim> area = area_vector(here.nodes, x_);
     const auto end = std::find(here.sorted.begin(), here.sorted.end(), none);
@@ -185,7 +203,7 @@ class Residuals {
     const auto dofs = dofs_of(here);
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (is_on_facet(dofs[i])) {
-        const double jump = area.dot(gradient_at(here, dofs[i]) - gradient_at(there, dofs[i]));
+        const double jump = area.dot(flux_at(here, dofs[i]) - flux_at(there, dofs[i]));
         sum += facet_weight(space_.degree, n_nodes, space_.dof_nodes[dofs[i]].size()) * jump * jump;
       }
     return sum / area.norm();
@@ -197,18 +215,18 @@ class Residuals {
     return {&group.dofs[facet.cell * n_dofs], n_dofs};
   }
 
-  const Point<dim>& gradient_at(const CellFacet& facet, std::uint32_t dof) const {
+  const Point<dim>& flux_at(const CellFacet& facet, std::uint32_t dof) const {
     const auto dofs = dofs_of(facet);
     const auto i = std::find(dofs.begin(), dofs.end(), dof) - dofs.begin();
-    return gradients_[facet.group][facet.cell * dofs.size() + static_cast<std::size_t>(i)];
+    return fluxes_[facet.group][facet.cell * dofs.size() + static_cast<std::size_t>(i)];
   }
 
   const FiniteElementSpace<dim>& space_;
   const std::vector<Point<dim>>& x_;
   const Eigen::VectorXd& u_;
   const ManufacturedSolution<dim>& solution_;
-  std::vector<std::vector<Point<dim>>> gradients_;  ///< of each group, at the dofs of each cell
-  std::vector<double> squares_, sizes_;             ///< of each cell
+  std::vector<std::vector<Point<dim>>> fluxes_;   ///< of each group, at the dofs of each cell
+  std::vector<double> squares_, sizes_, scales_;  ///< of each cell
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-KEPT = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json", "tables")
+KEPT = ("iterations.csv", "summary.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
 COLLECTIONS = ("field",)  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")  # all records are too many
 DRAWN = ("gear", "volume", "field")  # whose figures are kept, too

@@ -31,6 +31,19 @@ ManufacturedSolution<dim> smooth_solution() {
   return manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
 }
 
+/// In a medium that varies, by a tensor whose directions do so, too. f is a constant, so that what
+/// rules miss of it is less than what differences see; with degree 2, whose rules miss less, there
+/// is a part more that is not in the space.
+template <int dim>
+ManufacturedSolution<dim> in_a_medium(int degree) {
+  const std::string more = degree == 1 ? "" : " + sin(3*x)*exp(y)";
+  return dim == 2 ? derived_solution<dim>("x*y" + more, "1 + y^2, 0.5 ; 0.5, 1 + exp(x)", {})
+                  : derived_solution<dim>("x*y + z" + more,
+                                          "1 + y*z, 0.5, 0.3*y ; 0.5, 1 + exp(x*z), 0.2*x^2 ; "
+                                          "0.3*y, 0.2*x^2, 1 + x",
+                                          {});
+}
+
 class EnergyTest : public testing::TestWithParam<Case> {
  protected:
   template <int dim>
@@ -41,16 +54,9 @@ class EnergyTest : public testing::TestWithParam<Case> {
     return solver;
   }
   template <int dim>
-  static Point<dim> direction(NodeIndex i) {
-    Point<dim> d;
-    for (int k = 0; k < dim; ++k) d[k] = std::sin(1.0 + 3.0 * i + 5.0 * k);
-    return d;
-  }
-};
-
-TEST_P(EnergyTest, GradientIsThatOfDifferences) {
-  GetParam().on_mesh(6, 4, 0.15, []<int dim>(const Mesh<dim>& mesh) {
-    const auto problem = make_poisson_problem<dim>(smooth_solution<dim>());
+  static void expect_gradient_of_differences(const ManufacturedSolution<dim>& solution,
+                                             const Mesh<dim>& mesh) {
+    const auto problem = make_poisson_problem<dim>(solution);
     const auto solver = prepared<dim>(*problem, mesh);
     const auto moved = [&](double t) {
       auto x = mesh.copied_coordinates();
@@ -72,6 +78,58 @@ TEST_P(EnergyTest, GradientIsThatOfDifferences) {
       scale += gradient[i].norm() * direction<dim>(i).norm();
     }
     EXPECT_NEAR(derivative, slope, 1e-6 * scale);
+  }
+  template <int dim>
+  static Point<dim> direction(NodeIndex i) {
+    Point<dim> d;
+    for (int k = 0; k < dim; ++k) d[k] = std::sin(1.0 + 3.0 * i + 5.0 * k);
+    return d;
+  }
+};
+
+TEST_P(EnergyTest, GradientIsThatOfDifferences) {
+  GetParam().on_mesh(6, 4, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    expect_gradient_of_differences<dim>(smooth_solution<dim>(), mesh);
+    expect_gradient_of_differences<dim>(in_a_medium<dim>(GetParam().degree), mesh);
+  });
+}
+
+/// A constant tensor is a change of coordinates, and the identity none at all.
+TEST_P(EnergyTest, TakesTheIdentityForADiffusivity) {
+  GetParam().on_mesh(5, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    const auto plain = make_poisson_problem<dim>(derived_solution<dim>("exp(x)*y + y^3", {}, {}));
+    const auto given = make_poisson_problem<dim>(derived_solution<dim>("exp(x)*y + y^3", "1", {}));
+    const auto a = prepared<dim>(*plain, mesh), b = prepared<dim>(*given, mesh);
+    const double energy = a->solve(mesh.coordinates());
+    EXPECT_NEAR(b->solve(mesh.coordinates()), energy, 1e-9 * std::abs(energy));
+    const auto g = a->energy_gradient(), h = b->energy_gradient();
+    for (std::size_t i = 0; i < g.size(); ++i) EXPECT_LT((g[i] - h[i]).norm(), 1e-8);
+    const auto e = a->recovery_indicators(), f = b->recovery_indicators();
+    const auto r = a->residual_indicators(), s = b->residual_indicators();
+    for (std::size_t c = 0; c < e.size(); ++c) {
+      EXPECT_NEAR(e[c], f[c], 1e-8);
+      EXPECT_NEAR(r[c], s[c], 1e-6);
+    }
+  });
+}
+
+/// Where all fluxes are k times as large, energies are, and squares of all indicators.
+TEST_P(EnergyTest, ScalesWithTheDiffusivity) {
+  GetParam().on_mesh(5, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
+    const auto once = make_poisson_problem<dim>(derived_solution<dim>("exp(x)*y", "1 + x", {}));
+    const auto more = make_poisson_problem<dim>(derived_solution<dim>("exp(x)*y", "9 + 9*x", {}));
+    const auto a = prepared<dim>(*once, mesh), b = prepared<dim>(*more, mesh);
+    const double energy = a->solve(mesh.coordinates());
+    EXPECT_NEAR(b->solve(mesh.coordinates()), 9.0 * energy, 1e-8 * std::abs(energy));
+    const auto e = a->recovery_indicators(), f = b->recovery_indicators();
+    const auto r = a->residual_indicators(), s = b->residual_indicators();
+    const auto t = a->recovery_tensors(), v = b->recovery_tensors();
+    for (std::size_t c = 0; c < e.size(); ++c) {
+      EXPECT_NEAR(3.0 * e[c], f[c], 1e-6);
+      EXPECT_NEAR(3.0 * r[c], s[c], 1e-5);
+      EXPECT_NEAR(t[c].trace(), e[c] * e[c], 1e-10);
+      EXPECT_LT((9.0 * t[c] - v[c]).norm(), 1e-6);
+    }
   });
 }
 
@@ -249,7 +307,7 @@ TEST(Energy, RefusesWhatItDoesNotKnow) {
   };
   const auto problem = make_poisson_problem<2>(diffusive);
   EXPECT_THAT([&] { problem->make_solver()->prepare(mesh, 1); },
-              ThrowsMessage<InputError>(HasSubstr("diffusivity")));
+              ThrowsMessage<InputError>(HasSubstr("give the diffusivity as a formula")));
   const Mesh<2> loose(std::make_shared<const Topology>(2, mesh.n_nodes(), mesh.topology().cells(),
                                                        std::vector<bool>(mesh.n_nodes(), false)),
                       mesh.copied_coordinates());

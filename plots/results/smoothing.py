@@ -22,11 +22,12 @@ REQUIRED_COLUMNS = {
                     "e_max", "e_mean", "e_l2", "e_h1"),
     "thresholds.csv": ("mesh", "degree", "error", "threshold", "reference_method",
                        "reference_seconds", "method", "method_seconds", "speedup"),
+    "solutions.csv": ("mesh", "method", "solution", "degree", "h1_error", "status"),
 }
 
 # Columns without whose numbers a row says nothing.
 REQUIRED_NUMBERS = {"iterations.csv": ("iteration", "smoothing_seconds", "q_min", "q_mean", "n_invalid"),
-                    "summary.csv": ("q_min", "q_mean"), "thresholds.csv": ("degree", "threshold")}
+                    "summary.csv": ("q_min", "q_mean"), "thresholds.csv": ("degree", "threshold"), "solutions.csv": ()}
 # Columns that hold numbers, of any of the files.
 NUMBERS = ("iteration", "smoothing_seconds", "q_min", "q_star_min", "q_mean", "n_invalid", "n_reset",
            "w_max", "w_mean", "peak_memory_gib", "degree", "n_dofs", "n_free", "assembly_seconds", "condition_number",
@@ -57,6 +58,7 @@ class Results:
     iterations: Rows
     thresholds: Rows
     provenance: dict
+    solutions: Rows = Rows(Path("solutions.csv"), {})  # of all solutions on initial and resulting meshes, if several
     seeds: tuple = ()  # of the study's repetitions, that of these results first; empty: there are none
     repeated: tuple = ()  # the meshes that the seeds change
     repetitions: tuple = ()  # Results of the other seeds
@@ -125,7 +127,7 @@ class Results:
 
 
 def read_results(folder):
-    """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv and
+    """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv, solutions.csv and
     provenance.json may be absent. Raises ResultsError with one sentence on what is wrong."""
     folder = Path(folder)
     if not folder.is_dir():
@@ -134,12 +136,7 @@ def read_results(folder):
     for rows in (summary, iterations):
         if not len(rows):
             raise ResultsError(f"{rows.path}: the file has no rows.")
-    path = folder / "thresholds.csv"
-    if path.exists():
-        thresholds = read_checked(path)
-    else:
-        thresholds = Rows(path, {name: np.array([], dtype=object)
-                                 for name in REQUIRED_COLUMNS[path.name]})
+    thresholds, solutions = (read_if_there(folder / name) for name in ("thresholds.csv", "solutions.csv"))
     provenance = read_provenance(folder / "provenance.json")
     study = str(provenance.get("study") or summary.text("study")[0] or folder.resolve().name)
     titles = {INITIAL: "Initial"}
@@ -152,7 +149,14 @@ def read_results(folder):
         methods=tuple(method for method in methods if method != INITIAL),
         degrees=tuple(sorted({degree for degree in summary.text("degree") if degree}, key=float)),
         titles=titles, summary=summary, iterations=iterations, thresholds=thresholds,
-        provenance=provenance))
+        provenance=provenance, solutions=solutions))
+
+
+def read_if_there(path):
+    """The same for a file that may be absent: then it has no rows."""
+    if path.exists():
+        return read_checked(path)
+    return Rows(path, {name: np.array([], dtype=object) for name in REQUIRED_COLUMNS[path.name]})
 
 
 def read_checked(path):

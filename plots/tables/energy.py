@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from ..collections.comparison import error_in_time
-from ..results.rows import groups_of, solves_itself, solving_seconds
+from ..results.rows import entries, groups_of, solves_itself, solving_seconds
 from ..results.symbols import SYMBOLS, Heading
 from .descriptions import KEY_HEADINGS
 from .number_format import MISSING, formatted
@@ -23,12 +23,13 @@ START = "start"  # the stage whose mesh all stages after it are compared with
 REFINED = "-fine"  # a mesh's name with this is that of the same domain with shorter edges
 SIZES = ("", REFINED, "-finer")  # of three of them, from whose errors orders are taken
 NEVER = "never"
+PAYS, DOES_NOT_PAY = "pays", "does not pay"
 ERRORS = (("H1", "h1_error"), ("L2", "l2_error"))
 
 
 def make_energy_tables(results):
     """All tables, those that have a row."""
-    tables = [factor_table(results), pays_table(results), orders_table(results)]
+    tables = [factor_table(results), pays_table(results), many_table(results), orders_table(results)]
     return [table for table in tables if table is not None]
 
 
@@ -98,8 +99,7 @@ def factor_table(results):
 
 def pays_table(results):
     """Errors and times beside those of the refined mesh, and whether the method pays."""
-    reference = next((method for method in results.methods
-                      if not solves_itself(results.iterations.select(method=method))), None)
+    reference = reference_method(results)
     rows = [(key, compared(results, key, reference)) for key, _ in solving_groups(results)]
     rows = [(key, both) for key, both in rows if both is not None]
     if not rows:
@@ -132,6 +132,45 @@ def pays_table(results):
                              "many times as many that law takes for the method's error. Solves until it pays: how many "
                              "solutions, as of time steps, one mesh has to serve until the method has taken less time "
                              "than that many unknowns, whose times are laws of the same kind."),))
+
+
+def many_table(results):
+    """Of meshes that are made for several solutions: mean errors and times in all beside those of the refined mesh that
+    has the same errors."""
+    reference = reference_method(results)
+    rows = [(key, compared_for_all(results, key, reference)) for key, _ in solving_groups(results)]
+    rows = [(key, three) for key, three in rows if three is not None]
+    if not rows or not len(results.solutions):
+        return None
+    same = [refinement_with_same_error(*three) for _, three in rows]
+    ours = [three[0] for _, three in rows]
+    refined = [once + each for once, each in same]
+
+    def one_column(heading, texts):
+        return Group(Heading(heading, heading), ("",), tuple((number_cell(text),) for text in texts))
+    errors = zip(formatted([three[0]["error"] for _, three in rows], ".3f"),
+                 formatted([three[1]["error"] for _, three in rows], ".3f"))
+    seconds = zip(formatted([each["smoothing"] for each in ours], ".3f"),
+                  formatted([each["solution"] for each in ours], ".3f"), formatted(refined, ".3f"))
+    verdicts = tuple((text_cell(verdict_of(here["seconds"], there)),) for here, there in zip(ours, refined))
+    until = [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")]
+    cells, rules = key_cells([key for key, _ in rows], results)
+    title = results.title(reference)
+    return Table(study=results.study, name="table_energy_many", keys=cells, rules=rules,
+                 groups=(one_column("n", [str(len(solutions_for(results, key[2]))) for key, _ in rows]),
+                         numbers(f"H1 error over {title}'s", ("here", "refined"), errors),
+                         numbers("Seconds", ("smoothing", "n solutions", "refined"), seconds),
+                         one_column("Times until it pays", until),
+                         Group(Heading("", ""), ("Verdict",), verdicts)),
+                 caption=f"{results.study_title}: one mesh for n solutions",
+                 key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
+                 left_aligned=("Verdict",),
+                 notes=(("", f"n: solutions that the mesh is made for. Errors: true H1 errors over those on {title}'s mesh, the "
+                             f"geometric mean over the n; refined: {title}'s finer mesh. Seconds: of smoothing with the "
+                             "method's own solves, of the n solutions on its mesh, each with its own assembly, and of "
+                             "both on a refined mesh with the method's mean error, by the power laws through both "
+                             f"meshes of {title}. A method pays where its seconds are no more than these. Times until "
+                             "it pays: how often all n have to be solved on the mesh, as in time steps, until it does."),))
 
 
 def orders_table(results):
@@ -183,6 +222,38 @@ def compared(results, key, reference):
                   "unknowns": rows.number("n_free")[0]} for rows, once, each in zip(three, smoothing, solution))
 
 
+def reference_method(results):
+    """The first method that does not solve; None if all do."""
+    return next((method for method in results.methods
+                 if not solves_itself(results.iterations.select(method=method))), None)
+
+
+def solutions_for(results, method):
+    """Labels of those that the method's mesh is made for: if it does not say, the first of all."""
+    said = next((entry.get("smooth_for") for entry in entries(results.provenance, "methods")
+                 if entry["name"] == method), None)
+    return said or list(dict.fromkeys(results.solutions.text("solution")))[:1]
+
+
+def compared_for_all(results, key, reference):
+    """As compared(), over the solutions that the method's mesh is made for: errors are geometric means over those of the
+    reference method here, and a solution is all of them, one after the other."""
+    mesh, degree, method = key
+    three = compared(results, key, reference)
+    if three is None:
+        return None
+    chosen = solutions_for(results, method)
+    rows = [[results.solutions.select(mesh=name, degree=degree, method=which, solution=solution) for solution in chosen]
+            for name, which in ((mesh, method), (mesh + REFINED, reference), (mesh, reference))]
+    if not chosen or not all(len(each) for of_mesh in rows for each in of_mesh):
+        return None
+    logarithms = [np.mean([np.log(each.number("h1_error")[0]) for each in of_mesh]) for of_mesh in rows]
+    seconds = [sum(solving_seconds(each)[0] for each in of_mesh) for of_mesh in rows]
+    return tuple({**each, "error": math.exp(logarithm - logarithms[2]), "solution": all_of_them,
+                  "seconds": each["smoothing"] + all_of_them}
+                 for each, logarithm, all_of_them in zip(three, logarithms, seconds))
+
+
 def at_equal_time(here, refined, unrefined):
     """The method's error over what refinement has after the same time; NaN unless that is better, and so much dearer that
     its time is one of its size: it grows at least as the root of the unknowns."""
@@ -200,14 +271,20 @@ def equal_refinement(here, refined, unrefined):
     return (unrefined["error"] / here["error"])**(math.log(refined["unknowns"] / unrefined["unknowns"]) / math.log(gain))
 
 
+def refinement_with_same_error(here, refined, unrefined):
+    """Seconds of smoothing and of solving once on the refined mesh that has the method's error; NaN unless refinement
+    lowers errors, or where times are not known."""
+    gain = unrefined["error"] / refined["error"]
+    if not (gain > 1.0 and unrefined["smoothing"] > 0.0 and unrefined["solution"] > 0.0):
+        return math.nan, math.nan
+    size = math.log(unrefined["error"] / here["error"]) / math.log(gain)
+    return tuple(unrefined[what] * (refined[what] / unrefined[what])**size for what in ("smoothing", "solution"))
+
+
 def solves_to_pay(here, refined, unrefined):
     """How many solutions on one mesh make the method cheaper than refinement with its error; infinite if a solution there
     is no dearer; NaN unless refinement lowers errors, or where times are not known."""
-    gain = unrefined["error"] / refined["error"]
-    if not (gain > 1.0 and unrefined["smoothing"] > 0.0 and unrefined["solution"] > 0.0):
-        return math.nan
-    size = math.log(unrefined["error"] / here["error"]) / math.log(gain)
-    once, each = (unrefined[what] * (refined[what] / unrefined[what])**size for what in ("smoothing", "solution"))
+    once, each = refinement_with_same_error(here, refined, unrefined)
     more_once, less_each = here["smoothing"] - once, each - here["solution"]
     if math.isnan(more_once) or math.isnan(less_each):
         return math.nan
@@ -221,4 +298,11 @@ def verdict(here, refined):
     if any(math.isnan(value) for each in (here, refined) for value in each.values()):
         return MISSING
     pays = here["error"] <= refined["error"] and here["seconds"] <= refined["seconds"]
-    return "pays" if pays else "does not pay"
+    return PAYS if pays else DOES_NOT_PAY
+
+
+def verdict_of(seconds, others):
+    """The same where errors are the same, by seconds in all."""
+    if math.isnan(seconds) or math.isnan(others):
+        return MISSING
+    return PAYS if seconds <= others else DOES_NOT_PAY

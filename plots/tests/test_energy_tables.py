@@ -89,6 +89,33 @@ class EnergyTables(InFolder):
         self.assertEqual(solves_to_pay({"error": 0.5, "smoothing": 116.0, "solution": 33.0}, refined, unrefined), math.inf)
         self.assertTrue(math.isnan(solves_to_pay({"error": 0.5, "smoothing": 1.0, "solution": 0.5}, unrefined, refined)))
 
+    def test_many_solutions_on_one_mesh(self):
+        """Errors of two solutions are 1/2 and 1/8 of those on the other method's mesh, in the mean 1/4; refined, with four
+        times the unknowns, they are 1/2 in four times the time. So the same takes 16 times the smoothing and solving."""
+        folder = self.folder / "r"
+        write_solves(folder)
+        summary = rows_of(folder / "summary.csv")
+        smoothing = {("tri", "weighted-laplace"): "1", ("tri-fine", "weighted-laplace"): "4", ("tri", "getme"): "40"}
+        for row in summary:
+            row.update(n_free="40" if row["mesh"] == "tri-fine" else "10",
+                       smoothing_seconds=smoothing.get((row["mesh"], row["method"]), "9"))
+        write_csv(folder / "summary.csv", list(summary[0]), summary)
+        errors = {("tri", "weighted-laplace"): (8, 80), ("tri-fine", "weighted-laplace"): (4, 40), ("tri", "getme"): (4, 10)}
+        solves = {"tri": "0.5", "tri-fine": "2"}
+        write_csv(folder / "solutions.csv", ["mesh", "method", "solution", "degree", "cg_seconds", "h1_error", "status"],
+                  [{"mesh": mesh, "method": method, "solution": solution, "degree": degree, "cg_seconds": solves[mesh],
+                    "h1_error": str(error), "status": "ok"}
+                   for (mesh, method), both in errors.items() for solution, error in zip("ab", both)
+                   for degree in ("1", "2")])
+        provenance = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
+        for entry in provenance["methods"]:
+            if entry["name"] == "getme":
+                entry["smooth_for"] = ["a", "b"]
+        (folder / "provenance.json").write_text(json.dumps(provenance), encoding="utf-8")
+        many = next(table for table in make_energy_tables(read_results(folder)) if table.name == "table_energy_many")
+        self.assertEqual([texts(group)[0] for group in many.groups],
+                         [["2"], ["0.250", "0.500"], ["40.000", "1.000", "32.000"], ["2"], ["does not pay"]])
+
     def test_orders_are_those_of_three_sizes(self):
         """Half the edge length: four times the unknowns in the plane, a quarter of the L2 error, half the H1 error."""
         folder = self.folder / "r"

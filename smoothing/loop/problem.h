@@ -36,7 +36,8 @@ class ProblemSolver {
 
   /// Solves on a mesh whose cells are all valid; on that of the last solve it costs nothing.
   /// Returns the energy J = a(u_h, u_h) - 2 (f, u_h) up to a constant: as long as boundary nodes
-  /// stay, |grad(u - u_h)|^2 = J + const. Infinite if there is no solution, as on hexahedra that
+  /// stay, a(u - u_h, u - u_h) = J + const; with -laplace as the operator a(v, v) = |grad v|^2.
+  /// Infinite if there is no solution, as on hexahedra that
   /// are folded inside; what follows must not be asked for then.
   virtual double solve(std::span<const Point<dim>> coordinates) = 0;
 
@@ -44,7 +45,8 @@ class ProblemSolver {
   virtual std::vector<Point<dim>> energy_gradient() const = 0;
 
   /// Root mean square over each cell of the difference between grad u_h and the continuous gradient
-  /// that is recovered from it by averages at the nodes (Zienkiewicz, Zhu 1987); of the last solve.
+  /// that is recovered from it by averages at the nodes (Zienkiewicz, Zhu 1987), in the norm of a;
+  /// of the last solve.
   virtual std::vector<double> recovery_indicators() const = 0;
 
   /// Mean over each cell of d d^T, where d is that difference: into which directions the gradient

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "smoothing/geometry/cell_size.h"
 #include "smoothing/loop/smoother.h"
+#include "smoothing/solution/error_indicators.h"
 #include "smoothing/solution/movable_nodes.h"
 
 namespace smoothfem {
@@ -84,17 +84,11 @@ class SolutionDriven : public Smoother<dim> {
 
   /// What the recovery says of the last solve.
   static double estimated_error(const SmoothingState<dim>& state) {
-    const auto errors = state.solver->recovery_indicators();
-    const auto sizes = cell_sizes(state.mesh);
-    double square = 0.0;
-    for (CellIndex c = 0; c < sizes.size(); ++c) square += sizes[c] * errors[c] * errors[c];
-    return std::sqrt(square);
+    return std::sqrt(estimated_squared_error(state.mesh, *state.solver));
   }
 
   static std::vector<double> cell_sizes(const Mesh<dim>& mesh) {
-    std::vector<double> sizes(mesh.n_cells());
-    for (CellIndex c = 0; c < mesh.n_cells(); ++c) sizes[c] = std::abs(signed_cell_size(mesh, c));
-    return sizes;
+    return smoothfem::cell_sizes(mesh);
   }
 
  private:

@@ -330,6 +330,39 @@ TEST_F(StudyFile, ASolutionIsGivenInOneWayOnly) {
   expect("set diffusivity = 2\n", "give its formula as 'u' instead");
 }
 
+TEST_F(StudyFile, SeveralSolutionsAreForMethodsThatAreToldWhich) {
+  const std::string two = one_mesh +
+                          "set methods = getme, both\nset solutions = sine, ramp\n"
+                          "subsection solution ramp\n set u = x^2\n set diffusivity = 2\nend\n";
+  const std::string both = "subsection method both\n set type = energy-descent\n";
+  const Study study = read(two + both + "set smooth for = ramp, sine\nend\n");
+  EXPECT_EQ(study.solution.name, "sine");
+  EXPECT_EQ(study.solution.label, "sine");
+  ASSERT_EQ(study.further_solutions.size(), 1u);
+  EXPECT_EQ(study.further_solutions[0].label, "ramp");
+  EXPECT_EQ(study.further_solutions[0].u, "x^2");
+  EXPECT_EQ(study.further_solutions[0].diffusivity, "2");
+  EXPECT_TRUE(study.methods[0].smooth_for.empty());
+  EXPECT_EQ(study.methods[1].smooth_for, (std::vector<std::string>{"ramp", "sine"}));
+
+  expect_error(two + both + "set smooth for = rmap\nend\n",
+               "method both has 'smooth for' = rmap, which is not in the list 'solutions'");
+  expect_error(two + both + "set smooth for = sine, sine\nend\n", "'sine' twice");
+  expect_error(two + both + "end\nsubsection method getme\nset smooth for = sine\nend\n",
+               "method getme has 'smooth for', but does not move nodes by a solution");
+  expect_error(one_mesh + "set methods = both\n" + both + "set smooth for = sine\nend\n",
+               "name the solutions in 'solutions'");
+  expect_error(two + both + "end\nsubsection solution\nset u = x\nend\n",
+               "both a list 'solutions' and, in the subsection 'solution', 'u'");
+  expect_error(one_mesh + "set solutions = sine, nowhere\n", "nowhere");
+  expect_error(one_mesh + "set solutions = sine, sine\n", "'sine' is named twice");
+  expect_error_at(6, one_mesh + "set solutions = sine\nsubsection solution sin\nend\n",
+                  "'set solutions' does not name 'sin'");
+  // Results from before these keys go on.
+  for (const auto& [key, value] : read(one_mesh).header.parameters)
+    EXPECT_TRUE(key != "solutions" && !key.ends_with("smooth for")) << key;
+}
+
 TEST_F(StudyFile, LabelsThatWouldBreakFilesAreRefused) {
   expect_error("set meshes = a b\nsubsection mesh a b\n set file = a.mesh\nend\n", "'a b'");
   expect_error("set meshes = ../a\nsubsection mesh ../a\n set file = a.mesh\nend\n", "'../a'");

@@ -119,6 +119,50 @@ TEST_F(RunStudy, RefinedMeshesAreSolvedOnceMore) {
   }
 }
 
+/// One mesh for two solutions: their errors are there, and both fall below those of GETMe's mesh.
+TEST_F(RunStudy, MeshesAreMadeForSeveralSolutions) {
+  write_mesh(file("grid.mesh"), shaken_grid(12, 0.2));
+  const std::string two =
+      "set methods = getme, one, both\nset degrees = 1\nset solutions = left, low\n"
+      "subsection finite elements\n set load = quadrature\nend\n"
+      "subsection solution left\n set u = exp(-x/3)\nend\n"
+      "subsection solution low\n set u = 200*exp(-y/3)\n set diffusivity = 1 + y\nend\n"
+      "subsection method one\n set type = energy-descent\n set descent.solves = 10\nend\n"
+      "subsection method both\n set type = energy-descent\n set descent.solves = 20\n"
+      " set smooth for = left, low\nend\n";
+  const fs::path out = run(study(two));
+  expect_documented("solutions.csv", content_of(out / "solutions.csv"));
+  const CsvTable solutions = table(out, "solutions.csv"), summary = table(out, "summary.csv"),
+                 iterations = table(out, "iterations.csv");
+  ASSERT_EQ(solutions.rows.size(), 4u * 2u);
+  const auto error = [&](const std::string& method, const std::string& solution) {
+    const auto row = solutions.select({{"method", method}, {"solution", solution}}).at(0);
+    EXPECT_EQ(row.at("status"), "ok");
+    return std::stod(row.at("h1_error"));
+  };
+  for (const std::string method : {"initial", "getme", "one", "both"})
+    EXPECT_EQ(solutions.select({{"method", method}, {"solution", "left"}}).at(0).at("h1_error"),
+              summary.select({{"method", method}}).at(0).at("h1_error"));
+  for (const std::string solution : {"left", "low"})
+    EXPECT_LT(error("both", solution), error("getme", solution)) << solution;
+  EXPECT_LT(error("one", "left"), error("both", "left"));
+  EXPECT_LT(error("both", "low"), error("one", "low"));
+  // A mesh takes one solve for each of the two.
+  for (const auto& row : iterations.select({{"method", "both"}}))
+    EXPECT_EQ(std::stoi(row.at("n_solves")) % 2, 0);
+  const auto provenance = nlohmann::json::parse(content_of(out / "provenance.json"));
+  EXPECT_EQ(provenance.at("methods").at(2).at("smooth_for"),
+            (std::vector<std::string>{"left", "low"}));
+  const std::vector<std::string> timed_columns{"smoothing_seconds",    "preparation_seconds",
+                                               "method_solve_seconds", "assembly_seconds",
+                                               "cg_seconds",           "jacobi_cg_seconds"};
+  EXPECT_EQ(
+      without(iterations.select({{"method", "both"}}).back(), timed_columns),
+      without(
+          table(run(study(two), "one", 1), "iterations.csv").select({{"method", "both"}}).back(),
+          timed_columns));
+}
+
 TEST_F(RunStudy, MetricsNeedNoSolution) {
   const fs::path out = run(study("set degrees =\nset metrics = max_angle\n"));
   const auto rows = table(out, "metrics.csv").rows;

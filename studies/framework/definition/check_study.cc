@@ -15,9 +15,10 @@ void check_names(const Study& study) {
   if (!study.degrees.empty() && study.dimensions.space > study.dimensions.cells)
     throw InputError(
         "finite elements are not solved on surface meshes; write 'set degrees =' without any");
-  if (!study.degrees.empty() && study.solution.name != "expression")
-    with_dimension(study.dimensions.cells,
-                   [&]<int dim>() { (void)manufactured_solution<dim>(study.solution.name); });
+  for (const StudySolution* solution : solutions_of(study))
+    if (!study.degrees.empty() && solution->name != "expression")
+      with_dimension(study.dimensions.cells,
+                     [&]<int dim>() { (void)manufactured_solution<dim>(solution->name); });
   for (const auto& mesh : study.meshes)
     if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
 }
@@ -63,6 +64,29 @@ void check_problem(const Study& study) {
                        "solves none; write 'set degrees = 1', or leave the method out");
 }
 
+/// Solutions that meshes are smoothed for are those of the study.
+void check_smooth_for(const Study& study) {
+  std::vector<std::string> labels;
+  for (const StudySolution* solution : solutions_of(study)) labels.push_back(solution->label);
+  for (const auto& method : study.methods) {
+    if (method.smooth_for.empty()) continue;
+    const std::string what = "method " + method.name + " has 'smooth for'";
+    if (study.solution.label.empty())
+      throw InputError(what +
+                       ", which is for studies with a list 'solutions' that are no collections; "
+                       "take it out, or name the solutions in 'solutions'");
+    if (!method.needs_problem(study.dimensions))
+      throw InputError(what + ", but does not move nodes by a solution; take it out");
+    for (const auto& label : method.smooth_for) {
+      if (std::find(labels.begin(), labels.end(), label) == labels.end())
+        throw InputError(what + " = " + label + ", which is not in the list 'solutions'; " +
+                         choose_one_of(labels, label));
+      if (std::count(method.smooth_for.begin(), method.smooth_for.end(), label) > 1)
+        throw InputError(what + " with '" + label + "' twice; name it once");
+    }
+  }
+}
+
 void check_refined(const Study& study) {
   for (const int degree : study.refined_degrees)
     if (std::find(study.degrees.begin(), study.degrees.end(), degree) == study.degrees.end())
@@ -95,9 +119,10 @@ void check_labels(std::vector<std::string> labels, const std::string& what,
 
 void check_study(const Study& study) {
   check_names(study);
-  check_solution(study.solution);
+  for (const StudySolution* solution : solutions_of(study)) check_solution(*solution);
   check_stages(study);
   check_problem(study);
+  check_smooth_for(study);
   check_refined(study);
   check_thresholds(study);
 }

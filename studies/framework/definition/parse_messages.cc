@@ -42,9 +42,10 @@ std::string no_such(const std::string& what, const std::string& wanted,
          "'smoothfem list --study-keys' shows the keys there are";
 }
 
-/// Subsections of meshes and methods are there for those that the study names.
+/// Subsections of meshes, methods and solutions are there for those that the study names.
 std::string no_such_subsection(const std::string& wanted, const std::vector<std::string>& names) {
-  for (const auto& [kind, list] : {std::pair{"mesh ", "meshes"}, {"method ", "methods"}}) {
+  for (const auto& [kind, list] :
+       {std::pair{"mesh ", "meshes"}, {"method ", "methods"}, {"solution ", "solutions"}}) {
     if (!wanted.starts_with(kind)) continue;
     const std::string nearest = nearest_name(wanted, names);
     return "'set " + std::string(list) + "' does not name '" +

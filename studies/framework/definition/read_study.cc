@@ -90,6 +90,7 @@ StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
                      .type = type,
                      .title = p.get("title"),
                      .threads = static_cast<int>(p.get_integer("threads")),
+                     .smooth_for = split_list(p.get("smooth for")),
                      .settings = {},
                      .folder = folder};
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
@@ -111,6 +112,22 @@ std::vector<int> read_degrees(const std::string& list, const std::string& file) 
     degrees.push_back(item == "1" ? 1 : 2);
   }
   return degrees;
+}
+
+/// The solutions of the list, the first one for the records.
+void read_solutions(ParameterHandler& p, const std::vector<std::string>& labels, Study& study) {
+  {
+    const Subsection subsection(p, "solution");
+    for (const std::string key : {"name", "u", "diffusivity", "value", "gradient", "load"})
+      if (!p.get(key).empty())
+        throw InputError(
+            "the study has both a list 'solutions' and, in the subsection 'solution', "
+            "'" +
+            key + "'; take one of them out");
+  }
+  for (const auto& label : labels) study.further_solutions.push_back(read_solution(p, label));
+  study.solution = study.further_solutions.front();
+  study.further_solutions.erase(study.further_solutions.begin());
 }
 
 /// A study that names no solution has its own, or else the gear's.
@@ -153,8 +170,9 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.write_series = p.get_bool("write series");
   {
     const Subsection subsection(p, "solution");
-    study.solution = {p.get("name"), p.get("value"), p.get("gradient"),
-                      p.get("load"), p.get("u"),     p.get("diffusivity")};
+    if (study.solution.label.empty())
+      study.solution = {p.get("name"), p.get("value"), p.get("gradient"),
+                        p.get("load"), p.get("u"),     p.get("diffusivity")};
     study.finite_elements.natural_groups = read_groups(p.get("natural"));
   }
   {
@@ -191,7 +209,7 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
 }
 
 /// Which reader a file is for goes without saying; so results from before there were kinds,
-/// surfaces, derived solutions, diffusivities and natural conditions go on.
+/// surfaces, derived solutions, diffusivities, natural conditions and several solutions go on.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
   std::erase_if(parameters, [](const auto& entry) {
@@ -199,7 +217,8 @@ StudyParameters said_parameters(ParameterHandler& p) {
            entry == std::pair<std::string, std::string>{"surface", "false"} ||
            (entry.second.empty() &&
             (entry.first == "solution/u" || entry.first == "solution/diffusivity" ||
-             entry.first == "solution/natural"));
+             entry.first == "solution/natural" || entry.first == "solutions" ||
+             entry.first.ends_with("/smooth for")));
   });
   return parameters;
 }
@@ -246,6 +265,12 @@ bool StudyMethod::needs_problem(MeshDimensions dimensions) const {
   });
 }
 
+std::vector<const StudySolution*> solutions_of(const Study& study) {
+  std::vector<const StudySolution*> all{&study.solution};
+  for (const auto& solution : study.further_solutions) all.push_back(&solution);
+  return all;
+}
+
 Study read_study(const std::filesystem::path& file, const std::string& scale) {
   return study_of_text(read_study_text(file), file, scale);
 }
@@ -264,10 +289,12 @@ Study study_of_text(const std::string& text, const std::filesystem::path& file,
       load_plugin(plugin.is_relative() ? file.parent_path() / plugin : plugin);
   });
   const auto methods = method_labels(lists.get("methods"), dimensions);
+  const auto solutions = split_list(lists.get("solutions"));
   const auto scales = split_list(lists.get("scales"));
   require_scale(scale, scales, file.string());
   check_labels(meshes, "mesh", file.string());
   check_labels(methods, "method", file.string());
+  if (!solutions.empty()) check_labels(solutions, "solution", file.string());
 
   ParameterHandler types;
   for (const auto& method : methods) declare_method(types, dimensions, method, "");
@@ -278,6 +305,7 @@ Study study_of_text(const std::string& text, const std::filesystem::path& file,
   declare_lists(p);
   declare_problem(p);
   for (const auto& name : scales) declare_scale(p, name);
+  for (const auto& name : solutions) declare_solution(p, name, formula_of_solutions);
   for (const auto& mesh : meshes) declare_mesh(p, dimensions.cells, mesh);
   for (const auto& method : methods) {
     std::string type;
@@ -292,9 +320,11 @@ Study study_of_text(const std::string& text, const std::filesystem::path& file,
     type_of[method] = type;
   }
   parse_study(p, text, file, false);
-  name_solution(p);
-
   Study study;
+  if (solutions.empty())
+    name_solution(p);
+  else
+    in_file(file, [&] { read_solutions(p, solutions, study); });
   study.header = read_header(p, file, scale);
   study.folder = std::filesystem::absolute(file).parent_path();
   study.dimensions = dimensions;

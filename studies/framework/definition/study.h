@@ -52,6 +52,8 @@ struct StudyMethod {
   std::string type;   ///< registered method, or one in a file, as the study names it
   std::string title;  ///< in tables and figures
   int threads = 0;    ///< 0: as StudyOptions says
+  /// Labels of the solutions that its mesh is smoothed for, all of them alike; empty: the first.
+  std::vector<std::string> smooth_for{};
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
   std::filesystem::path folder{};   ///< of the study file, which a method's file is relative to
   std::vector<MethodFile> files{};  ///< programs, scripts, plugins: filled when the study runs
@@ -71,6 +73,7 @@ struct StudySolution {
   std::string value, gradient, load;
   std::string u;            ///< in place of the three
   std::string diffusivity;  ///< empty: the identity
+  std::string label{};      ///< in results; empty: the study has one solution
 };
 
 /// When error thresholds count as reached (thesis, Table 6.4).
@@ -94,7 +97,9 @@ struct Study {
   std::vector<StudyMethod> methods;
   std::vector<int> degrees;          ///< of the finite elements; empty: smoothing only
   std::vector<int> refined_degrees;  ///< of these: initial and resulting meshes once more, refined
-  StudySolution solution;
+  StudySolution solution;            ///< of the records
+  /// Solved on initial and resulting meshes besides, and for methods to smooth for.
+  std::vector<StudySolution> further_solutions{};
   PoissonOptions finite_elements;  ///< its degree is not used
   StudyThresholds thresholds;
   bool only_results_of_seeds = false;  ///< of StudyMesh::repeats: initial, resulting, last meshes
@@ -107,6 +112,9 @@ struct Study {
   bool write_series = false;           ///< a VTU series for each mesh and method
   bool write_meshes = true;            ///< the resulting meshes with their fields
 };
+
+/// All solutions of a study, that of the records first.
+std::vector<const StudySolution*> solutions_of(const Study& study);
 
 /// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: with the changes
 /// of its subsection `scale NAME`; empty: none. Throws InputError with file and line for unknown

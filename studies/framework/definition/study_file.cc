@@ -24,8 +24,36 @@ std::string read_study_text(const std::filesystem::path& file) {
   return text.str() + "\n";
 }
 
+namespace {
+
+/// deal.II enters what is a key as if it were a subsection, and then misses the keys in it.
+void refuse_keys_as_subsections(ParameterHandler& p, const std::string& text,
+                                const std::filesystem::path& file) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : all_parameters(p)) keys.push_back(key);
+  std::istringstream lines(text);
+  int depth = 0, number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string first, name;
+    words >> first >> name;
+    for (std::string word; words >> word;) name += " " + word;
+    if (first == "end") --depth;
+    if (first != "subsection") continue;
+    if (depth++ == 0 && std::find(keys.begin(), keys.end(), name) != keys.end())
+      throw parse_error(file,
+                        "Line <" + std::to_string(number) + "> of file <" + study_file_in_messages +
+                            ">: There is no such subsection to be entered: " + name,
+                        keys);
+  }
+}
+
+}  // namespace
+
 void parse_study(ParameterHandler& p, const std::string& text, const std::filesystem::path& file,
                  bool skip_undefined) {
+  if (!skip_undefined) refuse_keys_as_subsections(p, text, file);
   std::istringstream stream(text);
   try {
     p.parse_input(stream, study_file_in_messages, "", skip_undefined);

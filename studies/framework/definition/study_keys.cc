@@ -78,6 +78,12 @@ void declare_lists(ParameterHandler& p) {
       "methods", "all", Patterns::Anything(),
       "Methods, separated by commas, or 'all'. A label with a subsection 'method LABEL' "
       "may be any registered method with other parameters.");
+  p.declare_entry("solutions", "", Patterns::Anything(),
+                  "Labels of several solutions, separated by commas; each is one of the program's "
+                  "(see 'list') or has a subsection 'solution LABEL' with 'name', or 'u' and, if "
+                  "need be, 'diffusivity'. Records are those of the "
+                  "first, solutions.csv has errors of all. Empty: the one of the subsection "
+                  "'solution'.");
 }
 
 void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
@@ -117,6 +123,10 @@ void declare_method_header(ParameterHandler& p, const std::string& title) {
   p.declare_entry("threads", "0", Patterns::Integer(0, 1024),
                   "Of smoothing; 0: as --smoothing-threads says. The other keys are the "
                   "parameters of the method (see 'list').");
+  p.declare_entry("smooth for", "", Patterns::Anything(),
+                  "Of methods that move nodes by a solution: labels from 'solutions' of those that "
+                  "the mesh is made for; each counts by its relative error, and one mesh takes as "
+                  "many solves. Empty: the first.");
 }
 
 /// The parameters of a method are those it registers, with the defaults of a preset, if given, or
@@ -221,6 +231,34 @@ void declare_problem(ParameterHandler& p) {
   p.declare_entry("reference", "", Patterns::Anything(),
                   "Method whose least errors set the thresholds; empty: none.");
   p.declare_entry("margin", "0.05", Patterns::Double(0.0), "Fraction added to the least errors.");
+}
+
+void declare_solution(ParameterHandler& p, const std::string& name,
+                      const std::string& formula_help) {
+  const Subsection subsection(p, "solution " + name);
+  p.declare_entry("name", "", Patterns::Anything(),
+                  "One of the program's solutions (see 'list'); empty: the formula below, or the "
+                  "solution of this subsection's name.");
+  p.declare_entry("u", "", Patterns::Anything(), formula_help);
+  p.declare_entry("diffusivity", "", Patterns::Anything(),
+                  "A of -div(A grad u) = f, as in the subsection 'solution'.");
+}
+
+StudySolution read_solution(ParameterHandler& p, const std::string& name) {
+  const Subsection subsection(p, "solution " + name);
+  const std::string formula = p.get("u"), named = p.get("name");
+  if (!formula.empty() && !named.empty())
+    throw InputError("the solution '" + name +
+                     "' has both a name and a formula 'u'; take one of them out");
+  return {.name = !formula.empty() ? "expression"
+                  : named.empty()  ? name
+                                   : named,
+          .value = {},
+          .gradient = {},
+          .load = {},
+          .u = formula,
+          .diffusivity = p.get("diffusivity"),
+          .label = name};
 }
 
 void declare_scale(ParameterHandler& p, const std::string& name) {

@@ -109,6 +109,7 @@ Json describe_methods(const RunFacts& facts) {
       describe_type(entry, methods.back());
       for (const auto& file : entry.files)
         methods.back()["files"].push_back({{"name", file.name}, {"sha256", file.sha256}});
+      if (!entry.smooth_for.empty()) methods.back()["smooth_for"] = entry.smooth_for;
       if (!entry.version.empty()) methods.back()["version"] = entry.version;
     }
   });

@@ -169,6 +169,16 @@ std::string refined_csv(const std::string& study, const std::vector<RefinedRow>&
   return csv.text();
 }
 
+std::string solutions_csv(const std::string& study, const std::vector<SolutionRow>& rows) {
+  CsvText csv(std::string("study,mesh,method,solution,") + solution_columns);
+  for (const auto& row : rows) {
+    csv.field(study).field(row.mesh).field(row.method).field(row.solution);
+    add_solution(csv, row.degree, row.solved, row.status);
+    csv.end_line();
+  }
+  return csv.text();
+}
+
 std::string metrics_csv(const std::string& study, const std::vector<MetricRow>& rows) {
   CsvText csv(
       "study,mesh,method,stage,iteration,metric,better,n_cells,min,p05,median,mean,p95,max");

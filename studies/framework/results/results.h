@@ -32,6 +32,15 @@ struct RefinedRow {
   std::string status;                    ///< as in the other rows
 };
 
+/// A row of solutions.csv: the initial mesh or a method's result with one of the study's solutions,
+/// at one degree.
+struct SolutionRow {
+  std::string mesh, method, solution;
+  int degree = 0;
+  std::optional<SolutionRecord> solved;  ///< empty where there is no solution
+  std::string status;                    ///< as in the other rows
+};
+
 /// A row of metrics.csv: a metric of the mesh after one iteration of one method.
 struct MetricRow {
   std::string mesh, method, stage;
@@ -77,6 +86,7 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 /// The tables as text; columns, units and order are a contract (results/README.md).
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows);
 std::string refined_csv(const std::string& study, const std::vector<RefinedRow>& rows);
+std::string solutions_csv(const std::string& study, const std::vector<SolutionRow>& rows);
 std::string metrics_csv(const std::string& study, const std::vector<MetricRow>& rows);
 std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows);
 std::string thresholds_csv(const std::string& study, const std::vector<ThresholdRow>& rows);

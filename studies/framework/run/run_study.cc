@@ -51,12 +51,8 @@ class StudyRun {
     times_.measure("meshes", [&] {
       prepare_meshes();
       require_same_settings(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
-      if (!study_.degrees.empty()) data_.solution = make_solution();
+      if (!study_.degrees.empty()) make_solutions();
     });
-    if constexpr (dim == spacedim)
-      if (data_.solution)
-        problem_ =
-            make_poisson_problem<dim>(*data_.solution, study_.finite_elements.natural_groups);
     if (earlier_.status == "complete") {
       data_.checkpoint.remove();  // of a run that was killed after its last word
       return report_complete();
@@ -96,15 +92,32 @@ class StudyRun {
   }
 
   /// Expressions are checked at nodes of the first mesh.
-  ManufacturedSolution<spacedim> make_solution() const {
+  void make_solutions() {
     const auto& points = data_.meshes.front().mesh.coordinates();
     std::vector<Point<spacedim>> sample;
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
       sample.push_back(points[i]);
-    auto solution = study_solution<spacedim>(study_.solution, sample);
-    if constexpr (dim == spacedim)
-      for (const auto& prepared : data_.meshes) check_pieces(solution, prepared.mesh);
-    return solution;
+    for (const StudySolution* solution : solutions_of(study_)) {
+      data_.solutions.push_back(study_solution<spacedim>(*solution, sample));
+      if constexpr (dim == spacedim)
+        for (const auto& prepared : data_.meshes)
+          check_pieces(data_.solutions.back(), prepared.mesh);
+    }
+  }
+
+  /// What a method moves nodes by; null: the study solves nothing.
+  std::shared_ptr<const Problem<spacedim>> problem_of(const StudyMethod& method) const {
+    if constexpr (dim == spacedim) {
+      if (data_.solutions.empty()) return nullptr;
+      std::vector<ManufacturedSolution<dim>> chosen;
+      const auto all = solutions_of(study_);
+      for (const auto& label : method.smooth_for)
+        for (std::size_t s = 0; s < all.size(); ++s)
+          if (all[s]->label == label) chosen.push_back(data_.solutions[s]);
+      if (chosen.empty()) chosen.push_back(data_.solutions.front());
+      return make_poisson_problem(std::move(chosen), study_.finite_elements.natural_groups);
+    }
+    return nullptr;
   }
 
   /// The provenance first: results of an earlier run are then not taken for those of this one.
@@ -169,7 +182,8 @@ class StudyRun {
     set_n_threads(method.threads > 0 ? method.threads
                                      : static_cast<int>(options_.smoothing_threads));
     const Trajectory trajectory = record_trajectory(
-        prepared.mesh, method, study_, is_of_results_only(prepared), problem_, folders_of(name),
+        prepared.mesh, method, study_, is_of_results_only(prepared), problem_of(method),
+        folders_of(name),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
         },
@@ -332,6 +346,9 @@ class StudyRun {
     if (!study_.refined_degrees.empty())
       write_atomically(options_.out / "refined.csv",
                        refined_csv(study_.header.name, refined_rows(data_)));
+    if (!study_.further_solutions.empty())
+      write_atomically(options_.out / "solutions.csv",
+                       solutions_csv(study_.header.name, solution_rows(data_)));
     if (!study_.metrics.empty())
       write_atomically(
           options_.out / "metrics.csv",
@@ -367,7 +384,6 @@ class StudyRun {
   unsigned int n_workers_;
   mutable Progress progress_;
   StudyData<dim, spacedim> data_;
-  std::shared_ptr<const Problem<spacedim>> problem_;  ///< null: the study solves none
   SolveCosts costs_;
   EarlierRun earlier_;
   std::optional<FolderLock> lock_;

@@ -18,9 +18,9 @@ PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
   return options;
 }
 
-/// Results and series show nodal errors; refined meshes are not shown.
+/// Results and series show nodal errors of the records; refined meshes are not shown.
 bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
-  return !task.job.is_refined && (task.is_result || study.write_series);
+  return !task.job.is_refined && task.job.solution == 0 && (task.is_result || study.write_series);
 }
 
 /// Solves a task's mesh after its cells are split: `solve` gets that mesh. Where splitting makes
@@ -73,7 +73,7 @@ class PlanarWorker {
                      ? solve_refined(data_, task,
                                      [&](const Mesh<2>& mesh) {
                                        return PoissonSolver<2>(&mesh, options_of(data_, job))
-                                           .solve(mesh.coordinates(), *data_.solution);
+                                           .solve(mesh.coordinates(), data_.solutions.front());
                                      })
                      : solve(task);
       if (keeps_nodal_errors(data_.study, task))
@@ -90,7 +90,8 @@ class PlanarWorker {
       mesh_ = job.mesh;
       degree_ = job.degree;
     }
-    return solver_->solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+    return solver_->solve(data_.coordinates_of(task), data_.solutions[job.solution],
+                          task.is_result);
   }
 
   StudyData<2>& data_;
@@ -117,7 +118,7 @@ class TeamWorker {
                               [&](const Mesh<3>& mesh) {
                                 job_ = nullptr;  // the team has another solver now
                                 team_.make_solver(mesh, options_of(data_, job));
-                                return team_.solve(mesh.coordinates(), *data_.solution, true);
+                                return team_.solve(mesh.coordinates(), data_.solutions, 0, true);
                               })
               : solve(task);
       if (keeps_nodal_errors(data_.study, task))
@@ -135,7 +136,7 @@ class TeamWorker {
     if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
     if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
     job_ = &job;
-    return team_.solve(data_.coordinates_of(task), *data_.solution, task.is_result);
+    return team_.solve(data_.coordinates_of(task), data_.solutions, job.solution, task.is_result);
   }
 
   StudyData<3>& data_;
@@ -185,7 +186,10 @@ std::vector<SolveQueue::Worker> solve_workers(StudyData<3>& data,
 }
 
 void serve_solves(const Study& study, const Ranks& ranks) {
-  SolverTeam::serve(ranks, study.finite_elements, study_solution<3>(study.solution, {}));
+  std::vector<ManufacturedSolution<3>> solutions;
+  for (const StudySolution* solution : solutions_of(study))
+    solutions.push_back(study_solution<3>(*solution, {}));
+  SolverTeam::serve(ranks, study.finite_elements, solutions);
 }
 
 }  // namespace smoothfem

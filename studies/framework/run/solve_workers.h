@@ -8,7 +8,7 @@
 
 namespace smoothfem {
 
-/// The study's solution; expressions are checked at the points of `sample`.
+/// One of the study's solutions; expressions are checked at the points of `sample`.
 template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
                                          std::span<const Point<dim>> sample);

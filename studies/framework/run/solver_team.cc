@@ -15,6 +15,7 @@ struct Command {
   Task task = Task::stop;
   int degree = 0;
   int is_result = 0;
+  std::size_t solution = 0;
 };
 
 /// Waiting in MPI would keep a core busy that smoothing may need.
@@ -67,10 +68,12 @@ void SolverTeam::make_solver(const Mesh<3>& mesh, const PoissonOptions& options)
 }
 
 SolutionRecord SolverTeam::solve(std::span<const Point<3>> coordinates,
-                                 const ManufacturedSolution<3>& solution, bool is_result) {
-  Command command{.task = Task::solve, .is_result = is_result};
+                                 const std::vector<ManufacturedSolution<3>>& solutions,
+                                 std::size_t number, bool is_result) {
+  Command command{.task = Task::solve, .is_result = is_result, .solution = number};
   exchange(ranks_, command);
-  return all_or_nothing(ranks_, [&] { return solver_->solve(coordinates, solution, is_result); });
+  return all_or_nothing(ranks_,
+                        [&] { return solver_->solve(coordinates, solutions[number], is_result); });
 }
 
 std::vector<double> SolverTeam::nodal_errors() {
@@ -92,7 +95,7 @@ void SolverTeam::set_eigenvectors(const std::vector<double>& eigenvectors) {
 }
 
 void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
-                       const ManufacturedSolution<3>& solution) {
+                       const std::vector<ManufacturedSolution<3>>& solutions) {
   std::unique_ptr<PoissonSolver<3>> solver;
   const auto follow = [&](const Command& command) {
     switch (command.task) {
@@ -104,7 +107,7 @@ void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
         break;
       }
       case Task::solve:
-        (void)solver->solve({}, solution, command.is_result != 0);
+        (void)solver->solve({}, solutions[command.solution], command.is_result != 0);
         break;
       case Task::nodal_errors:
         (void)solver->nodal_errors();

@@ -22,13 +22,14 @@ class SolverTeam {
   /// On all ranks but the root: takes part until the root's team ends. options: the degree is the
   /// root's.
   static void serve(const Ranks& ranks, const PoissonOptions& options,
-                    const ManufacturedSolution<3>& solution);
+                    const std::vector<ManufacturedSolution<3>>& solutions);
 
-  /// The functions of PoissonSolver, on the root. The solver before is given up first. solution:
-  /// the one that the others have.
+  /// The functions of PoissonSolver, on the root. The solver before is given up first. solutions:
+  /// those that the others have; number: of the one to solve.
   void make_solver(const Mesh<3>& mesh, const PoissonOptions& options);
   SolutionRecord solve(std::span<const Point<3>> coordinates,
-                       const ManufacturedSolution<3>& solution, bool is_result);
+                       const std::vector<ManufacturedSolution<3>>& solutions, std::size_t number,
+                       bool is_result);
   std::vector<double> nodal_errors();
   std::vector<double> eigenvectors();
   void set_eigenvectors(const std::vector<double>& eigenvectors);

@@ -86,9 +86,9 @@ MeshFields fields_of(const StudyData<dim, spacedim>& data, const Mesh<dim, space
                      const Tasks& tasks) {
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
-  if (!data.solution) return fields;
+  if (data.solutions.empty()) return fields;
   auto& exact = fields.point["exact_solution"];
-  for (const auto& p : mesh.coordinates()) exact.push_back(data.solution->value(p));
+  for (const auto& p : mesh.coordinates()) exact.push_back(data.solutions.front().value(p));
   for (std::size_t d = 0; d < tasks.size(); ++d)
     fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
         data.checkpoint.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
@@ -122,6 +122,7 @@ class TaskMaker {
         of_mesh.methods.emplace_back(trajectory.snapshots.size());
       for (std::size_t d = 0; d < data_.study.degrees.size(); ++d) make_degree(m, d, of_mesh);
       make_refined(m, of_mesh);
+      make_further(m, of_mesh);
     }
   }
 
@@ -130,11 +131,11 @@ class TaskMaker {
     const std::string& mesh = data_.meshes[m].description.name;
     const int degree = data_.study.degrees[d];
     of_mesh.initial.push_back(
-        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d, 0, false), 0, true));
+        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d, 0), 0, true));
     for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
       const std::string& method = data_.study.methods[k].name;
       SolveJob& job = add_job(Checkpoint::name(mesh, method, degree),
-                              Checkpoint::name(mesh, method), m, d, k + 1, false);
+                              Checkpoint::name(mesh, method), m, d, k + 1);
       const Trajectory& trajectory = data_.trajectories[m][k];
       for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s) {
         const std::size_t record = trajectory.snapshots[s];
@@ -149,26 +150,52 @@ class TaskMaker {
     const auto& degrees = data_.study.degrees;
     const std::string& mesh = data_.meshes[m].description.name;
     of_mesh.refined.resize(data_.study.methods.size() + 1);
-    for (const int degree : data_.study.refined_degrees)
-      for (std::size_t k = 0; k <= data_.study.methods.size(); ++k) {
-        const bool is_initial = k == 0;
-        const std::string method = is_initial ? "initial" : data_.study.methods[k - 1].name;
-        const std::size_t record = is_initial ? 0 : data_.trajectories[m][k - 1].result_record;
-        const auto& quality =
-            is_initial ? data_.meshes[m].quality : data_.trajectories[m][k - 1].quality;
-        if ((record == 0 && !is_initial) || quality.n_invalid > 0) continue;
-        const auto d = static_cast<std::size_t>(std::find(degrees.begin(), degrees.end(), degree) -
-                                                degrees.begin());
-        SolveJob& job = add_job(Checkpoint::name(mesh, method + "~refined", degree),
-                                is_initial ? "" : Checkpoint::name(mesh, method), m, d, k, true);
+    for (const int degree : data_.study.refined_degrees) {
+      const auto d = static_cast<std::size_t>(std::find(degrees.begin(), degrees.end(), degree) -
+                                              degrees.begin());
+      for_each_result(m, [&](std::size_t k, const std::string& method,
+                             const std::string& trajectory, std::size_t record) {
+        SolveJob& job =
+            add_job(Checkpoint::name(mesh, method + "~refined", degree), trajectory, m, d, k, true);
         of_mesh.refined[k].push_back(add_task(job, record, true));
-      }
+      });
+    }
+  }
+
+  void make_further(std::size_t m, MeshTasks& of_mesh) {
+    const Study& study = data_.study;
+    const std::string& mesh = data_.meshes[m].description.name;
+    of_mesh.further.assign(study.methods.size() + 1,
+                           std::vector<Tasks>(study.further_solutions.size()));
+    for (std::size_t s = 0; s < study.further_solutions.size(); ++s)
+      for (std::size_t d = 0; d < study.degrees.size(); ++d)
+        for_each_result(m, [&](std::size_t k, const std::string& method,
+                               const std::string& trajectory, std::size_t record) {
+          const std::string name = method + "~solution~" + study.further_solutions[s].label;
+          SolveJob& job = add_job(Checkpoint::name(mesh, name, study.degrees[d]), trajectory, m, d,
+                                  k, false, s + 1);
+          of_mesh.further[k][s].push_back(add_task(job, record, true));
+        });
+  }
+
+  /// Calls visit(method plus one, its name, that of its trajectory, record) for the initial mesh
+  /// (0, no trajectory) and each method's result, unless it is the initial mesh or not valid.
+  template <class Visit>
+  void for_each_result(std::size_t m, const Visit& visit) {
+    const std::string& mesh = data_.meshes[m].description.name;
+    if (data_.meshes[m].quality.n_invalid == 0) visit(0, "initial", "", 0);
+    for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
+      const std::string& method = data_.study.methods[k].name;
+      const Trajectory& trajectory = data_.trajectories[m][k];
+      if (trajectory.result_record > 0 && trajectory.quality.n_invalid == 0)
+        visit(k + 1, method, Checkpoint::name(mesh, method), trajectory.result_record);
+    }
   }
 
   SolveJob& add_job(std::string name, std::string trajectory, std::size_t mesh, std::size_t degree,
-                    std::size_t method, bool is_refined) {
+                    std::size_t method, bool is_refined = false, std::size_t solution = 0) {
     SolveJob& job = data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree,
-                                            method, is_refined);
+                                            method, is_refined, solution);
     if (auto solved = data_.checkpoint.load_solved(job.name)) job.solved = std::move(*solved);
     return job;
   }
@@ -282,6 +309,34 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
 }
 
 template <int dim, int spacedim>
+std::vector<SolutionRow> solution_rows(const StudyData<dim, spacedim>& data) {
+  std::vector<SolutionRow> rows;
+  const auto solutions = solutions_of(data.study);
+  for (std::size_t m = 0; m < data.meshes.size(); ++m) {
+    const auto append = [&](const std::string& method, std::size_t s, const Tasks& tasks,
+                            bool invalid, const std::string& failure) {
+      for (auto& outcome : outcomes(data.study.degrees, tasks, invalid)) {
+        if (!failure.empty()) outcome = {.degree = outcome.degree, .status = "failed: " + failure};
+        rows.push_back({data.meshes[m].description.name, method, solutions[s]->label,
+                        outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
+      }
+    };
+    const auto& tasks = data.mesh_tasks[m];
+    const bool invalid = data.meshes[m].quality.n_invalid > 0;
+    for (std::size_t s = 0; s < solutions.size(); ++s)
+      append("initial", s, s == 0 ? tasks.initial : tasks.further[0][s - 1], invalid, "");
+    for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
+      const Trajectory& trajectory = data.trajectories[m][k];
+      const auto& further = tasks.further[trajectory.result_record == 0 ? 0 : k + 1];
+      for (std::size_t s = 0; s < solutions.size(); ++s)
+        append(data.study.methods[k].name, s, s == 0 ? result_tasks(data, m, k) : further[s - 1],
+               trajectory.quality.n_invalid > 0, trajectory.failure);
+    }
+  }
+  return rows;
+}
+
+template <int dim, int spacedim>
 std::vector<RefinedRow> refined_rows(const StudyData<dim, spacedim>& data) {
   std::vector<RefinedRow> rows;
   if (data.study.refined_degrees.empty()) return rows;
@@ -361,6 +416,7 @@ void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::p
   template void make_tasks(StudyData<__VA_ARGS__>&);                               \
   template std::vector<IterationRow> finished_rows(const StudyData<__VA_ARGS__>&); \
   template std::vector<RefinedRow> refined_rows(const StudyData<__VA_ARGS__>&);    \
+  template std::vector<SolutionRow> solution_rows(const StudyData<__VA_ARGS__>&);  \
   template std::vector<SummaryRow> summary_rows(const StudyData<__VA_ARGS__>&);    \
   template std::vector<MetricRow> metric_rows(const StudyData<__VA_ARGS__>&,       \
                                               const std::function<void()>&);       \

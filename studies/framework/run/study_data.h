@@ -24,19 +24,21 @@ inline constexpr const char* invalid_mesh = "invalid mesh";
 /// checkpointed together.
 struct SolveJob {
   SolveJob(std::string name_, std::string trajectory_, std::size_t mesh_, std::size_t degree_,
-           std::size_t method_, bool is_refined_)
+           std::size_t method_, bool is_refined_, std::size_t solution_)
       : name(std::move(name_)),
         trajectory(std::move(trajectory_)),
         mesh(mesh_),
         degree(degree_),
         method(method_),
-        is_refined(is_refined_) {}
+        is_refined(is_refined_),
+        solution(solution_) {}
 
   std::string name;          ///< in the checkpoint
   std::string trajectory;    ///< name of the trajectory; empty: the initial mesh
   std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
   std::size_t method;        ///< index into the study's methods plus one; 0: the initial mesh
   bool is_refined;           ///< of the mesh with split cells
+  std::size_t solution;      ///< index into the study's; 0: that of the records
   std::size_t n_tasks = 0;
   SolvedRecords solved{};
   std::chrono::steady_clock::time_point saved{};
@@ -63,6 +65,8 @@ struct MeshTasks {
   std::vector<std::vector<std::vector<SolveTask*>>> methods;  ///< [method][snapshot][degree]
   /// [method plus one; 0: initial][refined degree]; nothing of methods that improved nothing.
   std::vector<std::vector<SolveTask*>> refined{};
+  /// [method plus one; 0: initial][further solution][degree]; likewise.
+  std::vector<std::vector<std::vector<SolveTask*>>> further{};
 };
 
 /// What a study has computed so far.
@@ -71,10 +75,10 @@ struct StudyData {
   const Study& study;
   Checkpoint checkpoint;
   std::vector<PreparedMesh<dim, spacedim>> meshes{};
-  std::optional<ManufacturedSolution<spacedim>> solution{};
-  std::vector<std::vector<Trajectory>> trajectories{};  ///< [mesh][method]
-  std::list<SolveJob> jobs{};                           ///< both stay where they are
-  std::list<SolveTask> tasks{};                         ///< by mesh, degree, job, record
+  std::vector<ManufacturedSolution<spacedim>> solutions{};  ///< empty: the study solves none
+  std::vector<std::vector<Trajectory>> trajectories{};      ///< [mesh][method]
+  std::list<SolveJob> jobs{};                               ///< both stay where they are
+  std::list<SolveTask> tasks{};                             ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
 
   /// Of the mesh before its cells are split, if they are.
@@ -103,6 +107,10 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data);
 /// Rows for refined.csv; all tasks must be done.
 template <int dim, int spacedim>
 std::vector<RefinedRow> refined_rows(const StudyData<dim, spacedim>& data);
+
+/// Rows for solutions.csv; all tasks must be done.
+template <int dim, int spacedim>
+std::vector<SolutionRow> solution_rows(const StudyData<dim, spacedim>& data);
 
 /// Rows for metrics.csv of all recorded meshes, in the order of meshes, methods, records and
 /// metrics; those that none of its cells has are left out. Calls `watch` between two meshes.

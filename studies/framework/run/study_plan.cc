@@ -134,6 +134,10 @@ class Plan {
                      (only_results ? 2.0 : static_cast<double>(records_per_method()));
     totals_.n_solves += 1.0 + n;
     totals_.solve_seconds += seconds(0, true) + n * seconds(1, false);
+    const double n_further = static_cast<double>(study_.further_solutions.size()) *
+                             static_cast<double>(study_.methods.size() + 1);
+    totals_.n_solves += n_further;
+    totals_.solve_seconds += n_further * seconds(1, true);
     const auto& refined = study_.refined_degrees;
     if (std::find(refined.begin(), refined.end(), degree) == refined.end()) return;
     const auto n_refined = static_cast<double>(study_.methods.size() + 1);

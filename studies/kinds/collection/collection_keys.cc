@@ -5,6 +5,8 @@
 #include <regex>
 #include <sstream>
 
+#include "studies/framework/definition/study_keys.h"
+
 namespace smoothfem {
 
 namespace {
@@ -95,15 +97,9 @@ void declare_collection_scale(ParameterHandler& p, const std::string& scale) {
 }
 
 void declare_collection_solution(ParameterHandler& p, const std::string& name) {
-  const Subsection subsection(p, "solution " + name);
-  p.declare_entry("name", "", Patterns::Anything(),
-                  "One of the program's solutions (see 'list'); empty: the formula below, or the "
-                  "solution of this subsection's name.");
-  p.declare_entry("u", "", Patterns::Anything(),
-                  "u as a formula in x, y, z, or in X, Y, Z: coordinates in the mesh's bounding "
-                  "box, from 0 to 1 along its longest side; Z is 0 in the plane.");
-  p.declare_entry("diffusivity", "", Patterns::Anything(),
-                  "A of -div(A grad u) = f, as in the subsection 'solution'.");
+  declare_solution(p, name,
+                   "u as a formula in x, y, z, or in X, Y, Z: coordinates in the mesh's bounding "
+                   "box, from 0 to 1 along its longest side; Z is 0 in the plane.");
 }
 
 std::string without_collection_keys(const std::string& text,

@@ -55,23 +55,6 @@ void read_common(Collection& collection, const std::string& text, const std::fil
   if (collection.common.empty()) throw InputError(collection.refusals.begin()->second);
 }
 
-/// The one that a subsection describes, or one of the program's by the name of the subsection.
-StudySolution read_solution(ParameterHandler& p, const std::string& name) {
-  const Subsection subsection(p, "solution " + name);
-  const std::string formula = p.get("u"), named = p.get("name");
-  if (!formula.empty() && !named.empty())
-    throw InputError("the solution '" + name +
-                     "' has both a name and a formula 'u'; take one of them out");
-  return {.name = !formula.empty() ? "expression"
-                  : named.empty()  ? name
-                                   : named,
-          .value = {},
-          .gradient = {},
-          .load = {},
-          .u = formula,
-          .diffusivity = p.get("diffusivity")};
-}
-
 /// The collection's own parameters before those of its members that it does not have itself.
 StudyParameters joined_parameters(const StudyParameters& own, const StudyParameters& common) {
   StudyParameters all = own;
