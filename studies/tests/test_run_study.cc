@@ -124,6 +124,7 @@ TEST_F(RunStudy, MeshesAreMadeForSeveralSolutions) {
   write_mesh(file("grid.mesh"), shaken_grid(12, 0.2));
   const std::string two =
       "set methods = getme, one, both\nset degrees = 1\nset solutions = left, low\n"
+      "set record every = 1000000\nset record stages every = descent: 1\n"
       "subsection finite elements\n set load = quadrature\nend\n"
       "subsection solution left\n set u = exp(-x/3)\nend\n"
       "subsection solution low\n set u = 200*exp(-y/3)\n set diffusivity = 1 + y\nend\n"
