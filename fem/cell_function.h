@@ -1,36 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <span>
+#include <type_traits>
 
 #include "fem/cell_integrals.h"
 
 namespace smoothfem {
 
-/// A finite element function on one cell.
-template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+/// A finite element function on one cell, or on one in each lane.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices, class Real = double>
 struct CellFunction {
-  std::array<Vector<dim, double>, n_vertices> vertices;
-  std::array<double, n_dofs> values;
+  std::array<Vector<dim, Real>, n_vertices> vertices;
+  std::array<Real, n_dofs> values;
 
   /// x: of the nodes; u: at the dofs.
   CellFunction(const ElementCells& group, std::size_t cell, const std::vector<Point<dim>>& x,
-               const Eigen::VectorXd& u)
+               const Eigen::VectorXd& u) requires(std::is_same_v<Real, double>)
       : vertices(cell_vertices<dim, n_vertices>(group, cell, x)) {
     for (std::size_t i = 0; i < n_dofs; ++i) values[i] = u[group.dofs[cell * n_dofs + i]];
   }
 
-  MappedPoint<dim, double> map(const QuadratureTable& table, std::size_t q) const {
-    return map_point<dim, double>(table, q, vertices);
+  /// cells: up to n_lanes of them; the last one stands in for those that are missing.
+  CellFunction(const ElementCells& group, std::span<const std::size_t> cells,
+               const std::vector<Point<dim>>& x,
+               const Eigen::VectorXd& u) requires(std::is_same_v<Real, Lanes>) {
+    std::array<const NodeIndex*, n_lanes> nodes;
+    for (std::size_t l = 0; l < n_lanes; ++l) {
+      const std::size_t cell = cells[std::min(l, cells.size() - 1)];
+      nodes[l] = &group.vertices[cell * n_vertices];
+      for (std::size_t i = 0; i < n_dofs; ++i) values[i][l] = u[group.dofs[cell * n_dofs + i]];
+    }
+    for (std::size_t v = 0; v < n_vertices; ++v)
+      vertices[v] =
+          gather_corner<dim>([&](NodeIndex i) -> const Point<dim>& { return x[i]; }, nodes, v);
+  }
+
+  MappedPoint<dim, Real> map(const QuadratureTable& table, std::size_t q) const {
+    return map_point<dim, Real>(table, q, vertices);
+  }
+
+  Vector<dim, Real> slope(const QuadratureTable& table, std::size_t q,
+                          const MappedPoint<dim, Real>& mapped) const {
+    std::array<Real, dim> reference{};
+    for (std::size_t i = 0; i < n_dofs; ++i)
+      for (std::size_t d = 0; d < dim; ++d)
+        reference[d] += values[i] * table.shape_gradient[dim * (q * n_dofs + i) + d];
+    return mapped.jacobian.gradient(reference.data());
   }
 
   Point<dim> gradient(const QuadratureTable& table, std::size_t q,
                       const MappedPoint<dim, double>& mapped) const {
-    std::array<double, dim> reference{};
-    for (std::size_t i = 0; i < n_dofs; ++i)
-      for (std::size_t d = 0; d < dim; ++d)
-        reference[d] += values[i] * table.shape_gradient[dim * (q * n_dofs + i) + d];
-    return point_of(mapped.jacobian.gradient(reference.data()));
+    return point_of(slope(table, q, mapped));
   }
 };
 

@@ -32,7 +32,9 @@ struct Jacobian {
     dual[2] = inverse * cross(columns[0], columns[1]);
   }
 
-  Vector<dim, Real> gradient(const double* reference) const {
+  /// reference: numbers, or one for each lane.
+  template <class Number>
+  Vector<dim, Real> gradient(const Number* reference) const {
     auto sum = reference[0] * dual[0];
     for (int d = 1; d < dim; ++d) sum = sum + reference[d] * dual[d];
     return sum;

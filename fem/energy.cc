@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/energy.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "fem/cell_function.h"
@@ -24,23 +26,32 @@ void for_parts(const ElementCells& group, const Work& work) {
   });
 }
 
-/// Adds what the energy's derivatives in the vertices have from |grad u|^2.
+/// In the order in which Eigen adds.
+inline Lanes dot_as_eigen(Vector2<Lanes> a, Vector2<Lanes> b) {
+  return dot(a, b);
+}
+inline Lanes dot_as_eigen(Vector3<Lanes> a, Vector3<Lanes> b) {
+  return a.x * b.x + (a.y * b.y + a.z * b.z);
+}
+
+/// Adds what the energy's derivatives in the vertices have from |grad u|^2; one cell in each lane.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
-void add_dirichlet_term(const CellFunction<dim, n_dofs, n_vertices>& u,
-                        const QuadratureTable& table, std::array<Point<dim>, n_vertices>& sums) {
+[[gnu::flatten]] void add_dirichlet_term(const CellFunction<dim, n_dofs, n_vertices, Lanes>& u,
+                                         const QuadratureTable& table,
+                                         std::array<Vector<dim, Lanes>, n_vertices>& sums) {
   for (std::size_t q = 0; q < table.n_points; ++q) {
     const auto mapped = u.map(table, q);
-    const Point<dim> slope = u.gradient(table, q, mapped);
-    const double square = slope.squaredNorm();
+    const auto slope = u.slope(table, q, mapped);
+    const Lanes square = dot_as_eigen(slope, slope);
     for (std::size_t v = 0; v < n_vertices; ++v) {
-      const Point<dim> hat =
-          point_of(mapped.jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]));
-      sums[v] += mapped.weight * (square * hat - 2.0 * slope.dot(hat) * slope);
+      const auto hat =
+          mapped.jacobian.gradient(&table.geometry_gradient[dim * (q * n_vertices + v)]);
+      sums[v] = sums[v] + mapped.weight * (square * hat - (2.0 * dot_as_eigen(slope, hat)) * slope);
     }
   }
 }
 
-/// The same from A grad u . grad u.
+/// Adds the same from A grad u . grad u, for one cell.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 void add_diffusion_term(const CellFunction<dim, n_dofs, n_vertices>& u,
                         const QuadratureTable& table, const ManufacturedSolution<dim>& solution,
@@ -63,14 +74,39 @@ void add_diffusion_term(const CellFunction<dim, n_dofs, n_vertices>& u,
   }
 }
 
-/// The same from f u; weighted_f: at the table's points.
+/// The same from f u; weighted_f: of each lane, at the table's points.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
-void add_load_term(const CellFunction<dim, n_dofs, n_vertices>& u, const QuadratureTable& table,
-                   const double* weighted_f, std::array<Point<dim>, n_vertices>& sums) {
+[[gnu::flatten]] void add_load_term(const CellFunction<dim, n_dofs, n_vertices, Lanes>& u,
+                                    const QuadratureTable& table,
+                                    const std::array<const double*, n_lanes>& weighted_f,
+                                    std::array<Vector<dim, Lanes>, n_vertices>& sums) {
   for (std::size_t q = 0; q < table.n_points; ++q) {
-    const Point<dim> slope = 2.0 * weighted_f[q] * u.gradient(table, q, u.map(table, q));
+    const Lanes f{weighted_f[0][q], weighted_f[1][q], weighted_f[2][q], weighted_f[3][q]};
+    const auto slope = (2.0 * f) * u.slope(table, q, u.map(table, q));
     for (std::size_t v = 0; v < n_vertices; ++v)
-      sums[v] += table.geometry[q * n_vertices + v] * slope;
+      sums[v] = sums[v] + table.geometry[q * n_vertices + v] * slope;
+  }
+}
+
+/// Calls add(function, its cells, sums) for the cells of a list, n_lanes at a time; `sums` are the
+/// lanes of what `of_cells` has, and go back there.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices, class Add>
+void add_in_lanes(const ElementCells& group, std::span<const std::size_t> cells,
+                  const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
+                  std::vector<std::array<Point<dim>, n_vertices>>& of_cells, const Add& add) {
+  for (std::size_t first = 0; first < cells.size(); first += n_lanes) {
+    const auto some = cells.subspan(first, std::min(n_lanes, cells.size() - first));
+    std::array<Vector<dim, Lanes>, n_vertices> sums;
+    for (std::size_t v = 0; v < n_vertices; ++v)
+      for (std::size_t l = 0; l < n_lanes; ++l) {
+        const auto sum = vector_of(of_cells[some[std::min(l, some.size() - 1)]][v]);
+        set_lane(sums[v].x, l, sum.x);
+        set_lane(sums[v].y, l, sum.y);
+        if constexpr (dim == 3) set_lane(sums[v].z, l, sum.z);
+      }
+    add(CellFunction<dim, n_dofs, n_vertices, Lanes>(group, some, x, u), some, sums);
+    for (std::size_t v = 0; v < n_vertices; ++v)
+      for (std::size_t l = 0; l < some.size(); ++l) of_cells[some[l]][v] = lane(sums[v], l);
   }
 }
 
@@ -191,24 +227,47 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
     const GroupLoad& load = loads_[g];
     const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules);
     std::vector<std::array<Point<dim>, n_vertices>> of_cells(group.n_cells());
+    for (auto& of_cell : of_cells) of_cell.fill(Point<dim>::Zero());
     for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
-      const double* weighted_f = load.weighted_f[part].data();
-      for (std::size_t cell = first; cell < last; ++cell) {
-        const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
-        of_cells[cell].fill(Point<dim>::Zero());
-        if (solution_.diffusivity)
-          add_diffusion_term(function, table, solution_, of_cells[cell]);
-        else
-          add_dirichlet_term(function, table, of_cells[cell]);
-        if constexpr (is_linear<dim, n_dofs, n_vertices>) {
+      std::vector<std::size_t> cells(last - first);
+      std::iota(cells.begin(), cells.end(), first);
+      if (solution_.diffusivity)
+        for (const std::size_t cell : cells)
+          add_diffusion_term(CellFunction<dim, n_dofs, n_vertices>(group, cell, x, u), table,
+                             solution_, of_cells[cell]);
+      else
+        add_in_lanes<dim, n_dofs, n_vertices>(
+            group, cells, x, u, of_cells, [&](const auto& function, const auto&, auto& of_lanes) {
+              add_dirichlet_term(function, table, of_lanes);
+            });
+      if constexpr (is_linear<dim, n_dofs, n_vertices>) {
+        for (const std::size_t cell : cells) {
+          const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
           const Point<dim> slope = function.gradient(table, 0, function.map(table, 0));
           // Vertices and dofs of these elements have the same order.
           for (std::size_t v = 0; v < n_vertices; ++v)
             of_cells[cell][v] += 2.0 * load.values[cell * n_dofs + v] * slope;
-        } else {
-          const auto& rule = load.rules.load[load.levels[cell]];
-          add_load_term(function, rule, weighted_f, of_cells[cell]);
-          weighted_f += rule.n_points;
+        }
+      } else {
+        // A cell's values follow those of the cells before it in its part.
+        std::vector<const double*> weighted_f;
+        const double* next = load.weighted_f[part].data();
+        for (const std::size_t cell : cells) {
+          weighted_f.push_back(next);
+          next += load.rules.load[load.levels[cell]].n_points;
+        }
+        for (std::size_t level = 0; level < load.rules.load.size(); ++level) {
+          std::vector<std::size_t> of_level;
+          std::copy_if(cells.begin(), cells.end(), std::back_inserter(of_level),
+                       [&](std::size_t cell) { return load.levels[cell] == level; });
+          add_in_lanes<dim, n_dofs, n_vertices>(
+              group, of_level, x, u, of_cells,
+              [&](const auto& function, std::span<const std::size_t> some, auto& of_lanes) {
+                std::array<const double*, n_lanes> f;
+                for (std::size_t l = 0; l < n_lanes; ++l)
+                  f[l] = weighted_f[some[std::min(l, some.size() - 1)] - first];
+                add_load_term(function, load.rules.load[level], f, of_lanes);
+              });
         }
       }
     });
