@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <span>
 #include <type_traits>
 
 #include "fem/cell_integrals.h"
@@ -23,19 +21,12 @@ struct CellFunction {
     for (std::size_t i = 0; i < n_dofs; ++i) values[i] = u[group.dofs[cell * n_dofs + i]];
   }
 
-  /// cells: up to n_lanes of them; the last one stands in for those that are missing.
-  CellFunction(const ElementCells& group, std::span<const std::size_t> cells,
+  CellFunction(const ElementCells& group, const std::array<std::size_t, n_lanes>& cells,
                const std::vector<Point<dim>>& x,
-               const Eigen::VectorXd& u) requires(std::is_same_v<Real, Lanes>) {
-    std::array<const NodeIndex*, n_lanes> nodes;
-    for (std::size_t l = 0; l < n_lanes; ++l) {
-      const std::size_t cell = cells[std::min(l, cells.size() - 1)];
-      nodes[l] = &group.vertices[cell * n_vertices];
-      for (std::size_t i = 0; i < n_dofs; ++i) values[i][l] = u[group.dofs[cell * n_dofs + i]];
-    }
-    for (std::size_t v = 0; v < n_vertices; ++v)
-      vertices[v] =
-          gather_corner<dim>([&](NodeIndex i) -> const Point<dim>& { return x[i]; }, nodes, v);
+               const Eigen::VectorXd& u) requires(std::is_same_v<Real, Lanes>)
+      : vertices(cell_vertices<dim, n_vertices>(group, cells, x)) {
+    for (std::size_t i = 0; i < n_dofs; ++i)
+      for (std::size_t l = 0; l < n_lanes; ++l) values[i][l] = u[group.dofs[cells[l] * n_dofs + i]];
   }
 
   MappedPoint<dim, Real> map(const QuadratureTable& table, std::size_t q) const {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
 #include "fem/cell_diffusivity.h"
 #include "fem/finite_element_space.h"
@@ -149,6 +151,30 @@ struct CellIntegrals {
   }
 };
 
+/// The vertices of n_lanes cells, one in each lane.
+template <int dim, std::size_t n_vertices>
+std::array<Vector<dim, Lanes>, n_vertices> cell_vertices(
+    const ElementCells& group, const std::array<std::size_t, n_lanes>& cells,
+    const std::vector<Point<dim>>& x) {
+  std::array<const NodeIndex*, n_lanes> rows;
+  for (std::size_t l = 0; l < n_lanes; ++l) rows[l] = &group.vertices[cells[l] * n_vertices];
+  std::array<Vector<dim, Lanes>, n_vertices> vertices;
+  for (std::size_t v = 0; v < n_vertices; ++v)
+    vertices[v] =
+        gather_corner<dim>([&](NodeIndex node) -> const Point<dim>& { return x[node]; }, rows, v);
+  return vertices;
+}
+
+/// Up to n_lanes cells of a list, from the position `first` on; the last one stands in for those
+/// that are missing.
+inline std::array<std::size_t, n_lanes> cells_in_lanes(std::span<const std::size_t> cells,
+                                                       std::size_t first) {
+  std::array<std::size_t, n_lanes> in_lanes;
+  for (std::size_t l = 0; l < n_lanes; ++l)
+    in_lanes[l] = cells[std::min(first + l, cells.size() - 1)];
+  return in_lanes;
+}
+
 /// Up to n_lanes cells of one element, worked on together; missing ones repeat the last.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 struct ElementBatch {
@@ -162,15 +188,9 @@ struct ElementBatch {
   ElementBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
                const Eigen::VectorXd& nodal_load, const std::vector<std::size_t>& of_group,
                std::size_t first)
-      : size(std::min(n_lanes, of_group.size() - first)) {
-    std::array<const NodeIndex*, n_lanes> rows;
-    for (std::size_t l = 0; l < n_lanes; ++l) {
-      cells[l] = of_group[first + std::min(l, size - 1)];
-      rows[l] = &group.vertices[cells[l] * n_vertices];
-    }
-    for (std::size_t v = 0; v < n_vertices; ++v)
-      vertices[v] =
-          gather_corner<dim>([&](NodeIndex node) -> const Point<dim>& { return x[node]; }, rows, v);
+      : cells(cells_in_lanes(of_group, first)),
+        size(std::min(n_lanes, of_group.size() - first)),
+        vertices(cell_vertices<dim, n_vertices>(group, cells, x)) {
     for (std::size_t i = 0; i < n_dofs; ++i)
       for (std::size_t l = 0; l < n_lanes; ++l)
         load[i][l] = nodal_load[group.dofs[cells[l] * n_dofs + i]];

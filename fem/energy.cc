@@ -26,7 +26,7 @@ void for_parts(const ElementCells& group, const Work& work) {
   });
 }
 
-/// In the order in which Eigen adds.
+/// In the order in which Eigen adds: a cell has the same bits as one that is alone in a register.
 inline Lanes dot_as_eigen(Vector2<Lanes> a, Vector2<Lanes> b) {
   return dot(a, b);
 }
@@ -95,18 +95,20 @@ void add_in_lanes(const ElementCells& group, std::span<const std::size_t> cells,
                   const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
                   std::vector<std::array<Point<dim>, n_vertices>>& of_cells, const Add& add) {
   for (std::size_t first = 0; first < cells.size(); first += n_lanes) {
-    const auto some = cells.subspan(first, std::min(n_lanes, cells.size() - first));
+    const auto some = cells_in_lanes(cells, first);
     std::array<Vector<dim, Lanes>, n_vertices> sums;
-    for (std::size_t v = 0; v < n_vertices; ++v)
-      for (std::size_t l = 0; l < n_lanes; ++l) {
-        const auto sum = vector_of(of_cells[some[std::min(l, some.size() - 1)]][v]);
-        set_lane(sums[v].x, l, sum.x);
-        set_lane(sums[v].y, l, sum.y);
-        if constexpr (dim == 3) set_lane(sums[v].z, l, sum.z);
-      }
+    for (std::size_t v = 0; v < n_vertices; ++v) {
+      const auto in_lanes = [&](int d) {
+        return Lanes{of_cells[some[0]][v][d], of_cells[some[1]][v][d], of_cells[some[2]][v][d],
+                     of_cells[some[3]][v][d]};
+      };
+      sums[v].x = in_lanes(0);
+      sums[v].y = in_lanes(1);
+      if constexpr (dim == 3) sums[v].z = in_lanes(2);
+    }
     add(CellFunction<dim, n_dofs, n_vertices, Lanes>(group, some, x, u), some, sums);
     for (std::size_t v = 0; v < n_vertices; ++v)
-      for (std::size_t l = 0; l < some.size(); ++l) of_cells[some[l]][v] = lane(sums[v], l);
+      for (std::size_t l = 0; l < n_lanes; ++l) of_cells[some[l]][v] = lane(sums[v], l);
   }
 }
 
@@ -201,12 +203,8 @@ double Energy<dim>::value(const std::vector<Point<dim>>& x, const Eigen::VectorX
         const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
         for (std::size_t q = 0; q < table.n_points; ++q) {
           const auto mapped = function.map(table, q);
-          const Point<dim> slope = function.gradient(table, q, mapped);
-          of_parts[part] +=
-              mapped.weight *
-              (solution_.diffusivity
-                   ? slope.dot(solution_.diffusivity(point_of(mapped.position)) * slope)
-                   : slope.squaredNorm());
+          of_parts[part] += mapped.weight * solution_.energy_of(function.gradient(table, q, mapped),
+                                                                point_of(mapped.position));
         }
         for (std::size_t i = 0; i < n_dofs; ++i)
           of_parts[part] -= 2.0 * load.values[cell * n_dofs + i] * (function.values[i] - c);
@@ -216,6 +214,35 @@ double Energy<dim>::value(const std::vector<Point<dim>>& x, const Eigen::VectorX
   };
   for_each_smooth_group(*space_, run);
   return total;
+}
+
+/// Cells with the same rule share lanes.
+template <int dim>
+template <std::size_t n_dofs, std::size_t n_vertices>
+void Energy<dim>::add_load_terms(const ElementCells& group, const GroupLoad& load, std::size_t part,
+                                 const std::vector<std::size_t>& cells,
+                                 const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
+                                 std::vector<std::array<Point<dim>, n_vertices>>& of_cells) const {
+  const auto& rules = load.rules.load;
+  // A cell's values follow those of the cells before it in its part.
+  std::vector<const double*> weighted_f;
+  const double* next = load.weighted_f[part].data();
+  for (const std::size_t cell : cells) {
+    weighted_f.push_back(next);
+    next += rules[load.levels[cell]].n_points;
+  }
+  for (std::size_t level = 0; level < rules.size(); ++level) {
+    std::vector<std::size_t> of_level;
+    std::copy_if(cells.begin(), cells.end(), std::back_inserter(of_level),
+                 [&](std::size_t cell) { return load.levels[cell] == level; });
+    add_in_lanes<dim, n_dofs, n_vertices>(
+        group, of_level, x, u, of_cells,
+        [&](const auto& function, const auto& some, auto& of_lanes) {
+          std::array<const double*, n_lanes> f;
+          for (std::size_t l = 0; l < n_lanes; ++l) f[l] = weighted_f[some[l] - cells.front()];
+          add_load_term(function, rules[level], f, of_lanes);
+        });
+  }
 }
 
 template <int dim>
@@ -249,26 +276,7 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
             of_cells[cell][v] += 2.0 * load.values[cell * n_dofs + v] * slope;
         }
       } else {
-        // A cell's values follow those of the cells before it in its part.
-        std::vector<const double*> weighted_f;
-        const double* next = load.weighted_f[part].data();
-        for (const std::size_t cell : cells) {
-          weighted_f.push_back(next);
-          next += load.rules.load[load.levels[cell]].n_points;
-        }
-        for (std::size_t level = 0; level < load.rules.load.size(); ++level) {
-          std::vector<std::size_t> of_level;
-          std::copy_if(cells.begin(), cells.end(), std::back_inserter(of_level),
-                       [&](std::size_t cell) { return load.levels[cell] == level; });
-          add_in_lanes<dim, n_dofs, n_vertices>(
-              group, of_level, x, u, of_cells,
-              [&](const auto& function, std::span<const std::size_t> some, auto& of_lanes) {
-                std::array<const double*, n_lanes> f;
-                for (std::size_t l = 0; l < n_lanes; ++l)
-                  f[l] = weighted_f[some[std::min(l, some.size() - 1)] - first];
-                add_load_term(function, load.rules.load[level], f, of_lanes);
-              });
-        }
+        add_load_terms<n_dofs, n_vertices>(group, load, part, cells, x, u, of_cells);
       }
     });
     for (std::size_t k = 0; k < group.vertices.size(); ++k)

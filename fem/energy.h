@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -61,6 +62,13 @@ class Energy {
   /// Of a(u_h, u_h).
   template <std::size_t n_dofs, std::size_t n_vertices>
   const QuadratureTable& gradient_rule(const ElementCells& group, const EnergyRules& rules) const;
+
+  /// To the derivatives of the cells of a part: those of f u.
+  template <std::size_t n_dofs, std::size_t n_vertices>
+  void add_load_terms(const ElementCells& group, const GroupLoad& load, std::size_t part,
+                      const std::vector<std::size_t>& cells, const std::vector<Point<dim>>& x,
+                      const Eigen::VectorXd& u,
+                      std::vector<std::array<Point<dim>, n_vertices>>& of_cells) const;
 
   std::shared_ptr<const FiniteElementSpace<dim>> space_;
   const ManufacturedSolution<dim>& solution_;

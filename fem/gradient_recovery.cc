@@ -39,14 +39,10 @@ struct LinearInterpolant {
 }  // namespace
 
 template <int dim>
-GradientRecovery<dim>::GradientRecovery(
-    const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
-    const Eigen::VectorXd& u, const std::function<Diffusivity<dim>(const Point<dim>&)>& diffusivity)
-    : space_(space),
-      x_(x),
-      u_(u),
-      diffusivity_(diffusivity),
-      recovered_(x.size(), Point<dim>::Zero()) {
+GradientRecovery<dim>::GradientRecovery(const FiniteElementSpace<dim>& space,
+                                        const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
+                                        const ManufacturedSolution<dim>& solution)
+    : space_(space), x_(x), u_(u), solution_(solution), recovered_(x.size(), Point<dim>::Zero()) {
   std::vector<double> sizes_at_nodes(x.size(), 0.0);
   for_each_smooth_group(space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
                                     const ElementCells& group, std::size_t) {
@@ -96,14 +92,10 @@ std::vector<Value> GradientRecovery<dim>::mean_squares(const Value& zero,
 }
 
 template <int dim>
-double GradientRecovery<dim>::energy(const Point<dim>& d, const Point<dim>& position) const {
-  return diffusivity_ ? d.dot(diffusivity_(position) * d) : d.squaredNorm();
-}
-
-template <int dim>
 std::vector<double> GradientRecovery<dim>::differences() const {
-  auto values = mean_squares(
-      0.0, [&](const Point<dim>& d, const Point<dim>& position) { return energy(d, position); });
+  auto values = mean_squares(0.0, [&](const Point<dim>& d, const Point<dim>& position) {
+    return solution_.energy_of(d, position);
+  });
   for (double& value : values) value = std::sqrt(value);
   return values;
 }
@@ -115,15 +107,17 @@ std::vector<CellTensor<dim>> GradientRecovery<dim>::difference_tensors() const {
       zero, [&](const Point<dim>& d, const Point<dim>& position) -> CellTensor<dim> {
         const CellTensor<dim> square =
             d * d.transpose();  // exactly symmetric, as that times a weight need not be
-        if (!diffusivity_ || !(square.trace() > 0.0)) return square;
-        return energy(d, position) / square.trace() * square;
+        if (!solution_.diffusivity || !(square.trace() > 0.0)) return square;
+        return solution_.energy_of(d, position) / square.trace() * square;
       });
 }
 
 template <int dim>
 std::vector<CellTensor<dim>> GradientRecovery<dim>::hessians() const {
   const auto root_of_scale = [&](const auto& mapped) {
-    return diffusivity_ ? std::sqrt(diffusivity_(point_of(mapped.position)).trace() / dim) : 1.0;
+    return solution_.diffusivity
+               ? std::sqrt(solution_.diffusivity(point_of(mapped.position)).trace() / dim)
+               : 1.0;
   };
   std::vector<CellTensor<dim>> means;
   for_each_smooth_group(space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(

@@ -22,11 +22,10 @@ namespace smoothfem {
 template <int dim>
 class GradientRecovery {
  public:
-  /// x: coordinates of the space's nodes, u: at its dofs, diffusivity: A, empty for the identity;
-  /// all have to outlive this.
+  /// x: coordinates of the space's nodes, u: at its dofs; of the solution A is taken. All have to
+  /// outlive this.
   GradientRecovery(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
-                   const Eigen::VectorXd& u,
-                   const std::function<Diffusivity<dim>(const Point<dim>&)>& diffusivity);
+                   const Eigen::VectorXd& u, const ManufacturedSolution<dim>& solution);
 
   /// Root of the mean over each cell of d . A d, where d = G - grad u_1.
   std::vector<double> differences() const;
@@ -44,13 +43,10 @@ class GradientRecovery {
   template <class Value, class Square>
   std::vector<Value> mean_squares(const Value& zero, const Square& square) const;
 
-  /// d . A d.
-  double energy(const Point<dim>& d, const Point<dim>& position) const;
-
   const FiniteElementSpace<dim>& space_;
   const std::vector<Point<dim>>& x_;
   const Eigen::VectorXd& u_;
-  const std::function<Diffusivity<dim>(const Point<dim>&)>& diffusivity_;
+  const ManufacturedSolution<dim>& solution_;
   std::vector<Point<dim>> recovered_;  ///< G at each node
   std::vector<double> sizes_;          ///< of the cells
 };

@@ -38,6 +38,11 @@ struct ManufacturedSolution {
   /// What the conditions of its formulas compare with zero: where one changes its sign another
   /// piece begins. Empty: no conditions.
   std::function<std::vector<double>(const Point<dim>&)> conditions{};
+
+  /// g . A g of a gradient g: the energy norm's square is its integral.
+  double energy_of(const Point<dim>& g, const Point<dim>& position) const {
+    return diffusivity ? g.dot(diffusivity(position) * g) : g.squaredNorm();
+  }
 };
 
 /// Registers a solution when its file is loaded: one namespace-scope object a dimension at the end

@@ -120,7 +120,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   SolveEffort effort() const override { return effort_; }
 
  private:
-  GradientRecovery<dim> recovery() const { return {*space_, x_, u_, solution_.diffusivity}; }
+  GradientRecovery<dim> recovery() const { return {*space_, x_, u_, solution_}; }
 
   void check(const Topology& topology) const {
     for (NodeIndex i = 0; i < topology.n_nodes(); ++i)

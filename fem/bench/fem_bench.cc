@@ -14,6 +14,7 @@
 #include "fem/assembly.h"
 #include "fem/bench/stock_path.h"
 #include "fem/conjugate_gradients.h"
+#include "fem/mpi_session.h"
 #include "fem/poisson_problem.h"
 #include "fem/poisson_solver.h"
 #include "fem/trilinos_matrix.h"
@@ -341,7 +342,7 @@ std::vector<char*> arguments_of_rank(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace smoothfem::bench;
-  MPI_Init(&argc, &argv);
+  const smoothfem::MpiSession mpi;
   auto arguments = arguments_of_rank(argc, argv);
   argc = static_cast<int>(arguments.size());
   benchmark::Initialize(&argc, arguments.data());
@@ -354,6 +355,5 @@ int main(int argc, char** argv) {
     else
       benchmark::RunSpecifiedBenchmarks(&silent);
   }
-  MPI_Finalize();
   return understood ? 0 : 1;
 }

@@ -8,6 +8,7 @@
 
 #include "fem/poisson_problem.h"
 #include "fem/poisson_solver.h"
+#include "fem/tests/gradient_of_differences.h"
 #include "fem/tests/unit_mesh.h"
 #include "smoothing/base/parallel.h"
 
@@ -53,44 +54,14 @@ class EnergyTest : public testing::TestWithParam<Case> {
     solver->prepare(mesh, GetParam().degree);
     return solver;
   }
-  template <int dim>
-  static void expect_gradient_of_differences(const ManufacturedSolution<dim>& solution,
-                                             const Mesh<dim>& mesh) {
-    const auto problem = make_poisson_problem<dim>(solution);
-    const auto solver = prepared<dim>(*problem, mesh);
-    const auto moved = [&](double t) {
-      auto x = mesh.copied_coordinates();
-      for (const NodeIndex i : mesh.topology().free_nodes()) x[i] += t * direction<dim>(i);
-      return x;
-    };
-    // Sixth order: errors of rounding and of the formula are both far below the tolerance.
-    constexpr double h = 1e-3;
-    const auto difference = [&](double t) {
-      return solver->solve(moved(t)) - solver->solve(moved(-t));
-    };
-    const double slope =
-        (45.0 * difference(h) - 9.0 * difference(2.0 * h) + difference(3.0 * h)) / (60.0 * h);
-    solver->solve(mesh.coordinates());
-    const auto gradient = solver->energy_gradient();
-    double derivative = 0.0, scale = 0.0;
-    for (const NodeIndex i : mesh.topology().free_nodes()) {
-      derivative += gradient[i].dot(direction<dim>(i));
-      scale += gradient[i].norm() * direction<dim>(i).norm();
-    }
-    EXPECT_NEAR(derivative, slope, 1e-6 * scale);
-  }
-  template <int dim>
-  static Point<dim> direction(NodeIndex i) {
-    Point<dim> d;
-    for (int k = 0; k < dim; ++k) d[k] = std::sin(1.0 + 3.0 * i + 5.0 * k);
-    return d;
-  }
 };
 
 TEST_P(EnergyTest, GradientIsThatOfDifferences) {
   GetParam().on_mesh(6, 4, 0.15, []<int dim>(const Mesh<dim>& mesh) {
-    expect_gradient_of_differences<dim>(smooth_solution<dim>(), mesh);
-    expect_gradient_of_differences<dim>(in_a_medium<dim>(GetParam().degree), mesh);
+    for (const auto& solution : {smooth_solution<dim>(), in_a_medium<dim>(GetParam().degree)}) {
+      const auto problem = make_poisson_problem<dim>(solution);
+      expect_gradient_of_differences(*prepared<dim>(*problem, mesh), mesh);
+    }
   });
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "fem/mpi_session.h"
 #include "fem/poisson_solver.h"
 #include "fem/tests/unit_mesh.h"
 
@@ -178,7 +179,7 @@ TEST(SeveralRanks, AllRanksRefuseTogether) {
 }  // namespace smoothfem
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  const smoothfem::MpiSession mpi;
   testing::InitGoogleTest(&argc, argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -187,6 +188,5 @@ int main(int argc, char** argv) {
   int failed = RUN_ALL_TESTS(), failed_anywhere = 0;
   MPI_Allreduce(&failed, &failed_anywhere, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   if (rank == 0 && failed_anywhere != failed) std::cout << "a test failed on another rank\n";
-  MPI_Finalize();
   return failed_anywhere;
 }

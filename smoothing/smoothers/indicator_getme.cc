@@ -80,7 +80,7 @@ class IndicatorGetme final : public SolutionDriven<dim> {
   void set_target_sizes(const SmoothingState<dim>& state) {
     const Topology& topology = state.mesh.topology();
     auto bends = error_indicators(*state.solver, indicator_);
-    const auto sizes = this->cell_sizes(state.mesh);
+    const auto sizes = cell_sizes(state.mesh);
     double mean = 0.0, total = 0.0;
     for (CellIndex c = 0; c < topology.n_cells(); ++c) bends[c] /= std::pow(sizes[c], 1.0 / dim);
     for (int k = 0; k < n_averagings_; ++k) average_over_nodes(topology, 0.0, bends);

@@ -76,7 +76,7 @@ class IndicatorMmpde final : public SolutionDriven<dim> {
     auto hessians = state.solver->recovered_hessians();
     for (int k = 0; k < n_averagings_; ++k)
       average_over_nodes(state.mesh.topology(), CellTensor<dim>(CellTensor<dim>::Zero()), hessians);
-    const auto sizes = this->cell_sizes(state.mesh);
+    const auto sizes = cell_sizes(state.mesh);
     return TensorField<dim>(state.mesh, error_metric<dim>(hessians, sizes, concentration_now_),
                             sizes);
   }

@@ -87,10 +87,6 @@ class SolutionDriven : public Smoother<dim> {
     return std::sqrt(estimated_squared_error(state.mesh, *state.solver));
   }
 
-  static std::vector<double> cell_sizes(const Mesh<dim>& mesh) {
-    return smoothfem::cell_sizes(mesh);
-  }
-
  private:
   enum Boundary { fixed, slide };
 

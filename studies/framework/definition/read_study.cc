@@ -121,13 +121,12 @@ void read_solutions(ParameterHandler& p, const std::vector<std::string>& labels,
     for (const std::string key : {"name", "u", "diffusivity", "value", "gradient", "load"})
       if (!p.get(key).empty())
         throw InputError(
-            "the study has both a list 'solutions' and, in the subsection 'solution', "
-            "'" +
-            key + "'; take one of them out");
+            "the study has both a list 'solutions' and, in the subsection 'solution', '" + key +
+            "'; take one of them out");
   }
-  for (const auto& label : labels) study.further_solutions.push_back(read_solution(p, label));
-  study.solution = study.further_solutions.front();
-  study.further_solutions.erase(study.further_solutions.begin());
+  study.solution = read_solution(p, labels.front());
+  for (std::size_t s = 1; s < labels.size(); ++s)
+    study.further_solutions.push_back(read_solution(p, labels[s]));
 }
 
 /// A study that names no solution has its own, or else the gear's.

@@ -26,11 +26,16 @@ std::string read_study_text(const std::filesystem::path& file) {
 
 namespace {
 
+std::vector<std::string> declared_keys(ParameterHandler& p) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : all_parameters(p)) keys.push_back(key);
+  return keys;
+}
+
 /// deal.II enters what is a key as if it were a subsection, and then misses the keys in it.
 void refuse_keys_as_subsections(ParameterHandler& p, const std::string& text,
                                 const std::filesystem::path& file) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : all_parameters(p)) keys.push_back(key);
+  const auto keys = declared_keys(p);
   std::istringstream lines(text);
   int depth = 0, number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -58,9 +63,7 @@ void parse_study(ParameterHandler& p, const std::string& text, const std::filesy
   try {
     p.parse_input(stream, study_file_in_messages, "", skip_undefined);
   } catch (const dealii::ExceptionBase& error) {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : all_parameters(p)) keys.push_back(key);
-    throw parse_error(file, error.what(), keys);
+    throw parse_error(file, error.what(), declared_keys(p));
   }
 }
 
