@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mesquite_driver IN.vtk OUT.vtk METHOD ITERATIONS [planar]: smooths by Mesquite. METHOD: laplace,
-// or shape, which minimizes squared inverse mean ratios by a trust region method. Compile it with
-// your Mesquite:
+// mesquite_driver IN.vtk OUT.vtk METHOD ITERATIONS [planar]: smooths by Mesquite. METHOD: laplace;
+// shape, which minimizes squared inverse mean ratios by a trust region method; newton, the same by
+// a feasible Newton method; wrapper, Mesquite's ShapeImprovementWrapper, which makes as many Newton
+// iterations as it likes, called ITERATIONS times. Compile it with your Mesquite:
 //   c++ -O2 mesquite_driver.cc -I PREFIX/include -L PREFIX/lib -lmesquite -o mesquite_driver
-#include <Mesquite_ConditionNumberQualityMetric.hpp>
+#include <Mesquite_FeasibleNewton.hpp>
 #include <Mesquite_IdealWeightInverseMeanRatio.hpp>
 #include <Mesquite_InstructionQueue.hpp>
 #include <Mesquite_LPtoPTemplate.hpp>
 #include <Mesquite_LaplacianSmoother.hpp>
 #include <Mesquite_MeshImpl.hpp>
 #include <Mesquite_MsqError.hpp>
-#include <Mesquite_PlanarDomain.hpp>
+#include <Mesquite_ShapeImprovementWrapper.hpp>
 #include <Mesquite_TerminationCriterion.hpp>
 #include <Mesquite_TrustRegion.hpp>
+#include <Mesquite_XYPlanarDomain.hpp>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -22,38 +24,45 @@ using namespace MESQUITE_NS;
 
 int main(int argc, char** argv) {
   if (argc < 5)
-    return std::fputs("mesquite_driver IN OUT laplace|shape ITERATIONS [planar]\n", stderr), 2;
+    return std::fputs("mesquite_driver IN OUT laplace|shape|newton|wrapper ITERATIONS [planar]\n",
+                      stderr),
+           2;
   const std::string method = argv[3];
   const int n_iterations = std::atoi(argv[4]);
   MsqError error;
   MeshImpl mesh;
   mesh.read_vtk(argv[1], error);
-  PlanarDomain plane(PlanarDomain::XY);
-  MeshDomain* domain = argc > 5 ? &plane : nullptr;
+  if (error) return std::fprintf(stderr, "%s: %s\n", argv[1], error.error_message()), 1;
+  XYPlanarDomain plane;
+  MeshDomainAssoc domain(&mesh, argc > 5 ? &plane : nullptr);
 
   IdealWeightInverseMeanRatio metric(error);
+  metric.set_averaging_method(QualityMetric::LINEAR);
   LPtoPTemplate objective(&metric, 2, error);
-  TrustRegion optimizer(&objective);
-  optimizer.use_global_patch();
+  TrustRegion trust_region(&objective);
+  trust_region.use_global_patch();
+  FeasibleNewton newton(&objective);
+  newton.use_global_patch();
   LaplacianSmoother laplace;
-  VertexMover& mover = method == "laplace" ? static_cast<VertexMover&>(laplace) : optimizer;
   TerminationCriterion iterations;
   iterations.add_iteration_limit(n_iterations);
-  if (method == "laplace")
-    mover.set_outer_termination_criterion(&iterations);
-  else
-    mover.set_inner_termination_criterion(&iterations);
+  laplace.set_outer_termination_criterion(&iterations);
+  trust_region.set_inner_termination_criterion(&iterations);
+  newton.set_inner_termination_criterion(&iterations);
 
   InstructionQueue queue;
-  queue.set_master_quality_improver(&mover, error);
+  if (method == "laplace")
+    queue.set_master_quality_improver(&laplace, error);
+  else if (method == "newton")
+    queue.set_master_quality_improver(&newton, error);
+  else
+    queue.set_master_quality_improver(&trust_region, error);
   const auto start = std::chrono::steady_clock::now();
-  if (n_iterations > 0) {
-    if (domain) {
-      MeshDomainAssoc planar(&mesh, domain);
-      queue.run_instructions(&planar, error);
-    } else {
-      queue.run_instructions(&mesh, error);
-    }
+  if (method == "wrapper") {
+    ShapeImprovementWrapper wrapper;
+    for (int i = 0; i < n_iterations; ++i) wrapper.run_instructions(&domain, error);
+  } else if (n_iterations > 0) {
+    queue.run_instructions(&domain, error);
   }
   std::printf("time %.9f s\n",
               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

@@ -20,7 +20,9 @@ KEPT = ("iterations.csv", "summary.csv", "solutions.csv", "thresholds.csv", "pro
 COLLECTIONS = ("field",)  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")  # all records are too many
 DRAWN = ("gear", "volume", "field")  # whose figures are kept, too
-PUBLISHED = ("gear", "energy")  # which are of the published meshes
+REASONS = "reasons/"  # studies that test reasons: reasons/NAME; what they are is in their files
+KEPT_OF_REASONS = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json")
+PUBLISHED = ("gear", "energy", "reasons/gear-mesquite", "reasons/gear-rounding")  # which are of the published meshes
 SCALE = "subsection scale paper"
 UNKNOWN_SECONDS = 1e9  # studies without a reference come last
 
@@ -50,15 +52,17 @@ def seconds(folder):
 
 def options(study):
     """How a study is run for the reference."""
-    return ["--published"] if study in PUBLISHED else [] if study in COLLECTIONS else ["--scale", "paper"]
+    if study in PUBLISHED:
+        return ["--published"]
+    return [] if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper"]
 
 
 def keep(results, reference, study):
     """Replaces a study's reference by new results."""
-    new = reference / f".{study}.new"
+    new = (reference / study).with_name(f".{Path(study).name}.new")
     shutil.rmtree(new, ignore_errors=True)
     new.mkdir(parents=True)
-    kept = KEPT_OF_COLLECTIONS if study in COLLECTIONS else KEPT
+    kept = (KEPT_OF_COLLECTIONS if study in COLLECTIONS else KEPT_OF_REASONS if study.startswith(REASONS) else KEPT)
     for name in kept + (("figures",) if study in DRAWN else ()):
         source = results / name
         if source.is_dir():
@@ -82,8 +86,10 @@ def main():
     parser.add_argument("studies", nargs="*")
     chosen = parser.parse_args()
     reference = chosen.source / "results" / "reference"
-    known = [path.stem for path in (chosen.source / "studies").glob("*.prm")
+    studies = chosen.source / "studies"
+    known = [path.stem for path in studies.glob("*.prm")
              if path.stem == "gear" or SCALE in path.read_text(encoding="utf-8")]
+    known += [REASONS + path.stem for path in (studies / REASONS).glob("*.prm")]
     wrong = [study for study in chosen.studies if study not in known]
     if wrong:
         sys.exit(f"reference: there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
@@ -100,7 +106,8 @@ def main():
         if not is_done(results, commit):
             found = provenance(results)
             other = ["--force"] if found and not made_by(found, commit) else []
-            code = subprocess.run([chosen.program, "study", study, *options(study), "--out", results, *other],
+            file = studies / f"{study}.prm" if study.startswith(REASONS) else study
+            code = subprocess.run([chosen.program, "study", file, *options(study), "--out", results, *other],
                                   check=False).returncode
             if code != 0:
                 return code

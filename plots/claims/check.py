@@ -16,6 +16,7 @@ from ..results.rows import ResultsError
 from ..tables.number_format import MISSING
 from .criteria import read_criteria
 from .expressions import Missing, evaluate
+from .reasons import sentence
 from .values import Values
 
 HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
@@ -36,6 +37,7 @@ class Outcome:
     ours: str
     note: str = ""  # what our numbers show of why it may not hold
     guess: str = ""  # why that may be, as far as no run has tested it
+    tests: tuple = ()  # what studies that change one thing have shown of it, as sentences
     seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
 
     @property
@@ -61,14 +63,28 @@ def read_claims(study):
 def check_claims(claims, results, printed):
     """The outcome of each claim; `printed` as in make_tables. Where a study was repeated with several
     seeds, a claim is judged by the median of each of its quantities."""
-    ours = [Values(each.summary.records(), each.thresholds.records(), each.iterations)
-            for each in (results, *results.repetitions)]
+    ours = values_of(results)
     rows = {content: table.rows for content, table in printed.items()}
     theirs = Values([row for content in rows if content != "thresholds" for row in rows[content]],
                     rows.get("thresholds", []))
-    outcomes = [check_claim(claim, ours, theirs) for claim in claims]
+    outcomes = [with_tests(check_claim(claim, ours, theirs), theirs) for claim in claims]
     return [replace(outcome, verdict=COARSE) if results.is_quick and outcome.verdict == FAILS else outcome
             for outcome in outcomes]
+
+
+def values_of(results):
+    """The Values of each seed."""
+    return [Values(each.summary.records(), each.thresholds.records(), each.iterations)
+            for each in (results, *results.repetitions)]
+
+
+def with_tests(outcome, theirs):
+    """The outcome with what tests of the reasons have shown, where the claim does not hold."""
+    if outcome.verdict != FAILS:
+        return outcome
+    def judge(results):
+        return check_claim(outcome.claim, values_of(results), theirs)
+    return replace(outcome, tests=tuple(sentence(test, judge) for test in outcome.claim.get("tests", [])))
 
 
 def check_claim(claim, ours, theirs):

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from ..results.data_folder import data_folder
 from ..results.printed_values import read_printed_tables
 from ..results.rows import ResultsError
-from ..results.smoothing import read_results
+from ..results.smoothing import read_provenance, read_results
 from ..results.write_files import write_atomically
 from ..tables.formats import escape_markdown
 from ..tables.number_format import MISSING
 from .agreement import agreement
 from .check import UNKNOWN, Outcome, check_claims, read_claims
+from .reasons import REASONS, reference
 from .report import known_reasons, totals, verdict_cell
 
 # The lines around the overview.
@@ -31,11 +32,6 @@ class Study:
     title: str
     outcomes: list
     provenance: dict  # None: there are no results
-
-
-def reference():
-    """The folder of results folders that come with the program."""
-    return data_folder() / "results" / "reference"
 
 
 def pages():
@@ -65,7 +61,7 @@ def studies(folders):
 def overview(folders):
     """All claims about all studies, as Markdown."""
     found = studies(folders)
-    lines = [totals([outcome for study in found for outcome in study.outcomes]) + ".", "", *runs(found), ""]
+    lines = [totals([outcome for study in found for outcome in study.outcomes]) + ".", "", *runs(found, folders), ""]
     for study in found:
         table = f"reference/{study.name}/tables/claims.md"
         where = ("there are no results to check them with" if study.provenance is None
@@ -80,14 +76,20 @@ def overview(folders):
     return "\n".join(lines)
 
 
-def runs(found):
-    """Which run each study's results are of, as lines of a Markdown table."""
+def tests_of_reasons(folders):
+    """The runs that test reasons, as studies without claims of their own."""
+    return [Study(f"{REASONS}/{path.name}", path.name, [], read_provenance(path / "provenance.json"))
+            for path in sorted((folders / REASONS).glob("*"))]
+
+
+def runs(found, folders):
+    """Which run each study's results are of, and those that test reasons, as lines of a Markdown table."""
     commits = {commit for study in found for commit in commits_of(study)}
     lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. Times of "
              "different commits are not for comparing, and today's program need not repeat the numbers of an "
              "earlier one to the last digit.", "",
              "| study | scale | written | commit | system |", "|:--|:--|:--|:--|:--|"]
-    for study in found:
+    for study in (*found, *tests_of_reasons(folders)):
         run = study.provenance or {}
         cells = (f"`{study.name}`", run.get("scale", MISSING), run.get("written", MISSING)[:len("2026-11-22")],
                  ", ".join(commits_of(study)) or "no results", run.get("machine", {}).get("system", MISSING))

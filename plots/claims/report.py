@@ -73,7 +73,7 @@ def known_reasons(outcomes):
     for outcome in outcomes:
         if outcome.verdict == FAILS:
             guess = as_guess(outcome.guess) if outcome.guess else ""
-            reason = " ".join(filter(None, (outcome.note, of_chance(outcome), guess))) or "Reason not known."
+            reason = " ".join(filter(None, (outcome.note, of_chance(outcome), *outcome.tests, guess))) or "Reason not known."
             found.setdefault(reason, []).append(outcome.claim["id"])
     lines = [f"- {', '.join(ids)}: {escape_markdown(reason)}" for reason, ids in found.items()]
     return ["", "What is known of why claims do not hold, and what is guessed:", "", *lines] if lines else []

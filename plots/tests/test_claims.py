@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Claims: their arithmetic, their verdicts, and that the criteria fit what is printed."""
 
+import csv
 import json
 import math
 import re
+import shutil
+from unittest import mock
 
 from plots.__main__ import main
+from plots.claims import reasons as reasons_module
 from plots.claims.check import (COARSE, FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, Outcome, cases_of, check_claim,
                                 check_claims, met_in, number_of, read_claims, verdict_of)
 from plots.claims.expressions import Missing, evaluate
@@ -236,6 +240,38 @@ class ClaimsOfTheThesis(InFolder):
         self.assertEqual(reasons(note="It is so."), "- X1: It is so.")
         self.assertEqual(reasons(guess="Chance."), "- X1: Guess, tested by no run: Chance.")
         self.assertEqual(reasons(), "- X1: Reason not known.")
+
+    def test_a_reason_is_tested_by_the_claim_on_another_run(self):
+        check = {"quantity": "e_max('tri', 'getme', 1)", "condition": "value > 20"}
+        test = {"study": "reasons/other", "change": "one thing changed", "reason": "It is that thing."}
+        claim = {"id": "X1", "study": "gear", "checks": [check], "tests": [test]}
+        results = read_results(write_results(self.folder / "r"))
+
+        def reasons(error):
+            reasons_module.results_of.cache_clear()
+            other = self.folder / "data" / "results" / "reference" / "reasons" / "other"
+            if error is not None:
+                write_results(other)
+                with open(other / "summary.csv", newline="", encoding="utf-8") as stream:
+                    rows = list(csv.DictReader(stream))
+                write_csv(other / "summary.csv", list(rows[0]), [{**row, "e_max": error} for row in rows])
+            with mock.patch.object(reasons_module, "data_folder", lambda: self.folder / "data"):
+                found = known_reasons(check_claims([claim], results, {}))[-1]
+            shutil.rmtree(other, ignore_errors=True)
+            return found
+
+        self.assertEqual(reasons(None), "- X1: Guess, tested by no run: It is that thing.")
+        self.assertEqual(reasons(30), "- X1: Tested by `reasons/other`, one thing changed: the claim holds: that is the "
+                                      "reason (30).")
+        self.assertEqual(reasons(15), "- X1: Tested by `reasons/other`, one thing changed: it does not hold either: that is "
+                                      "not the reason (15).")
+        self.assertEqual(reasons(""), "- X1: Tested by `reasons/other`, one thing changed: it cannot be judged (–).")
+
+    def test_every_test_of_a_reason_is_a_study(self):
+        for claim in json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8")):
+            for test in claim.get("tests", []):
+                self.assertTrue((thesis_folder().parent / f"{test['study']}.prm").is_file(), test["study"])
+                self.assertEqual(set(test), {"study", "change", "reason"})
 
     def test_seeds_say_whether_it_is_chance(self):
         def reasons(seeds):

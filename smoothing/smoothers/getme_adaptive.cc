@@ -209,9 +209,9 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
 };
 
 /// Second stage: cycles that transform a fraction of the elements, those of the lowest quality when
-/// the cycle begins. A cycle ends after `patience` iterations in a row that did not raise q*_min
-/// (Section 5.1.3; in Fig. 4.4 they need not follow each other), the stage after a cycle that did
-/// not.
+/// the cycle begins. A cycle ends after `patience` iterations in a row that did not raise the best
+/// q*_min (Section 5.1.3), or as in Fig. 4.4 (`no_gain`), the stage after a cycle that did not
+/// raise it.
 template <int dim>
 class AdaptiveMinStage final : public AdaptiveStage<dim> {
  public:
@@ -230,6 +230,12 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
          "iterations in a row without a higher q*_min that end a cycle; the thesis has 5, 10 "
          "gains as much q*_min as the sequential method",
          &patience_, 1.0, 1e9});
+    all.push_back(
+        {"no_gain",
+         "which iterations count for `patience`: those in a row without a new best q*_min "
+         "(Section 5.1.3), or all of a cycle whose q*_min is not above that of the one "
+         "before, until there are more (Fig. 4.4)",
+         Choice{&no_gain_, {"in-a-row", "in-cycle"}}});
     all.push_back({"patience_below_start",
                    "go on for this many times `patience` while the best q*_min is below that of "
                    "the mesh the method began with; not in the thesis, whose rule is 1",
@@ -250,16 +256,22 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
 
   void initialize(const SmoothingState<dim>& state) override {
     AdaptiveStage<dim>::initialize(state);
-    best_ = mesh_quality(state.mesh.topology(), state.cell_quality).q_star_min;
+    best_ = last_ = mesh_quality(state.mesh.topology(), state.cell_quality).q_star_min;
     start_cycle(state);
   }
 
   StepReport step(SmoothingState<dim>& state) override {
     StepReport report = this->smooth_below(state, threshold_);
-    const bool gain = report.quality->q_star_min > best_;
-    best_ = std::max(best_, report.quality->q_star_min);
-    n_without_gain_ = gain ? 0 : n_without_gain_ + 1;
-    if (n_without_gain_ >= stopping().patience_at(best_, state.initial_quality.q_star_min)) {
+    const double q_star_min = report.quality->q_star_min;
+    const bool gain = q_star_min > (no_gain_ == in_a_row ? best_ : last_);
+    best_ = std::max(best_, q_star_min);
+    last_ = q_star_min;
+    if (!gain)
+      ++n_without_gain_;
+    else if (no_gain_ == in_a_row)
+      n_without_gain_ = 0;
+    const int patience = stopping().patience_at(best_, state.initial_quality.q_star_min);
+    if (no_gain_ == in_a_row ? n_without_gain_ >= patience : n_without_gain_ > patience) {
       report.converged = !(best_ > best_at_start_);
       start_cycle(state);
     }
@@ -267,6 +279,8 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
   }
 
  private:
+  enum NoGain { in_a_row, in_cycle };
+
   void start_cycle(const SmoothingState<dim>& state) {
     std::vector<double> sorted = state.cell_quality;
     const auto position =
@@ -284,8 +298,9 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
   int patience_below_start_ = 10;
   int max_iterations_ = 10000;
   double threshold_ = 1.0;
-  double best_ = 0.0, best_at_start_ = 0.0;
+  double best_ = 0.0, best_at_start_ = 0.0, last_ = 0.0;
   int n_without_gain_ = 0;
+  int no_gain_ = in_a_row;
 };
 
 template <int dim>

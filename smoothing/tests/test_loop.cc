@@ -317,6 +317,48 @@ TEST(Loop, AStageThatRefusesToBeginLeavesTheMeshThatItWasGiven) {
   }
 }
 
+/// The iteration that ends the second stage of GETMe adaptive by the words of the thesis: numbers
+/// of q*_min from the mesh that the stage begins with on.
+std::size_t end_of_second_stage(const std::vector<double>& q_star_min, int patience,
+                                bool as_figure) {
+  double best = q_star_min[0], best_at_start = best;
+  int n_without_gain = 0;
+  for (std::size_t i = 1; i < q_star_min.size(); ++i) {
+    const bool gain = q_star_min[i] > (as_figure ? q_star_min[i - 1] : best);
+    best = std::max(best, q_star_min[i]);
+    n_without_gain = gain ? (as_figure ? n_without_gain : 0) : n_without_gain + 1;
+    if (n_without_gain < patience + (as_figure ? 1 : 0)) continue;
+    if (best == best_at_start) return i;
+    best_at_start = best;
+    n_without_gain = 0;
+  }
+  return 0;
+}
+
+TEST(Loop, CyclesOfGetmeAdaptiveEndBySection513OrByItsFigure) {
+  std::vector<std::size_t> ends;
+  for (const std::string rule : {"in-a-row", "in-cycle"}) {
+    PlanarMesh mesh = test::grid_mesh(20, test::GridCells::triangles);
+    test::distort(mesh, 0.3, 1);
+    auto method = make_method<2>("getme-adaptive");
+    method.set("min.no_gain", rule);
+    method.set("min.patience", "3");
+    method.set("min.patience_below_start", "1");
+    std::vector<double> q_star_min;
+    double best_mean = -1;  // the second stage begins with the mesh that has it
+    smooth(mesh, method, [&](const auto& record, const auto&) {
+      if (record.stage == "min") return q_star_min.push_back(record.quality.q_star_min);
+      if (record.quality.q_mean <= best_mean) return;
+      best_mean = record.quality.q_mean;
+      q_star_min = {record.quality.q_star_min};
+    });
+    ASSERT_GT(q_star_min.size(), 2u);
+    ends.push_back(q_star_min.size() - 1);
+    EXPECT_EQ(end_of_second_stage(q_star_min, 3, rule == "in-cycle"), ends.back()) << rule;
+  }
+  EXPECT_NE(ends[0], ends[1]);
+}
+
 /// Takes its time, and says how much.
 class SlowSmoother final : public Smoother<2> {
  public:

@@ -260,8 +260,17 @@ TEST_F(StudyFile, MessagesSayWhatWouldBeRight) {
                   "a list like 'sequential: 10, simultaneous: 2'");
   expect_error_at(5, one_mesh + "degrees = 1\n", "'degrees = 1' is none of a study file");
   expect_error_at(5, one_mesh + "end\n", "this 'end' ends no subsection");
-  expect_error_at(5, one_mesh + "include nothing.prm\n", "cannot open the file 'nothing.prm'");
+  expect_error_at(5, one_mesh + "include nothing.prm\n",
+                  "cannot open the file '" + file("nothing.prm").string() + "'");
   expect_error(one_mesh + "subsection solution\n", "a subsection has no end");
+}
+
+TEST_F(StudyFile, IncludesFilesBesideIt) {
+  std::ofstream(file("base.prm")) << one_mesh << "set degrees = 1\nset record every = 3\n";
+  const Study study = read("include base.prm  # all but one key\nset record every = 7\n");
+  EXPECT_EQ(study.meshes.size(), 1u);
+  EXPECT_EQ(study.degrees, std::vector<int>{1});
+  EXPECT_EQ(study.record_every.default_interval, 7);
 }
 
 TEST_F(StudyFile, MethodParametersOutOfRangeAreFoundWithTheirLine) {

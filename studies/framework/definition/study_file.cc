@@ -54,12 +54,25 @@ void refuse_keys_as_subsections(ParameterHandler& p, const std::string& text,
   }
 }
 
+/// The text with paths of `include` that are relative to the study's folder, not to the working
+/// one.
+std::string with_included_paths(const std::string& text, const std::filesystem::path& folder) {
+  static const std::regex included("^(\\s*include\\s+)(\\S.*?)(\\s*(#.*)?)$");
+  std::istringstream lines(text);
+  std::string result;
+  std::smatch match;
+  for (std::string line; std::getline(lines, line); result += line + "\n")
+    if (std::regex_match(line, match, included))
+      line = match[1].str() + (folder / match[2].str()).string() + match[3].str();
+  return result;
+}
+
 }  // namespace
 
 void parse_study(ParameterHandler& p, const std::string& text, const std::filesystem::path& file,
                  bool skip_undefined) {
   if (!skip_undefined) refuse_keys_as_subsections(p, text, file);
-  std::istringstream stream(text);
+  std::istringstream stream(with_included_paths(text, file.parent_path()));
   try {
     p.parse_input(stream, study_file_in_messages, "", skip_undefined);
   } catch (const dealii::ExceptionBase& error) {
