@@ -132,8 +132,9 @@ def finding(results, rule):
     best = winner(found)
     there = next(c for c in confirmed if c.method == best.method)
     verdict = "confirmed" if there.error < 1 else "not confirmed"
-    lines = [f"{rule.title}: **{results.title(best.method)}**, errors {best.error:.3f} times as large, and "
-             f"{there.error:.3f} times on the other half: {verdict}.", "",
+    found_out = (f"errors {best.error:.3f} times as large, and {there.error:.3f} times on the other half: {verdict}"
+                 if best.method != results.methods[0] else "none of the others that may win has lower errors")
+    lines = [f"{rule.title}: **{results.title(best.method)}**, {found_out}.", "",
              "| | errors | L2 | H1 | q*_min | q_mean | time | errors, other half | L2 | H1 | q*_min | q_mean | time |",
              "|:--|" + "--:|" * 12]
     for one in sorted(found, key=lambda c: c.error):

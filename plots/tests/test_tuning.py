@@ -2,8 +2,11 @@
 """The search for parameters: ratios to the first method on half of the meshes, confirmed on the other."""
 
 import csv
+import json
 import math
 
+from plots.claims.reasons import reference
+from plots.results.data_folder import thesis_folder
 from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import COLUMNS, write_csv, write_results
 from plots.tests.test_read_results import InFolder
@@ -67,6 +70,31 @@ class Tuning(InFolder):
         self.assertAlmostEqual(geometric_mean([1, 4]), 2)
         self.assertEqual(geometric_mean([0, 4]), 0)
         self.assertTrue(math.isnan(geometric_mean([math.nan, 4])))
+
+    def test_the_recommended_preset_is_the_winner_at_equal_time(self):
+        presets = thesis_folder().parent / "presets"
+        own, base = (json.loads((presets / name).read_text(encoding="utf-8"))
+                     for name in ("recommended.json", "thesis-6.3.json"))
+        self.assertEqual(own["extends"], "thesis-6.3")
+        for name in ("planar", "volume"):
+            results = read_results(reference() / "tuning" / name)
+            best = winner(candidates(results, halves(results.meshes)[0], AT_EQUAL_TIME)).method
+            taken, = (method["parameters"] for method in results.provenance["methods"] if method["name"] == best)
+            preset = {**base[name]["simultaneous"], **own.get(name, {}).get("simultaneous", {})}
+            for parameter, value in preset.items():
+                used = taken[f"simultaneous.{parameter}"]
+                self.assertEqual(used if isinstance(value, str) else float(used), value, f"{name}: {parameter}")
+
+    def test_findings_are_those_of_the_results(self):
+        for name in ("planar", "volume"):
+            folder = reference() / "tuning" / name
+            self.assertEqual((folder / "findings.md").read_text(encoding="utf-8"), report(read_results(folder)))
+
+    def test_who_wins_against_none(self):
+        rows = [row for row in self.results.summary.records() if row["method"] != "better"]
+        write_csv(self.folder / "t" / "summary.csv", list(rows[0]), rows)
+        text = report(read_results(self.folder / "t"))
+        self.assertIn("At the end: **usual**, none of the others that may win has lower errors.", text)
 
     def test_report(self):
         text = report(self.results)

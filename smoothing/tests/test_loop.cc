@@ -152,6 +152,8 @@ TEST(Presets, HaveTheParametersOfTheText) {
   EXPECT_EQ(text("thesis-5.5", "getme-adaptive", "min.relaxation"), "0.5, 0.25, 0.1, 0.01, 0");
   EXPECT_EQ(text("thesis-5.5", "smart-laplace", "tolerance"), "1e-04");
   EXPECT_EQ(text("thesis-6.3", "getme", "simultaneous.sigma_tetrahedron_max"), "50.7");
+  EXPECT_EQ(text("recommended", "getme", "simultaneous.sigma_tetrahedron_max"), "5.7");
+  EXPECT_EQ(text("recommended", "getme", "simultaneous.sigma_tetrahedron_min"), "0.7");
   EXPECT_THAT(message_of([] { find_preset("thesis-9"); }), HasSubstr("thesis-5.1, thesis-5.2"));
 }
 
