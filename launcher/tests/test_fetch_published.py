@@ -139,6 +139,14 @@ class FetchPublished(unittest.TestCase):
         own.write_text("set published file = c.mesh\n")
         self.assert_one_sentence(self.fetch(str(own), server.url), "c.mesh", "a.mesh, b.mesh", "--mesh-dir")
 
+    def test_meshes_of_a_study_that_is_included(self):
+        server = self.serve({"a.mesh": CONTENT})
+        (self.folder / "base.prm").write_text("set published file = a.mesh\ninclude own.prm\n")
+        own = self.folder / "own.prm"
+        own.write_text("include base.prm  # and itself, which the program refuses\n")
+        self.assertEqual(self.fetch(str(own), server.url).returncode, 0)
+        self.assertEqual(self.kept(), ["a.mesh"])
+
     def test_studies_that_have_none(self):
         self.assert_one_sentence(self.fetch("generated"), "generated", "without --published")
         self.assert_one_sentence(self.fetch("nowhere"), "nowhere", "--list")

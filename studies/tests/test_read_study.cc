@@ -261,7 +261,7 @@ TEST_F(StudyFile, MessagesSayWhatWouldBeRight) {
   expect_error_at(5, one_mesh + "degrees = 1\n", "'degrees = 1' is none of a study file");
   expect_error_at(5, one_mesh + "end\n", "this 'end' ends no subsection");
   expect_error_at(5, one_mesh + "include nothing.prm\n",
-                  "cannot open the file '" + file("nothing.prm").string() + "'");
+                  "cannot read the file '" + file("nothing.prm").string() + "'");
   expect_error(one_mesh + "subsection solution\n", "a subsection has no end");
 }
 
@@ -271,6 +271,28 @@ TEST_F(StudyFile, IncludesFilesBesideIt) {
   EXPECT_EQ(study.meshes.size(), 1u);
   EXPECT_EQ(study.degrees, std::vector<int>{1});
   EXPECT_EQ(study.record_every.default_interval, 7);
+}
+
+TEST_F(StudyFile, IncludedFilesIncludeOthersBesideThem) {
+  std::filesystem::create_directory(file("below"));
+  std::ofstream(file("below/mesh.prm")) << one_mesh;
+  std::ofstream(file("below/base.prm")) << "include mesh.prm\nset degrees = 1\n";
+  EXPECT_EQ(read("include below/base.prm\n").meshes.size(), 1u);
+}
+
+TEST_F(StudyFile, MistakesInIncludedFilesAreFoundThere) {
+  std::ofstream(file("base.prm")) << one_mesh << "set degres = 1\n";
+  const std::string message =
+      checked(input_error_of([&] { read("set title = a\ninclude base.prm\n"); }), file("base.prm"));
+  EXPECT_THAT(message, ::testing::HasSubstr("base.prm:5: there is no key 'degres'"));
+}
+
+TEST_F(StudyFile, MayNotIncludeItself) {
+  expect_error_at(1, "include own.prm\n", "includes this file itself");
+  std::ofstream(file("base.prm")) << "\ninclude own.prm\n";
+  const std::string message =
+      checked(input_error_of([&] { read("include base.prm\n"); }), file("base.prm"));
+  EXPECT_THAT(message, ::testing::HasSubstr("base.prm:2: "));
 }
 
 TEST_F(StudyFile, MethodParametersOutOfRangeAreFoundWithTheirLine) {

@@ -109,21 +109,18 @@ std::string in_our_words(const std::string& reason, const std::vector<std::strin
   if (matches("The line <(.*)> could not be parsed.*", match))
     return "the line '" + match[1].str() +
            "' is none of a study file; begin it with set, subsection, end, include or #";
-  if (matches(".*file to include <(.*)> cannot be opened", match))
-    return "cannot open the file '" + match[1].str() + "' that is included here; check its path";
   return reason;
 }
 
 }  // namespace
 
-InputError parse_error(const std::filesystem::path& file, const std::string& message,
+InputError parse_error(const StudyText& text, const std::string& message,
                        const std::vector<std::string>& keys) {
-  std::string reason = reason_in(message), position = file.string();
+  std::string reason = reason_in(message), position = text.file();
   std::smatch match;
-  if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <([^>:]*)>?: ?(.*)"))) {
-    if (match[2] != study_file_in_messages) position = match[2];  // a file that the study includes
-    position += ":" + match[1].str();
-    reason = match[3].str();
+  if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <[^>:]*>?: ?(.*)"))) {
+    position = text.position(std::stoul(match[1]));
+    reason = match[2].str();
   }
   return InputError(position + ": " + in_our_words(reason, keys));
 }

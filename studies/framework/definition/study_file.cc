@@ -9,6 +9,7 @@
 #include "smoothing/base/find_named.h"
 #include "smoothing/base/text.h"
 #include "studies/framework/definition/find_study.h"
+#include "studies/framework/definition/included_files.h"
 #include "studies/framework/definition/parse_messages.h"
 
 namespace smoothfem {
@@ -33,10 +34,9 @@ std::vector<std::string> declared_keys(ParameterHandler& p) {
 }
 
 /// deal.II enters what is a key as if it were a subsection, and then misses the keys in it.
-void refuse_keys_as_subsections(ParameterHandler& p, const std::string& text,
-                                const std::filesystem::path& file) {
+void refuse_keys_as_subsections(ParameterHandler& p, const StudyText& text) {
   const auto keys = declared_keys(p);
-  std::istringstream lines(text);
+  std::istringstream lines(text.text());
   int depth = 0, number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
@@ -47,36 +47,24 @@ void refuse_keys_as_subsections(ParameterHandler& p, const std::string& text,
     if (first == "end") --depth;
     if (first != "subsection") continue;
     if (depth++ == 0 && std::find(keys.begin(), keys.end(), name) != keys.end())
-      throw parse_error(file,
+      throw parse_error(text,
                         "Line <" + std::to_string(number) + "> of file <" + study_file_in_messages +
                             ">: There is no such subsection to be entered: " + name,
                         keys);
   }
 }
 
-/// The text with paths of `include` that are relative to the study's folder, not to the working
-/// one.
-std::string with_included_paths(const std::string& text, const std::filesystem::path& folder) {
-  static const std::regex included("^(\\s*include\\s+)(\\S.*?)(\\s*(#.*)?)$");
-  std::istringstream lines(text);
-  std::string result;
-  std::smatch match;
-  for (std::string line; std::getline(lines, line); result += line + "\n")
-    if (std::regex_match(line, match, included))
-      line = match[1].str() + (folder / match[2].str()).string() + match[3].str();
-  return result;
-}
-
 }  // namespace
 
 void parse_study(ParameterHandler& p, const std::string& text, const std::filesystem::path& file,
                  bool skip_undefined) {
-  if (!skip_undefined) refuse_keys_as_subsections(p, text, file);
-  std::istringstream stream(with_included_paths(text, file.parent_path()));
+  const StudyText whole(text, file);
+  if (!skip_undefined) refuse_keys_as_subsections(p, whole);
+  std::istringstream stream(whole.text());
   try {
     p.parse_input(stream, study_file_in_messages, "", skip_undefined);
   } catch (const dealii::ExceptionBase& error) {
-    throw parse_error(file, error.what(), declared_keys(p));
+    throw parse_error(whole, error.what(), declared_keys(p));
   }
 }
 
