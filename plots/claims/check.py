@@ -37,8 +37,8 @@ class Outcome:
     ours: str
     note: str = ""  # what our numbers show of why it may not hold
     guess: str = ""  # why that may be, as far as no run has tested it
-    tests: tuple = ()  # what studies that change one thing have shown of it, as sentences
     seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
+    tests: tuple = ()  # what studies that change one thing have shown of it, as sentences
 
     @property
     def is_beside(self):
