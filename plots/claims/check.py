@@ -16,7 +16,7 @@ from ..results.rows import ResultsError
 from ..tables.number_format import MISSING
 from .criteria import read_criteria
 from .expressions import Missing, evaluate
-from .reasons import sentence
+from .reasons import results_of_test
 from .values import Values
 
 HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
@@ -38,7 +38,7 @@ class Outcome:
     note: str = ""  # what our numbers show of why it may not hold
     guess: str = ""  # why that may be, as far as no run has tested it
     seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
-    tests: tuple = ()  # what studies that change one thing have shown of it, as sentences
+    tests: tuple = ()  # of reasons, with the claim's Outcome on the study that tests it; None if it was not run
 
     @property
     def is_beside(self):
@@ -79,12 +79,14 @@ def values_of(results):
 
 
 def with_tests(outcome, theirs):
-    """The outcome with what tests of the reasons have shown, where the claim does not hold."""
+    """The outcome with the tests of its reasons, where the claim does not hold."""
     if outcome.verdict != FAILS:
         return outcome
-    def judge(results):
-        return check_claim(outcome.claim, values_of(results), theirs)
-    return replace(outcome, tests=tuple(sentence(test, judge) for test in outcome.claim.get("tests", [])))
+    tested = []
+    for test in outcome.claim.get("tests", []):
+        results = results_of_test(test)
+        tested.append((test, results and check_claim(outcome.claim, values_of(results), theirs)))
+    return replace(outcome, tests=tuple(tested))
 
 
 def check_claim(claim, ours, theirs):

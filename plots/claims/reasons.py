@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reasons why claims do not hold. A reason is tested by a study that changes the one thing, in studies/reasons,
-and by the claim itself, judged on that study's results: they are in results/reference/reasons."""
+"""Results of the studies that test reasons why claims do not hold: each changes the one thing (studies/reasons), and
+the claim itself is judged on its results."""
 
 from functools import lru_cache
 
 from ..results.data_folder import data_folder
-from ..results.printed_values import as_guess
-from ..results.rows import ResultsError
 from ..results.smoothing import read_results
 
 REASONS = "reasons"  # the folder's name, in studies and in results/reference
@@ -17,23 +15,13 @@ def reference():
     return data_folder() / "results" / "reference"
 
 
-def sentence(test, judge):
-    """What one test of a reason has shown. test: `study`, whose results are judged; `change`, what is other in it;
-    `reason`, what is thought. judge: results -> Outcome of the claim."""
+def results_of_test(test):
+    """The results of the study that tests a reason (an entry of a claim's `tests`); None if it was not run."""
     folder = reference() / test["study"]
-    if not (folder / "summary.csv").exists():
-        return as_guess(test["reason"])
-    outcome = judge(results_of(folder))
-    holds, fails, unknown = ("the claim holds: that is the reason", "it does not hold either: that is not the reason",
-                             "it cannot be judged")
-    found = {"holds": holds, "does not hold": fails}.get(outcome.verdict, unknown)
-    return f"Tested by `{test['study']}`, {test['change']}: {found} ({outcome.ours})."
+    return results_of(folder) if (folder / "summary.csv").exists() else None
 
 
 @lru_cache(maxsize=None)
 def results_of(folder):
-    """The results of a study that tests reasons; several claims ask for one."""
-    try:
-        return read_results(folder)
-    except ResultsError as error:
-        raise ResultsError(f"{error} It tests a reason of a claim.") from None
+    """As read_results; several claims ask for one folder."""
+    return read_results(folder)

@@ -67,13 +67,22 @@ def of_chance(outcome):
     return f"Chance {verdict}: it holds for {outcome.seeds}."
 
 
+def of_test(test, outcome):
+    """What the test of a reason has shown; outcome: of the claim on the study that tests it, or None."""
+    if outcome is None:
+        return as_guess(test["reason"])
+    found = {HOLDS: "the claim holds: that is the reason",
+             FAILS: "it does not hold either: that is not the reason"}.get(outcome.verdict, "it cannot be judged")
+    return f"Tested by `{test['study']}`, {test['change']}: {found} ({outcome.ours})."
+
+
 def known_reasons(outcomes):
     """What is known, and what is guessed, of why claims do not hold: lines below the table."""
     found = {}
     for outcome in outcomes:
         if outcome.verdict == FAILS:
             guess = as_guess(outcome.guess) if outcome.guess else ""
-            reason = " ".join(filter(None, (outcome.note, of_chance(outcome), *outcome.tests, guess))) or "Reason not known."
+            reason = " ".join(filter(None, (outcome.note, of_chance(outcome), *(of_test(*tested) for tested in outcome.tests), guess))) or "Reason not known."
             found.setdefault(reason, []).append(outcome.claim["id"])
     lines = [f"- {', '.join(ids)}: {escape_markdown(reason)}" for reason, ids in found.items()]
     return ["", "What is known of why claims do not hold, and what is guessed:", "", *lines] if lines else []

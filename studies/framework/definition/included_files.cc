@@ -2,15 +2,37 @@
 #include "studies/framework/definition/included_files.h"
 
 #include <algorithm>
-#include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "smoothing/base/input_error.h"
+#include "studies/framework/definition/study_file.h"
 
 namespace smoothfem {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// What stands behind `include` in a line; empty in all other lines.
+std::string included_in(const std::string& line) {
+  std::istringstream words(line.substr(0, line.find('#')));
+  std::string first, path;
+  if (!(words >> first) || first != "include") return "";
+  std::getline(words >> std::ws, path);
+  return path.substr(0, path.find_last_not_of(" \t\r") + 1);
+}
+
+/// position: of the line that includes the file.
+std::string content_of(const fs::path& included, const std::string& position) {
+  try {
+    return read_study_text(included);
+  } catch (const InputError&) {
+    throw InputError(position + ": cannot read the file '" + included.string() +
+                     "' that is included here; check its path");
+  }
+}
+
+}  // namespace
 
 StudyText::StudyText(const std::string& text, const fs::path& file) : file_(file.string()) {
   add(text, {file});
@@ -21,25 +43,18 @@ std::string StudyText::position(std::size_t line) const {
 }
 
 void StudyText::add(const std::string& text, const std::vector<fs::path>& including) {
-  static const std::regex include("\\s*include\\s+(\\S.*?)\\s*(#.*)?");
   const fs::path& file = including.back();
   std::istringstream lines(text);
-  std::smatch match;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     const std::string position = file.string() + ":" + std::to_string(++number);
-    if (!std::regex_match(line, match, include)) {
+    const std::string name = included_in(line);
+    if (name.empty()) {
       text_ += line + "\n";
       positions_.push_back(position);
       continue;
     }
-    const fs::path included = file.parent_path() / match[1].str();
-    std::ifstream stream(included);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    if (!stream || fs::is_directory(included))
-      throw InputError(position + ": cannot read the file '" + included.string() +
-                       "' that is included here; check its path");
+    const fs::path included = file.parent_path() / name;
     std::error_code ignored;
     if (std::any_of(including.begin(), including.end(), [&](const fs::path& outer) {
           return fs::equivalent(outer, included, ignored);
@@ -49,7 +64,7 @@ void StudyText::add(const std::string& text, const std::vector<fs::path>& includ
                        "out");
     std::vector<fs::path> further = including;
     further.push_back(included);
-    add(content.str(), further);
+    add(content_of(included, position), further);
   }
 }
 
