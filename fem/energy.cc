@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::size_t cells_of_part = 256;
 
-/// Calls work(part, first, last) for parts of a group's cells, several at a time.
+/// Calls work(part, first, last) for parts of the first n_cells of a group, several at a time.
 template <class Work>
-void for_parts(const ElementCells& group, const Work& work) {
-  parallel_for_ranges(group.n_cells(), cells_of_part, [&](std::size_t first, std::size_t last) {
+void for_parts(std::size_t n_cells, const Work& work) {
+  parallel_for_ranges(n_cells, cells_of_part, [&](std::size_t first, std::size_t last) {
     work(first / cells_of_part, first, last);
   });
 }
@@ -126,14 +126,19 @@ Energy<dim>::Energy(std::shared_ptr<const FiniteElementSpace<dim>> space,
     throw InputError(
         "the energy of a solution needs the derivatives of its 'diffusivity' in node positions; "
         "give the diffusivity as a formula");
-  for (const auto& group : space_->groups) {
-    const ElementType type = group.element.type;
-    if (type == ElementType::pyramid || type == ElementType::prism)
-      throw InputError(
-          "the energy of a solution is not available on pyramids and prisms; take a mesh of "
-          "tetrahedra or hexahedra");
+  const auto is_missing = [](const ElementCells& group) {
+    return group.element.type == ElementType::pyramid || group.element.type == ElementType::prism;
+  };
+  const auto& groups = space_->groups;
+  const auto n_missing =
+      static_cast<std::size_t>(std::count_if(groups.begin(), groups.end(), is_missing));
+  if (space_->ranks.sum(n_missing) > 0)  // one rank alone may have them
+    throw InputError(
+        "the energy of a solution is not available on pyramids and prisms; take a mesh of "
+        "tetrahedra or hexahedra");
+  for (const auto& group : groups) {
     const std::size_t n_cells = group.n_cells();
-    loads_.push_back({.rules = make_energy_rules(type, space_->degree),
+    loads_.push_back({.rules = make_energy_rules(group.element.type, space_->degree),
                       .levels = std::vector<std::uint8_t>(n_cells),
                       .values = std::vector<double>(n_cells * group.element.n_dofs),
                       .weighted_f = std::vector<std::vector<double>>((n_cells + cells_of_part - 1) /
@@ -156,7 +161,7 @@ void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x) {
                                                                    std::size_t g) {
     GroupLoad& load = loads_[g];
     const auto& rules = load.rules.load;
-    for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_parts(group.n_cells(), [&](std::size_t part, std::size_t first, std::size_t last) {
       auto& kept = load.weighted_f[part];
       kept.clear();
       std::vector<double> weighted_f(rules.back().n_points);
@@ -198,7 +203,7 @@ double Energy<dim>::value(const std::vector<Point<dim>>& x, const Eigen::VectorX
     const GroupLoad& load = loads_[g];
     const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules);
     std::vector<double> of_parts(load.weighted_f.size(), 0.0);
-    for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_parts(group.n_own, [&](std::size_t part, std::size_t first, std::size_t last) {
       for (std::size_t cell = first; cell < last; ++cell) {
         const CellFunction<dim, n_dofs, n_vertices> function(group, cell, x, u);
         for (std::size_t q = 0; q < table.n_points; ++q) {
@@ -253,9 +258,9 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
                                                                    std::size_t g) {
     const GroupLoad& load = loads_[g];
     const auto& table = gradient_rule<n_dofs, n_vertices>(group, load.rules);
-    std::vector<std::array<Point<dim>, n_vertices>> of_cells(group.n_cells());
+    std::vector<std::array<Point<dim>, n_vertices>> of_cells(group.n_own);
     for (auto& of_cell : of_cells) of_cell.fill(Point<dim>::Zero());
-    for_parts(group, [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_parts(group.n_own, [&](std::size_t part, std::size_t first, std::size_t last) {
       std::vector<std::size_t> cells(last - first);
       std::iota(cells.begin(), cells.end(), first);
       if (solution_.diffusivity)
@@ -279,7 +284,7 @@ std::vector<Point<dim>> Energy<dim>::gradient(const std::vector<Point<dim>>& x,
         add_load_terms<n_dofs, n_vertices>(group, load, part, cells, x, u, of_cells);
       }
     });
-    for (std::size_t k = 0; k < group.vertices.size(); ++k)
+    for (std::size_t k = 0; k < group.n_own * n_vertices; ++k)
       sums[group.vertices[k]] += of_cells[k / n_vertices][k % n_vertices];
   };
   for_each_smooth_group(*space_, run);

@@ -14,31 +14,33 @@ namespace smoothfem {
 
 /// The energy J = a(u_h, u_h) - 2 (f, u_h), a(u, v) = (A grad u, grad v), of solutions on meshes of
 /// one topology, and its gradient in node positions. On triangles, quadrilaterals, tetrahedra and
-/// hexahedra, on one process. f is integrated by rules that each cell gets as fine as it needs:
-/// where f is not resolved, J falls by what its quadrature misses, and the error rises. a(u_h, u_h)
-/// is integrated as the matrix is. The same bits for every number of threads.
+/// hexahedra. f is integrated by rules that each cell gets as fine as it needs: where f is not
+/// resolved, J falls by what its quadrature misses, and the error rises. a(u_h, u_h) is integrated
+/// as the matrix is. The same bits for every number of threads. Of several ranks each has the terms
+/// of its own cells, and the sums over the ranks are what they are on one.
 template <int dim>
 class Energy {
  public:
   /// The space's cells that are no simplices have a fixed number of points (TensorPoints).
   /// solution: has to outlive this; f and A are taken from it. Throws InputError for pyramids and
-  /// prisms, and for A without derivatives.
+  /// prisms, and for A without derivatives. Collective.
   Energy(std::shared_ptr<const FiniteElementSpace<dim>> space,
          const ManufacturedSolution<dim>& solution);
 
-  /// Integrates f over the cells of a mesh, for all that follows. x: coordinates of its nodes.
+  /// Integrates f over the cells of a mesh, for all that follows. x: coordinates of the space's
+  /// nodes.
   void integrate_load(const std::vector<Point<dim>>& x);
 
   /// b_i += integral of f phi_i, for the free dofs.
   void add_load(Eigen::VectorXd& right_hand_side) const;
 
-  /// J of the finite element function with the values u at the dofs, less 2 (f, c) with the
-  /// constant c, which is 2 (f, 1) c whatever the mesh is, and keeps J from being a small
+  /// Own cells' J of the finite element function with the values u at the dofs, less 2 (f, c) with
+  /// the constant c, which is 2 (f, 1) c whatever the mesh is, and keeps J from being a small
   /// difference of large numbers.
   double value(const std::vector<Point<dim>>& x, const Eigen::VectorXd& u, double c) const;
 
-  /// dJ / dx_v for the values u of the solution, which stand for themselves: J is stationary in
-  /// them. For nodes v inside,
+  /// Own cells' dJ / dx_v for the values u of the solution, which stand for themselves: J is
+  /// stationary in them. For nodes v inside,
   ///   sum over cells of integrals of -2 (A grad u . grad N_v) grad u
   ///     + (A grad u . grad u) grad N_v + N_v (dA/dx grad u . grad u) + 2 f N_v grad u,
   /// N_v the hat function of the node, with which cells are mapped, and the third term the vector

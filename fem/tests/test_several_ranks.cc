@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <iostream>
+#include <limits>
 
+#include "fem/energy_solver.h"
 #include "fem/mpi_session.h"
 #include "fem/poisson_solver.h"
 #include "fem/tests/unit_mesh.h"
@@ -137,6 +139,69 @@ TEST_P(SeveralRanksTest, EigenvectorsSurviveTheWayThroughTheRoot) {
     next.set_eigenvectors(std::vector<double>(all_ranks().is_root() ? 3 : 0, 1.0));
     EXPECT_TRUE(next.eigenvectors().empty());
   });
+}
+
+/// As far as CG converges.
+template <int dim>
+void expect_same_energy(const Mesh<dim>& mesh, const ManufacturedSolution<dim>& solution,
+                        const std::vector<std::string>& natural_groups) {
+  const int degree = SeveralRanksTest::GetParam().degree;
+  const auto solver =
+      make_energy_solver(on_root(mesh), degree, solution, natural_groups, all_ranks());
+  const bool is_root = all_ranks().is_root();
+  const auto coordinates = is_root ? std::span(mesh.coordinates()) : std::span<const Point<dim>>();
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    const double energy = solver->solve(coordinates);
+    const auto gradient = solver->gradient();
+    const auto function = solver->function();
+    double of_root = energy;
+    all_ranks().broadcast(of_root);
+    EXPECT_EQ(energy, of_root);
+    if (!is_root) continue;
+    const auto alone = make_energy_solver(&mesh, degree, solution, natural_groups);
+    const double expected = alone->solve(mesh.coordinates());
+    EXPECT_NEAR(energy, expected, 1e-9 * std::abs(expected));
+    const auto expected_gradient = alone->gradient();
+    double largest = 0.0;
+    for (const auto& g : expected_gradient) largest = std::max(largest, g.norm());
+    ASSERT_EQ(gradient.size(), expected_gradient.size());
+    for (std::size_t i = 0; i < gradient.size(); ++i)
+      EXPECT_LT((gradient[i] - expected_gradient[i]).norm(), 1e-7 * largest);
+    const auto expected_function = alone->function();
+    EXPECT_EQ(function.x, expected_function.x);
+    ASSERT_EQ(function.u.size(), expected_function.u.size());
+    EXPECT_LT((function.u - expected_function.u).norm(), 1e-8 * expected_function.u.norm());
+  }
+}
+
+TEST_P(SeveralRanksTest, EnergyAndItsGradientAreThoseOfOneProcess) {
+  GetParam().on_mesh(14, 7, 0.2, [&]<int dim>(const Mesh<dim>& plain) {
+    const auto& smooth = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
+    const Cells cells = GetParam().cells;
+    if (cells == Cells::pyramids || cells == Cells::prisms || cells == Cells::mixed_volume) {
+      // Refused by all, whoever has such cells.
+      EXPECT_THROW(make_energy_solver(on_root(plain), 1, smooth, {}, all_ranks()), InputError);
+      return;
+    }
+    expect_same_energy<dim>(plain, smooth, {});
+    expect_same_energy<dim>(with_groups(plain),
+                            dim == 2
+                                ? derived_solution<dim>("sin(2*x)*y^2", "2, x/2 ; x/2, 1 + y", {})
+                                : derived_solution<dim>("sin(2*x)*y^2 + z", "1 + x*y", {}),
+                            {"right"});
+  });
+}
+
+TEST(SeveralRanks, NoRankHasAnEnergyWhereACellIsFolded) {
+  // Positive at its corners, but not inside.
+  const auto mesh = unit_cube(3, Cells::hexahedra, 0.0);
+  auto coordinates = mesh.copied_coordinates();
+  for (auto& x : coordinates)
+    if ((x - Point<3>::Constant(1.0 / 3.0)).norm() < 1e-6) x = Point<3>::Constant(0.9);
+  const auto& solution = manufactured_solution<3>("volume");
+  const auto solver = make_energy_solver(on_root(mesh), 1, solution, {}, all_ranks());
+  EXPECT_EQ(solver->solve(coordinates), std::numeric_limits<double>::infinity());
+  EXPECT_LT(solver->solve(mesh.coordinates()), std::numeric_limits<double>::infinity());
 }
 
 TEST(SeveralRanks, FewDofsAreEnoughForEachRank) {

@@ -39,6 +39,9 @@ class CommandLine : public FileTest {
                                      "--oversubscribe",
                                      "--bind-to",
                                      "none",
+                                     "--mca",
+                                     "mpi_yield_when_idle",
+                                     "1",
                                      "-np",
                                      std::to_string(n_ranks),
                                      SMOOTHFEM_PROGRAM};

@@ -106,16 +106,27 @@ class StudyRun {
   }
 
   /// What a method moves nodes by; null: the study solves nothing.
-  std::shared_ptr<const Problem<spacedim>> problem_of(const StudyMethod& method) const {
+  std::shared_ptr<const Problem<spacedim>> problem_of(const StudyMethod& method) {
     if constexpr (dim == spacedim) {
       if (data_.solutions.empty()) return nullptr;
-      std::vector<ManufacturedSolution<dim>> chosen;
+      std::vector<std::size_t> chosen;  // by number among the study's solutions
       const auto all = solutions_of(study_);
       for (const auto& label : method.smooth_for)
         for (std::size_t s = 0; s < all.size(); ++s)
-          if (all[s]->label == label) chosen.push_back(data_.solutions[s]);
-      if (chosen.empty()) chosen.push_back(data_.solutions.front());
-      return make_poisson_problem(std::move(chosen), study_.finite_elements.natural_groups);
+          if (all[s]->label == label) chosen.push_back(s);
+      if (chosen.empty()) chosen.push_back(0);
+      std::vector<ManufacturedSolution<dim>> solutions;
+      for (const std::size_t s : chosen) solutions.push_back(data_.solutions[s]);
+      if constexpr (dim == 2)
+        return make_poisson_problem(std::move(solutions), study_.finite_elements.natural_groups);
+      else
+        return make_poisson_problem<3>(
+            std::move(solutions),
+            [this, chosen](const Mesh<3>& mesh, int degree, std::size_t number) {
+              PoissonOptions options = study_.finite_elements;
+              options.degree = degree;
+              return team_.make_energy_solver(mesh, options, data_.solutions, chosen[number]);
+            });
     }
     return nullptr;
   }

@@ -3,19 +3,35 @@
 
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <thread>
+
+#include "smoothing/base/parallel.h"
 
 namespace smoothfem {
 
 namespace {
 
-enum class Task : int { make_solver, solve, nodal_errors, eigenvectors, set_eigenvectors, stop };
+enum class Task : int {
+  make_solver,
+  solve,
+  nodal_errors,
+  eigenvectors,
+  set_eigenvectors,
+  make_energy_solver,
+  solve_energy,
+  energy_gradient,
+  energy_function,
+  end_energy_solver,
+  stop
+};
 
 struct Command {
   Task task = Task::stop;
   int degree = 0;
   int is_result = 0;
   std::size_t solution = 0;
+  std::size_t energy_solver = 0;
 };
 
 /// Waiting in MPI would keep a core busy that smoothing may need.
@@ -51,6 +67,38 @@ auto all_or_nothing(const Ranks& ranks, const Work& work) {
     throw;
   }
 }
+
+/// The root's part of a solver that all ranks have, and what tells the others to do theirs.
+class TeamEnergySolver final : public EnergySolver<3> {
+ public:
+  TeamEnergySolver(const Ranks& ranks, std::size_t number, std::unique_ptr<EnergySolver<3>> part)
+      : ranks_(ranks), number_(number), part_(std::move(part)) {}
+  TeamEnergySolver(const TeamEnergySolver&) = delete;
+  ~TeamEnergySolver() override { tell(Task::end_energy_solver); }
+
+  double solve(std::span<const Point<3>> coordinates) override {
+    tell(Task::solve_energy);
+    return all_or_nothing(ranks_, [&] { return part_->solve(coordinates); });
+  }
+  std::vector<Point<3>> gradient() override {
+    tell(Task::energy_gradient);
+    return all_or_nothing(ranks_, [&] { return part_->gradient(); });
+  }
+  WholeFunction<3> function() override {
+    tell(Task::energy_function);
+    return all_or_nothing(ranks_, [&] { return part_->function(); });
+  }
+
+ private:
+  void tell(Task task) const {
+    Command command{.task = task, .energy_solver = number_};
+    exchange(ranks_, command);
+  }
+
+  const Ranks ranks_;
+  const std::size_t number_;
+  const std::unique_ptr<EnergySolver<3>> part_;
+};
 
 }  // namespace
 
@@ -94,9 +142,26 @@ void SolverTeam::set_eigenvectors(const std::vector<double>& eigenvectors) {
   all_or_nothing(ranks_, [&] { solver_->set_eigenvectors(eigenvectors); });
 }
 
+std::unique_ptr<EnergySolver<3>> SolverTeam::make_energy_solver(
+    const Mesh<3>& mesh, const PoissonOptions& options,
+    const std::vector<ManufacturedSolution<3>>& solutions, std::size_t number) {
+  Command command{.task = Task::make_energy_solver,
+                  .degree = options.degree,
+                  .solution = number,
+                  .energy_solver = n_energy_solvers_};
+  exchange(ranks_, command);
+  auto part = all_or_nothing(ranks_, [&] {
+    return smoothfem::make_energy_solver(&mesh, options.degree, solutions[number],
+                                         options.natural_groups, ranks_);
+  });
+  return std::make_unique<TeamEnergySolver>(ranks_, n_energy_solvers_++, std::move(part));
+}
+
 void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
                        const std::vector<ManufacturedSolution<3>>& solutions) {
+  set_n_threads(1);  // the ranks are as many as there are cores
   std::unique_ptr<PoissonSolver<3>> solver;
+  std::map<std::size_t, std::unique_ptr<EnergySolver<3>>> energy_solvers;
   const auto follow = [&](const Command& command) {
     switch (command.task) {
       case Task::make_solver: {
@@ -117,6 +182,22 @@ void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
         break;
       case Task::set_eigenvectors:
         solver->set_eigenvectors({});
+        break;
+      case Task::make_energy_solver:
+        energy_solvers[command.energy_solver] = smoothfem::make_energy_solver<3>(
+            nullptr, command.degree, solutions[command.solution], options.natural_groups, ranks);
+        break;
+      case Task::solve_energy:
+        (void)energy_solvers.at(command.energy_solver)->solve({});
+        break;
+      case Task::energy_gradient:
+        (void)energy_solvers.at(command.energy_solver)->gradient();
+        break;
+      case Task::energy_function:
+        (void)energy_solvers.at(command.energy_solver)->function();
+        break;
+      case Task::end_energy_solver:
+        energy_solvers.erase(command.energy_solver);
         break;
       case Task::stop:
         break;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/energy_solver.h"
 #include "fem/poisson_solver.h"
 
 namespace smoothfem {
@@ -34,9 +35,17 @@ class SolverTeam {
   std::vector<double> eigenvectors();
   void set_eigenvectors(const std::vector<double>& eigenvectors);
 
+  /// See the function make_energy_solver. There may be several beside each other and beside that
+  /// solver; all have to end before the team does. options: degree and natural groups. solutions,
+  /// number: as above.
+  std::unique_ptr<EnergySolver<3>> make_energy_solver(
+      const Mesh<3>& mesh, const PoissonOptions& options,
+      const std::vector<ManufacturedSolution<3>>& solutions, std::size_t number);
+
  private:
   const Ranks ranks_;
   std::unique_ptr<PoissonSolver<3>> solver_;
+  std::size_t n_energy_solvers_ = 0;  ///< made so far: they are known by number
 };
 
 }  // namespace smoothfem
