@@ -10,6 +10,7 @@ PROGRAM: bin/smoothfem, built from SOURCE without changes that are not committed
 with their meshes and figures. What is kept of them is in results/reference of SOURCE."""
 
 import argparse
+import gzip
 import json
 import shutil
 import subprocess
@@ -17,8 +18,9 @@ import sys
 from pathlib import Path
 
 KEPT = ("iterations.csv", "summary.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
-COLLECTIONS = ("field",)  # run at their usual scale
-KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")  # all records are too many
+COLLECTIONS = ("field", "energy-field")  # run at their usual scale
+KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")
+PACKED = "iterations.csv"  # of collections, whose records are many
 DRAWN = ("gear", "volume", "field")  # whose figures are kept, too
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME; what they are is in their files
 KEPT_OF_REASONS = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json")
@@ -69,6 +71,9 @@ def keep(results, reference, study):
             shutil.copytree(source, new / name, ignore=shutil.ignore_patterns("*.pdf"))
         elif source.exists():
             shutil.copy2(source, new / name)
+    if study in COLLECTIONS:
+        packed = gzip.compress((results / PACKED).read_bytes(), mtime=0)
+        (new / f"{PACKED}.gz").write_bytes(packed)
     shutil.rmtree(reference / study, ignore_errors=True)
     new.rename(reference / study)
 

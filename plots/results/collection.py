@@ -2,6 +2,7 @@
 """Reads the results folder of a collection: its members, and of their rows the columns that are used."""
 
 import csv
+import gzip
 from dataclasses import dataclass
 from operator import itemgetter
 from pathlib import Path
@@ -43,11 +44,19 @@ class CollectionResults:
         return self.titles.get(name, name)
 
 
+def open_large(path):
+    """A CSV file to be read; in its place there may be one that gzip has made of it, with .gz behind the name."""
+    packed = path.with_name(path.name + ".gz")
+    if packed.exists() and not path.exists():
+        return gzip.open(packed, "rt", newline="", encoding="utf-8")
+    return open(path, newline="", encoding="utf-8")
+
+
 def read_some_columns(path, names):
     """Some columns of a CSV file, which may be large; raises ResultsError if it is missing, truncated or lacks
     one of them."""
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
+        with open_large(path) as stream:
             lines = csv.reader(stream)
             header = next(lines, [])
             missing = [name for name in names if name not in header]
@@ -57,7 +66,7 @@ def read_some_columns(path, names):
             table = [chosen(line) for line in lines]
     except FileNotFoundError:
         raise ResultsError(f"{path}: the file is missing; has a member of the study been completed?") from None
-    except (IndexError, OSError, UnicodeDecodeError, csv.Error) as error:
+    except (IndexError, EOFError, OSError, UnicodeDecodeError, csv.Error) as error:
         raise ResultsError(f"{path}: the file cannot be read ({error}); it looks truncated.") from None
     columns = zip(*table) if table else ([] for _ in names)
     return Rows(Path(path), {name: np.array(column, dtype=object) for name, column in zip(names, columns)})

@@ -2,6 +2,7 @@
 """Tables and figures of a collection, from invented results whose answers are known."""
 
 import contextlib
+import gzip
 import io
 import json
 from pathlib import Path
@@ -14,7 +15,7 @@ from plots.collections.findings import verdict, what_got_worse
 from plots.collections.prediction import predictions, relative_to_least, thresholds
 from plots.collections.problems import problems_of
 from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, REFINED, STATISTICS, read_collection_results
-from plots.results.rows import SOLVING, Rows, solving_seconds
+from plots.results.rows import SOLVING, ResultsError, Rows, solving_seconds
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
 
@@ -200,6 +201,18 @@ class Collection(InFolder):
                   [{**dict.fromkeys(MEMBER_COLUMNS, ""), "member": "broken", "status": "failed"}])
         self.assertEqual(main([str(folder), "--quiet"]), 0)
         self.assertEqual({path.name for path in (folder / "tables").glob("*.md")}, {"table_members.md", "findings.md"})
+
+    def test_records_may_be_packed(self):
+        file = self.folder / "r" / "iterations.csv"
+        packed = gzip.compress(file.read_bytes())
+        file.unlink()
+        file.with_name("iterations.csv.gz").write_bytes(packed)
+        iterations = read_collection_results(self.folder / "r").iterations
+        for name in (*KEYS, *NUMBERS):
+            self.assertEqual(list(iterations.text(name)), list(self.results.iterations.text(name)))
+        file.with_name("iterations.csv.gz").write_bytes(packed[:len(packed) // 2])
+        with self.assertRaisesRegex(ResultsError, "looks truncated"):
+            read_collection_results(self.folder / "r")
 
     def test_what_is_missing_is_said(self):
         (self.folder / "r" / "iterations.csv").unlink()
