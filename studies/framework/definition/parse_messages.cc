@@ -38,7 +38,9 @@ std::string no_such(const std::string& what, const std::string& wanted,
                     const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(wanted, names);
   return "there is no " + what + " '" + wanted + "' here; " +
-         (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+         (nearest.empty()     ? ""
+          : nearest == wanted ? "it is for another part of the file; "
+                              : "did you mean '" + nearest + "'? ") +
          "'smoothfem list --study-keys' shows the keys there are";
 }
 
