@@ -10,8 +10,8 @@ PROGRAM: bin/smoothfem, built from SOURCE without changes that are not committed
 with their meshes and figures. What is kept of them is in results/reference of SOURCE."""
 
 import argparse
-import gzip
 import json
+import lzma
 import shutil
 import subprocess
 import sys
@@ -20,7 +20,7 @@ from pathlib import Path
 KEPT = ("iterations.csv", "summary.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
 COLLECTIONS = ("field", "energy-field")  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")
-PACKED = "iterations.csv"  # of collections, whose records are many
+PACKED = ("iterations.csv", "metrics.csv")  # of collections, whose records are many
 DRAWN = ("gear", "volume", "field")  # whose figures are kept, too
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME; what they are is in their files
 KEPT_OF_REASONS = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json")
@@ -72,8 +72,8 @@ def keep(results, reference, study):
         elif source.exists():
             shutil.copy2(source, new / name)
     if study in COLLECTIONS:
-        packed = gzip.compress((results / PACKED).read_bytes(), mtime=0)
-        (new / f"{PACKED}.gz").write_bytes(packed)
+        for name in filter(lambda name: (results / name).exists(), PACKED):
+            (new / f"{name}.xz").write_bytes(lzma.compress((results / name).read_bytes(), preset=9))
     shutil.rmtree(reference / study, ignore_errors=True)
     new.rename(reference / study)
 

@@ -2,7 +2,7 @@
 """Reads the results folder of a collection: its members, and of their rows the columns that are used."""
 
 import csv
-import gzip
+import lzma
 from dataclasses import dataclass
 from operator import itemgetter
 from pathlib import Path
@@ -44,11 +44,20 @@ class CollectionResults:
         return self.titles.get(name, name)
 
 
+def packed(path):
+    """The file that xz has made of a large CSV file, and that may stand in its place."""
+    return path.with_name(path.name + ".xz")
+
+
+def is_there(path):
+    """Whether there is a large CSV file, packed or not."""
+    return path.exists() or packed(path).exists()
+
+
 def open_large(path):
-    """A CSV file to be read; in its place there may be one that gzip has made of it, with .gz behind the name."""
-    packed = path.with_name(path.name + ".gz")
-    if packed.exists() and not path.exists():
-        return gzip.open(packed, "rt", newline="", encoding="utf-8")
+    """A large CSV file to be read, packed or not."""
+    if packed(path).exists() and not path.exists():
+        return lzma.open(packed(path), "rt", newline="", encoding="utf-8")
     return open(path, newline="", encoding="utf-8")
 
 
@@ -66,7 +75,7 @@ def read_some_columns(path, names):
             table = [chosen(line) for line in lines]
     except FileNotFoundError:
         raise ResultsError(f"{path}: the file is missing; has a member of the study been completed?") from None
-    except (IndexError, EOFError, OSError, UnicodeDecodeError, csv.Error) as error:
+    except (IndexError, EOFError, OSError, UnicodeDecodeError, csv.Error, lzma.LZMAError) as error:
         raise ResultsError(f"{path}: the file cannot be read ({error}); it looks truncated.") from None
     columns = zip(*table) if table else ([] for _ in names)
     return Rows(Path(path), {name: np.array(column, dtype=object) for name, column in zip(names, columns)})
@@ -109,7 +118,7 @@ def read_collection_results(folder):
     file, columns, of_metrics = folder / "iterations.csv", (*KEYS, *NUMBERS), {}
     if "complete" not in members.text("status"):
         iterations = Rows(file, {name: np.array([], dtype=object) for name in columns})
-    elif (folder / "metrics.csv").exists():
+    elif is_there(folder / "metrics.csv"):
         iterations = read_some_columns(file, tuple(dict.fromkeys((*columns, *RECORD))))
         of_metrics = metric_columns(folder / "metrics.csv", iterations)
         iterations = Rows(file, {**iterations.columns, **of_metrics})

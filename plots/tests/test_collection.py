@@ -2,9 +2,9 @@
 """Tables and figures of a collection, from invented results whose answers are known."""
 
 import contextlib
-import gzip
 import io
 import json
+import lzma
 from pathlib import Path
 
 import numpy as np
@@ -204,13 +204,13 @@ class Collection(InFolder):
 
     def test_records_may_be_packed(self):
         file = self.folder / "r" / "iterations.csv"
-        packed = gzip.compress(file.read_bytes())
+        packed = lzma.compress(file.read_bytes())
         file.unlink()
-        file.with_name("iterations.csv.gz").write_bytes(packed)
+        file.with_name("iterations.csv.xz").write_bytes(packed)
         iterations = read_collection_results(self.folder / "r").iterations
         for name in (*KEYS, *NUMBERS):
             self.assertEqual(list(iterations.text(name)), list(self.results.iterations.text(name)))
-        file.with_name("iterations.csv.gz").write_bytes(packed[:len(packed) // 2])
+        file.with_name("iterations.csv.xz").write_bytes(packed[:len(packed) // 2])
         with self.assertRaisesRegex(ResultsError, "looks truncated"):
             read_collection_results(self.folder / "r")
 
