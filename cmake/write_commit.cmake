@@ -8,7 +8,8 @@ set(dirty false)
 if(failed)
   set(commit "unknown")
 else()
-  execute_process(COMMAND git -C ${SOURCE_DIR} status --porcelain --untracked-files=no
+  # Results of the program are none of its sources: they change while it makes them one after the other.
+  execute_process(COMMAND git -C ${SOURCE_DIR} status --porcelain --untracked-files=no -- . ":!results/reference"
                   OUTPUT_VARIABLE changes ERROR_QUIET)
   if(changes)
     set(dirty true)
