@@ -1,30 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What notes below the gear's tables say about rounding is what its study found."""
 
-import csv
 import unittest
 
 from plots.claims.overview import reference
 from plots.results.data_folder import thesis_folder
+from plots.results.rows import read_rows
 
 REASON = "studies/reasons/gear-rounding.prm"
 
 
-def rows(path):
-    """The rows of a CSV file."""
-    with open(path, newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
-
-
 def notes():
     """Table -> note."""
-    return {row["table"]: row["note"] for row in rows(thesis_folder() / "deviations.csv") if row["known_from"] == REASON}
+    return {row["table"]: row["note"] for row in read_rows(thesis_folder() / "deviations.csv").records()
+            if row["known_from"] == REASON}
 
 
 class Rounding(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.found = rows(reference() / "reasons" / "gear-rounding" / "iterations.csv")
+        cls.found = read_rows(reference() / "reasons" / "gear-rounding" / "iterations.csv").records()
 
     def numbers(self, mesh, degree, column):
         """Of the mesh as it is, then of the changed ones."""
@@ -32,7 +27,7 @@ class Rounding(unittest.TestCase):
 
     @staticmethod
     def printed(table, mesh, degree, column):
-        return next(float(row[column]) for row in rows(thesis_folder() / f"table_{table}.csv")
+        return next(float(row[column]) for row in read_rows(thesis_folder() / f"table_{table}.csv").records()
                     if (row["mesh"], row["degree"], row["method"]) == (mesh, degree, "initial"))
 
     def test_counts(self):

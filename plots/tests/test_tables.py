@@ -8,7 +8,7 @@ from dataclasses import replace
 from fnmatch import fnmatchcase
 
 from plots.results.data_folder import data_folder, thesis_folder
-from plots.results.printed_values import read_printed_tables
+from plots.results.printed_values import as_guess, read_printed_tables
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
 from plots.results.symbols import Heading
@@ -223,6 +223,7 @@ class PrintedValues(InFolder):
                  for note in table.deviations]
         guesses = {note["note"] for note in shown if not note["known_from"]}
         self.assertEqual(guesses, {note["note"] for note in shown if note["note"].startswith("Guess, tested by no run: ")})
+        self.assertEqual(as_guess("why"), "Guess, tested by no run: why")
 
     def test_deviations_name_rows_that_are_printed(self):
         index = read_rows(thesis_folder() / "tables.csv").records()

@@ -22,6 +22,21 @@ class CommandLine : public FileTest {
  protected:
   static std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
+  /// What starts a program on so many ranks, which may be more than cores: who waits lets the
+  /// others work.
+  static std::vector<std::string> mpirun_on(int n_ranks) {
+    return {"mpirun",
+            "--quiet",
+            "--oversubscribe",
+            "--bind-to",
+            "none",
+            "--mca",
+            "mpi_yield_when_idle",
+            "1",
+            "-np",
+            std::to_string(n_ranks)};
+  }
+
   /// Runs `smoothfem words...` in the test's folder.
   Outcome smoothfem(const std::vector<std::string>& words) const {
     std::vector<std::string> command{SMOOTHFEM_PROGRAM};
@@ -31,20 +46,11 @@ class CommandLine : public FileTest {
 
   /// The same on some ranks of mpirun; whoever is root here has chosen to be.
   Outcome smoothfem_on_ranks(int n_ranks, const std::vector<std::string>& words) const {
-    std::vector<std::string> command{"env",
-                                     "OMPI_ALLOW_RUN_AS_ROOT=1",
-                                     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
-                                     "mpirun",
-                                     "--quiet",
-                                     "--oversubscribe",
-                                     "--bind-to",
-                                     "none",
-                                     "--mca",
-                                     "mpi_yield_when_idle",
-                                     "1",
-                                     "-np",
-                                     std::to_string(n_ranks),
-                                     SMOOTHFEM_PROGRAM};
+    std::vector<std::string> command{"env", "OMPI_ALLOW_RUN_AS_ROOT=1",
+                                     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+    const auto mpirun = mpirun_on(n_ranks);
+    command.insert(command.end(), mpirun.begin(), mpirun.end());
+    command.push_back(SMOOTHFEM_PROGRAM);
     command.insert(command.end(), words.begin(), words.end());
     return run(command);
   }

@@ -46,22 +46,11 @@ class Resume : public CommandLine {
               " set smooth for = ramp\n set weights.solves = 3\n set descent.solves = 3\nend\n");
   }
 
-  /// `mpirun -np n_ranks` before the words if there are several, which may be more than cores: who
-  /// waits lets the others work.
+  /// `mpirun -np n_ranks` before the words if there are several.
   std::vector<std::string> command(const std::string& study, const std::string& out,
                                    int n_ranks = 1) const {
     std::vector<std::string> words;
-    if (n_ranks > 1)
-      words = {"mpirun",
-               "--quiet",
-               "--oversubscribe",
-               "--bind-to",
-               "none",
-               "--mca",
-               "mpi_yield_when_idle",
-               "1",
-               "-np",
-               std::to_string(n_ranks)};
+    if (n_ranks > 1) words = mpirun_on(n_ranks);
     for (const std::string& word :
          {std::string(SMOOTHFEM_PROGRAM), std::string("study"), file(study).string(),
           std::string("--out"), file(out).string(), std::string("--quiet")})
