@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 
 KEPT = ("iterations.csv", "summary.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
-COLLECTIONS = ("field", "energy-field")  # run at their usual scale
+COLLECTIONS = ("field", "energy-field", "energy-field-quadratic")  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")
 PACKED = ("iterations.csv", "metrics.csv")  # of collections, whose records are many
 DRAWN = ("gear", "volume", "field")  # whose figures are kept, too
@@ -54,9 +54,10 @@ def seconds(folder):
 
 def options(study):
     """How a study is run for the reference."""
+    drawn = [] if study in DRAWN else ["--no-figures"]
     if study in PUBLISHED:
-        return ["--published"]
-    return [] if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper"]
+        return ["--published", *drawn]
+    return drawn if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper", *drawn]
 
 
 def keep(results, reference, study):
