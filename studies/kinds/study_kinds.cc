@@ -28,7 +28,7 @@ const std::vector<StudyKind>& study_kinds() {
 ReadyStudy read_any_study(const std::filesystem::path& file, const std::string& scale) {
   dealii::ParameterHandler p;
   p.declare_entry("kind", default_study_kind);
-  parse_study(p, read_study_text(file), file, true);
+  parse_study(p, StudyText(file), true);
   const auto& kind =
       in_file(file, [&]() -> const StudyKind& { return registry().find(p.get("kind")); });
   return kind.read(file, scale);

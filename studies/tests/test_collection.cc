@@ -174,6 +174,31 @@ TEST_F(Collections, MethodsThatKnowTheSolutionHaveMeshesOfTheirOwnForEach) {
   EXPECT_EQ(bump, qualities("bump", "bump"));
 }
 
+TEST_F(Collections, MethodsThatKnowTheSolutionTakeVolumeMeshes) {
+  file_with("cubes.prm",
+            "set kind = collection\nset domains = cube: 5\nset methods = laplace, weights\n"
+            "set degrees = 2\nset timing runs = 1\nset solutions = sine\n"
+            "subsection method weights\n set type = indicator-weighted\n"
+            " set weights.solves = 2\nend\n"
+            "subsection finite elements\n set condition number = none\nend\n");
+  const Outcome outcome = smoothfem({"study", "cubes.prm", "--out", "out", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(table("out/members.csv").select({{"status", "complete"}}).size(), 2u);
+}
+
+TEST_F(Collections, ComeFromOthersByInclude) {
+  file_with("base.prm",
+            "set kind = collection\nset domains = square: 9\nset elements = triangles\n"
+            "set sizes = 1, 2\nset methods = laplace\nset degrees = 1\n");
+  EXPECT_EQ(read_collection(file("base.prm")).members.size(), 2u);
+  file_with("own.prm", "include base.prm\nset sizes = 1\n");
+  EXPECT_EQ(read_collection(file("own.prm")).members.size(), 1u);
+  file_with("wrong.prm", "include base.prm\nset sizes = 1\nset degree = 2\n");
+  const Outcome outcome = smoothfem({"study", "wrong.prm", "--dry-run"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("wrong.prm:3: "));
+}
+
 TEST_F(Collections, WhatCannotBeIsRefused) {
   write_good_meshes(1);
   const auto refused = [&](const std::string& more, const std::string& why) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "smoothing/base/input_error.h"
 #include "studies/framework/definition/study_file.h"
@@ -34,8 +35,14 @@ std::string content_of(const fs::path& included, const std::string& position) {
 
 }  // namespace
 
-StudyText::StudyText(const std::string& text, const fs::path& file) : file_(file.string()) {
-  add(text, {file});
+StudyText::StudyText(const fs::path& file) : file_(file) {
+  add(read_study_text(file), {file});
+}
+
+StudyText StudyText::with_text(std::string text) const {
+  StudyText other = *this;
+  other.text_ = std::move(text);
+  return other;
 }
 
 std::string StudyText::position(std::size_t line) const {

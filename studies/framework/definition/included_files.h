@@ -11,13 +11,17 @@ namespace smoothfem {
 /// where its lines are from.
 class StudyText {
  public:
-  /// Paths of included files are relative to the file that includes them. Throws InputError with
-  /// file and line for one that cannot be read, or that includes itself.
-  StudyText(const std::string& text, const std::filesystem::path& file);
+  /// Reads the file. Paths of included files are relative to the file that includes them. Throws
+  /// InputError if it cannot be read, with file and line for an included one that cannot, or that
+  /// includes itself.
+  explicit StudyText(const std::filesystem::path& file);
 
   const std::string& text() const { return text_; }
   /// The study file.
-  const std::string& file() const { return file_; }
+  const std::filesystem::path& file() const { return file_; }
+  /// Other text for the same lines; what it has more lines than before is as if it stood in the
+  /// last one.
+  StudyText with_text(std::string text) const;
   /// "FILE:LINE" of a line of the text, counted from 1.
   std::string position(std::size_t line) const;
 
@@ -25,7 +29,8 @@ class StudyText {
   /// including: the files on the way to this one, the study's first.
   void add(const std::string& text, const std::vector<std::filesystem::path>& including);
 
-  std::string file_, text_;
+  std::filesystem::path file_;
+  std::string text_;
   std::vector<std::string> positions_;
 };
 

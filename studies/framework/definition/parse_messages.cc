@@ -118,7 +118,7 @@ std::string in_our_words(const std::string& reason, const std::vector<std::strin
 
 InputError parse_error(const StudyText& text, const std::string& message,
                        const std::vector<std::string>& keys) {
-  std::string reason = reason_in(message), position = text.file();
+  std::string reason = reason_in(message), position = text.file().string();
   std::smatch match;
   if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <[^>:]*>?: ?(.*)"))) {
     position = text.position(std::stoul(match[1]));

@@ -271,16 +271,16 @@ std::vector<const StudySolution*> solutions_of(const Study& study) {
 }
 
 Study read_study(const std::filesystem::path& file, const std::string& scale) {
-  return study_of_text(read_study_text(file), file, scale);
+  return study_of_text(StudyText(file), scale);
 }
 
-Study study_of_text(const std::string& text, const std::filesystem::path& file,
-                    const std::string& scale) {
+Study study_of_text(const StudyText& text, const std::string& scale) {
+  const std::filesystem::path& file = text.file();
   // Which subsections there are depends on what the file says: first the lists, then the methods'
   // types, then everything, strictly.
   ParameterHandler lists;
   declare_lists(lists);
-  parse_study(lists, text, file, true);
+  parse_study(lists, text, true);
   const auto meshes = split_list(lists.get("meshes"));
   const MeshDimensions dimensions = in_file(file, [&] { return read_dimensions(lists); });
   in_file(file, [&] {
@@ -297,7 +297,7 @@ Study study_of_text(const std::string& text, const std::filesystem::path& file,
 
   ParameterHandler types;
   for (const auto& method : methods) declare_method(types, dimensions, method, "");
-  parse_study(types, text, file, true);
+  parse_study(types, text, true);
 
   ParameterHandler p;
   std::map<std::string, std::string> type_of;
@@ -318,7 +318,7 @@ Study study_of_text(const std::string& text, const std::filesystem::path& file,
     });
     type_of[method] = type;
   }
-  parse_study(p, text, file, false);
+  parse_study(p, text, false);
   Study study;
   if (solutions.empty())
     name_solution(p);

@@ -12,6 +12,7 @@
 #include "meshes/distortion/distort.h"
 #include "meshes/metrics/metric.h"
 #include "smoothing/loop/catalogue.h"
+#include "studies/framework/definition/included_files.h"
 #include "studies/framework/definition/study_header.h"
 
 namespace smoothfem {
@@ -120,9 +121,8 @@ std::vector<const StudySolution*> solutions_of(const Study& study);
 /// of its subsection `scale NAME`; empty: none. Throws InputError with file and line for unknown
 /// keys and bad values, and for a scale that the study does not have, naming those it has.
 Study read_study(const std::filesystem::path& file, const std::string& scale = {});
-/// The same for a text; the file is the one that messages name and other names are relative to.
-Study study_of_text(const std::string& text, const std::filesystem::path& file,
-                    const std::string& scale = {});
+/// The same for a text; its file is the one that messages name and other names are relative to.
+Study study_of_text(const StudyText& text, const std::string& scale = {});
 
 /// A commented parameter file with every key and its default, for the methods and meshes named.
 std::string study_template();

@@ -9,7 +9,6 @@
 #include "smoothing/base/find_named.h"
 #include "smoothing/base/text.h"
 #include "studies/framework/definition/find_study.h"
-#include "studies/framework/definition/included_files.h"
 #include "studies/framework/definition/parse_messages.h"
 
 namespace smoothfem {
@@ -56,15 +55,13 @@ void refuse_keys_as_subsections(ParameterHandler& p, const StudyText& text) {
 
 }  // namespace
 
-void parse_study(ParameterHandler& p, const std::string& text, const std::filesystem::path& file,
-                 bool skip_undefined) {
-  const StudyText whole(text, file);
-  if (!skip_undefined) refuse_keys_as_subsections(p, whole);
-  std::istringstream stream(whole.text());
+void parse_study(ParameterHandler& p, const StudyText& text, bool skip_undefined) {
+  if (!skip_undefined) refuse_keys_as_subsections(p, text);
+  std::istringstream stream(text.text());
   try {
     p.parse_input(stream, study_file_in_messages, "", skip_undefined);
   } catch (const dealii::ExceptionBase& error) {
-    throw parse_error(whole, error.what(), declared_keys(p));
+    throw parse_error(text, error.what(), declared_keys(p));
   }
 }
 
@@ -156,14 +153,14 @@ void declare_table_scale(ParameterHandler& p, const std::string& scale,
 
 StudyHeader read_table_study(ParameterHandler& p, const std::filesystem::path& file,
                              const std::string& scale, const std::vector<std::string>& numbers) {
-  const std::string text = read_study_text(file);
+  const StudyText text(file);
   ParameterHandler lists;  // which subsections there are depends on what the file says
   declare_scales(lists);
-  parse_study(lists, text, file, true);
+  parse_study(lists, text, true);
   const auto scales = split_list(lists.get("scales"));
   require_scale(scale, scales, file.string());
   for (const auto& name : scales) declare_table_scale(p, name, numbers);
-  parse_study(p, text, file, false);
+  parse_study(p, text, false);
 
   StudyHeader header;
   header.name = file.stem().string();

@@ -9,6 +9,7 @@
 
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
+#include "studies/framework/definition/included_files.h"
 #include "studies/framework/definition/study_header.h"
 
 /// What reading a study file takes, whatever the kind of study.
@@ -38,13 +39,12 @@ decltype(auto) in_file(const std::filesystem::path& file, const Call& call) {
   }
 }
 
-/// The text of a study file; throws InputError if it cannot be read.
+/// What stands in a study file, to the letter; throws InputError if it cannot be read.
 std::string read_study_text(const std::filesystem::path& file);
 
 /// Fills the keys declared. Throws InputError with file and line for bad values, and for keys that
 /// are not declared unless they are to be skipped.
-void parse_study(dealii::ParameterHandler& p, const std::string& text,
-                 const std::filesystem::path& file, bool skip_undefined);
+void parse_study(dealii::ParameterHandler& p, const StudyText& text, bool skip_undefined);
 
 /// Throws InputError unless the label has letters, digits, '.', '_' and '-' only.
 void check_label(const std::string& label, const std::string& what, const std::string& file);

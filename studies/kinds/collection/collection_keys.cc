@@ -102,13 +102,13 @@ void declare_collection_solution(ParameterHandler& p, const std::string& name) {
                    "box, from 0 to 1 along its longest side; Z is 0 in the plane.");
 }
 
-std::string without_collection_keys(const std::string& text,
-                                    const std::vector<std::string>& solutions) {
+StudyText without_collection_keys(const StudyText& text,
+                                  const std::vector<std::string>& solutions) {
   OwnLines is_own(solutions);
-  std::istringstream lines(text);
+  std::istringstream lines(text.text());
   std::string rest;
   for (std::string line; std::getline(lines, line);) rest += (is_own(line) ? "" : line) + "\n";
-  return rest;
+  return text.with_text(rest);
 }
 
 }  // namespace smoothfem

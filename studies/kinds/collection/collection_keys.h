@@ -21,7 +21,6 @@ void declare_collection_solution(dealii::ParameterHandler& p, const std::string&
 
 /// The text of a collection without its own keys, as many lines as before: what a reader of
 /// smoothing studies takes. solutions: names of subsections that belong to the collection.
-std::string without_collection_keys(const std::string& text,
-                                    const std::vector<std::string>& solutions);
+StudyText without_collection_keys(const StudyText& text, const std::vector<std::string>& solutions);
 
 }  // namespace smoothfem

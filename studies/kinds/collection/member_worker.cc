@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/kinds/collection/member_worker.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -28,15 +29,13 @@ std::string facts_of(const fs::path& folder, const MeshOutline& outline) {
 }  // namespace
 
 MemberWorker::MemberWorker(const Collection& collection, const StudyOptions& options,
-                           RunUntil until)
-    : collection_(collection), out_(options.out) {
+                           RunUntil until, std::optional<MpiSession>& mpi)
+    : collection_(collection), out_(options.out), mpi_(mpi) {
   options_.quiet = true;
   options_.n_threads = 1;
   options_.smoothing_threads = options.smoothing_threads;
   options_.until = until;
 }
-
-MemberWorker::~MemberWorker() = default;
 
 fs::path MemberWorker::folder_of(const Member& member) const {
   return member_folder(out_, member.name);
@@ -48,14 +47,22 @@ std::string MemberWorker::run(const Member& member) {
   const MeshOutline outline = outline_of(collection_, member, options_.out);
   const Study study = member_study(collection_, member, outline);
   if (options_.until == RunUntil::smoothing) share_smoothing(member, study);
-  if (options_.until == RunUntil::results && needs_mpi(study)) {
-    if (!mpi_) mpi_ = std::make_unique<MpiSession>();
+  if (solves(study) && needs_mpi(study)) {
+    if (!mpi_) mpi_.emplace();
     options_.ranks = Ranks(MPI_COMM_WORLD);
   } else {
     options_.ranks = Ranks();
   }
   run_study(study, options_);
   return options_.until == RunUntil::meshes ? facts_of(options_.out, outline) : "";
+}
+
+/// Methods that need the problem solve it while they smooth.
+bool MemberWorker::solves(const Study& study) const {
+  return options_.until == RunUntil::results ||
+         (options_.until == RunUntil::smoothing &&
+          std::any_of(study.methods.begin(), study.methods.end(),
+                      [&](const auto& method) { return method.needs_problem(study.dimensions); }));
 }
 
 std::optional<fs::path> MemberWorker::at_another(const Member& member, const std::string& status,

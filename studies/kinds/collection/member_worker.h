@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "fem/mpi_session.h"
@@ -14,9 +13,10 @@ namespace smoothfem {
 /// Works on members in a process that does nothing else.
 class MemberWorker {
  public:
-  /// options: of the collection.
-  MemberWorker(const Collection& collection, const StudyOptions& options, RunUntil until);
-  ~MemberWorker();
+  /// options: of the collection. mpi: the process's, begun when a solve needs it; it must outlive
+  /// this.
+  MemberWorker(const Collection& collection, const StudyOptions& options, RunUntil until,
+               std::optional<MpiSession>& mpi);
 
   /// Goes on with the member's study up to the end of the phase. Returns what there is to know of
   /// its mesh, for add_facts, or nothing. Throws InputError for members that cannot be used.
@@ -24,6 +24,8 @@ class MemberWorker {
 
  private:
   std::filesystem::path folder_of(const Member& member) const;
+  /// Whether the phase has solves.
+  bool solves(const Study& study) const;
   /// What another member with the same mesh has in its folder, if one has come to this status.
   std::optional<std::filesystem::path> at_another(const Member& member, const std::string& status,
                                                   const std::filesystem::path& name) const;
@@ -33,7 +35,7 @@ class MemberWorker {
   const Collection& collection_;
   std::filesystem::path out_;
   StudyOptions options_;  ///< of members
-  std::unique_ptr<MpiSession> mpi_;
+  std::optional<MpiSession>& mpi_;
 };
 
 /// Adds to a row what a worker has found out of the mesh.

@@ -18,13 +18,13 @@ using dealii::ParameterHandler;
 
 /// What the members of one dimension have in common: the collection's file read as a study of one
 /// mesh that is never made. A solution of the collection's own takes the place of the one named.
-Study read_common(const std::string& text, const std::filesystem::path& file,
-                  const std::string& scale, int dimension, bool has_own_solutions) {
-  Study study =
-      study_of_text(text + "set kind = smoothing\nset dimension = " + std::to_string(dimension) +
-                        "\nset meshes = member\n" +
-                        (has_own_solutions ? "subsection solution\nset name = sine\nend\n" : ""),
-                    file, scale);
+Study read_common(const StudyText& text, const std::string& scale, int dimension,
+                  bool has_own_solutions) {
+  Study study = study_of_text(
+      text.with_text(text.text() + "set kind = smoothing\nset dimension = " +
+                     std::to_string(dimension) + "\nset meshes = member\n" +
+                     (has_own_solutions ? "subsection solution\nset name = sine\nend\n" : "")),
+      scale);
   study.meshes.clear();
   for (auto* parameters : {&study.header.parameters, &study.header.file_parameters})
     std::erase_if(*parameters, [&](const auto& entry) {
@@ -35,8 +35,7 @@ Study read_common(const std::string& text, const std::filesystem::path& file,
 }
 
 /// Files may be of any dimension, generated meshes are of their domain's.
-void read_common(Collection& collection, const std::string& text, const std::filesystem::path& file,
-                 const std::string& scale) {
+void read_common(Collection& collection, const StudyText& text, const std::string& scale) {
   std::set<int> needed;
   bool any_dimension = false;
   for (const auto& member : collection.members)
@@ -47,7 +46,7 @@ void read_common(Collection& collection, const std::string& text, const std::fil
   for (const int dimension : {2, 3}) try {
       if (any_dimension || needed.contains(dimension))
         collection.common.emplace(
-            dimension, read_common(text, file, scale, dimension, !collection.solutions.empty()));
+            dimension, read_common(text, scale, dimension, !collection.solutions.empty()));
     } catch (const InputError& error) {
       if (needed.contains(dimension)) throw;
       collection.refusals[dimension] = error.what();
@@ -68,10 +67,10 @@ StudyParameters joined_parameters(const StudyParameters& own, const StudyParamet
 }  // namespace
 
 Collection read_collection(const std::filesystem::path& file, const std::string& scale) {
-  const std::string text = read_study_text(file);
+  const StudyText text(file);
   ParameterHandler lists;  // which subsections there are depends on what the file says
   declare_collection(lists);
-  parse_study(lists, text, file, true);
+  parse_study(lists, text, true);
   const auto scales = split_list(lists.get("scales"));
   require_scale(scale, scales, file.string());
   if (!lists.get("meshes").empty())
@@ -85,7 +84,7 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
     declare_collection_scale(lists, name);
     declare_collection_scale(p, name);
   }
-  parse_study(lists, text, file, true);
+  parse_study(lists, text, true);
   for (const auto& name : scales) {
     const Subsection subsection(lists, "scale " + name);
     for (const auto& more : split_list(lists.get("solutions")))
@@ -96,7 +95,7 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
     check_label(name, "solution", file.string());
     declare_collection_solution(p, name);
   }
-  parse_study(p, text, file, true);
+  parse_study(p, text, true);
   const StudyParameters said = all_parameters(p);
   apply_scale(p, scale, file.string(), {}, collection_lists);
 
@@ -106,7 +105,7 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
       collection.solutions.emplace(name, read_solution(p, name));
     collection.members = expand_members(p, std::filesystem::absolute(file).parent_path());
   });
-  read_common(collection, without_collection_keys(text, solutions), file, scale);
+  read_common(collection, without_collection_keys(text, solutions), scale);
   for (auto& [dimension, study] : collection.common)
     study.write_meshes = p.get_bool("write meshes");
   collection.header = collection.common.begin()->second.header;

@@ -249,10 +249,11 @@ class CollectionRun {
 
 /// Does what CollectionRun gives to one of its processes.
 void work_on_members(const Collection& collection, const StudyOptions& options) {
+  std::optional<MpiSession> mpi;
   std::map<std::string, MemberWorker> workers;  // of the phases
   answer_tasks(options.task_socket, [&](const std::string& task) {
     const auto [phase, member] = phase_and_member(collection, task);
-    return workers.try_emplace(phase.name, collection, options, phase.until)
+    return workers.try_emplace(phase.name, collection, options, phase.until, mpi)
         .first->second.run(member);
   });
 }
