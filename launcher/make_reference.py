@@ -54,10 +54,10 @@ def seconds(folder):
 
 def options(study):
     """How a study is run for the reference."""
-    drawn = [] if study in DRAWN else ["--no-figures"]
+    figures = [] if study in DRAWN else ["--no-figures"]
     if study in PUBLISHED:
-        return ["--published", *drawn]
-    return drawn if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper", *drawn]
+        return ["--published", *figures]
+    return figures if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper", *figures]
 
 
 def keep(results, reference, study):
@@ -94,7 +94,7 @@ def main():
     reference = chosen.source / "results" / "reference"
     studies = chosen.source / "studies"
     known = [path.stem for path in studies.glob("*.prm")
-             if path.stem == "gear" or SCALE in path.read_text(encoding="utf-8")]
+             if path.stem in COLLECTIONS or SCALE in path.read_text(encoding="utf-8")]
     known += [REASONS + path.stem for path in (studies / REASONS).glob("*.prm")]
     wrong = [study for study in chosen.studies if study not in known]
     if wrong:

@@ -25,7 +25,6 @@ struct Arguments {
   bool list = false;
   bool print_ranks = false;
   bool published = false;
-  bool no_figures = false;
   StudyOptions options;
 };
 
@@ -128,8 +127,8 @@ void add_study_command(CLI::App& app) {
   command->add_flag("--force", arguments->options.force,
                     "start anew; the folder of an earlier run is kept under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress");
-  // For the launcher, which draws.
-  command->add_flag("--no-figures", arguments->no_figures, "make tables, but draw nothing");
+  // For the launcher, which draws; this program never does.
+  command->add_flag("--no-figures")->description("make tables, but draw nothing");
   command->add_flag("--dry-run", arguments->options.dry_run,
                     "only say what would run, about how long, and what memory and disk it takes");
   command->add_flag(

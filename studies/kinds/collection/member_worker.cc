@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/kinds/collection/member_worker.h"
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -47,7 +46,8 @@ std::string MemberWorker::run(const Member& member) {
   const MeshOutline outline = outline_of(collection_, member, options_.out);
   const Study study = member_study(collection_, member, outline);
   if (options_.until == RunUntil::smoothing) share_smoothing(member, study);
-  if (solves(study) && needs_mpi(study)) {
+  // Methods that need the problem solve it while they smooth.
+  if (options_.until != RunUntil::meshes && needs_mpi(study)) {
     if (!mpi_) mpi_.emplace();
     options_.ranks = Ranks(MPI_COMM_WORLD);
   } else {
@@ -55,14 +55,6 @@ std::string MemberWorker::run(const Member& member) {
   }
   run_study(study, options_);
   return options_.until == RunUntil::meshes ? facts_of(options_.out, outline) : "";
-}
-
-/// Methods that need the problem solve it while they smooth.
-bool MemberWorker::solves(const Study& study) const {
-  return options_.until == RunUntil::results ||
-         (options_.until == RunUntil::smoothing &&
-          std::any_of(study.methods.begin(), study.methods.end(),
-                      [&](const auto& method) { return method.needs_problem(study.dimensions); }));
 }
 
 std::optional<fs::path> MemberWorker::at_another(const Member& member, const std::string& status,

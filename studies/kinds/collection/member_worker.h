@@ -24,8 +24,6 @@ class MemberWorker {
 
  private:
   std::filesystem::path folder_of(const Member& member) const;
-  /// Whether the phase has solves.
-  bool solves(const Study& study) const;
   /// What another member with the same mesh has in its folder, if one has come to this status.
   std::optional<std::filesystem::path> at_another(const Member& member, const std::string& status,
                                                   const std::filesystem::path& name) const;
