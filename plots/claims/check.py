@@ -15,7 +15,7 @@ from ..results.data_folder import thesis_folder
 from ..results.rows import ResultsError
 from ..tables.number_format import MISSING
 from .criteria import read_criteria
-from .expressions import Missing, evaluate
+from .expressions import DividedByZero, Missing, evaluate
 from .reasons import results_of_test
 from .values import Values
 
@@ -38,6 +38,8 @@ class Outcome:
     note: str = ""  # what our numbers show of why it may not hold
     guess: str = ""  # why that may be, as far as no run has tested it
     seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
+    chance: bool = True  # whether seeds change a number that decides; of no meaning where there is one seed
+    met: tuple = ()  # cases that meet their condition, and cases in all; empty if there are no checks
     tests: tuple = ()  # of reasons, with the claim's Outcome on the study that tests it; None if it was not run
 
     @property
@@ -93,25 +95,32 @@ def check_claim(claim, ours, theirs):
     """The outcome of one claim: it holds if all of its checks hold. ours: of each seed."""
     if not claim["checks"]:
         return Outcome(claim, UNKNOWN, claim.get("printed", MISSING), claim["reason"])
-    verdicts, printed, own = [], [], []
+    verdicts, printed, own, all_met, chance = [], [], [], [], []
     for check in claim["checks"]:
         cases = cases_of(check)
         numbers = [number_of(check["quantity"], case, theirs) for case in cases]
         found = [median_of(check["quantity"], case, ours) for case in cases]
         met = met_in(check, found, numbers)
+        all_met += met
         verdicts.append(verdict_of(met, check.get("at_least", len(cases))))
+        if verdicts[-1] == FAILS:
+            chance += [varies(check["quantity"], case, ours) for case, is_met in zip(cases, met) if not is_met]
         printed.append(check.get("printed") or
                        shown(numbers, cases, met_in(check, numbers, numbers)))
         own.append(shown(found, cases, met))
     worst = next(v for v in (FAILS, UNKNOWN, HOLDS) if v in verdicts)
-    missing = claim.get("reason") if worst == UNKNOWN else None
+    missing = ""
+    if worst == UNKNOWN:
+        is_divided = any(divides_by_zero(check, ours) for check in claim["checks"])
+        missing = "a quotient by 0" if is_divided else claim.get("reason")
     seeds = ""
     if len(ours) > 1:
         alone = [check_claim(claim, [one], theirs).verdict for one in ours]
         known = len(alone) - alone.count(UNKNOWN)
         seeds = f"{alone.count(HOLDS)} of {known} seeds" if known > 1 else ""
     return Outcome(claim, worst, "; ".join(printed), missing or "; ".join(own),
-                   filled(claim.get("note", ""), ours, theirs), claim.get("guess", ""), seeds)
+                   filled(claim.get("note", ""), ours, theirs), claim.get("guess", ""), seeds,
+                   chance=any(chance), met=(all_met.count(True), len(all_met)))
 
 
 def median_of(quantity, case, values):
@@ -119,6 +128,22 @@ def median_of(quantity, case, values):
     numbers = [number_of(quantity, case, of_seed) for of_seed in values]
     numbers = [number for number in numbers if number is not None]
     return statistics.median(numbers) if numbers else None
+
+
+def varies(quantity, case, values):
+    """Whether the quantity is another number for one of the seeds."""
+    return len({number_of(quantity, case, of_seed) for of_seed in values}) > 1
+
+
+def divides_by_zero(check, values):
+    """Whether a quantity of the check is a quotient by zero, for one of the seeds in one of its cases."""
+    def divides(case, of_seed):
+        try:
+            evaluate(check["quantity"], case, of_seed)
+        except Missing as error:
+            return isinstance(error, DividedByZero)
+        return False
+    return any(divides(case, of_seed) for case in cases_of(check) for of_seed in values)
 
 
 def filled(note, ours, theirs):

@@ -15,9 +15,13 @@ class Missing(Exception):
     """A number that is needed is not there."""
 
 
+class DividedByZero(Missing):
+    """It would be a quotient by zero."""
+
+
 def evaluate(text, names, call):
     """The value of an expression. `names` maps names to values; `call(name, arguments)` evaluates
-    functions and may raise Missing. Raises Missing for a division by zero and for NaN, ValueError
+    functions and may raise Missing. Raises DividedByZero, Missing for NaN, ValueError
     for anything that is not arithmetic."""
 
     def value_of(node):
@@ -40,7 +44,7 @@ def evaluate(text, names, call):
     try:
         value = value_of(ast.parse(text, mode="eval").body)
     except ZeroDivisionError:
-        raise Missing(f"`{text}` divides by zero") from None
+        raise DividedByZero(f"`{text}` divides by zero") from None
     except (SyntaxError, TypeError) as error:
         raise ValueError(f"`{text}`: {error}") from None
     if isinstance(value, float) and math.isnan(value):

@@ -4,6 +4,7 @@
 from ..results.printed_values import as_guess
 from ..results.rows import entries
 from ..tables.formats import escape_markdown
+from ..tables.number_format import MISSING
 from .check import COARSE, FAILS, HOLDS, UNKNOWN
 
 # What is said of one and of several.
@@ -63,17 +64,29 @@ def of_chance(outcome):
     """What other seeds say of chance as a reason; nothing where there is one seed."""
     if not outcome.seeds:
         return ""
+    if not outcome.chance:
+        return "Seeds do not change what decides."
     verdict = "is not the reason" if outcome.seeds.startswith("0 ") else "decides"
     return f"Chance {verdict}: it holds for {outcome.seeds}."
 
 
-def of_test(test, outcome):
-    """What the test of a reason has shown; outcome: of the claim on the study that tests it, or None."""
-    if outcome is None:
+def of_test(test, tested, outcome):
+    """What the test of a reason has shown of a claim's outcome; tested: the claim's on the study that changes the one
+    thing, or None."""
+    if tested is None:
         return as_guess(test["reason"])
-    found = {HOLDS: "the claim holds: that is the reason",
-             FAILS: "it does not hold either: that is not the reason"}.get(outcome.verdict, "it cannot be judged")
-    return f"Tested by `{test['study']}`, {test['change']}: {found} ({outcome.ours})."
+    if tested.verdict == HOLDS:
+        found = "the claim holds"
+    elif tested.verdict == FAILS:
+        met, of_all = tested.met
+        found = "the claim does not hold either"
+        if of_all > 1:
+            found += f", {met} of {of_all} cases meet it (without: {outcome.met[0]})"
+    else:
+        found = "the claim cannot be judged, as numbers for it are missing"
+    printed = "" if tested.printed == MISSING else f" (printed {tested.printed})"
+    return (f"Suspected: {test['reason']} Tested by `{test['study']}`, {test['change']}: with this change {found}; "
+            f"{tested.ours}{printed}.")
 
 
 def known_reasons(outcomes):
@@ -82,7 +95,8 @@ def known_reasons(outcomes):
     for outcome in outcomes:
         if outcome.verdict == FAILS:
             guess = as_guess(outcome.guess) if outcome.guess else ""
-            reason = " ".join(filter(None, (outcome.note, of_chance(outcome), *(of_test(*tested) for tested in outcome.tests), guess))) or "Reason not known."
+            tests = [of_test(*tested, outcome) for tested in outcome.tests]
+            reason = " ".join(filter(None, (outcome.note, of_chance(outcome), *tests, guess))) or "Reason not known."
             found.setdefault(reason, []).append(outcome.claim["id"])
     lines = [f"- {', '.join(ids)}: {escape_markdown(reason)}" for reason, ids in found.items()]
     return ["", "What is known of why claims do not hold, and what is guessed:", "", *lines] if lines else []

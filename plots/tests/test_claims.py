@@ -242,7 +242,7 @@ class ClaimsOfTheThesis(InFolder):
         self.assertEqual(reasons(), "- X1: Reason not known.")
 
     def test_a_reason_is_tested_by_the_claim_on_another_run(self):
-        check = {"quantity": "e_max('tri', 'getme', 1)", "condition": "value > 20"}
+        check = {"quantity": "e_max('tri', 'getme', 1)", "condition": "value > 20", "printed": "25"}
         test = {"study": "reasons/other", "change": "one thing changed", "reason": "It is that thing."}
         claim = {"id": "X1", "study": "gear", "checks": [check], "tests": [test]}
         results = read_results(write_results(self.folder / "r"))
@@ -261,11 +261,14 @@ class ClaimsOfTheThesis(InFolder):
             return found
 
         self.assertEqual(reasons(None), "- X1: Guess, tested by no run: It is that thing.")
-        self.assertEqual(reasons(30), "- X1: Tested by `reasons/other`, one thing changed: the claim holds: that is the "
-                                      "reason (30).")
-        self.assertEqual(reasons(15), "- X1: Tested by `reasons/other`, one thing changed: it does not hold either: that is "
-                                      "not the reason (15).")
-        self.assertEqual(reasons(""), "- X1: Tested by `reasons/other`, one thing changed: it cannot be judged (–).")
+        begin = "- X1: Suspected: It is that thing. Tested by `reasons/other`, one thing changed: with this change the claim "
+        self.assertEqual(reasons(30), begin + "holds; 30 (printed 25).")
+        self.assertEqual(reasons(15), begin + "does not hold either; 15 (printed 25).")
+        self.assertEqual(reasons(""), begin + "cannot be judged, as numbers for it are missing; – (printed 25).")
+        check["for"] = {"degree": ["1", "2"]}
+        check["quantity"] = "e_max('tri', 'getme', degree)"
+        self.assertEqual(reasons(15), begin + "does not hold either, 0 of 2 cases meet it (without: 0); d = 1: 15, "
+                                      "d = 2: 15 (printed 25).")
 
     def test_every_test_of_a_reason_is_a_study(self):
         for claim in json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8")):
@@ -274,12 +277,30 @@ class ClaimsOfTheThesis(InFolder):
                 self.assertEqual(set(test), {"study", "change", "reason"})
 
     def test_seeds_say_whether_it_is_chance(self):
-        def reasons(seeds):
-            return known_reasons([Outcome({"id": "X1"}, FAILS, "", "", note="It is so.", seeds=seeds)])[-1]
+        def reasons(seeds, chance=True):
+            return known_reasons([Outcome({"id": "X1"}, FAILS, "", "", note="It is so.", seeds=seeds, chance=chance)])[-1]
 
         self.assertEqual(reasons("0 of 3 seeds"), "- X1: It is so. Chance is not the reason: it holds for 0 of 3 seeds.")
         self.assertEqual(reasons("2 of 5 seeds"), "- X1: It is so. Chance decides: it holds for 2 of 5 seeds.")
+        self.assertEqual(reasons("0 of 5 seeds", chance=False), "- X1: It is so. Seeds do not change what decides.")
         self.assertEqual(reasons(""), "- X1: It is so.")
+
+    def test_chance_is_judged_by_the_numbers_that_decide(self):
+        claim = {"id": "X1", "checks": [{"quantity": "e_max(mesh, 'getme')", "condition": "value < 1", "for": {"mesh": ["a", "b"]}}]}
+
+        def outcome(*pairs):
+            seeds = [Values([{"mesh": mesh, "method": "getme", "e_max": error} for mesh, error in zip("ab", pair)], [])
+                     for pair in pairs]
+            return check_claim(claim, seeds, Values([], []))
+        self.assertFalse(outcome(("2", "0.1"), ("2", "0.2")).chance)
+        self.assertTrue(outcome(("2", "0.1"), ("3", "0.1")).chance)
+        self.assertEqual(outcome(("2", "0.1"), ("3", "0.1")).met, (1, 2))
+
+    def test_a_quotient_by_zero_is_no_missing_column(self):
+        check = {"quantity": "1 / q_min('tri', 'other')", "condition": "value > 0"}
+        claim = {"id": "X1", "checks": [check], "reason": "missing: column `q_min`"}
+        outcome = check_claim(claim, [Values(ROWS, [])], Values([], []))
+        self.assertEqual((outcome.verdict, outcome.ours), (UNKNOWN, "a quotient by 0"))
 
     def test_what_is_missing_stands_in_the_row(self):
         check = {"quantity": "n_cells('tri', 'getme')", "condition": "value > 0"}
