@@ -76,20 +76,23 @@ def overview(folders):
     return "\n".join(lines)
 
 
-def tests_of_reasons(folders):
-    """The runs that test reasons, as studies without claims of their own."""
-    return [Study(f"{REASONS}/{path.name}", path.name, [], read_provenance(path / "provenance.json"))
-            for path in sorted((folders / REASONS).glob("*"))]
+def without_claims(found, folders):
+    """The other runs there are results of, those that test reasons last, as studies without claims of their own."""
+    names = {path.parent.relative_to(folders).as_posix() for path in folders.rglob("provenance.json")}
+    names -= {study.name for study in found}
+    return [Study(name, name, [], read_provenance(folders / name / "provenance.json"))
+            for name in sorted(names, key=lambda name: (name.startswith(REASONS), name))]
 
 
 def runs(found, folders):
-    """Which run each study's results are of, and those that test reasons, as lines of a Markdown table."""
-    commits = {commit for study in found for commit in commits_of(study)}
+    """Which run each study's results are of, as lines of a Markdown table."""
+    everything = [*found, *without_claims(found, folders)]
+    commits = {commit for study in everything for commit in commits_of(study)}
     lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. Times of "
              "different commits are not for comparing, and today's program need not repeat the numbers of an "
              "earlier one to the last digit.", "",
              "| study | scale | written | commit | system |", "|:--|:--|:--|:--|:--|"]
-    for study in (*found, *tests_of_reasons(folders)):
+    for study in everything:
         run = study.provenance or {}
         cells = (f"`{study.name}`", run.get("scale", MISSING), run.get("written", MISSING)[:len("2026-11-22")],
                  ", ".join(commits_of(study)) or "no results", run.get("machine", {}).get("system", MISSING))

@@ -261,7 +261,8 @@ class ClaimsOfTheThesis(InFolder):
             return found
 
         self.assertEqual(reasons(None), "- X1: Guess, tested by no run: It is that thing.")
-        begin = "- X1: Suspected: It is that thing. Tested by `reasons/other`, one thing changed: with this change the claim "
+        begin = ("- X1: Suspected: It is that thing. Tested by `reasons/other`, one thing changed: with this change "
+                 "the claim ")
         self.assertEqual(reasons(30), begin + "holds; 30 (printed 25).")
         self.assertEqual(reasons(15), begin + "does not hold either; 15 (printed 25).")
         self.assertEqual(reasons(""), begin + "cannot be judged, as numbers for it are missing; – (printed 25).")
@@ -278,15 +279,18 @@ class ClaimsOfTheThesis(InFolder):
 
     def test_seeds_say_whether_it_is_chance(self):
         def reasons(seeds, chance=True):
-            return known_reasons([Outcome({"id": "X1"}, FAILS, "", "", note="It is so.", seeds=seeds, chance=chance)])[-1]
+            outcome = Outcome({"id": "X1"}, FAILS, "", "", note="It is so.", seeds=seeds, chance=chance)
+            return known_reasons([outcome])[-1]
 
-        self.assertEqual(reasons("0 of 3 seeds"), "- X1: It is so. Chance is not the reason: it holds for 0 of 3 seeds.")
+        self.assertEqual(reasons("0 of 3 seeds"),
+                         "- X1: It is so. Chance is not the reason: it holds for 0 of 3 seeds.")
         self.assertEqual(reasons("2 of 5 seeds"), "- X1: It is so. Chance decides: it holds for 2 of 5 seeds.")
         self.assertEqual(reasons("0 of 5 seeds", chance=False), "- X1: It is so. Seeds do not change what decides.")
         self.assertEqual(reasons(""), "- X1: It is so.")
 
     def test_chance_is_judged_by_the_numbers_that_decide(self):
-        claim = {"id": "X1", "checks": [{"quantity": "e_max(mesh, 'getme')", "condition": "value < 1", "for": {"mesh": ["a", "b"]}}]}
+        check = {"quantity": "e_max(mesh, 'getme')", "condition": "value < 1", "for": {"mesh": ["a", "b"]}}
+        claim = {"id": "X1", "checks": [check]}
 
         def outcome(*pairs):
             seeds = [Values([{"mesh": mesh, "method": "getme", "e_max": error} for mesh, error in zip("ab", pair)], [])
