@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers in doc/smoothing-for-the-error.md that come from results/reference are those of its tables."""
+
+import unittest
+
+from plots.claims.overview import reference
+from plots.results.data_folder import data_folder
+from plots.results.rows import read_rows
+
+FIXED = ("Weights", "Descent", "Moving mesh and descent")
+SLIDING = ("Weights, sliding", "Moving mesh and descent, sliding")
+# A row of the tutorial's table -> method, and what the meshes are called, in the studies' tables.
+ROWS = {"indicator-weighted": ("Weights", ""), "indicator-mmpde (of 5 solves, then descent)": ("Moving mesh and descent", ""),
+        "the same, sliding": ("Moving mesh and descent, sliding", ""),
+        "that on 10,895 and 9,409 nodes": ("Moving mesh and descent, sliding", ", refined")}
+
+
+def table(study, name):
+    """(mesh, degree, method) -> row of a table of the reference, as printed."""
+    path = reference() / study / "tables" / f"{name}.csv"
+    rows = read_rows(path, ("Mesh", "d", "Method")).records()
+    return {(row["Mesh"], row["d"], row["Method"]): row for row in rows}
+
+
+def short(number):
+    """0.84 as .84."""
+    return number.removeprefix("0")
+
+
+def orders(study, meshes, degree, methods):
+    """Orders in H1, ascending, as printed."""
+    rows = table(study, "table_energy_orders")
+    return sorted((rows[mesh, degree, method]["Order of H1"] for mesh in meshes for method in methods), key=float)
+
+
+def best(study, mesh, degree, methods):
+    """The highest of these orders."""
+    return short(orders(study, (mesh,), degree, methods)[-1])
+
+
+def phrases():
+    """What the tutorial has to say of re-entrant corners."""
+    flat, solid = ("Tri", "Quad"), ("Tet", "Hex")
+    fixed = sorted((order for d in "12" for order in orders("energy-l-shape", flat, d, FIXED)), key=float)
+    yield f"methods stay at {short(fixed[0])} to {short(fixed[-1])};"
+    one, two = ([best("energy-l-shape", mesh, d, SLIDING[:1]) for mesh in flat] for d in "12")
+    yield f"weights come to {one[0]} (triangles) and {one[1]} (quadrilaterals) at degree 1"
+    yield f"and to {two[0]} and {two[1]} at degree 2"
+    getme = [best("energy-fichera", mesh, d, ("GETMe",)) for d in "12" for mesh in solid]
+    yield f"orders in H1 of {getme[0]} and {getme[1]} at degree 1, and of {getme[2]} and {getme[3]} at degree 2"
+    fixed = [best("energy-fichera", mesh, d, FIXED) for d in "12" for mesh in solid]
+    yield f"methods come to {fixed[0]} and {fixed[1]}, and to {fixed[2]} and {fixed[3]};"
+    one = [best("energy-fichera", mesh, "1", SLIDING) for mesh in solid]
+    two = [best("energy-fichera", mesh, "2", SLIDING) for mesh in solid]
+    yield f"moving meshes come to {one[0]} and {one[1]}, and weights to {two[0]} and {two[1]}"
+
+
+class TutorialNumbers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.text = (data_folder() / "doc" / "smoothing-for-the-error.md").read_text(encoding="utf-8")
+
+    def test_orders_are_those_of_the_tables(self):
+        text = " ".join(self.text.split())
+        for phrase in phrases():
+            self.assertIn(phrase, text)
+
+    def test_factors_are_those_of_the_tables(self):
+        tables = {study: table(f"energy-{study}", "table_energy") for study in ("front", "layer")}
+        for name, (method, kind) in ROWS.items():
+            # "the same, sliding" is said of the row above it.
+            line = next(line for line in reversed(self.text.splitlines()) if line.startswith(f"| {name} |"))
+            found = [cell.strip() for cell in line.strip("| ").split("|")[1:]]
+            expected = [tables[study][f"{mesh}{kind}", "1", method]["H1 after solves 20"]
+                        for mesh in ("Tri", "Quad") for study in ("front", "layer")]
+            self.assertEqual(found, expected, name)
