@@ -17,8 +17,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-KEPT = ("iterations.csv", "summary.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
-COLLECTIONS = ("field", "energy-field", "energy-field-quadratic")  # run at their usual scale
+KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
+COLLECTIONS = ("field", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")
 PACKED = ("iterations.csv", "metrics.csv")  # of collections, whose records are many
 DRAWN = ("gear", "volume", "field")  # whose figures are kept, too

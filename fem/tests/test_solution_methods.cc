@@ -292,6 +292,28 @@ TEST(MethodsWithAProblem, TakeTheResidualForAnIndicator) {
   }
 }
 
+/// The energy falls by less and less; where the last solve's share of all is small enough it is over.
+TEST(MethodsWithAProblem, EnergyDescentStopsByTheGainOfASolve) {
+  const auto solves_with = [](const char* gain) {
+    auto mesh = unit_square(12, Cells::triangles, 0.2);
+    const auto problem = make_poisson_problem<2>(layer<2>());
+    auto made = make_method<2>("energy-descent");
+    made.problem = problem;
+    made.set("descent.solves", "30");
+    made.set("descent.gain", gain);
+    std::size_t n_solves = 0;
+    smooth(mesh, made, [&](const IterationRecord& record, const auto&) {
+      n_solves = record.solves->n_solves;
+    });
+    return n_solves;
+  };
+  const std::size_t all = solves_with("0"), some = solves_with("0.02");
+  const std::size_t few = solves_with("0.2");
+  EXPECT_EQ(all, 30u);
+  EXPECT_LT(some, all);
+  EXPECT_LT(few, some);
+}
+
 /// No cell becomes worse than the floor, or than the worst of the start.
 TEST(MethodsWithAProblem, EnergyDescentKeepsItsQualityFloor) {
   auto mesh = unit_square(12, Cells::triangles, 0.2);

@@ -7,6 +7,7 @@ import textwrap
 import matplotlib.pyplot as pyplot
 import numpy as np
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from ..results.request import TIME
 from ..results.smoothing import INITIAL
@@ -18,6 +19,7 @@ from .scales import make_room_for_labels, scale_values, spans_magnitudes
 
 # Numbers that lie between 0 and 1 have linear axes.
 LINEAR = ("q_min", "q_star_min", "q_mean")
+COUNTS = ("iteration", "n_solves")  # whole numbers
 
 # Around the record of the resulting mesh, and where a method's meshes begin to be invalid.
 RESULT = {"marker": "o", "markersize": 7.0, "markerfacecolor": "none", "markeredgewidth": 0.8}
@@ -52,6 +54,9 @@ def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log
             draw_panel(ax, lines[name, mesh], styles, extent)
             scale_values(ax, shown, logarithmic)
     label_axes(figure, axes, columns, degree, x, ranges)
+    if x in COUNTS and not log_x:
+        for ax in axes[-1]:
+            ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     for row, name in zip(axes, columns):
         for ax, mesh, extent in zip(row, meshes, ranges):
             annotate_free_area(ax, words_on(results, lines[name, mesh], extent))

@@ -7,13 +7,15 @@ import numpy as np
 
 from ..results.names import find_column
 from ..results.request import TIME
-from ..results.rows import ResultsError
+from ..results.rows import ResultsError, solves_itself
 from ..results.smoothing import number_columns
 from .history import draw_history
 from .history_lines import QUALITY
 from .pages import fits_as_columns, pages
 from .planned import PlannedFigure
 from .thesis_numbers import HISTORY_DEGREES, THESIS_NUMBERS, figure_name
+
+SOLVES = "n_solves"  # column of iterations.csv
 
 
 def main_columns(results):
@@ -42,6 +44,22 @@ def plan_histories(results):
                 plan(prefix, f"_d{degree}", f"history, d = {degree}", main_columns(results), degree, False, meshes)
             plan(prefix, f"_norms_d{degree}", f"error norms, d = {degree}",
                  ("e_l2", "e_h1", "l2_error", "h1_error"), degree, False, meshes)
+    return planned + plan_solves(results)
+
+
+def plan_solves(results):
+    """True errors against the number of solves, of methods that solve by themselves."""
+    methods = [method for method in results.methods if solves_itself(results.iterations.select(method=method))]
+    planned = []
+    if not methods:
+        return planned
+    for part, meshes in pages(results.meshes, fits_as_columns).items():
+        for degree in results.degrees:
+            planned.append(PlannedFigure(
+                f"history_solves_d{degree}{part}", f"errors and solves, d = {degree}",
+                lambda degree=degree, meshes=meshes: draw_history(results.restricted(methods), ("h1_error", "l2_error"),
+                                                                  degree, False, meshes, SOLVES, True),
+                whole=f"history_solves_d{degree}"))
     return planned
 
 

@@ -22,6 +22,8 @@ STATISTICS = ("metric", "better", "min", "mean", "max")
 KEYS = ("member", "family", "elements", "solution", "mesh", "method", "degree")
 # Of refined.csv.
 REFINED = ("member", "method", "degree", *SOLVING, "h1_error")
+# Of summary.csv.
+SUMMARY = ("member", "elements", "solution", "method", "degree", "n_invalid", "q_min", "l2_error", "h1_error")
 NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
 
 
@@ -37,6 +39,8 @@ class CollectionResults:
     members: Rows
     iterations: Rows  # KEYS, NUMBERS and the columns of metrics only
     refined: Rows = Rows(Path("refined.csv"), {})  # REFINED: initial and resulting meshes with every cell split
+    summary: Rows = Rows(Path("summary.csv"), {})  # SUMMARY
+    solving: frozenset = frozenset()  # methods that solve by themselves
     qualities: tuple = QUALITIES  # columns of iterations: what may predict an outcome
 
     def title(self, name):
@@ -100,6 +104,15 @@ def metric_columns(path, rows):
     return columns
 
 
+def solving_methods(path):
+    """Names of the methods that solve by themselves; of results that do not say none."""
+    with open_large(path) as stream:
+        if "n_solves" not in next(csv.reader(stream), []):
+            return frozenset()
+    rows = read_some_columns(path, ("method", "n_solves"))
+    return frozenset(rows.text("method")[rows.text("n_solves") != ""])
+
+
 def numbers_of(keys):
     """(key, array of the places where it stands), in the order of their first."""
     found = {}
@@ -126,10 +139,13 @@ def read_collection_results(folder):
         iterations = read_some_columns(file, columns)
     split = folder / "refined.csv"
     refined = read_some_columns(split, REFINED) if split.exists() else Rows(split, {})
+    has_summary = (folder / "summary.csv").exists()
+    summary = read_some_columns(folder / "summary.csv", SUMMARY) if has_summary else Rows(file, {})
     titles = {INITIAL: "Initial", **{entry["name"]: str(entry["title"]) for entry in entries(provenance, "methods")
                                      if entry.get("title")}}
     return CollectionResults(
         folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
         methods=tuple(name for name in order_of(iterations.text("method"), provenance, "methods") if name != INITIAL),
         titles=titles, members=members, iterations=iterations, refined=refined,
+        summary=summary, solving=solving_methods(file) if len(iterations) else frozenset(),
         qualities=(*QUALITIES, *of_metrics))

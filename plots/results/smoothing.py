@@ -23,11 +23,13 @@ REQUIRED_COLUMNS = {
     "thresholds.csv": ("mesh", "degree", "error", "threshold", "reference_method",
                        "reference_seconds", "method", "method_seconds", "speedup"),
     "solutions.csv": ("mesh", "method", "solution", "degree", "h1_error", "status"),
+    "refined.csv": ("mesh", "method", "degree", "h1_error", "status"),
 }
 
 # Columns without whose numbers a row says nothing.
 REQUIRED_NUMBERS = {"iterations.csv": ("iteration", "smoothing_seconds", "q_min", "q_mean", "n_invalid"),
-                    "summary.csv": ("q_min", "q_mean"), "thresholds.csv": ("degree", "threshold"), "solutions.csv": ()}
+                    "summary.csv": ("q_min", "q_mean"), "thresholds.csv": ("degree", "threshold"), "solutions.csv": (),
+                    "refined.csv": ()}
 # Columns that hold numbers, of any of the files.
 NUMBERS = ("iteration", "smoothing_seconds", "q_min", "q_star_min", "q_mean", "n_invalid", "n_reset",
            "w_max", "w_mean", "peak_memory_gib", "degree", "n_dofs", "n_free", "assembly_seconds", "condition_number",
@@ -59,6 +61,7 @@ class Results:
     thresholds: Rows
     provenance: dict
     solutions: Rows = Rows(Path("solutions.csv"), {})  # of all solutions on initial and resulting meshes, if several
+    refined: Rows = Rows(Path("refined.csv"), {})  # initial and resulting meshes with every cell split
     seeds: tuple = ()  # of the study's repetitions, that of these results first; empty: there are none
     repeated: tuple = ()  # the meshes that the seeds change
     repetitions: tuple = ()  # Results of the other seeds
@@ -127,8 +130,8 @@ class Results:
 
 
 def read_results(folder):
-    """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv, solutions.csv and
-    provenance.json may be absent. Raises ResultsError with one sentence on what is wrong."""
+    """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv, solutions.csv,
+    refined.csv and provenance.json may be absent. Raises ResultsError with one sentence on what is wrong."""
     folder = Path(folder)
     if not folder.is_dir():
         raise ResultsError(f"{folder}: there is no such folder.")
@@ -136,7 +139,8 @@ def read_results(folder):
     for rows in (summary, iterations):
         if not len(rows):
             raise ResultsError(f"{rows.path}: the file has no rows.")
-    thresholds, solutions = (read_if_there(folder / name) for name in ("thresholds.csv", "solutions.csv"))
+    thresholds, solutions, refined = (read_if_there(folder / name)
+                                      for name in ("thresholds.csv", "solutions.csv", "refined.csv"))
     provenance = read_provenance(folder / "provenance.json")
     study = str(provenance.get("study") or summary.text("study")[0] or folder.resolve().name)
     titles = {INITIAL: "Initial"}
@@ -149,7 +153,7 @@ def read_results(folder):
         methods=tuple(method for method in methods if method != INITIAL),
         degrees=tuple(sorted({degree for degree in summary.text("degree") if degree}, key=float)),
         titles=titles, summary=summary, iterations=iterations, thresholds=thresholds,
-        provenance=provenance, solutions=solutions))
+        provenance=provenance, solutions=solutions, refined=refined))
 
 
 def read_if_there(path):

@@ -25,7 +25,7 @@ SYMBOLS = {
     "condition_number": Heading("cond(A)", r"$\mathrm{cond}(A)$"),
     "cg_iterations": Heading("CG iterations", "CG iterations"),
     "smoothing_seconds": Heading("Smoothing time (s)", "Smoothing time (s)"),
-    "iteration": Heading("Iteration", "Iteration"),
+    "iteration": Heading("Iteration", "Iteration"), "n_solves": Heading("Solves", "Solves"),
 }
 
 

@@ -1,52 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tables of a collection."""
 
-import math
-
 from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, payoffs, ranking
 from ..collections.findings import findings_as_markdown
 from ..collections.prediction import predictions, thresholds
 from ..collections.problems import problems_of
 from ..results.rows import groups_of
-from ..results.symbols import Heading, symbol_of
-from .number_format import MISSING
-from .table import Group, Table, number_cell, text_cell
+from ..results.symbols import symbol_of
+from .columns import between, number, table_of
+from .gains import gains_table
+from .table import number_cell, text_cell
 
 INTERVALS = ("Intervals hold 95 % of bootstrap samples that draw families, or meshes where there are fewer than five "
              "families. A dash: there is no number.")
 
 
-def number(value, form=".2f"):
-    """A cell of a number; a dash where there is none."""
-    return number_cell(format(value, form) if math.isfinite(value) else MISSING)
-
-
-def between(low_high, form=".2f"):
-    """A cell of an interval."""
-    low, high = low_high
-    return text_cell(f"{low:{form}} to {high:{form}}" if math.isfinite(low) else MISSING)
-
-
-def table_of(results, name, caption, keys, groups, notes):
-    """keys: (heading, cells) columns that say what a row is about. groups: (heading, [(subheading, cells)])."""
-    return Table(
-        study=results.study, name=name, caption=f"{results.study_title}: {caption}",
-        key_headings=tuple(heading if isinstance(heading, Heading) else Heading(heading, heading) for heading, _ in keys),
-        keys=tuple(zip(*(cells for _, cells in keys))), rules=(), left_aligned=(),
-        groups=tuple(Group(heading if isinstance(heading, Heading) else Heading(heading, heading),
-                           tuple(sub for sub, _ in columns), tuple(zip(*(cells for _, cells in columns))))
-                     for heading, columns in groups),
-        notes=tuple(("", sentence) for sentence in notes))
-
-
 def make_collection_tables(results):
-    """(tables, page of findings): members, correlations, thresholds, ranks, and whether smoothing pays; tables without
-    rows are left out."""
+    """(tables, page of findings): members, correlations, thresholds, ranks, whether smoothing pays, and what knowing the
+    solution gains; tables without rows are left out."""
     problems = problems_of(results)
     predicted, enough = predictions(results), thresholds(results)
     ranks, gains = ranking(problems, results.methods), payoffs(problems, results.methods)
     tables = (members_table(results), prediction_table(results, predicted), threshold_table(results, enough),
-              ranking_table(results, ranks), payoff_table(results, gains))
+              ranking_table(results, ranks), payoff_table(results, gains), gains_table(results))
     return ([table for table in tables if table.keys],
             findings_as_markdown(results, problems, predicted, enough, ranks, gains))
 

@@ -12,34 +12,26 @@ import math
 import numpy as np
 
 from ..collections.comparison import error_in_time
-from ..results.rows import entries, groups_of, solves_itself, solving_seconds
+from ..results.rows import entries, solving_seconds
 from ..results.symbols import SYMBOLS, Heading
+from .alternatives import alternatives_table
 from .descriptions import KEY_HEADINGS
 from .number_format import MISSING, formatted
+from .solving_methods import DOES_NOT_PAY, PAYS, REFINED, key_cells, reference_method, solving_groups
 from .table import Group, Table, number_cell, text_cell
 
 SOLVES = (5, 10, 20)
 START = "start"  # the stage whose mesh all stages after it are compared with
-REFINED = "-fine"  # a mesh's name with this is that of the same domain with shorter edges
 SIZES = ("", REFINED, "-finer")  # of three of them, from whose errors orders are taken
 NEVER = "never"
-PAYS, DOES_NOT_PAY = "pays", "does not pay"
 ERRORS = (("H1", "h1_error"), ("L2", "l2_error"))
 
 
 def make_energy_tables(results):
     """All tables, those that have a row."""
-    tables = [factor_table(results), pays_table(results), many_table(results), orders_table(results)]
+    tables = [factor_table(results), alternatives_table(results), pays_table(results), many_table(results),
+              orders_table(results)]
     return [table for table in tables if table is not None]
-
-
-def solving_groups(results):
-    """((mesh, degree, method), rows) of methods that solve, in the order of the study."""
-    groups = [(key, rows) for key, rows in groups_of(results.iterations, "mesh", "degree", "method")
-              if key[2] in results.methods and solves_itself(rows)]
-    return sorted(groups, key=lambda group: (results.meshes.index(group[0][0]),
-                                             results.degrees.index(group[0][1]),
-                                             results.methods.index(group[0][2])))
 
 
 def row_at(rows, n_solves):
@@ -54,20 +46,6 @@ def factors(rows, column):
     start = error[list(stages).index(START)] if START in stages else math.nan
     at = [row_at(rows, n) for n in SOLVES]
     return [math.nan if k is None or not error[k] > 0 else start / error[k] for k in at]
-
-
-def key_cells(keys, results):
-    """Of mesh, degree and method, empty where they repeat; and where a mesh begins."""
-    cells, rules, before = [], [], (None, None, None)
-    for number, key in enumerate(keys):
-        mesh, degree, method = key
-        if mesh != before[0] and number:
-            rules.append(number)
-        cells.append((text_cell("" if mesh == before[0] else results.title(mesh)),
-                      text_cell("" if (mesh, degree) == before[:2] else degree),
-                      text_cell(results.title(method))))
-        before = key
-    return tuple(cells), tuple(rules)
 
 
 def factor_table(results):
@@ -94,7 +72,8 @@ def factor_table(results):
                  notes=(("", "True errors of the mesh that the method's first stage ends with, divided by those after so "
                              "many solves in all; the degree is that of the elements the errors are of, the methods' "
                              "own degree need not be the same. Below 1 the error has risen. Qualities are those of "
-                             "the resulting mesh."),))
+                             "the resulting mesh, which need not be that after the last solve: it is the one of the least "
+                             "energy or estimate. Solves are not time: table_energy_alternatives has that."),))
 
 
 def pays_table(results):
@@ -179,8 +158,8 @@ def orders_table(results):
     keys = [(mesh, degree, method) for mesh in families for degree in results.degrees for method in results.methods]
     if not keys or not solving_groups(results):
         return None
-    dimensions = {mesh["name"]: mesh["dimension"] for mesh in results.provenance["meshes"]}
-    values = [orders(results, key, dimensions[key[0]]) for key in keys]
+    lengths = {mesh["name"]: mesh["n_cells"] ** (-1 / mesh["dimension"]) for mesh in results.provenance["meshes"]}
+    values = [orders(results, key, lengths) for key in keys]
     cells, rules = key_cells(keys, results)
     groups = tuple(Group(Heading(f"Order of {name}", f"Order of {name}"), ("",),
                          tuple((number_cell(text),) for text in formatted([each[k] for each in values], ".2f")))
@@ -190,17 +169,17 @@ def orders_table(results):
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")), left_aligned=(),
                  notes=(("", "Slopes of the straight line, by least squares, through the logarithms of true errors of the "
                              f"resulting meshes of {len(SIZES)} sizes over those of an edge length that is the number of "
-                             "unknowns to the power of minus one over the dimension."),))
+                             "cells to the power of minus one over the dimension."),))
 
 
-def orders(results, key, dimension):
-    """Of the H1 and the L2 error; NaN where one of the sizes has none."""
+def orders(results, key, lengths):
+    """Of the H1 and the L2 error; NaN where one of the sizes has none. lengths: of the edges, by mesh."""
     mesh, degree, method = key
     rows = [results.summary.select(mesh=mesh + size, degree=degree, method=method) for size in SIZES]
     if not all(len(each) for each in rows):
         return [math.nan] * len(ERRORS)
-    lengths = [-math.log(each.number("n_free")[0]) / dimension for each in rows]
-    return [np.polyfit(lengths, [np.log(each.number(column)[0]) for each in rows], 1)[0] for _, column in ERRORS]
+    logarithms = [math.log(lengths[mesh + size]) for size in SIZES]
+    return [np.polyfit(logarithms, [np.log(each.number(column)[0]) for each in rows], 1)[0] for _, column in ERRORS]
 
 
 def numbers(heading, headings, texts):
@@ -220,12 +199,6 @@ def compared(results, key, reference):
     solution = [solving_seconds(rows)[0] for rows in three]
     return tuple({"error": rows.number("h1_error")[0], "smoothing": once, "solution": each, "seconds": once + each,
                   "unknowns": rows.number("n_free")[0]} for rows, once, each in zip(three, smoothing, solution))
-
-
-def reference_method(results):
-    """The first method that does not solve; None if all do."""
-    return next((method for method in results.methods
-                 if not solves_itself(results.iterations.select(method=method))), None)
 
 
 def solutions_for(results, method):

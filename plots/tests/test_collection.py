@@ -2,6 +2,7 @@
 """Tables and figures of a collection, from invented results whose answers are known."""
 
 import contextlib
+import csv
 import io
 import json
 import lzma
@@ -14,8 +15,9 @@ from plots.collections.comparison import AS_IS, NEXT_DEGREE, SPLIT, Payoff, erro
 from plots.collections.findings import verdict, what_got_worse
 from plots.collections.prediction import predictions, relative_to_least, thresholds
 from plots.collections.problems import problems_of
-from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, REFINED, STATISTICS, read_collection_results
+from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, REFINED, STATISTICS, SUMMARY, read_collection_results
 from plots.results.rows import SOLVING, ResultsError, Rows, solving_seconds
+from plots.tables.gains import gains_table
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
 
@@ -102,6 +104,23 @@ class Collection(InFolder):
         self.assertAlmostEqual(higher.time, 1.0)
         self.assertNotIn(("one", "2", "initial", NEXT_DEGREE), found)
         self.assertTrue(np.isnan(good.at_equal_time))
+
+    def test_what_knowing_the_solution_gains(self):
+        """`good` solves, and halves the errors on the meshes of `idle`, but on one, where it is 4 times as large."""
+        folder = self.folder / "r"
+        self.assertEqual(gains_table(self.results).keys, ())
+        rows = list(csv.DictReader((folder / "iterations.csv").read_text().splitlines()))
+        write_csv(folder / "iterations.csv", [*rows[0], "n_solves"],
+                  [{**row, "n_solves": row["iteration"] if row["method"] == "good" else ""} for row in rows])
+        summary = [{"member": f"m{m}", "elements": "triangles", "solution": "front", "method": method, "degree": 1,
+                    "n_invalid": int(m == 5 and method == "good"), "q_min": 0.1 * (m + 1), "l2_error": error**2,
+                    "h1_error": error}
+                   for m in range(8) for method, error in (("good", 4.0 if m == 3 else 0.5), ("idle", 1.0))]
+        write_csv(folder / "summary.csv", SUMMARY, summary)
+        found = gains_table(read_collection_results(folder))
+        self.assertEqual([cell.text for cell in found.keys[0]], ["front", "triangles", "1", "Good"])
+        self.assertEqual([[cell.text for cell in group.cells[0]] for group in found.groups],
+                         [["8"], ["0.25", "2.00", "2.00"], ["0.06", "4.00", "4.00"], ["0.100"], ["1"]])
 
     def test_at_equal_time_smoothing_is_beside_split_cells(self):
         """Split cells halve the error in four times the time: order 1/2. The mesh of `good` has half the error after twice

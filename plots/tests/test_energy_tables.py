@@ -40,18 +40,23 @@ def write_solves(folder, here=("0.5", "1.0"), refined=("0.6", "2.0")):
     return read_results(folder)
 
 
+def table(results, name):
+    """One of the tables, by its name without what all begin with."""
+    return next(table for table in make_energy_tables(results) if table.name == f"table_energy{name}")
+
+
 def texts(group):
     return [[cell.text for cell in cells] for cells in group.cells]
 
 
 class EnergyTables(InFolder):
     def test_factors_are_those_of_the_start_over_the_error_after_so_many_solves(self):
-        factors, _ = make_energy_tables(write_solves(self.folder / "r"))
+        factors = table(write_solves(self.folder / "r"), "")
         self.assertEqual(texts(factors.groups[0])[0], ["2.00", "4.00", "–"])
         self.assertEqual(texts(factors.groups[1])[0], ["0.50", "4.00", "–"])
 
     def verdict(self, name, **numbers):
-        _, pays = make_energy_tables(write_solves(self.folder / name, **numbers))
+        pays = table(write_solves(self.folder / name, **numbers), "_pays")
         return texts(pays.groups[-1])[0]
 
     def test_a_method_pays_only_where_neither_error_nor_time_is_larger(self):
@@ -70,15 +75,56 @@ class EnergyTables(InFolder):
             if (row["mesh"], row["method"]) == ("tri", "weighted-laplace"):
                 row.update(h1_error="2.0", smoothing_seconds="1.0", cg_seconds="0.0")
         write_csv(folder / "summary.csv", list(summary[0]), summary)
-        _, pays = make_energy_tables(read_results(folder))
+        pays = table(read_results(folder), "_pays")
         self.assertEqual(texts(pays.groups[2])[0], ["0.25", "64.0", "–"])
         self.assertEqual(texts(pays.groups[-1])[0], ["pays"])
         for row in summary:
             if (row["mesh"], row["method"]) == ("tri-fine", "weighted-laplace"):
                 row["smoothing_seconds"] = "1.9"  # not of its size
         write_csv(folder / "summary.csv", list(summary[0]), summary)
-        _, pays = make_energy_tables(read_results(folder))
+        pays = table(read_results(folder), "_pays")
         self.assertEqual(texts(pays.groups[2])[0], ["–", "64.0", "–"])
+
+    def beside(self, name, here, ways):
+        """Cells of the first row beside ways: (file, mesh, method, degree) -> (error, seconds of smoothing, of solving)."""
+        folder = self.folder / name
+        write_solves(folder, here=here)
+        rows = rows_of(folder / "summary.csv")
+        header = list(rows[0])
+        kept = [row for row in rows if (row["mesh"], row["method"], row["degree"]) == ("tri", "getme", "1")]
+        chosen = {"summary": kept, "refined": []}
+        for (file, mesh, method, degree), (error, smoothing, solving) in ways.items():
+            chosen[file].append({**kept[0], "mesh": mesh, "method": method, "degree": degree, "h1_error": error,
+                                 "smoothing_seconds": smoothing, "cg_seconds": solving})
+        iterations = [row for row in rows_of(folder / "iterations.csv") if (row["mesh"], row["degree"]) == ("tri", "1")]
+        write_csv(folder / "iterations.csv", list(iterations[0]), iterations)
+        for file, file_rows in chosen.items():
+            write_csv(folder / f"{file}.csv", header, file_rows)
+        alternatives = table(read_results(folder), "_alternatives")
+        return [text for group in alternatives.groups for text in texts(group)[0]]
+
+    def test_beside_the_best_of_what_takes_no_more_time(self):
+        ways = {("summary", "tri", "initial", "1"): ("5", "", "0.1"),
+                ("summary", "tri", "weighted-laplace", "1"): ("3", "0.5", "0.1"),
+                ("summary", "tri", "weighted-laplace", "2"): ("0.4", "0.5", "0.6"),
+                ("refined", "tri", "initial", "1"): ("2.5", "", "0.9"),
+                ("refined", "tri", "weighted-laplace", "1"): ("1", "", "0.4"),
+                ("summary", "tri-fine", "weighted-laplace", "1"): ("0.9", "0.9", "0.3")}
+        cells = self.beside("a", ("0.5", "1.0"), ways)
+        self.assertEqual(cells, ["5.000e-01", "1.000", "–", "weighted-laplace, split", "1.000e+00", "2.00", "pays"])
+        cells = self.beside("b", ("0.5", "1.2"), ways)
+        self.assertEqual(cells[3:], ["weighted-laplace, d = 2", "4.000e-01", "0.80", "does not pay"])
+        cells = self.beside("c", ("0.8", "1.2"), {key: ways[key] for key in list(ways)[-1:]})
+        self.assertEqual(cells[3:], ["weighted-laplace, finer", "9.000e-01", "1.12", "pays"])
+        cells = self.beside("d", ("0.8", "0.05"), ways)
+        self.assertEqual(cells[3:], ["–", "–", "–", "pays"])
+        cells = self.beside("e", ("", "1.0"), ways)
+        self.assertEqual(cells[-1], "–")
+
+    def test_meshes_as_they_are_are_no_other_way(self):
+        ways = {("summary", "tri", "weighted-laplace", "1"): ("3", "0.5", "0.1")}
+        with self.assertRaises(StopIteration):
+            self.beside("f", ("0.5", "1.0"), ways)
 
     def test_from_how_many_solves_on_a_method_pays(self):
         """Half the error by refinement: 4 times the smoothing, 8 times the solution. The method: a quarter, so 16 and 64."""
@@ -112,27 +158,27 @@ class EnergyTables(InFolder):
             if entry["name"] == "getme":
                 entry["smooth_for"] = ["a", "b"]
         (folder / "provenance.json").write_text(json.dumps(provenance), encoding="utf-8")
-        many = next(table for table in make_energy_tables(read_results(folder)) if table.name == "table_energy_many")
+        many = table(read_results(folder), "_many")
         self.assertEqual([texts(group)[0] for group in many.groups],
                          [["2"], ["0.250", "0.500"], ["40.000", "1.000", "32.000"], ["2"], ["does not pay"]])
 
     def test_orders_are_those_of_three_sizes(self):
-        """Half the edge length: four times the unknowns in the plane, a quarter of the L2 error, half the H1 error."""
+        """Half the edge length: four times the cells in the plane, a quarter of the L2 error, half the H1 error."""
         folder = self.folder / "r"
         write_solves(folder)
         meshes = (*MESHES, "tri-finer")
         summary, iterations = rows_of(folder / "summary.csv"), rows_of(folder / "iterations.csv")
         one_mesh = [row for row in summary if row["mesh"] == "tri"]
-        sized = [{**row, "mesh": mesh, "n_free": str(100 * 4**k), "h1_error": str(3 / 2**k), "l2_error": str(5 / 4**k)}
+        sized = [{**row, "mesh": mesh, "h1_error": str(3 / 2**k), "l2_error": str(5 / 4**k)}
                  for k, mesh in enumerate(meshes) for row in one_mesh]
         write_csv(folder / "summary.csv", list(summary[0]), sized)
         write_csv(folder / "iterations.csv", list(iterations[0]),
                   iterations + [{**row, "mesh": "tri-finer"} for row in iterations if row["mesh"] == "tri"])
         provenance = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
-        provenance["meshes"] = [{**provenance["meshes"][0], "name": mesh, "dimension": 2} for mesh in meshes]
+        provenance["meshes"] = [{**provenance["meshes"][0], "name": mesh, "dimension": 2, "n_cells": 200 * 4**k}
+                                for k, mesh in enumerate(meshes)]
         (folder / "provenance.json").write_text(json.dumps(provenance), encoding="utf-8")
-        *_, orders = make_energy_tables(read_results(folder))
-        self.assertEqual(orders.name, "table_energy_orders")
+        orders = table(read_results(folder), "_orders")
         self.assertEqual(texts(orders.groups[0])[0], ["1.00"])
         self.assertEqual(texts(orders.groups[1])[0], ["2.00"])
 

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Methods that solve beside what one does without them: the next degree, every cell split, or a finer mesh, each on the
+mesh as it is and on that of the first method that does not solve.
+
+A method pays on a mesh if none of these has an error as small in no more time: smoothing, the method's own solves and the
+last solution counted for all. This was written on 26 November 2026, when results were known, beside the verdict of
+table_energy_pays, which compares with the one method on the finer mesh alone.
+"""
+
+import math
+from dataclasses import dataclass
+
+from ..results.rows import solving_seconds
+from ..results.smoothing import INITIAL
+from ..results.symbols import Heading
+from .descriptions import KEY_HEADINGS
+from .number_format import MISSING, formatted
+from .solving_methods import DOES_NOT_PAY, PAYS, REFINED, key_cells, reference_method, solving_groups
+from .table import Group, Table, number_cell, text_cell
+
+ERROR = "h1_error"
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way to a solution: what is done, the true H1 error, and seconds in all; NaN: not known."""
+
+    title: str
+    error: float
+    seconds: float
+
+
+def alternatives_table(results):
+    """For each method that solves the best that one has without it in no more time; None where there are no others."""
+    reference = reference_method(results)
+    rows = [(key, others, beside(results, key, others)) for key, _ in solving_groups(results)
+            for others in [ways_without(results, key[0], key[1], reference)] if len(others) > 0]
+    if not rows:
+        return None
+    ours = [both[0] for _, _, both in rows]
+    best = [both[1] for _, _, both in rows]
+    solves = [method_solve_seconds(results, key) for key, _, _ in rows]
+    gains = [way.error / here.error if way and here.error > 0 else math.nan for here, way in zip(ours, best)]
+
+    def column(heading, texts):
+        return Group(Heading(heading, heading), ("",), tuple((number_cell(text),) for text in texts))
+    inside = [(text_cell(way.title if way else MISSING), number_cell(text))
+              for way, text in zip(best, formatted([way.error if way else math.nan for way in best], ".3e"))]
+    cells, rules = key_cells([key for key, _, _ in rows], results)
+    return Table(study=results.study, name="table_energy_alternatives", keys=cells, rules=rules,
+                 groups=(column("H1 error", formatted([way.error for way in ours], ".3e")),
+                         column("Seconds", formatted([way.seconds for way in ours], ".3f")),
+                         column("of which solves", formatted(solves, ".3f")),
+                         Group(Heading("Best without, in no more time", "Best without, in no more time"),
+                               ("way", "H1 error"), tuple(inside)),
+                         column("Gain", formatted(gains, ".2f")),
+                         Group(Heading("", ""), ("Verdict",),
+                               tuple((text_cell(verdict(*both)),) for both in zip(ours, best)))),
+                 caption=f"{results.study_title}: beside the next degree, split cells and finer meshes",
+                 key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
+                 left_aligned=("way", "Verdict"),
+                 notes=(("", "True H1 errors, and seconds in all: smoothing, with what comes before it and the method's own "
+                             "solves (of which solves), and the solution on the resulting mesh. Best without: least error of "
+                             f"the mesh as it is and of {results.title(reference)}'s, each also with the next degree (d), with "
+                             "every cell split, and on the finer mesh, as far as the study has them, in no more time than the "
+                             "method. Gain: its error over the method's. A method pays where no such way has an error as small. "
+                             "This verdict was written on 2026-11-26, when results were known."),))
+
+
+def ways_without(results, mesh, degree, reference):
+    """The ways that the study has results of; none if all it has is the meshes as they are."""
+    as_they_are, others = [], []
+    for method in (INITIAL, reference):
+        if method is None:
+            continue
+        title, higher = results.title(method), str(int(degree) + 1)
+        here = results.summary.select(mesh=mesh, method=method)
+        smoothing = smoothing_seconds(here)
+        as_they_are += way(title, here.select(degree=degree), smoothing)
+        others += way(f"{title}, d = {higher}", here.select(degree=higher), smoothing)
+        others += way(f"{title}, split", results.refined.select(mesh=mesh, method=method, degree=degree), smoothing)
+        finer = results.summary.select(mesh=mesh + REFINED, method=method, degree=degree)
+        others += way(f"{title}, finer", finer, smoothing_seconds(finer))
+    return as_they_are + others if others else []
+
+
+def way(title, rows, smoothing):
+    """The first of the rows as a list of one Way, empty if there are none."""
+    return [Way(title, rows.number(ERROR)[0], smoothing + solving_seconds(rows)[0])] if len(rows) else []
+
+
+def smoothing_seconds(rows):
+    """Of the first row, with preparation; 0 where nothing is smoothed."""
+    if not len(rows) or rows.text("method")[0] == INITIAL:
+        return 0.0
+    preparation = rows.number("preparation_seconds")[0]
+    return rows.number("smoothing_seconds")[0] + (0.0 if math.isnan(preparation) else preparation)
+
+
+def beside(results, key, others):
+    """(the method's Way, the best of the others in no more time or None)."""
+    mesh, degree, method = key
+    rows = results.summary.select(mesh=mesh, degree=degree, method=method)
+    found = way(results.title(method), rows, smoothing_seconds(rows))
+    ours = found[0] if found else Way(results.title(method), math.nan, math.nan)
+    in_time = [other for other in others if other.seconds <= ours.seconds and not math.isnan(other.error)]
+    return ours, min(in_time, key=lambda other: other.error, default=None)
+
+
+def method_solve_seconds(results, key):
+    """Time of the solves that the method made, which is part of its smoothing."""
+    mesh, degree, method = key
+    seconds = results.iterations.select(mesh=mesh, degree=degree, method=method).number("method_solve_seconds")
+    known = seconds[~(seconds != seconds)]
+    return known[-1] if len(known) else math.nan
+
+
+def verdict(ours, best):
+    """In words."""
+    if math.isnan(ours.error) or math.isnan(ours.seconds):
+        return MISSING
+    return PAYS if best is None or ours.error < best.error else DOES_NOT_PAY
