@@ -128,6 +128,7 @@ def many_table(results):
     def one_column(heading, texts):
         return Group(Heading(heading, heading), ("",), tuple((number_cell(text),) for text in texts))
     errors = zip(formatted([three[0]["error"] for _, three in rows], ".3f"),
+                 formatted([error_of_others(results, key, reference) for key, _ in rows], ".3f"),
                  formatted([three[1]["error"] for _, three in rows], ".3f"))
     seconds = zip(formatted([each["smoothing"] for each in ours], ".3f"),
                   formatted([each["solution"] for each in ours], ".3f"), formatted(refined, ".3f"))
@@ -137,7 +138,7 @@ def many_table(results):
     title = results.title(reference)
     return Table(study=results.study, name="table_energy_many", keys=cells, rules=rules,
                  groups=(one_column("n", [str(len(solutions_for(results, key[2]))) for key, _ in rows]),
-                         numbers(f"H1 error over {title}'s", ("here", "refined"), errors),
+                         numbers(f"H1 error over {title}'s", ("here", "of the others", "refined"), errors),
                          numbers("Seconds", ("smoothing", "n solutions", "refined"), seconds),
                          one_column("Times until it pays", until),
                          Group(Heading("", ""), ("Verdict",), verdicts)),
@@ -145,7 +146,8 @@ def many_table(results):
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=("Verdict",),
                  notes=(("", f"n: solutions that the mesh is made for. Errors: true H1 errors over those on {title}'s mesh, the "
-                             f"geometric mean over the n; refined: {title}'s finer mesh. Seconds: of smoothing with the "
+                             f"geometric mean over the n; of the others: over the solutions that the mesh is not made for; "
+                             f"refined: {title}'s finer mesh. Seconds: of smoothing with the "
                              "method's own solves, of the n solutions on its mesh, each with its own assembly, and of "
                              "both on a refined mesh with the method's mean error, by the power laws through both "
                              f"meshes of {title}. A method pays where its seconds are no more than these. Times until "
@@ -225,6 +227,19 @@ def compared_for_all(results, key, reference):
     return tuple({**each, "error": math.exp(logarithm - logarithms[2]), "solution": all_of_them,
                   "seconds": each["smoothing"] + all_of_them}
                  for each, logarithm, all_of_them in zip(three, logarithms, seconds))
+
+
+def error_of_others(results, key, reference):
+    """The geometric mean of errors over the reference method's, of the solutions that the method's mesh is not made for;
+    NaN where it is made for all."""
+    mesh, degree, method = key
+    others = [name for name in dict.fromkeys(results.solutions.text("solution"))
+              if name not in solutions_for(results, method)]
+    errors = [[results.solutions.select(mesh=mesh, degree=degree, method=which, solution=name).number("h1_error")
+               for name in others] for which in (method, reference)]
+    if not others or not all(len(each) for of_method in errors for each in of_method):
+        return math.nan
+    return math.exp(np.mean([np.log(ours[0] / theirs[0]) for ours, theirs in zip(*errors)]))
 
 
 def at_equal_time(here, refined, unrefined):
