@@ -35,9 +35,12 @@ def make_energy_tables(results):
 
 
 def row_at(rows, n_solves):
-    """The number of the first row with so many solves; None if there is none."""
-    found = [k for k, n in enumerate(rows.number("n_solves")) if n == n_solves and rows.text("stage")[k] != START]
-    return found[0] if found else None
+    """The number of the first row with so many solves, or of the last one of a method that has stopped before; None if
+    there is none."""
+    solves = {k: n for k, n in enumerate(rows.number("n_solves")) if rows.text("stage")[k] != START}
+    if solves and max(solves.values()) < n_solves:
+        return max(solves)
+    return next((k for k, n in solves.items() if n == n_solves), None)
 
 
 def factors(rows, column):
@@ -70,10 +73,11 @@ def factor_table(results):
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=(),
                  notes=(("", "True errors of the mesh that the method's first stage ends with, divided by those after so "
-                             "many solves in all; the degree is that of the elements the errors are of, the methods' "
-                             "own degree need not be the same. Below 1 the error has risen. Qualities are those of "
-                             "the resulting mesh, which need not be that after the last solve: it is the one of the least "
-                             "energy or estimate. Solves are not time: table_energy_alternatives has that."),))
+                             "many solves in all, or the last one where the method has stopped before; the degree is that "
+                             "of the elements the errors are of, the methods' own degree need not be the same. Below 1 the "
+                             "error has risen. Qualities are those of the resulting mesh, which need not be that after the "
+                             "last solve: it is the one of the least energy or estimate. Solves are not time: "
+                             "table_energy_alternatives has that."),))
 
 
 def pays_table(results):
