@@ -12,6 +12,7 @@ with their meshes and figures. What is kept of them is in results/reference of S
 import argparse
 import json
 import lzma
+import re
 import shutil
 import subprocess
 import sys
@@ -50,6 +51,13 @@ def made_by(found, commit):
 def seconds(folder):
     """How long the study took when it was last run."""
     return sum(provenance(folder).get("seconds", {}).values()) or UNKNOWN_SECONDS
+
+
+def has_paper_scale(path):
+    """Whether a study file, or one that it includes, has the scale `paper`."""
+    text = path.read_text(encoding="utf-8")
+    included = re.findall(r"^\s*include\s+(\S+)", text, re.MULTILINE)
+    return SCALE in text or any(has_paper_scale(path.parent / name) for name in included)
 
 
 def options(study):
@@ -94,7 +102,7 @@ def main():
     reference = chosen.source / "results" / "reference"
     studies = chosen.source / "studies"
     known = [path.stem for path in studies.glob("*.prm")
-             if path.stem in COLLECTIONS or SCALE in path.read_text(encoding="utf-8")]
+             if path.stem in COLLECTIONS or has_paper_scale(path)]
     known += [REASONS + path.stem for path in (studies / REASONS).glob("*.prm")]
     wrong = [study for study in chosen.studies if study not in known]
     if wrong:
