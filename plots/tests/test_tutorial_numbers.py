@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers in doc/smoothing-for-the-error.md that come from results/reference are those of its tables."""
 
+import re
 import unittest
 
 from plots.claims.overview import reference
 from plots.results.data_folder import data_folder
 from plots.results.rows import read_rows
+from plots.results.smoothing import read_results
+from plots.tables.energy import orders_table
 
 FIXED = ("Weights", "Descent", "Moving mesh and descent")
 SLIDING = ("Weights, sliding", "Moving mesh and descent, sliding")
@@ -38,6 +41,18 @@ def best(study, mesh, degree, methods):
     return short(orders(study, (mesh,), degree, methods)[-1])
 
 
+def orders_with_more_solves():
+    """Of sliding weights in the corner of the L with 60 solves: at degree 1, at degree 2."""
+    found = orders_table(read_results(reference() / "reasons" / "l-shape-solves"))
+    rows = {}
+    names = [tuple(cell.text for cell in key) for key in found.keys]
+    mesh = degree = ""
+    for (first, second, method), cells in zip(names, found.groups[0].cells):
+        mesh, degree = first or mesh, second or degree
+        rows[mesh, degree, method] = short(cells[0].text)
+    return [[rows[mesh, d, "Weights, sliding"] for mesh in ("Tri", "Quad")] for d in "12"]
+
+
 def phrases():
     """What the tutorial has to say of re-entrant corners."""
     flat, solid = ("Tri", "Quad"), ("Tet", "Hex")
@@ -46,6 +61,8 @@ def phrases():
     one, two = ([best("energy-l-shape", mesh, d, SLIDING[:1]) for mesh in flat] for d in "12")
     yield f"weights come to {one[0]} (triangles) and {one[1]} (quadrilaterals) at degree 1"
     yield f"and to {two[0]} and {two[1]} at degree 2"
+    one, two = orders_with_more_solves()
+    yield f"with 60 weights come to {one[0]} and {one[1]}, and to {two[0]} and {two[1]}"
     getme = [best("energy-fichera", mesh, d, ("GETMe",)) for d in "12" for mesh in solid]
     yield f"orders in H1 of {getme[0]} and {getme[1]} at degree 1, and of {getme[2]} and {getme[3]} at degree 2"
     fixed = [best("energy-fichera", mesh, d, FIXED) for d in "12" for mesh in solid]
@@ -64,6 +81,18 @@ class TutorialNumbers(unittest.TestCase):
         text = " ".join(self.text.split())
         for phrase in phrases():
             self.assertIn(phrase, text)
+
+    def test_cases_that_pay_are_those_of_the_tables(self):
+        lines = re.findall(r"^\| (energy[\w-]*) \|(.*)\|$", self.text, re.MULTILINE)
+        self.assertGreater(len(lines), 2)
+        for study, cells in lines:
+            rows = table(study, "table_energy_alternatives").items()
+            expected = []
+            for degree in "12":
+                chosen = [row for (_, d, _), row in rows if d == degree]
+                gains = [float(row["Gain"]) for row in chosen if row["Gain"] not in ("", "–")]
+                expected += [f"{sum(row['Verdict'] == 'pays' for row in chosen)} of {len(chosen)}", f"{max(gains):.2f}"]
+            self.assertEqual([cell.strip() for cell in cells.split("|")], expected, study)
 
     def test_factors_are_those_of_the_tables(self):
         tables = {study: table(f"energy-{study}", "table_energy") for study in ("front", "layer")}
