@@ -103,3 +103,23 @@ class TutorialNumbers(unittest.TestCase):
             expected = [tables[study][f"{mesh}{kind}", "1", method]["H1 after solves 20"]
                         for mesh in ("Tri", "Quad") for study in ("front", "layer")]
             self.assertEqual(found, expected, name)
+
+    def test_meshes_for_many_are_those_of_the_table(self):
+        rows = table("energy-many", "table_energy_many")
+        error, times = "H1 error over GETMe's here", "Times until it pays"
+        for n in "1248":
+            chosen = [rows[mesh, d, f"Moving mesh and descent for {n}"] for mesh in ("Tri", "Quad") for d in "12"]
+            self.assertIn("| ".join((f"| {n} ", *(f"{row[error]} " for row in chosen), "")).rstrip(), self.text)
+        text = " ".join(self.text.split())
+        until = sorted(int(row[times]) for (_, d, _), row in rows.items() if d == "1")
+        self.assertIn(f"have to be solved on it {until[0]} to {until[-1]} times at degree 1", text)
+        paying = [(mesh, row["n"]) for (mesh, d, _), row in rows.items() if d == "2" and row[times] != "never"]
+        self.assertEqual(paying, [("Tri", "1"), ("Tri", "2"), ("Quad", "1")])
+        self.assertTrue(all(row["Verdict"] == "does not pay" for row in rows.values()))
+        refined = "H1 error over GETMe's refined"
+        self.assertEqual([{f"{float(row[refined]):.2f}" for (_, d, _), row in rows.items() if d == degree} for degree in "12"],
+                         [{"0.50"}, {"0.25"}])
+        others = "H1 error over GETMe's of the others"
+        for row in rows.values():
+            if row["n"] != "8":
+                self.assertEqual(float(row[others]) > 1, row["n"] in "12")
