@@ -292,7 +292,8 @@ TEST(MethodsWithAProblem, TakeTheResidualForAnIndicator) {
   }
 }
 
-/// The energy falls by less and less; where the last solve's share of all is small enough it is over.
+/// The energy falls by less and less; where the last solve's share of all is small enough it is
+/// over.
 TEST(MethodsWithAProblem, EnergyDescentStopsByTheGainOfASolve) {
   const auto solves_with = [](const char* gain) {
     auto mesh = unit_square(12, Cells::triangles, 0.2);
@@ -302,9 +303,8 @@ TEST(MethodsWithAProblem, EnergyDescentStopsByTheGainOfASolve) {
     made.set("descent.solves", "30");
     made.set("descent.gain", gain);
     std::size_t n_solves = 0;
-    smooth(mesh, made, [&](const IterationRecord& record, const auto&) {
-      n_solves = record.solves->n_solves;
-    });
+    smooth(mesh, made,
+           [&](const IterationRecord& record, const auto&) { n_solves = record.solves->n_solves; });
     return n_solves;
   };
   const std::size_t all = solves_with("0"), some = solves_with("0.02");

@@ -181,9 +181,8 @@ void register_all() {
         ->UseManualTime()
         ->Iterations(100)
         ->Unit(benchmark::kMicrosecond);
-    for (const std::string method :
-         {"getme", "getme-adaptive", "global-optimization", "smart-laplace", "weighted-laplace",
-          "laplace"})
+    for (const std::string method : {"getme", "getme-adaptive", "global-optimization",
+                                     "smart-laplace", "weighted-laplace", "laplace"})
       benchmark::RegisterBenchmark(("run/" + method + "/" + mesh).c_str(),
                                    [=](benchmark::State& state) { whole_run(state, mesh, method); })
           ->Arg(1)
