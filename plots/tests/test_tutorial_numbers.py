@@ -12,10 +12,15 @@ from plots.tables.energy import orders_table
 
 FIXED = ("Weights", "Descent", "Moving mesh and descent")
 SLIDING = ("Weights, sliding", "Moving mesh and descent, sliding")
-# A row of the tutorial's table -> method, and what the meshes are called, in the studies' tables.
+# Rows of the tutorial's table -> method, and what the meshes are called, in the tables of energy-front and energy-layer ...
 ROWS = {"indicator-weighted": ("Weights", ""), "indicator-mmpde (of 5 solves, then descent)": ("Moving mesh and descent", ""),
         "the same, sliding": ("Moving mesh and descent, sliding", ""),
         "that on 10,895 and 9,409 nodes": ("Moving mesh and descent, sliding", ", refined")}
+# ... and in those of energy-front-variants and energy-layer-variants.
+VARIANTS = {"the same, indicator averaged 4 times": "Weights, averaged 4 times", "no quality floor": "Weights, no quality floor",
+            "60 sweeps": "Weights, 60 sweeps", "residual in place of the recovery": "Weights by the residual",
+            "residual of degree 2": "Weights by the residual of degree 2", "sliding": "Weights, sliding",
+            "indicator-aligned, sliding": "Aligned, sliding", "indicator-getme": "GETMe with sizes"}
 
 
 def table(study, name):
@@ -95,14 +100,35 @@ class TutorialNumbers(unittest.TestCase):
             self.assertEqual([cell.strip() for cell in cells.split("|")], expected, study)
 
     def test_factors_are_those_of_the_tables(self):
-        tables = {study: table(f"energy-{study}", "table_energy") for study in ("front", "layer")}
-        for name, (method, kind) in ROWS.items():
-            # "the same, sliding" is said of the row above it.
-            line = next(line for line in reversed(self.text.splitlines()) if line.startswith(f"| {name} |"))
-            found = [cell.strip() for cell in line.strip("| ").split("|")[1:]]
-            expected = [tables[study][f"{mesh}{kind}", "1", method]["H1 after solves 20"]
-                        for mesh in ("Tri", "Quad") for study in ("front", "layer")]
-            self.assertEqual(found, expected, name)
+        expected = {name: [tables[study][f"{mesh}{kind}", "1", method] for mesh in ("Tri", "Quad") for study in tables]
+                    for tables in [{study: table(f"energy-{study}", "table_energy") for study in ("front", "layer")}]
+                    for name, (method, kind) in ROWS.items()}
+        expected |= {name: [tables[study][mesh, "1", method] for mesh in ("Tri", "Quad") for study in tables]
+                     for tables in [{study: table(f"energy-{study}-variants", "table_energy") for study in ("front", "layer")}]
+                     for name, method in VARIANTS.items()}
+        begin = self.text.index("What was tried on the unit square")
+        lines = re.findall(r"^\| ([^|]*) \|(.*)\|$", self.text[begin:], re.MULTILINE)
+        found = {name: [cell.strip() for cell in cells.split("|")] for name, cells in lines if name in expected}
+        self.assertEqual(found, {name: [row["H1 after solves 20"] for row in rows] for name, rows in expected.items()})
+
+    def test_recovery_lowers_errors_of_degree_2_more_than_the_residual_of_degree_2(self):
+        for study in ("front", "layer"):
+            rows = table(f"energy-{study}-variants", "table_energy")
+            for mesh in ("Tri", "Quad"):
+                both = [float(rows[mesh, "2", method]["H1 after solves 20"])
+                        for method in ("Weights", "Weights by the residual of degree 2")]
+                self.assertGreater(*both)
+
+    def test_least_factors_of_many_meshes_are_those_of_the_table(self):
+        path = reference() / "energy-robust" / "tables" / "table_energy_gains.csv"
+        rows = {tuple(row[name] for name in ("Solution", "Elements", "d", "Method")): row for row in read_rows(path).records()}
+        lines = re.findall(r"^\| (triangles|quadrilaterals) \| ([^|]*) \|(.*)\|$", self.text, re.MULTILINE)
+        self.assertEqual(len(lines), len(rows) / 6)
+        for elements, method, cells in lines:
+            expected = [rows[solution, elements, d, method]["H1 least"] for solution in ("front", "layer", "peak") for d in "12"]
+            self.assertEqual([cell.strip() for cell in cells.split("|")], expected, (elements, method))
+        self.assertEqual({row["Members"] for row in rows.values()}, {"22"})
+        self.assertEqual({row["With invalid cells"] for row in rows.values()}, {"0"})
 
     def test_meshes_for_many_are_those_of_the_table(self):
         rows = table("energy-many", "table_energy_many")
