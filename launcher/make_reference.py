@@ -92,6 +92,11 @@ def git(source, *words):
     return subprocess.run(["git", "-C", source, *words], capture_output=True, text=True, check=True).stdout.strip()
 
 
+def has_changes(source):
+    """Whether there are changes beside the commit, but for what the reference itself writes."""
+    return bool(git(source, "status", "--porcelain", "--", ".", ":!results/reference"))
+
+
 def main():
     """Runs what has to be run; returns the exit code."""
     parser = argparse.ArgumentParser(description="runs the studies of results/reference")
@@ -107,7 +112,7 @@ def main():
     wrong = [study for study in chosen.studies if study not in known]
     if wrong:
         sys.exit(f"reference: there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
-    if git(chosen.source, "status", "--porcelain", "--", ".", ":!results/reference"):
+    if has_changes(chosen.source):
         sys.exit("reference: there are changes that are not committed; commit them first, so that the results can be "
                  "made again")
     commit = git(chosen.source, "rev-parse", "HEAD")

@@ -13,6 +13,8 @@ import sys
 from datetime import date
 from pathlib import Path
 
+from make_reference import git, has_changes
+
 HEADER = """# Speed
 
 What `./run bench speed` printed on {date}, commit {commit}: {cpu}, {cores} cores. Times of other machines are others; ratios are
@@ -20,8 +22,8 @@ what to look at.
 
 ## Methods on volume meshes
 
-Whole runs of the methods' main loops, medians of {repetitions}, and their preparation, on 568,022 tetrahedra and 67,496 hexahedra that are
-distorted at random (`meshes/bench/volume_bench.cc`).
+Whole runs of the methods' main loops, medians of {repetitions}, and their preparation, on tetrahedra and hexahedra that are distorted at random
+(`meshes/bench/volume_bench.cc`; their counts stand below, where equal care is looked at).
 
 | method | cells | threads | seconds | preparation, s | q_min | q_mean |
 |:--|:--|--:|--:|--:|--:|--:|
@@ -72,9 +74,7 @@ def cpu():
 
 def commit_of(source):
     """The sources' commit in short, and whether there are changes beside it."""
-    name = printed("git", "-C", source, "rev-parse", "--short=7", "HEAD").strip()
-    changes = printed("git", "-C", source, "status", "--porcelain", "--", ".", ":!results/reference")
-    return name + (" with changes" if changes else "")
+    return git(source, "rev-parse", "--short=7", "HEAD") + (" with changes" if has_changes(source) else "")
 
 
 def pages(source, folder):

@@ -14,12 +14,11 @@ from ..results.smoothing import INITIAL
 from ..results.symbols import symbol_of
 from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
                        styles_in_order, thin_markers)
-from .history_lines import QUALITY, panel_lines, range_of
+from .history_lines import COUNTS, QUALITY, panel_lines, range_of
 from .scales import make_room_for_labels, scale_values, spans_magnitudes
 
 # Numbers that lie between 0 and 1 have linear axes.
 LINEAR = ("q_min", "q_star_min", "q_mean")
-COUNTS = ("iteration", "n_solves")  # whole numbers
 
 # Around the record of the resulting mesh, and where a method's meshes begin to be invalid.
 RESULT = {"marker": "o", "markersize": 7.0, "markerfacecolor": "none", "markeredgewidth": 0.8}

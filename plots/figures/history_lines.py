@@ -12,7 +12,8 @@ from ..results.smoothing import INITIAL
 
 # Of the mesh, hence the same for every degree.
 QUALITY = ("q_min", "q_star_min", "q_mean", "w_max", "w_mean", "n_invalid", "n_reset", TIME, "iteration")
-FROM_ZERO = (TIME, "iteration", "n_solves")  # what is counted from a beginning on
+COUNTS = ("iteration", "n_solves")  # whole numbers
+FROM_ZERO = (TIME, *COUNTS)  # what is counted from a beginning on
 
 # One method that takes so many times as long as every other would squeeze all of them into a line:
 # then a linear axis ends at so many times the second longest time, and says when that one ends.

@@ -20,6 +20,7 @@ RECORD = ("member", "mesh", "method", "stage", "iteration")
 STATISTICS = ("metric", "better", "min", "mean", "max")
 # Of iterations.csv, which has many rows.
 KEYS = ("member", "family", "elements", "solution", "mesh", "method", "degree")
+OPTIONAL = ("n_solves",)  # of methods that solve by themselves; results of earlier versions have no such column
 # Of refined.csv.
 REFINED = ("member", "method", "degree", *SOLVING, "h1_error")
 # Of summary.csv.
@@ -65,9 +66,9 @@ def open_large(path):
     return open(path, newline="", encoding="utf-8")
 
 
-def read_some_columns(path, names):
+def read_some_columns(path, names, optional=()):
     """Some columns of a CSV file, which may be large; raises ResultsError if it is missing, truncated or lacks
-    one of them."""
+    one of them. Optional ones are left out where they are not there."""
     try:
         with open_large(path) as stream:
             lines = csv.reader(stream)
@@ -75,6 +76,7 @@ def read_some_columns(path, names):
             missing = [name for name in names if name not in header]
             if missing:
                 raise ResultsError(f"{path}: column `{missing[0]}` is missing.")
+            names = (*names, *(name for name in optional if name in header))
             chosen = itemgetter(*(header.index(name) for name in names))
             table = [chosen(line) for line in lines]
     except FileNotFoundError:
@@ -104,15 +106,6 @@ def metric_columns(path, rows):
     return columns
 
 
-def solving_methods(path):
-    """Names of the methods that solve by themselves; of results that do not say none."""
-    with open_large(path) as stream:
-        if "n_solves" not in next(csv.reader(stream), []):
-            return frozenset()
-    rows = read_some_columns(path, ("method", "n_solves"))
-    return frozenset(rows.text("method")[rows.text("n_solves") != ""])
-
-
 def numbers_of(keys):
     """(key, array of the places where it stands), in the order of their first."""
     found = {}
@@ -132,11 +125,11 @@ def read_collection_results(folder):
     if "complete" not in members.text("status"):
         iterations = Rows(file, {name: np.array([], dtype=object) for name in columns})
     elif is_there(folder / "metrics.csv"):
-        iterations = read_some_columns(file, tuple(dict.fromkeys((*columns, *RECORD))))
+        iterations = read_some_columns(file, tuple(dict.fromkeys((*columns, *RECORD))), OPTIONAL)
         of_metrics = metric_columns(folder / "metrics.csv", iterations)
         iterations = Rows(file, {**iterations.columns, **of_metrics})
     else:
-        iterations = read_some_columns(file, columns)
+        iterations = read_some_columns(file, columns, OPTIONAL)
     split = folder / "refined.csv"
     refined = read_some_columns(split, REFINED) if split.exists() else Rows(split, {})
     has_summary = (folder / "summary.csv").exists()
@@ -147,5 +140,5 @@ def read_collection_results(folder):
         folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
         methods=tuple(name for name in order_of(iterations.text("method"), provenance, "methods") if name != INITIAL),
         titles=titles, members=members, iterations=iterations, refined=refined,
-        summary=summary, solving=solving_methods(file) if len(iterations) else frozenset(),
+        summary=summary, solving=frozenset(iterations.text("method")[iterations.text("n_solves") != ""]),
         qualities=(*QUALITIES, *of_metrics))

@@ -15,7 +15,8 @@ from ..results.smoothing import INITIAL
 from ..results.symbols import Heading
 from .descriptions import KEY_HEADINGS
 from .number_format import MISSING, formatted
-from .solving_methods import DOES_NOT_PAY, PAYS, REFINED, key_cells, reference_method, solving_groups
+from .solving_methods import (DOES_NOT_PAY, PAYS, REFINED, key_cells, reference_method, smoothing_seconds,
+                              solving_groups)
 from .table import Group, Table, number_cell, text_cell
 
 ERROR = "h1_error"
@@ -77,33 +78,26 @@ def ways_without(results, mesh, degree, reference):
             continue
         title, higher = results.title(method), str(int(degree) + 1)
         here = results.summary.select(mesh=mesh, method=method)
-        smoothing = smoothing_seconds(here)
-        as_they_are += way(title, here.select(degree=degree), smoothing)
-        others += way(f"{title}, d = {higher}", here.select(degree=higher), smoothing)
-        others += way(f"{title}, split", results.refined.select(mesh=mesh, method=method, degree=degree), smoothing)
+        as_they_are += way(title, here.select(degree=degree), here)
+        others += way(f"{title}, d = {higher}", here.select(degree=higher), here)
+        others += way(f"{title}, split", results.refined.select(mesh=mesh, method=method, degree=degree), here)
         finer = results.summary.select(mesh=mesh + REFINED, method=method, degree=degree)
-        others += way(f"{title}, finer", finer, smoothing_seconds(finer))
+        others += way(f"{title}, finer", finer, finer)
     return as_they_are + others if others else []
 
 
-def way(title, rows, smoothing):
-    """The first of the rows as a list of one Way, empty if there are none."""
-    return [Way(title, rows.number(ERROR)[0], smoothing + solving_seconds(rows)[0])] if len(rows) else []
-
-
-def smoothing_seconds(rows):
-    """Of the first row, with preparation; 0 where nothing is smoothed."""
-    if not len(rows) or rows.text("method")[0] == INITIAL:
-        return 0.0
-    preparation = rows.number("preparation_seconds")[0]
-    return rows.number("smoothing_seconds")[0] + (0.0 if math.isnan(preparation) else preparation)
+def way(title, solved, smoothed):
+    """The first of the rows that are solved as a list of one Way, empty if there are none; smoothed: rows of its mesh."""
+    if not len(solved):
+        return []
+    return [Way(title, solved.number(ERROR)[0], smoothing_seconds(smoothed) + solving_seconds(solved)[0])]
 
 
 def beside(results, key, others):
     """(the method's Way, the best of the others in no more time or None)."""
     mesh, degree, method = key
     rows = results.summary.select(mesh=mesh, degree=degree, method=method)
-    found = way(results.title(method), rows, smoothing_seconds(rows))
+    found = way(results.title(method), rows, rows)
     ours = found[0] if found else Way(results.title(method), math.nan, math.nan)
     in_time = [other for other in others if other.seconds <= ours.seconds and not math.isnan(other.error)]
     return ours, min(in_time, key=lambda other: other.error, default=None)

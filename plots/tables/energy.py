@@ -17,14 +17,14 @@ from ..results.symbols import SYMBOLS, Heading
 from .alternatives import alternatives_table
 from .descriptions import KEY_HEADINGS
 from .number_format import MISSING, formatted
-from .solving_methods import DOES_NOT_PAY, PAYS, REFINED, key_cells, reference_method, solving_groups
+from .solving_methods import (DOES_NOT_PAY, ERRORS, PAYS, REFINED, key_cells, reference_method, smoothing_seconds,
+                              solving_groups)
 from .table import Group, Table, number_cell, text_cell
 
 SOLVES = (5, 10, 20)
 START = "start"  # the stage whose mesh all stages after it are compared with
 SIZES = ("", REFINED, "-finer")  # of three of them, from whose errors orders are taken
 NEVER = "never"
-ERRORS = (("H1", "h1_error"), ("L2", "l2_error"))
 
 
 def make_energy_tables(results):
@@ -201,7 +201,7 @@ def compared(results, key, reference):
              for name, which in ((mesh, method), (mesh + REFINED, reference), (mesh, reference))]
     if reference is None or not all(len(rows) for rows in three):
         return None
-    smoothing = [rows.number("smoothing_seconds")[0] + rows.number("preparation_seconds")[0] for rows in three]
+    smoothing = [smoothing_seconds(rows) for rows in three]
     solution = [solving_seconds(rows)[0] for rows in three]
     return tuple({"error": rows.number("h1_error")[0], "smoothing": once, "solution": each, "seconds": once + each,
                   "unknowns": rows.number("n_free")[0]} for rows, once, each in zip(three, smoothing, solution))

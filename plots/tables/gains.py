@@ -5,9 +5,9 @@ import numpy as np
 
 from ..results.rows import groups_of
 from .columns import number, table_of
+from .solving_methods import ERRORS
 from .table import number_cell, text_cell
 
-ERRORS = (("H1", "h1_error"), ("L2", "l2_error"))
 KEY = ("solution", "elements", "degree", "method")
 
 

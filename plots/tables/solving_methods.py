@@ -2,10 +2,12 @@
 """What the tables of methods that solve by themselves share: which these are, the first columns, words."""
 
 from ..results.rows import groups_of, solves_itself
+from ..results.smoothing import INITIAL
 from .table import text_cell
 
 REFINED = "-fine"  # a mesh's name with this is that of the same domain with shorter edges
 PAYS, DOES_NOT_PAY = "pays", "does not pay"
+ERRORS = (("H1", "h1_error"), ("L2", "l2_error"))
 
 
 def solving_groups(results):
@@ -35,3 +37,10 @@ def reference_method(results):
     """The first method that does not solve; None if all do."""
     return next((method for method in results.methods
                  if not solves_itself(results.iterations.select(method=method))), None)
+
+
+def smoothing_seconds(rows):
+    """Of the first row, with what comes before the main loops; 0 for the initial mesh."""
+    if rows.text("method")[0] == INITIAL:
+        return 0.0
+    return rows.number("smoothing_seconds")[0] + rows.number("preparation_seconds")[0]
