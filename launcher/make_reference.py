@@ -18,6 +18,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import same_numbers
+
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
 COLLECTIONS = ("field", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")
@@ -28,6 +30,7 @@ KEPT_OF_REASONS = ("iterations.csv", "summary.csv", "thresholds.csv", "provenanc
 PUBLISHED = ("gear", "energy", "reasons/gear-mesquite", "reasons/gear-rounding")  # which are of the published meshes
 SCALE = "subsection scale paper"
 UNKNOWN_SECONDS = 1e9  # studies without a reference come last
+SHOWN = 5  # rows that differ
 
 
 def provenance(folder):
@@ -85,6 +88,22 @@ def keep(results, reference, study):
             (new / f"{name}.xz").write_bytes(lzma.compress((results / name).read_bytes(), preset=9))
     shutil.rmtree(reference / study, ignore_errors=True)
     new.rename(reference / study)
+    same_numbers.drop_record(reference, study)
+
+
+def compare(results, reference, study):
+    """Says and keeps whether results have the numbers of a study's reference; returns whether they have."""
+    n_rows, different = same_numbers.differences(reference / study, results)
+    commits = [provenance(folder)["program"]["commit"] for folder in (reference / study, results)]
+    same_numbers.keep_record(reference, study, *commits, n_rows, len(different))
+    print(f"{study}: {len(different)} of {n_rows} rows differ", *different[:SHOWN], sep="\n  ", flush=True)
+    return not different
+
+
+def is_compared(reference, study, commit):
+    """Whether a study's reference was compared with what a commit gives."""
+    found = same_numbers.read_records(reference).get(study, {})
+    return (found.get("commit"), found.get("again")) == (provenance(reference / study)["program"]["commit"], commit)
 
 
 def git(source, *words):
@@ -97,41 +116,62 @@ def has_changes(source):
     return bool(git(source, "status", "--porcelain", "--", ".", ":!results/reference"))
 
 
+def chosen_studies(words, reference, studies):
+    """The studies to run, shortest ones first; ends the program where one cannot be."""
+    known = [path.stem for path in studies.glob("*.prm")
+             if path.stem in COLLECTIONS or has_paper_scale(path)]
+    known += [REASONS + path.stem for path in (studies / REASONS).glob("*.prm")]
+    wrong = [study for study in words.studies if study not in known]
+    if wrong:
+        sys.exit(f"reference: there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
+    missing = [study for study in words.studies or known if not (reference / study).is_dir()]
+    if words.compare and words.studies and missing:
+        sys.exit(f"reference: '{missing[0]}' has no reference to compare with; run it without --compare first")
+    found = set(words.studies or known) - set(missing if words.compare else ())
+    return sorted(found, key=lambda study: (seconds(reference / study), study))
+
+
+def why_not(reference, study, commit, comparing):
+    """Why a study need not be run, empty if it has to be."""
+    if is_done(reference / study, commit):
+        return "of this commit already"
+    return "compared with this commit already" if comparing and is_compared(reference, study, commit) else ""
+
+
 def main():
     """Runs what has to be run; returns the exit code."""
     parser = argparse.ArgumentParser(description="runs the studies of results/reference")
     for name in ("source", "program", "work"):
         parser.add_argument(name, type=Path)
+    parser.add_argument("--compare", action="store_true",
+                        help="leave references as they are, and say whether this commit gives their numbers")
     parser.add_argument("studies", nargs="*")
-    chosen = parser.parse_args()
-    reference = chosen.source / "results" / "reference"
-    studies = chosen.source / "studies"
-    known = [path.stem for path in studies.glob("*.prm")
-             if path.stem in COLLECTIONS or has_paper_scale(path)]
-    known += [REASONS + path.stem for path in (studies / REASONS).glob("*.prm")]
-    wrong = [study for study in chosen.studies if study not in known]
-    if wrong:
-        sys.exit(f"reference: there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
-    if has_changes(chosen.source):
+    words = parser.parse_args()
+    reference, studies = words.source / "results" / "reference", words.source / "studies"
+    chosen = chosen_studies(words, reference, studies)
+    if has_changes(words.source):
         sys.exit("reference: there are changes that are not committed; commit them first, so that the results can be "
                  "made again")
-    commit = git(chosen.source, "rev-parse", "HEAD")
-    for study in sorted(chosen.studies or known, key=lambda name: seconds(reference / name)):
-        if is_done(reference / study, commit):
-            print(f"{study}: of this commit already", flush=True)
+    commit, same = git(words.source, "rev-parse", "HEAD"), True
+    for study in chosen:
+        reason = why_not(reference, study, commit, words.compare)
+        print(f"{study}: {reason}" if reason else study, flush=True)
+        if reason:
             continue
-        print(study, flush=True)
-        results = chosen.work / study
+        results = words.work / study
         if not is_done(results, commit):
             found = provenance(results)
             other = ["--force"] if found and not made_by(found, commit) else []
             file = studies / f"{study}.prm" if study.startswith(REASONS) else study
-            code = subprocess.run([chosen.program, "study", file, *options(study), "--out", results, *other],
+            code = subprocess.run([words.program, "study", file, *options(study), "--out", results, *other],
                                   check=False).returncode
             if code != 0:
                 return code
-        keep(results, reference, study)
-    return 0
+        if words.compare:
+            same = compare(results, reference, study) and same
+        else:
+            keep(results, reference, study)
+    return 0 if same else 1
 
 
 if __name__ == "__main__":

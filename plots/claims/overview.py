@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ..results.data_folder import data_folder
 from ..results.printed_values import read_printed_tables
-from ..results.rows import ResultsError
+from ..results.rows import ResultsError, read_rows
 from ..results.smoothing import read_provenance, read_results
 from ..results.write_files import write_atomically
 from ..tables.formats import escape_markdown
@@ -87,17 +87,52 @@ def without_claims(found, folders):
 def runs(found, folders):
     """Which run each study's results are of, as lines of a Markdown table."""
     everything = [*found, *without_claims(found, folders)]
+    again = runs_again(folders)
     commits = {commit for study in everything for commit in commits_of(study)}
-    lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. Times of "
-             "different commits are not for comparing, and today's program need not repeat the numbers of an "
-             "earlier one to the last digit.", "",
-             "| study | scale | written | commit | system |", "|:--|:--|:--|:--|:--|"]
+    commit, covered = most_covered([study for study in everything if study.provenance], again)
+    lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. {len(covered)} of the "
+             f"{len(everything)} studies are of commit {commit} or, run again there, have every number of their tables the same "
+             "to the last digit, but for times and memory. Times of different commits are not for comparing.", "",
+             "| study | scale | written | commit | run again at | system |", "|:--|:--|:--|:--|:--|:--|"]
     for study in everything:
         run = study.provenance or {}
         cells = (f"`{study.name}`", run.get("scale", MISSING), run.get("written", MISSING)[:len("2026-11-22")],
-                 ", ".join(commits_of(study)) or "no results", run.get("machine", {}).get("system", MISSING))
+                 ", ".join(commits_of(study)) or "no results", again_cell(again.get(study.name, {}), run),
+                 run.get("machine", {}).get("system", MISSING))
         lines.append(f"| {' | '.join(cells)} |")
     return lines
+
+
+def runs_again(folders):
+    """What launcher/same_numbers.py kept of studies that were run again: study -> row."""
+    path = folders / "again.csv"
+    return {row["study"]: row for row in read_rows(path).records()} if path.exists() else {}
+
+
+def is_of(row, run):
+    """Whether what was kept of a study that was run again is of the reference there is."""
+    return row.get("commit") == run.get("program", {}).get("commit", "")
+
+
+def again_cell(row, run):
+    """Where a study was run again, and in how many rows of its tables that differs."""
+    if not is_of(row, run):
+        return MISSING
+    same = "same" if row["different"] == "0" else f"**{row['different']} of {row['rows']} rows differ**"
+    return f"{row['again'][:SHORT_COMMIT]}: {same}"
+
+
+def most_covered(found, again):
+    """The commit, in short, that most studies are of, or have the same numbers as when run again there, and their names."""
+    covered = {}
+    for study in found:
+        row = again.get(study.name, {})
+        of = set(commits_of(study)) if len(commits_of(study)) == 1 else set()
+        if is_of(row, study.provenance) and row["different"] == "0":
+            of.add(row["again"][:SHORT_COMMIT])
+        for commit in of:
+            covered.setdefault(commit, []).append(study.name)
+    return max(sorted(covered.items()), key=lambda item: len(item[1]), default=(MISSING, []))
 
 
 def commits_of(study):

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from plots.claims.agreement import paired, same, within
 from plots.claims.check import FAILS, HOLDS, read_claims
-from plots.claims.overview import BEGIN, END, overview, pages, reference, studies, with_made
+from plots.claims.overview import (BEGIN, END, Study, again_cell, most_covered, overview, pages, reference,
+                                   studies, with_made)
 from plots.results.data_folder import thesis_folder
 from plots.results.rows import ResultsError
 
@@ -52,6 +53,21 @@ class Overview(unittest.TestCase):
             self.assertIn(run["program"]["commit"][:7], row)
             self.assertIn(run["machine"]["system"], row)
 
+    def test_a_study_that_was_run_again_says_whether_its_numbers_were_the_same(self):
+        run = {"program": {"commit": "a" * 40}, "sessions": [{"commit": "a" * 40, "uncommitted_changes": False}]}
+        row = {"study": "ring", "commit": "a" * 40, "again": "b" * 40, "rows": "9", "different": "0"}
+        self.assertEqual(again_cell(row, run), "bbbbbbb: same")
+        self.assertEqual(again_cell({**row, "different": "2"}, run), "bbbbbbb: **2 of 9 rows differ**")
+        self.assertEqual(again_cell({**row, "commit": "c" * 40}, run), "–")
+        self.assertEqual(again_cell({}, run), "–")
+        found = [Study("ring", "Ring", [], run), Study("gear", "Gear", [], run)]
+        self.assertEqual(most_covered(found, {}), ("aaaaaaa", ["ring", "gear"]))
+        self.assertEqual(most_covered(found[:1], {"ring": row})[1], ["ring"])
+        other = {"program": {"commit": "b" * 40}, "sessions": [{"commit": "b" * 40, "uncommitted_changes": False}]}
+        self.assertEqual(most_covered([*found, Study("sphere", "Sphere", [], other)], {
+            "ring": row, "gear": {**row, "study": "gear"}}), ("bbbbbbb", ["ring", "gear", "sphere"]))
+        self.assertEqual(most_covered(found, {"ring": {**row, "different": "1"}}), ("aaaaaaa", ["ring", "gear"]))
+
     def test_a_study_that_was_never_run_is_there(self):
         with tempfile.TemporaryDirectory() as folder:
             found = overview(Path(folder))
@@ -59,7 +75,7 @@ class Overview(unittest.TestCase):
         section = found.partition("### Embedded ring\n")[2].partition("###")[0]
         self.assertIn(f"Of {n} claims 0 hold, 0 do not hold, {n} cannot be checked", section)
         self.assertIn("there are no results", section)
-        self.assertRegex(found, r"\| `ring` \| – \| – \| no results \| – \|")
+        self.assertRegex(found, r"\| `ring` \| – \| – \| no results \| – \| – \|")
         self.assertNotIn("| holds |", found)
 
     def test_what_is_between_the_lines_is_replaced(self):
