@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the built-in studies for results/reference: all at the scale `paper`, the gear on the published
-meshes as it is, collections at their usual scale. Goes on where it was stopped: a study whose reference is
-of this commit is left alone, one that was interrupted goes on by itself. Shortest ones first.
+meshes as it is, collections at their usual scale. Goes on where it was stopped: a study whose reference
+is of this commit is left alone, one that was interrupted goes on by itself. Shortest ones first. With --compare
+references stay as they are, with their times; whether this commit has the same numbers is kept in again.csv
+beside them, and exit code 1 says that it has not.
 
-    make_reference.py SOURCE PROGRAM WORK [STUDY...]
+    make_reference.py SOURCE PROGRAM WORK [--compare] [STUDY...]
 
 PROGRAM: bin/smoothfem, built from SOURCE without changes that are not committed; WORK: where studies run,
-with their meshes and figures. What is kept of them is in results/reference of SOURCE."""
+with their meshes and figures. What is kept of them is in results/reference of SOURCE. Needs plots on PYTHONPATH."""
 
 import argparse
-import json
 import lzma
 import re
 import shutil
@@ -18,7 +19,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import same_numbers
+from plots.results import same_numbers
+from plots.results.collection import packed
+from plots.results.rows import read_provenance
 
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
 COLLECTIONS = ("field", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their usual scale
@@ -35,8 +38,7 @@ SHOWN = 5  # rows that differ
 
 def provenance(folder):
     """What provenance.json of a results folder says; empty if there is none."""
-    path = folder / "provenance.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    return read_provenance(folder / "provenance.json")
 
 
 def is_done(folder, commit):
@@ -85,7 +87,7 @@ def keep(results, reference, study):
             shutil.copy2(source, new / name)
     if study in COLLECTIONS:
         for name in filter(lambda name: (results / name).exists(), PACKED):
-            (new / f"{name}.xz").write_bytes(lzma.compress((results / name).read_bytes(), preset=9))
+            packed(new / name).write_bytes(lzma.compress((results / name).read_bytes(), preset=9))
     shutil.rmtree(reference / study, ignore_errors=True)
     new.rename(reference / study)
     same_numbers.drop_record(reference, study)
@@ -102,8 +104,8 @@ def compare(results, reference, study):
 
 def is_compared(reference, study, commit):
     """Whether a study's reference was compared with what a commit gives."""
-    found = same_numbers.read_records(reference).get(study, {})
-    return (found.get("commit"), found.get("again")) == (provenance(reference / study)["program"]["commit"], commit)
+    record = same_numbers.read_records(reference).get(study, {})
+    return same_numbers.is_of(record, provenance(reference / study)) and record["again"] == commit
 
 
 def git(source, *words):
@@ -116,6 +118,12 @@ def has_changes(source):
     return bool(git(source, "status", "--porcelain", "--", ".", ":!results/reference"))
 
 
+def refuse(why):
+    """Ends the program with one sentence; exit code 1 is for studies that differ."""
+    print(f"reference: {why}", file=sys.stderr)
+    sys.exit(2)
+
+
 def chosen_studies(words, reference, studies):
     """The studies to run, shortest ones first; ends the program where one cannot be."""
     known = [path.stem for path in studies.glob("*.prm")
@@ -123,12 +131,14 @@ def chosen_studies(words, reference, studies):
     known += [REASONS + path.stem for path in (studies / REASONS).glob("*.prm")]
     wrong = [study for study in words.studies if study not in known]
     if wrong:
-        sys.exit(f"reference: there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
-    missing = [study for study in words.studies or known if not (reference / study).is_dir()]
-    if words.compare and words.studies and missing:
-        sys.exit(f"reference: '{missing[0]}' has no reference to compare with; run it without --compare first")
-    found = set(words.studies or known) - set(missing if words.compare else ())
-    return sorted(found, key=lambda study: (seconds(reference / study), study))
+        refuse(f"there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
+    found = words.studies or known
+    if words.compare:
+        missing = [study for study in words.studies if not (reference / study).is_dir()]
+        if missing:
+            refuse(f"'{missing[0]}' has no reference to compare with; run it without --compare first")
+        found = [study for study in found if (reference / study).is_dir()]
+    return sorted(found, key=lambda study: seconds(reference / study))
 
 
 def why_not(reference, study, commit, comparing):
@@ -146,12 +156,11 @@ def main():
     parser.add_argument("--compare", action="store_true",
                         help="leave references as they are, and say whether this commit gives their numbers")
     parser.add_argument("studies", nargs="*")
-    words = parser.parse_args()
+    words = parser.parse_intermixed_args()  # --compare may stand before studies
     reference, studies = words.source / "results" / "reference", words.source / "studies"
     chosen = chosen_studies(words, reference, studies)
     if has_changes(words.source):
-        sys.exit("reference: there are changes that are not committed; commit them first, so that the results can be "
-                 "made again")
+        refuse("there are changes that are not committed; commit them first, so that the results can be made again")
     commit, same = git(words.source, "rev-parse", "HEAD"), True
     for study in chosen:
         reason = why_not(reference, study, commit, words.compare)

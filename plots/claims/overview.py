@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from ..results.data_folder import data_folder
 from ..results.printed_values import read_printed_tables
-from ..results.rows import ResultsError, read_rows
+from ..results.rows import ResultsError
+from ..results.same_numbers import is_of, read_records
 from ..results.smoothing import read_provenance, read_results
 from ..results.write_files import write_atomically
 from ..tables.formats import escape_markdown
@@ -87,7 +88,7 @@ def without_claims(found, folders):
 def runs(found, folders):
     """Which run each study's results are of, as lines of a Markdown table."""
     everything = [*found, *without_claims(found, folders)]
-    again = runs_again(folders)
+    again = read_records(folders)
     commits = {commit for study in everything for commit in commits_of(study)}
     commit, covered = most_covered([study for study in everything if study.provenance], again)
     lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. {len(covered)} of the "
@@ -101,17 +102,6 @@ def runs(found, folders):
                  run.get("machine", {}).get("system", MISSING))
         lines.append(f"| {' | '.join(cells)} |")
     return lines
-
-
-def runs_again(folders):
-    """What launcher/same_numbers.py kept of studies that were run again: study -> row."""
-    path = folders / "again.csv"
-    return {row["study"]: row for row in read_rows(path).records()} if path.exists() else {}
-
-
-def is_of(row, run):
-    """Whether what was kept of a study that was run again is of the reference there is."""
-    return row.get("commit") == run.get("program", {}).get("commit", "")
 
 
 def again_cell(row, run):

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from launcher import same_numbers
+from plots.results import same_numbers
 
 ITERATIONS = "mesh,iteration,smoothing_seconds,q_min\ntri,0,0.1,0.25\ntri,1,0.2,0.5\n"
 SUMMARY = "mesh,method,smoothing_seconds,peak_memory_gib,q_min\ntri,getme,0.2,1.5,0.5\n"

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a study that was run again has the numbers of its reference: every column of its CSV files to the last
+digit but for times and memory, which are the machine's. What was found is kept in results/reference/again.csv."""
+
+import csv
+import io
+from datetime import date
+from itertools import zip_longest
+
+from .collection import is_there, open_large
+from .rows import read_rows
+from .write_files import write_atomically
+
+FILE = "again.csv"
+COLUMNS = ("study", "commit", "again", "written", "rows", "different")
+TABLES = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv", "members.csv", "metrics.csv")
+OF_THE_MACHINE = ("seconds", "_gib", "speedup")  # how the names of such columns end
+
+
+def table_of(path):
+    """The rows of a CSV file, packed or not; none if there is no such file."""
+    if not is_there(path):
+        return []
+    with open_large(path) as lines:
+        return list(csv.DictReader(lines))
+
+
+def changed(before, after):
+    """The columns that differ in two rows; not those of the machine, nor those that only one of them has, which are of
+    another version of the program."""
+    return [name for name in before
+            if not name.endswith(OF_THE_MACHINE) and name in after and before[name] != after[name]]
+
+
+def differences(reference, results):
+    """Of two folders of a study: the number of the reference's rows, and what differs, a line for each row. Tables that only
+    the results have are of another version, too."""
+    n_rows, found = 0, []
+    for table in TABLES:
+        old = table_of(reference / table)
+        new = table_of(results / table) if is_there(reference / table) else []
+        n_rows += len(old)
+        for number, (before, after) in enumerate(zip_longest(old, new), start=1):
+            if before is None or after is None:
+                found.append(f"{table}, row {number}: only in the {'results' if before is None else 'reference'}")
+            elif names := changed(before, after):
+                found.append(f"{table}, row {number}: " + ", ".join(
+                    f"{name} {before[name]} in the reference, now {after[name]}" for name in names))
+    return n_rows, found
+
+
+def read_records(reference):
+    """What is kept of studies that were run again: study -> row of again.csv."""
+    path = reference / FILE
+    return {row["study"]: row for row in read_rows(path, COLUMNS).records()} if path.exists() else {}
+
+
+def is_of(record, provenance):
+    """Whether what is kept of a study is of the reference there is."""
+    return record.get("commit") == provenance.get("program", {}).get("commit", "")
+
+
+def keep_record(reference, study, commit, again, n_rows, n_different):
+    """Keeps what was found of a study: its reference is of `commit`, it was run again at the commit `again`."""
+    row = (study, commit, again, date.today().isoformat(), n_rows, n_different)
+    write_records(reference, {**read_records(reference), study: dict(zip(COLUMNS, row))})
+
+
+def drop_record(reference, study):
+    """Forgets a study, whose reference is a new one."""
+    records = read_records(reference)
+    if records.pop(study, None):
+        write_records(reference, records)
+
+
+def write_records(reference, records):
+    """Writes the file, by the names of the studies."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(records[study] for study in sorted(records))
+    write_atomically(reference / FILE, text.getvalue())
