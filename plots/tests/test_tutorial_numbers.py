@@ -149,3 +149,11 @@ class TutorialNumbers(unittest.TestCase):
         for row in rows.values():
             if row["n"] != "8":
                 self.assertEqual(float(row[others]) > 1, row["n"] in "12")
+
+    def test_gradient_costs_what_the_benchmark_printed(self):
+        printed = (reference() / "speed.md").read_text(encoding="utf-8")
+        ratios = dict(re.findall(r"^\| (\w+ \| \d) \|.* ([0-9.]+) \|$", printed, re.MULTILINE))
+        percent = {case: f"{100 * float(ratio):.1f}" for case, ratio in ratios.items()}
+        text = " ".join(self.text.split())
+        self.assertIn(f"{percent['tetrahedron | 1']} and {percent['tetrahedron | 2']} % of it on tetrahedra of degree 1 and 2, "
+                      f"{percent['hexahedron | 1']} and {percent['hexahedron | 2']} % on hexahedra", text)
