@@ -71,10 +71,10 @@ def phrases():
     getme = [best("energy-fichera", mesh, d, ("GETMe",)) for d in "12" for mesh in solid]
     yield f"orders in H1 of {getme[0]} and {getme[1]} at degree 1, and of {getme[2]} and {getme[3]} at degree 2"
     fixed = [best("energy-fichera", mesh, d, FIXED) for d in "12" for mesh in solid]
-    yield f"methods come to {fixed[0]} and {fixed[1]}, and to {fixed[2]} and {fixed[3]};"
+    methods = f"methods come to {fixed[0]} and {fixed[1]}, and to {fixed[2]} and {fixed[3]};"
     one = [best("energy-fichera", mesh, "1", SLIDING) for mesh in solid]
     two = [best("energy-fichera", mesh, "2", SLIDING) for mesh in solid]
-    yield f"moving meshes come to {one[0]} and {one[1]}, and weights to {two[0]} and {two[1]}"
+    yield f"{methods} with nodes that slide to {one[0]} and {one[1]}, and to {two[0]} and {two[1]}"
 
 
 class TutorialNumbers(unittest.TestCase):
