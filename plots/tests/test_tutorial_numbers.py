@@ -8,7 +8,8 @@ from plots.claims.overview import reference
 from plots.results.data_folder import data_folder
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
-from plots.tables.energy import orders_table
+from plots.tables.energy import factor_table, orders_table
+from plots.tables.number_format import MISSING
 
 FIXED = ("Weights", "Descent", "Moving mesh and descent")
 SLIDING = ("Weights, sliding", "Moving mesh and descent, sliding")
@@ -46,16 +47,22 @@ def best(study, mesh, degree, methods):
     return short(orders(study, (mesh,), degree, methods)[-1])
 
 
+def reason_table(name, make, group):
+    """(mesh, degree, method) -> cells of a table that is made of a reason's results, which has none in the reference."""
+    found = make(read_results(reference() / "reasons" / name))
+    rows = {}
+    mesh = degree = ""
+    for key, cells in zip(found.keys, found.groups[group].cells):
+        first, second, method = (cell.text for cell in key)
+        mesh, degree = first or mesh, second or degree
+        rows[mesh, degree, method] = [cell.text for cell in cells]
+    return rows
+
+
 def orders_with_more_solves():
     """Of sliding weights in the corner of the L with 60 solves: at degree 1, at degree 2."""
-    found = orders_table(read_results(reference() / "reasons" / "l-shape-solves"))
-    rows = {}
-    names = [tuple(cell.text for cell in key) for key in found.keys]
-    mesh = degree = ""
-    for (first, second, method), cells in zip(names, found.groups[0].cells):
-        mesh, degree = first or mesh, second or degree
-        rows[mesh, degree, method] = short(cells[0].text)
-    return [[rows[mesh, d, "Weights, sliding"] for mesh in ("Tri", "Quad")] for d in "12"]
+    rows = reason_table("l-shape-solves", orders_table, 0)
+    return [[short(rows[mesh, d, "Weights, sliding"][0]) for mesh in ("Tri", "Quad")] for d in "12"]
 
 
 def phrases():
@@ -96,7 +103,8 @@ class TutorialNumbers(unittest.TestCase):
             for degree in "12":
                 chosen = [row for (_, d, _), row in rows if d == degree]
                 gains = [float(row["Gain"]) for row in chosen if row["Gain"] not in ("", "–")]
-                expected += [f"{sum(row['Verdict'] == 'pays' for row in chosen)} of {len(chosen)}", f"{max(gains):.2f}"]
+                expected += [f"{sum(row['Verdict'] == 'pays' for row in chosen)} of {len(chosen)}" if chosen else MISSING,
+                             f"{max(gains):.2f}" if gains else MISSING]
             self.assertEqual([cell.strip() for cell in cells.split("|")], expected, study)
 
     def test_factors_are_those_of_the_tables(self):
@@ -157,3 +165,22 @@ class TutorialNumbers(unittest.TestCase):
         text = " ".join(self.text.split())
         self.assertIn(f"{percent['tetrahedron | 1']} and {percent['tetrahedron | 2']} % of it on tetrahedra of degree 1 and 2, "
                       f"{percent['hexahedron | 1']} and {percent['hexahedron | 2']} % on hexahedra", text)
+
+    def test_factors_in_space_and_in_the_plane_are_those_of_the_results(self):
+        def in_space(study, d, method):
+            rows = table(study, "table_energy")
+            return [rows[f"{mesh}{finer}", d, method]["H1 after solves 20"] for mesh in ("Tet", "Hex") for finer in ("", ", refined")]
+
+        flat = reason_table("front-in-plane", factor_table, 0)
+        lines = re.findall(r"^\| ([^|\n]*) \| (\d) \|((?:[^|\n]*\|)+)$", self.text, re.MULTILINE)
+        lines = [(method, d, [cell.strip() for cell in cells.split("|")[:-1]]) for method, d, cells in lines]
+        fronts = [line for line in lines if len(line[2]) == 8]
+        layers = [line for line in lines if len(line[2]) == 4 and line[0] in {front[0] for front in fronts}]
+        self.assertGreater(min(len(fronts), len(layers)), 5)
+        for method, d, cells in fronts:
+            solid = in_space("energy-front-volume", d, method)
+            plane = [flat[f"{mesh}{finer}", d, method][-1] for mesh in ("Tri", "Quad") for finer in ("", ", refined")]
+            self.assertEqual(cells, solid + plane, (method, d))
+            self.assertLessEqual(max(float(two) / float(three) for two, three in zip(plane, solid)), 1.25)
+        for method, d, cells in layers:
+            self.assertEqual(cells, in_space("energy-layer-volume", d, method), (method, d))
