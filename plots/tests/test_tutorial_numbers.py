@@ -65,6 +65,14 @@ def orders_with_more_solves():
     return [[short(rows[mesh, d, "Weights, sliding"][0]) for mesh in ("Tri", "Quad")] for d in "12"]
 
 
+def orders_with_other_parameters():
+    """Ranges over triangles and quadrilaterals, and over other parameters of sliding weights of 60 solves: at degree 1, at degree 2."""
+    rows = reason_table("l-shape-weights", orders_table, 0)
+    others = ("Power 3.5", "No averaging", "60 sweeps", "Floor .02", "Residual", "Power, averaging, sweeps and floor")
+    found = [sorted((rows[mesh, d, method][0] for mesh in ("Tri", "Quad") for method in others), key=float) for d in "12"]
+    return [(short(each[0]), short(each[-1])) for each in found]
+
+
 def phrases():
     """What the tutorial has to say of re-entrant corners."""
     flat, solid = ("Tri", "Quad"), ("Tet", "Hex")
@@ -75,6 +83,8 @@ def phrases():
     yield f"and to {two[0]} and {two[1]} at degree 2"
     one, two = orders_with_more_solves()
     yield f"with 60 weights come to {one[0]} and {one[1]}, and to {two[0]} and {two[1]}"
+    one, two = orders_with_other_parameters()
+    yield f"have orders of {one[0]} to {one[1]}, and of {two[0]} to {two[1]} (`reasons/l-shape-weights`)"
     getme = [best("energy-fichera", mesh, d, ("GETMe",)) for d in "12" for mesh in solid]
     yield f"orders in H1 of {getme[0]} and {getme[1]} at degree 1, and of {getme[2]} and {getme[3]} at degree 2"
     fixed = [best("energy-fichera", mesh, d, FIXED) for d in "12" for mesh in solid]
