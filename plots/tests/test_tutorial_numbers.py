@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers in doc/smoothing-for-the-error.md that come from results/reference are those of its tables."""
 
+import csv
+import io
 import re
 import unittest
 
@@ -9,6 +11,7 @@ from plots.results.data_folder import data_folder
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
 from plots.tables.energy import factor_table, orders_table
+from plots.tables.formats import as_csv
 from plots.tables.number_format import MISSING
 
 FIXED = ("Weights", "Descent", "Moving mesh and descent")
@@ -24,11 +27,19 @@ VARIANTS = {"the same, indicator averaged 4 times": "Weights, averaged 4 times",
             "indicator-aligned, sliding": "Aligned, sliding", "indicator-getme": "GETMe with sizes"}
 
 
-def table(study, name):
-    """(mesh, degree, method) -> row of a table of the reference, as printed."""
-    path = reference() / study / "tables" / f"{name}.csv"
-    rows = read_rows(path, ("Mesh", "d", "Method")).records()
+def by_key(rows):
+    """(mesh, degree, method) -> record of a table, as printed."""
     return {(row["Mesh"], row["d"], row["Method"]): row for row in rows}
+
+
+def table(study, name):
+    """A table of the reference."""
+    return by_key(read_rows(reference() / study / "tables" / f"{name}.csv", ("Mesh", "d", "Method")).records())
+
+
+def reason_table(name, make):
+    """A table that is made of a reason's results, which has none in the reference."""
+    return by_key(csv.DictReader(io.StringIO(as_csv(make(read_results(reference() / "reasons" / name))))))
 
 
 def short(number):
@@ -47,29 +58,17 @@ def best(study, mesh, degree, methods):
     return short(orders(study, (mesh,), degree, methods)[-1])
 
 
-def reason_table(name, make, group):
-    """(mesh, degree, method) -> cells of a table that is made of a reason's results, which has none in the reference."""
-    found = make(read_results(reference() / "reasons" / name))
-    rows = {}
-    mesh = degree = ""
-    for key, cells in zip(found.keys, found.groups[group].cells):
-        first, second, method = (cell.text for cell in key)
-        mesh, degree = first or mesh, second or degree
-        rows[mesh, degree, method] = [cell.text for cell in cells]
-    return rows
-
-
 def orders_with_more_solves():
     """Of sliding weights in the corner of the L with 60 solves: at degree 1, at degree 2."""
-    rows = reason_table("l-shape-solves", orders_table, 0)
-    return [[short(rows[mesh, d, "Weights, sliding"][0]) for mesh in ("Tri", "Quad")] for d in "12"]
+    rows = reason_table("l-shape-solves", orders_table)
+    return [[short(rows[mesh, d, "Weights, sliding"]["Order of H1"]) for mesh in ("Tri", "Quad")] for d in "12"]
 
 
 def orders_with_other_parameters():
     """Ranges over triangles and quadrilaterals, and over other parameters of sliding weights of 60 solves: at degree 1, at degree 2."""
-    rows = reason_table("l-shape-weights", orders_table, 0)
+    rows = reason_table("l-shape-weights", orders_table)
     others = ("Power 3.5", "No averaging", "60 sweeps", "Floor .02", "Residual", "Power, averaging, sweeps and floor")
-    found = [sorted((rows[mesh, d, method][0] for mesh in ("Tri", "Quad") for method in others), key=float) for d in "12"]
+    found = [sorted((rows[mesh, d, method]["Order of H1"] for mesh in ("Tri", "Quad") for method in others), key=float) for d in "12"]
     return [(short(each[0]), short(each[-1])) for each in found]
 
 
@@ -98,11 +97,11 @@ class TutorialNumbers(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.text = (data_folder() / "doc" / "smoothing-for-the-error.md").read_text(encoding="utf-8")
+        cls.line = " ".join(cls.text.split())
 
     def test_orders_are_those_of_the_tables(self):
-        text = " ".join(self.text.split())
         for phrase in phrases():
-            self.assertIn(phrase, text)
+            self.assertIn(phrase, self.line)
 
     def test_cases_that_pay_are_those_of_the_tables(self):
         lines = re.findall(r"^\| (energy[\w-]*) \|(.*)\|$", self.text, re.MULTILINE)
@@ -154,9 +153,8 @@ class TutorialNumbers(unittest.TestCase):
         for n in "1248":
             chosen = [rows[mesh, d, f"Moving mesh and descent for {n}"] for mesh in ("Tri", "Quad") for d in "12"]
             self.assertIn("| ".join((f"| {n} ", *(f"{row[error]} " for row in chosen), "")).rstrip(), self.text)
-        text = " ".join(self.text.split())
         until = sorted(int(row[times]) for (_, d, _), row in rows.items() if d == "1")
-        self.assertIn(f"have to be solved on it {until[0]} to {until[-1]} times at degree 1", text)
+        self.assertIn(f"have to be solved on it {until[0]} to {until[-1]} times at degree 1", self.line)
         paying = [(mesh, row["n"]) for (mesh, d, _), row in rows.items() if d == "2" and row[times] != "never"]
         self.assertEqual(paying, [("Tri", "1"), ("Tri", "2"), ("Quad", "1")])
         self.assertTrue(all(row["Verdict"] == "does not pay" for row in rows.values()))
@@ -172,25 +170,23 @@ class TutorialNumbers(unittest.TestCase):
         printed = (reference() / "speed.md").read_text(encoding="utf-8")
         ratios = dict(re.findall(r"^\| (\w+ \| \d) \|.* ([0-9.]+) \|$", printed, re.MULTILINE))
         percent = {case: f"{100 * float(ratio):.1f}" for case, ratio in ratios.items()}
-        text = " ".join(self.text.split())
         self.assertIn(f"{percent['tetrahedron | 1']} and {percent['tetrahedron | 2']} % of it on tetrahedra of degree 1 and 2, "
-                      f"{percent['hexahedron | 1']} and {percent['hexahedron | 2']} % on hexahedra", text)
+                      f"{percent['hexahedron | 1']} and {percent['hexahedron | 2']} % on hexahedra", self.line)
 
     def test_factors_in_space_and_in_the_plane_are_those_of_the_results(self):
-        def in_space(study, d, method):
-            rows = table(study, "table_energy")
-            return [rows[f"{mesh}{finer}", d, method]["H1 after solves 20"] for mesh in ("Tet", "Hex") for finer in ("", ", refined")]
+        def factors(rows, meshes, d, method):
+            return [rows[f"{mesh}{finer}", d, method]["H1 after solves 20"] for mesh in meshes for finer in ("", ", refined")]
 
-        flat = reason_table("front-in-plane", factor_table, 0)
+        front, layer = (table(f"energy-{study}-volume", "table_energy") for study in ("front", "layer"))
+        flat = reason_table("front-in-plane", factor_table)
         lines = re.findall(r"^\| ([^|\n]*) \| (\d) \|((?:[^|\n]*\|)+)$", self.text, re.MULTILINE)
         lines = [(method, d, [cell.strip() for cell in cells.split("|")[:-1]]) for method, d, cells in lines]
         fronts = [line for line in lines if len(line[2]) == 8]
-        layers = [line for line in lines if len(line[2]) == 4 and line[0] in {front[0] for front in fronts}]
+        layers = [line for line in lines if len(line[2]) == 4 and line[0] in {one[0] for one in fronts}]
         self.assertGreater(min(len(fronts), len(layers)), 5)
         for method, d, cells in fronts:
-            solid = in_space("energy-front-volume", d, method)
-            plane = [flat[f"{mesh}{finer}", d, method][-1] for mesh in ("Tri", "Quad") for finer in ("", ", refined")]
+            solid, plane = factors(front, ("Tet", "Hex"), d, method), factors(flat, ("Tri", "Quad"), d, method)
             self.assertEqual(cells, solid + plane, (method, d))
             self.assertLessEqual(max(float(two) / float(three) for two, three in zip(plane, solid)), 1.25)
         for method, d, cells in layers:
-            self.assertEqual(cells, in_space("energy-layer-volume", d, method), (method, d))
+            self.assertEqual(cells, factors(layer, ("Tet", "Hex"), d, method), (method, d))

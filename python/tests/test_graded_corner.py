@@ -12,25 +12,30 @@ EDGE_SCALES = (8.0, 4.0, 2.0)  # those of the study energy-l-shape
 EXPONENT = 2 / 3  # of r in the solution
 
 
-def graded(elements, edge_scale, b):
-    """GETMe's mesh of the L with nodes p put to |p|^(b - 1) p, |p| the larger coordinate, which maps the L onto itself."""
+def getme_mesh(elements, edge_scale):
+    """GETMe's mesh of the L, and where its nodes are."""
     mesh = smoothfem.generate("l-shape", elements=elements, edge_scale=edge_scale)
     smoothfem.smooth(mesh, "getme")
-    distance = np.abs(mesh.points).max(axis=1, keepdims=True)
-    mesh.points *= distance ** (b - 1)
-    return mesh
+    return mesh, mesh.points.copy()
 
 
-def order(elements, degree, b):
-    """Slope of the true H1 errors' logarithms over those of the number of cells to the power of -1/2."""
-    meshes = [graded(elements, edge_scale, b) for edge_scale in EDGE_SCALES]
-    errors = [smoothfem.solve(mesh, "corner", degree, condition_number="none")["h1_error"] for mesh in meshes]
-    return np.polyfit(-0.5 * np.log([mesh.n_cells for mesh in meshes]), np.log(errors), 1)[0]
+def error(mesh, even, degree, b):
+    """True H1 error where nodes are from p to |p|^(b - 1) p, |p| the larger coordinate, which maps the L onto itself."""
+    mesh.points[:] = even * np.abs(even).max(axis=1, keepdims=True) ** (b - 1)
+    return smoothfem.solve(mesh, "corner", degree, condition_number="none")["h1_error"]
 
 
 class GradedCorner(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.families = [[getme_mesh(elements, edge_scale) for edge_scale in EDGE_SCALES]
+                        for elements in ("triangles", "quadrilaterals")]
+
     def orders(self, degree, b):
-        return [order(elements, degree, b) for elements in ("triangles", "quadrilaterals")]
+        """Of triangles and quadrilaterals: slopes of the errors' logarithms over those of the number of cells to the power of -1/2."""
+        return [np.polyfit([-0.5 * np.log(mesh.n_cells) for mesh, _ in family],
+                           [np.log(error(mesh, even, degree, b)) for mesh, even in family], 1)[0]
+                for family in self.families]
 
     def test_orders_are_those_of_theory_and_of_the_tutorial(self):
         """b EXPONENT, as errors of cells at the corner fall, up to the degree."""
