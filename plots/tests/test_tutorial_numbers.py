@@ -97,6 +97,11 @@ def phrases():
     one = [best("energy-fichera", mesh, "1", SLIDING) for mesh in solid]
     two = [best("energy-fichera", mesh, "2", SLIDING) for mesh in solid]
     yield f"{methods} with nodes that slide to {one[0]} and {one[1]}, and to {two[0]} and {two[1]}"
+    rows = reason_table("fichera-solves", orders_table)
+    moving, weights, sweeps, floor = (rows["Tet", "2", method]["Order of H1"] for method in (
+        *reversed(SLIDING), "Weights of 60 sweeps, sliding", "Weights of floor .02, sliding"))
+    yield f"(60: {moving} in place of {two[0]}, and for weights {weights}) or of sweeps ({sweeps})"
+    yield f"weights come to {floor} (`results/reference/reasons/fichera-solves`)"
 
 
 class TutorialNumbers(unittest.TestCase):

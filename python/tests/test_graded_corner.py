@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which orders in the edge length errors in the re-entrant corner have on meshes that are graded towards it."""
+"""Which orders in the edge length errors in re-entrant corners have on meshes that are graded towards these."""
 
+import csv
+import itertools
 import re
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -10,6 +14,24 @@ from .built import SOURCE, smoothfem
 
 EDGE_SCALES = (8.0, 4.0, 2.0)  # those of the study energy-l-shape
 EXPONENT = 2 / 3  # of r in the solution
+STUDY = """
+set dimension = 3
+set meshes    = {meshes}
+set methods   = laplace
+set degrees   = 2
+{files}
+subsection method laplace
+  set max_iterations = 1
+end
+subsection solution
+  set name = corner
+end
+subsection finite elements
+  set load             = quadrature
+  set condition number = none
+  set jacobi cg        = never
+end
+"""
 
 
 def getme_mesh(elements, edge_scale):
@@ -19,9 +41,26 @@ def getme_mesh(elements, edge_scale):
     return mesh, mesh.points.copy()
 
 
+def graded(even, b):
+    """Nodes from p to |p|^(b - 1) p, |p| the largest coordinate, which maps the L and the seven octants onto themselves."""
+    return even * np.abs(even).max(axis=1, keepdims=True) ** (b - 1)
+
+
+def seven_octants(n):
+    """Nodes and tetrahedra of all octants but that of positive coordinates: each n^3 cubes of six, cut where two coordinates are equal."""
+    numbers, cells = {}, []
+    for signs in itertools.product((1, -1), repeat=3):
+        for corner in itertools.product(range(n), repeat=3) if signs != (1, 1, 1) else ():
+            for axes in itertools.permutations(np.eye(3, dtype=int)):
+                path = signs * np.cumsum([corner, *axes], axis=0)
+                order = (0, 1, 2, 3) if np.linalg.det(path[1:] - path[0]) > 0 else (0, 1, 3, 2)
+                cells.append([numbers.setdefault(tuple(path[k]), len(numbers)) for k in order])
+    return np.array(list(numbers)) / n, np.array(cells)
+
+
 def error(mesh, even, degree, b):
-    """True H1 error where nodes are from p to |p|^(b - 1) p, |p| the larger coordinate, which maps the L onto itself."""
-    mesh.points[:] = even * np.abs(even).max(axis=1, keepdims=True) ** (b - 1)
+    """True H1 error on the graded mesh."""
+    mesh.points[:] = graded(even, b)
     return smoothfem.solve(mesh, "corner", degree, condition_number="none")["h1_error"]
 
 
@@ -52,6 +91,31 @@ class GradedCorner(unittest.TestCase):
     def test_even_meshes_have_that_of_the_solution(self):
         for degree in (1, 2):
             np.testing.assert_allclose(self.orders(degree, 1), EXPONENT, atol=0.02)
+
+
+class GradedOctants(unittest.TestCase):
+    def test_orders_of_quadratic_tetrahedra_are_those_of_theory_and_of_the_tutorial(self):
+        """b times that of even meshes, 1, up to the degree. The load is singular, which takes a study: solve() has the nodal one."""
+        text = (SOURCE / "doc" / "smoothing-for-the-error.md").read_text(encoding="utf-8")
+        sentence = re.search(r"Tetrahedra that are graded(.*?)with b = 1, 1\.5, 2 and 2\.5", text, re.DOTALL).group(1)
+        exponents, families = (1, 1.5, 2, 2.5), [seven_octants(n) for n in (4, 8)]
+        self.assertIn(" and ".join(f"{len(cells):,}" for _, cells in families), " ".join(sentence.split()))
+        with tempfile.TemporaryDirectory() as folder:
+            names = [[f"m{size}-{b}".replace(".", "-") for size in (0, 1)] for b in exponents]
+            for (points, cells), (k, b) in itertools.product(families, enumerate(exponents)):
+                name = names[k][len(points) == len(families[1][0])]
+                smoothfem.write(smoothfem.Mesh(graded(points, b), cells), str(Path(folder) / f"{name}.vtu"))
+            meshes = list(itertools.chain(*names))
+            files = "".join(f"subsection mesh {name}\n  set file = {name}.vtu\nend\n" for name in meshes)
+            study = Path(folder) / "graded.prm"
+            study.write_text(STUDY.format(meshes=", ".join(meshes), files=files), encoding="utf-8")
+            smoothfem.Study(study).run(Path(folder) / "results")
+            with open(Path(folder) / "results" / "summary.csv", encoding="utf-8") as file:
+                errors = {row["mesh"]: float(row["h1_error"]) for row in csv.DictReader(file) if row["method"] == "initial"}
+        found = [np.log2(errors[coarse] / errors[fine]) for coarse, fine in names]
+        np.testing.assert_allclose(found, [float(number) for number in re.findall(r"\b\d\.\d\d\b", sentence)], atol=0.0051)
+        np.testing.assert_allclose(found[:2], exponents[:2], atol=0.05)
+        self.assertGreater(found[3], 1.8)
 
 
 if __name__ == "__main__":
