@@ -24,7 +24,7 @@ from plots.results.collection import packed
 from plots.results.rows import read_provenance
 
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
-COLLECTIONS = ("field", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their usual scale
+COLLECTIONS = ("field", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")
 PACKED = ("iterations.csv", "metrics.csv")  # of collections, whose records are many
 DRAWN = ("gear", "volume", "field")  # whose figures are kept, too
