@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which orders in the edge length errors in re-entrant corners have on meshes that are graded towards these."""
 
-import csv
 import itertools
 import re
 import tempfile
@@ -9,6 +8,8 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+
+from plots.results.rows import read_rows
 
 from .built import SOURCE, smoothfem
 
@@ -102,8 +103,8 @@ def errors_by_a_study(meshes):
         files = "".join(f"subsection mesh {label}\n  set file = {label}.vtu\nend\n" for label in meshes)
         (folder / "graded.prm").write_text(STUDY.format(meshes=", ".join(meshes), files=files), encoding="utf-8")
         smoothfem.Study(folder / "graded.prm").run(folder / "results")
-        with open(folder / "results" / "summary.csv", encoding="utf-8") as file:
-            return {row["mesh"]: float(row["h1_error"]) for row in csv.DictReader(file) if row["method"] == "initial"}
+        rows = read_rows(folder / "results" / "summary.csv").records()
+        return {row["mesh"]: float(row["h1_error"]) for row in rows if row["method"] == "initial"}
 
 
 class GradedOctants(unittest.TestCase):
