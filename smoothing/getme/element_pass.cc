@@ -181,7 +181,7 @@ void add_to_marked(const Pass<dim, spacedim, Weighting, Fits>& pass,
                    double* sums) {
   const auto wanted = [&](NodeIndex i) { return marked[i] != 0; };
   for_each_batch<dim, spacedim>(
-      pass.mesh.topology(), cells,
+      ListedCells(pass.mesh.topology(), cells),
       [&](const auto& batch) {
         pass.add(batch, wanted, sums);
         return true;

@@ -15,7 +15,7 @@ template <int dim, int spacedim, class CoordinatesOf, class Visit>
 bool for_each_mean_ratio_at(const Mesh<dim, spacedim>& mesh, std::span<const CellIndex> cells,
                             const CoordinatesOf& coordinates_of, const Visit& visit) {
   return for_each_batch<dim, spacedim>(
-      mesh.topology(), cells,
+      ListedCells(mesh.topology(), cells),
       [&]<std::size_t n>(const CellBatch<n>& batch) {
         const auto corners = batch.template corners_at<dim>(coordinates_of);
         const Lanes quality = mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners));

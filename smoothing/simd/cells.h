@@ -202,21 +202,38 @@ template <int dim, int spacedim = dim, class VisitBatch, class VisitCell>
   }
 }
 
-/// Visits the cells of a list in order: visit_batch(batch) for up to n_lanes cells of one fixed
-/// type that follow each other, visit_cell(position) for polygons and cells of surface meshes.
-/// Visitors return false to stop; returns whether all were visited.
-template <int dim, int spacedim = dim, class VisitBatch, class VisitCell>
-[[gnu::flatten]] bool for_each_batch(const Topology& topology, std::span<const CellIndex> cells,
-                                     const VisitBatch& visit_batch, const VisitCell& visit_cell) {
+/// Cells of a list: their numbers, and their nodes.
+class ListedCells {
+ public:
+  ListedCells(const Topology& topology, std::span<const CellIndex> cells)
+      : topology_(topology), cells_(cells) {}
+
+  std::size_t size() const { return cells_.size(); }
+  CellIndex number(std::size_t position) const { return cells_[position]; }
+  std::span<const NodeIndex> nodes(std::size_t position) const {
+    return topology_.cell_nodes(cells_[position]);
+  }
+
+ private:
+  const Topology& topology_;
+  std::span<const CellIndex> cells_;
+};
+
+/// Visits some cells (ListedCells or what has its functions) in order: visit_batch(batch) for up to
+/// n_lanes cells of one fixed type that follow each other, visit_cell(position) for polygons and
+/// cells of surface meshes. Visitors return false to stop; returns whether all were visited.
+template <int dim, int spacedim = dim, class Cells, class VisitBatch, class VisitCell>
+[[gnu::flatten]] bool for_each_batch(const Cells& cells, const VisitBatch& visit_batch,
+                                     const VisitCell& visit_cell) {
   if constexpr (!comes_in_batches<dim, spacedim>) {
     for (std::size_t position = 0; position < cells.size(); ++position)
       if (!visit_cell(position)) return false;
   } else {
     for (std::size_t first = 0; first < cells.size();) {
-      const std::size_t n_nodes = topology.cell_nodes(cells[first]).size();
+      const std::size_t n_nodes = cells.nodes(first).size();
       std::size_t count = 1;
       while (count < n_lanes && first + count < cells.size() &&
-             topology.cell_nodes(cells[first + count]).size() == n_nodes)
+             cells.nodes(first + count).size() == n_nodes)
         ++count;
       bool keep_going = true;
       with_cell_size<dim>(n_nodes, [&](auto size) {
@@ -227,8 +244,9 @@ template <int dim, int spacedim = dim, class VisitBatch, class VisitCell>
         } else {
           CellBatch<n> batch{first, count, {}, {}};
           for (std::size_t l = 0; l < n_lanes; ++l) {
-            batch.cells[l] = cells[first + std::min(l, count - 1)];
-            batch.nodes[l] = topology.cell_nodes(batch.cells[l]).data();
+            const std::size_t position = first + std::min(l, count - 1);
+            batch.cells[l] = cells.number(position);
+            batch.nodes[l] = cells.nodes(position).data();
           }
           keep_going = visit_batch(batch);
         }

@@ -1,43 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/geometry/cell_size.h"
+#include "smoothing/laplacian/cells_around_nodes.h"
 #include "smoothing/laplacian/gauss_seidel_sweep.h"
 #include "smoothing/loop/catalogue.h"
 
 namespace smoothfem {
 namespace {
 
-/// Where the centroids of some cells are on average, weighted by the cells' sizes, seen from a
-/// node.
+/// Sums of some cells' sizes and of their centroids, weighted by these, seen from a node. Sizes are
+/// absolute: signed ones let a tangled mesh explode.
 template <int dim>
 class WeightedCentroids {
  public:
   explicit WeightedCentroids(const Point<dim>& node) : node_(vector_of(node)) {}
 
-  /// Adds the first `count` of several cells. Sizes are absolute: signed ones let a tangled mesh
-  /// explode.
-  template <class Corner, std::size_t extent>
-  void add(std::span<const Corner, extent> corners, std::size_t count) {
-    using Real = decltype(Corner::x);
-    Corner corner_sum{};
-    for (const auto& corner : corners) corner_sum = corner_sum + corner;
-    const auto centroid = corner_sum / static_cast<double>(corners.size());
-    const Real signed_size = signed_cell_size(corners);
-    const Real size = signed_size < 0.0 ? -signed_size : signed_size;
-    const auto weighted = size * (centroid - node_);
-    for (std::size_t l = 0; l < count; ++l) {
-      sum_ += lane(weighted, l);
-      total_size_ += lane(size, l);
-    }
+  /// Adds a cell.
+  template <std::size_t extent>
+  void add(std::span<const Vector<dim, double>, extent> corners) {
+    const auto [centroid, size] = weighted(corners);
+    if constexpr (dim == 2)
+      sums_ += Lanes{centroid.x, centroid.y, size};
+    else
+      sums_ += Lanes{centroid.x, centroid.y, centroid.z, size};
+  }
+  /// Adds the first `count` of several cells, one after the other.
+  template <std::size_t extent>
+  void add(std::span<const Vector<dim, Lanes>, extent> corners, std::size_t count) {
+    const auto [centroid, size] = weighted(corners);
+    std::array<Lanes, n_lanes> of_cells;
+    if constexpr (dim == 2)
+      of_cells = transposed(centroid.x, centroid.y, size, Lanes{});
+    else
+      of_cells = transposed(centroid.x, centroid.y, centroid.z, size);
+    for (std::size_t l = 0; l < count; ++l) sums_ += of_cells[l];
   }
 
   Point<dim> mean() const {
-    return total_size_ > 0.0 ? Point<dim>(sum_ / total_size_) : Point<dim>::Zero();
+    if (!(sums_[dim] > 0.0)) return Point<dim>::Zero();
+    Point<dim> mean;
+    for (int d = 0; d < dim; ++d) mean[d] = sums_[d] / sums_[dim];
+    return mean;
   }
 
  private:
+  template <class Corner, std::size_t extent>
+  auto weighted(std::span<const Corner, extent> corners) const {
+    Corner sum{};
+    for (const auto& corner : corners) sum = sum + corner;
+    const auto centroid = sum / static_cast<double>(corners.size());
+    const auto signed_size = signed_cell_size(corners);
+    const auto size = signed_size < 0.0 ? -signed_size : signed_size;
+    return std::pair(size * (centroid - node_), size);
+  }
+
   Vector<dim, double> node_;
-  Point<dim> sum_ = Point<dim>::Zero();
-  double total_size_ = 0.0;
+  Lanes sums_{};  ///< of the coordinates, and of the sizes behind them
 };
 
 /// Each free node moves to the mean of the centroids of its cells, weighted by their areas or
@@ -50,33 +67,40 @@ class WeightedLaplace final : public Smoother<dim> {
   SmootherTraits traits() const override { return uncontrolled_sweeps; }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
+  void initialize(const SmoothingState<dim>& state) override {
+    cells_around_.prepare(state.mesh.shared_topology());
+  }
+
   StepReport step(SmoothingState<dim>& state) override {
+    std::size_t position = 0;
     return gauss_seidel_sweep(state.mesh, [&](NodeIndex i) {
-      return movement(state.mesh.topology(), state.mesh.coordinates().data(), i);
+      return cells_around_.with_cells(position++, [&](const auto& cells) {
+        return movement(cells, state.mesh.coordinates().data(), i);
+      });
     });
   }
 
  private:
-  static Point<dim> movement(const Topology& topology, const Point<dim>* x, NodeIndex node) {
+  template <class Cells>
+  static Point<dim> movement(const Cells& cells, const Point<dim>* x, NodeIndex node) {
     WeightedCentroids<dim> centroids(x[node]);
-    const auto cells = topology.node_cells(node);
-    prefetch_corners(topology, cells, x);
     for_each_batch<dim>(
-        topology, cells,
+        cells,
         [&]<std::size_t n>(const CellBatch<n>& batch) {
           const auto corners = batch.template corners<dim>(x);
           centroids.add(std::span<const Vector<dim, Lanes>, n>(corners), batch.count);
           return true;
         },
         [&](std::size_t position) {
-          with_corners<dim>(topology.cell_nodes(cells[position]), x,
-                            [&](auto corners) { centroids.add(corners, 1); });
+          with_corners<dim>(cells.nodes(position), x,
+                            [&](auto corners) { centroids.add(corners); });
           return true;
         });
     return centroids.mean();
   }
 
   DisplacementStopping stopping_;
+  CellsAroundNodes cells_around_;
 };
 
 const RegisteredMethod registered(
