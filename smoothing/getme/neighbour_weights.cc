@@ -2,6 +2,7 @@
 #include "smoothing/getme/neighbour_weights.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "smoothing/base/parallel.h"
@@ -11,79 +12,125 @@ namespace smoothfem {
 
 namespace {
 
-/// Rows of cells with small numbers, in few bytes: the cells that share several nodes with a cell
-/// are close to it and to each other in an order of cells that is good for anything. Each is
-/// written as a number made of its difference to the one before (to `cell` for the first) and the
-/// surplus, by digits of seven bits, low ones first, the eighth bit of all but the last set.
+/// Rows of cells with small numbers, ascending, in two bytes each: the cells that share several
+/// nodes with a cell are close to it and to each other in an order of cells that is good for
+/// anything. Each is the step from the one before, times four, and the surplus less one; the first
+/// step is from the row's own cell, either way. Longer steps are made of several.
 class SharedCellCode {
  public:
-  static constexpr std::uint64_t largest_surplus = 4;
+  static constexpr std::uint32_t largest_surplus = 4;
 
   explicit SharedCellCode(CellIndex cell) : before_(cell) {}
 
   /// Surplus: 1 to largest_surplus.
-  void append(CellIndex other, std::uint64_t surplus, std::vector<std::uint8_t>& row) {
-    const std::uint64_t down = other < before_;
-    const std::uint64_t difference = down ? before_ - other : other - before_;
+  void append(CellIndex other, std::uint32_t surplus, std::vector<std::uint16_t>& row) {
+    const bool back = other < before_;
+    std::uint64_t step = back ? before_ - other : other - before_;
+    if (row.empty()) step = 2 * step + back;
     before_ = other;
-    std::uint64_t number = (difference << 1 | down) * largest_surplus + (surplus - 1);
-    for (; number >= more; number /= more) row.push_back(static_cast<std::uint8_t>(number | more));
-    row.push_back(static_cast<std::uint8_t>(number));
+    for (; step >= longest; step -= longest) row.push_back(longest * largest_surplus);
+    row.push_back(static_cast<std::uint16_t>(step * largest_surplus + surplus - 1));
   }
 
-  /// Calls use(other, surplus) for all that were appended to a row.
+  /// Calls use(other, surplus) for all that were appended to the row of a cell.
   template <class Use>
-  void read(std::span<const std::uint8_t> row, const Use& use) {
-    for (auto digit = row.begin(); digit != row.end(); ++digit) {
-      std::uint64_t number = *digit % more;
-      for (unsigned shift = 7; *digit >= more; shift += 7)
-        number |= static_cast<std::uint64_t>(*++digit % more) << shift;
-      const std::uint64_t move = number / largest_surplus;
-      const auto difference = static_cast<CellIndex>(move >> 1);
-      before_ = move & 1 ? before_ - difference : before_ + difference;
-      use(before_, number % largest_surplus + 1);
+  static void read(CellIndex cell, std::span<const std::uint16_t> row, const Use& use) {
+    if (row.empty()) return;
+    auto code = row.begin();
+    const auto step = [&] {
+      std::uint64_t sum = 0;
+      for (; *code / largest_surplus == longest; ++code) sum += longest;
+      return sum + *code / largest_surplus;
+    };
+    const std::uint64_t first = step();
+    std::uint64_t other = first % 2 == 1 ? cell - first / 2 : cell + first / 2;
+    while (true) {
+      use(other, *code % largest_surplus + 1);
+      if (++code == row.end()) return;
+      other += step();
     }
   }
 
  private:
-  static constexpr std::uint64_t more = 128;  ///< the bit that says that another digit follows
+  static constexpr std::uint16_t longest = 0x3fff;  ///< and as a step: another one follows
 
   CellIndex before_;
 };
 
-/// Finds the cells that share several nodes with a cell. Counts them, which is faster than
-/// sorting: the numbers of the cells around a cell lie close together in meshes that are
-/// large enough for it to matter.
+/// Some of the numbers 0 .. n-1, taken out in ascending order: bits, and bits of the words that
+/// have some.
+class AscendingNumbers {
+ public:
+  /// Only once all were taken out.
+  void resize(std::size_t n) {
+    words_.resize(n / n_bits + 1, 0);
+    used_words_.resize(words_.size() / n_bits + 1, 0);
+  }
+  /// Adds a number if `condition`, without a branch.
+  void add_if(bool condition, std::size_t number) {
+    words_[number / n_bits] |= std::uint64_t{condition} << number % n_bits;
+    used_words_[number / n_bits / n_bits] |= std::uint64_t{condition} << number / n_bits % n_bits;
+  }
+  template <class Use>
+  void take_out(const Use& use) {
+    for (std::size_t i = 0; i < used_words_.size(); ++i)
+      take_bits(used_words_[i], n_bits * i,
+                [&](std::size_t word) { take_bits(words_[word], n_bits * word, use); });
+  }
+
+ private:
+  static constexpr std::size_t n_bits = 64;
+
+  template <class Use>
+  static void take_bits(std::uint64_t& word, std::size_t first, const Use& use) {
+    for (; word != 0; word &= word - 1)
+      use(first + static_cast<std::size_t>(std::countr_zero(word)));
+  }
+
+  std::vector<std::uint64_t> words_, used_words_;
+};
+
+/// Finds the cells that share several nodes with a cell, by counting: the numbers of the cells
+/// around a cell lie close together in meshes that are large enough for it to matter.
 class SharedCells {
  public:
-  /// Appends them to an empty row, ascending.
-  void find(const Topology& topology, CellIndex cell, std::vector<std::uint8_t>& row) {
+  /// Appends them to an empty row, ascending; returns how many cells share a node or more.
+  std::size_t find(const Topology& topology, CellIndex cell, std::vector<std::uint16_t>& row) {
     CellIndex first = cell, last = cell;
     for (const NodeIndex node : topology.cell_nodes(cell)) {
       const auto cells = topology.node_cells(node);
       first = std::min(first, cells.front());
       last = std::max(last, cells.back());
     }
-    if (counts_.size() <= last - first) counts_.resize(last - first + 1, 0);
-    shared_.clear();
+    if (counts_.size() <= last - first) {
+      counts_.resize(last - first + 1, 0);
+      several_.resize(counts_.size());
+    }
+    std::size_t n = 0;
     for (const NodeIndex node : topology.cell_nodes(cell))
-      for (const CellIndex other : topology.node_cells(node))
-        if (++counts_[other - first] == 2) shared_.push_back(other);
-    std::sort(shared_.begin(), shared_.end());
+      for (const CellIndex other : topology.node_cells(node)) {
+        const std::uint32_t count = ++counts_[other - first];
+        n += count == 1;
+        several_.add_if(count == 2, other - first);
+      }
     SharedCellCode code(cell);
-    for (const CellIndex other : shared_)
-      for (std::uint64_t surplus = counts_[other - first] - 1; other != cell && surplus > 0;) {
+    several_.take_out([&](std::size_t number) {
+      const CellIndex other = first + static_cast<CellIndex>(number);
+      if (other == cell) return;
+      for (std::uint32_t surplus = counts_[number] - 1; surplus > 0;) {
         const auto part = std::min(surplus, SharedCellCode::largest_surplus);
         code.append(other, part, row);
         surplus -= part;
       }
+    });
     for (const NodeIndex node : topology.cell_nodes(cell))
       for (const CellIndex other : topology.node_cells(node)) counts_[other - first] = 0;
+    return n - 1;
   }
 
  private:
   std::vector<std::uint32_t> counts_;  ///< of the nodes that cells share; zero between two calls
-  std::vector<CellIndex> shared_;
+  AscendingNumbers several_;           ///< of counts_ that are 2 or more; none between two calls
 };
 
 }  // namespace
@@ -91,10 +138,12 @@ class SharedCells {
 void NeighbourWeights::prepare(std::shared_ptr<const Topology> topology) {
   if (topology == topology_) return;
   topology_ = std::move(topology);
-  counted_too_often_ = make_rows<std::uint8_t>(
-      topology_->n_cells(), [&](std::size_t cell, std::vector<std::uint8_t>& row) {
+  n_neighbours_.resize(topology_->n_cells());
+  counted_too_often_ = make_rows<std::uint16_t>(
+      topology_->n_cells(), [&](std::size_t cell, std::vector<std::uint16_t>& row) {
         thread_local SharedCells shared;
-        shared.find(*topology_, static_cast<CellIndex>(cell), row);
+        n_neighbours_[cell] =
+            static_cast<std::uint32_t>(shared.find(*topology_, static_cast<CellIndex>(cell), row));
       });
   node_sums_.resize(topology_->n_nodes());
   weights_.assign(topology_->n_cells(), 1.0);
@@ -123,21 +172,17 @@ void NeighbourWeights::compute(std::span<const CellIndex> cells,
 }
 
 double NeighbourWeights::weight(CellIndex cell, const std::vector<double>& cell_quality) const {
-  double sum = 0.0;
-  std::size_t count = 0;
+  if (n_neighbours_[cell] == 0) return 1.0;
   const auto nodes = topology_->cell_nodes(cell);
-  for (const NodeIndex node : nodes) {
-    sum += node_sums_[node];
-    count += topology_->node_cells(node).size();
-  }
+  double sum = 0.0;
+  for (const NodeIndex node : nodes) sum += node_sums_[node];
   sum -= static_cast<double>(nodes.size()) * cell_quality[cell];
-  count -= nodes.size();
-  SharedCellCode(cell).read(counted_too_often_[cell], [&](CellIndex other, std::uint64_t surplus) {
-    sum -= static_cast<double>(surplus) * cell_quality[other];
-    count -= surplus;
-  });
-  if (count == 0) return 1.0;
-  return std::sqrt(std::max(sum, 0.0) / (static_cast<double>(count) * cell_quality[cell]));
+  SharedCellCode::read(cell, counted_too_often_[cell],
+                       [&](std::size_t other, std::uint32_t surplus) {
+                         sum -= static_cast<double>(surplus) * cell_quality[other];
+                       });
+  return std::sqrt(std::max(sum, 0.0) /
+                   (static_cast<double>(n_neighbours_[cell]) * cell_quality[cell]));
 }
 
 }  // namespace smoothfem

@@ -30,9 +30,10 @@ class NeighbourWeights {
   double weight(CellIndex cell, const std::vector<double>& cell_quality) const;
 
   std::shared_ptr<const Topology> topology_;
-  /// For each cell, the others that share k > 1 nodes with it, and k - 1, in two bytes or so each:
-  /// plain numbers would take half the memory of a run.
-  CompressedRows<std::uint8_t> counted_too_often_;
+  std::vector<std::uint32_t> n_neighbours_;  ///< |N(j)| of each cell
+  /// For each cell, the others that share k > 1 nodes with it, and k - 1, in two bytes each: plain
+  /// numbers would take half the memory of a run.
+  CompressedRows<std::uint16_t> counted_too_often_;
   std::vector<std::uint8_t> is_needed_;  ///< nodes of the cells whose weights are computed
   std::vector<double> node_sums_;        ///< of the qualities of each node's cells
   std::vector<double> weights_;

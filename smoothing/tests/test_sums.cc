@@ -69,8 +69,15 @@ TEST(NeighbourWeights, AreThoseOfTheDefinition) {
   expect_weights_by_definition(shuffled(test::grid_mesh(40, test::GridCells::mixed).topology()));
 }
 
-/// Two polygons above and below a line of ten common nodes, far apart in the order of cells.
-TEST(NeighbourWeights, CountPolygonsWithManyCommonNodesOnce) {
+/// Neighbours are far apart in the order of cells.
+TEST(NeighbourWeights, AreThoseOfTheDefinitionInAnyOrderOfManyCells) {
+  expect_weights_by_definition(
+      shuffled(test::grid_mesh(200, test::GridCells::quadrilaterals).topology()));
+}
+
+/// Two polygons above and below a line of ten common nodes, with many cells between them in the
+/// order of cells.
+void expect_common_nodes_counted_once(int n_between) {
   test::Cells cells;
   std::vector<NodeIndex> above, below;
   for (NodeIndex i = 0; i < 10; ++i) {
@@ -81,20 +88,28 @@ TEST(NeighbourWeights, CountPolygonsWithManyCommonNodesOnce) {
   below.insert(below.end(), {12, 13});
   cells.push_back(above);
   NodeIndex next = 14;
-  for (int k = 0; k < 5000; ++k, next += 3) cells.push_back({next, next + 1, next + 2});
+  for (int k = 0; k < n_between; ++k, next += 3) cells.push_back({next, next + 1, next + 2});
   cells.push_back({10, 9, 14});  // one that shares an edge with the first
   cells.push_back(below);
   const auto topology = std::make_shared<const Topology>(2, next, test::rows_of(cells));
   std::vector<double> quality(cells.size(), 1.0);
   quality[0] = 0.25;
-  const std::vector<CellIndex> polygons{0, 5001, 5002};
+  const auto last = static_cast<CellIndex>(n_between + 2);
+  const std::vector<CellIndex> polygons{0, last - 1, last};
   NeighbourWeights weights;
   weights.prepare(topology);
   weights.compute(polygons, quality);
   EXPECT_NEAR(weights.weights()[0], 2.0, 1e-12);  // two neighbours of quality 1
-  EXPECT_NEAR(weights.weights()[5002], std::sqrt((0.25 + 1.0) / 2.0), 1e-12);
+  EXPECT_NEAR(weights.weights()[last], std::sqrt((0.25 + 1.0) / 2.0), 1e-12);
   for (const CellIndex c : polygons)
     EXPECT_NEAR(weights.weights()[c], weight_by_definition(*topology, c, quality), 1e-12) << c;
+}
+
+/// Steps between cells are kept in pieces of 16,383.
+TEST(NeighbourWeights, CountPolygonsWithManyCommonNodesOnce) {
+  for (const int n_between :
+       {1, 5000, 8189, 8190, 8191, 8192, 16380, 16381, 16382, 16383, 16384, 40000})
+    expect_common_nodes_counted_once(n_between);
 }
 
 TEST(NeighbourWeights, OfSomeCellsAreThoseOfAll) {
