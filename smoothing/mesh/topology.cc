@@ -269,17 +269,36 @@ std::shared_ptr<const Topology> Topology::reordered(
 
 CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
                                         const CompressedRows<CellIndex>& node_cells) {
+  const auto simplex_size = static_cast<std::size_t>(topology.dimension() + 1);
   return make_rows<NodeIndex>(
       topology.n_nodes(), [&](std::size_t node, std::vector<NodeIndex>& row) {
+        thread_local std::vector<std::uint8_t> marks;  // of nodes in the row; none between two rows
+        auto& is_known = marks;
+        if (is_known.size() < topology.n_nodes()) is_known.resize(topology.n_nodes(), 0);
+        std::size_t n = 0, n_most = 0;
+        for (const CellIndex c : node_cells[node]) n_most += 2 * topology.cell_nodes(c).size();
+        row.resize(n_most + 1);
+        const auto add = [&](NodeIndex other) {  // no branch: nothing tells which way it would go
+          row[n] = other;
+          n += 1u - is_known[other];
+          is_known[other] = 1;
+        };
+        is_known[node] = 1;
         for (const CellIndex c : node_cells[node]) {
           const auto nodes = topology.cell_nodes(c);
-          for_each_edge(topology.dimension(), nodes.size(), [&](std::size_t a, std::size_t b) {
-            if (nodes[a] == node) row.push_back(nodes[b]);
-            if (nodes[b] == node) row.push_back(nodes[a]);
-          });
+          if (nodes.size() == simplex_size) {
+            for (const NodeIndex other : nodes) add(other);
+          } else {
+            for_each_edge(topology.dimension(), nodes.size(), [&](std::size_t a, std::size_t b) {
+              if (nodes[a] == node) add(nodes[b]);
+              if (nodes[b] == node) add(nodes[a]);
+            });
+          }
         }
+        is_known[node] = 0;
+        row.resize(n);
+        for (const NodeIndex other : row) is_known[other] = 0;
         std::sort(row.begin(), row.end());
-        row.erase(std::unique(row.begin(), row.end()), row.end());
       });
 }
 
