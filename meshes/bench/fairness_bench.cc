@@ -2,9 +2,11 @@
 /// Whether every method is given the same care: how long each takes for what it visits, on one
 /// thread, beside what that needs at least. That is the time of its bare formulas on a mesh that
 /// fits the innermost cache, and the time that the numbers it has to read and write once an
-/// iteration take at the bandwidth of a triad a = b + s c. What comes on top (numbers read twice or
-/// from far away, tables of the method's own, lanes that are not full) is what the ratio says. All
-/// methods take turns; medians of rounds. Usage: fairness_bench [ROUNDS]
+/// iteration take at the bandwidth of a triad a = b + s c; of GETMe sequential, which goes from one
+/// end of the mesh to the other with every transformation, the time that the lines of memory take
+/// that these numbers are in. What comes on top (numbers read twice or from far away, tables of the
+/// method's own, lanes that are not full) is what the ratio says; below 1 reading and computing
+/// went on at a time. All methods take turns; medians of rounds. Usage: fairness_bench [ROUNDS]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -13,8 +15,9 @@
 #include <memory>
 
 #include "meshes/bench/formula_times.h"
-#include "meshes/bench/triad_bandwidth.h"
+#include "meshes/bench/memory_speed.h"
 #include "meshes/bench/volume_meshes.h"
+#include "meshes/bench/worst_cells.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/reordering.h"
@@ -27,9 +30,9 @@ namespace {
 /// What there is in a mesh to be visited, read and written.
 struct Counts {
   double cells = 0.0, nodes = 0.0, free_nodes = 0.0, cell_nodes = 0.0;
-  double neighbours, around;  ///< of the free nodes: joined by an edge; cells around them
-  double touching,
-      sharing_several;  ///< of all cells: other cells sharing nodes; sharing two or more
+  double neighbours = 0.0, around = 0.0;  ///< of the free nodes: joined by an edge; their cells
+  double sharing_several = 0.0;  ///< of all cells: other cells that share two nodes or more
+  WorstCells worst;
 
   /// Bytes of the list of the cells' nodes, of the table of cells around nodes, of coordinates.
   double cell_list() const { return 4.0 * (cell_nodes + cells); }
@@ -38,20 +41,20 @@ struct Counts {
   double coordinates() const { return 24.0 * nodes; }
 };
 
-/// How many other cells share a node with one, and how many of them two or more.
-std::pair<std::size_t, std::size_t> sharing(const Topology& topology, CellIndex cell) {
+/// How many other cells share two nodes or more with one.
+std::size_t n_sharing_several(const Topology& topology, CellIndex cell) {
   std::vector<CellIndex> others;
   for (const NodeIndex i : topology.cell_nodes(cell))
     for (const CellIndex other : topology.node_cells(i))
       if (other != cell) others.push_back(other);
   std::sort(others.begin(), others.end());
-  std::size_t n = 0, n_several = 0;
-  for (auto at = others.begin(); at != others.end(); ++n) {
+  std::size_t n = 0;
+  for (auto at = others.begin(); at != others.end();) {
     const auto next = std::upper_bound(at, others.end(), *at);
-    if (next - at > 1) ++n_several;
+    if (next - at > 1) ++n;
     at = next;
   }
-  return {n, n_several};
+  return n;
 }
 
 Counts counts_of(const VolumeMesh& mesh) {
@@ -66,23 +69,8 @@ Counts counts_of(const VolumeMesh& mesh) {
     counts.around += static_cast<double>(topology.node_cells(i).size());
   }
   for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    counts.sharing_several += static_cast<double>(sharing(topology, c).second);
+    counts.sharing_several += static_cast<double>(n_sharing_several(topology, c));
   return counts;
-}
-
-/// Of the cells that GETMe sequential takes first: those of lowest quality with a free node.
-double cells_around_worst(const VolumeMesh& mesh) {
-  constexpr std::size_t n_worst = 100;
-  const auto quality = cell_mean_ratios(mesh);
-  std::vector<CellIndex> cells;
-  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
-    if (mesh.topology().has_free_node(c)) cells.push_back(c);
-  std::partial_sort(cells.begin(), cells.begin() + n_worst, cells.end(),
-                    [&](CellIndex a, CellIndex b) { return quality[a] < quality[b]; });
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n_worst; ++i)
-    sum += static_cast<double>(sharing(mesh.topology(), cells[i]).first);
-  return sum / n_worst;
 }
 
 /// A line of the table. measure: seconds of one iteration, `visits` of them.
@@ -168,7 +156,8 @@ struct OptimizationParts {
 };
 
 std::vector<Line> lines_of(const VolumeMesh& mesh, const VolumeMesh& ordered,
-                           const VolumeMesh& smoothed, const FormulaTimes& t, const Counts& n) {
+                           const VolumeMesh& smoothed, const FormulaTimes& t, const Counts& n,
+                           double bandwidth) {
   const auto method = [](const VolumeMesh& of, const std::string& name,
                          const std::string& tolerance) {
     return [&of, name, tolerance] { return iteration_seconds(of, name, tolerance); };
@@ -203,7 +192,8 @@ std::vector<Line> lines_of(const VolumeMesh& mesh, const VolumeMesh& ordered,
            4.0 * n.coordinates() + sums,
        method(mesh, "getme-adaptive", "-1")},
       {"getme-sequential", "transformation", 1.0,
-       t.transformed_alone + (1.0 + n.touching) * t.mean_ratio, 0.0,
+       t.transformed_alone + (1.0 + n.worst.n_touching) * t.mean_ratio,
+       n.worst.n_lines * random_line_seconds(n.worst.n_bytes) * bandwidth,
        [&smoothed] { return transformation_seconds(smoothed); }},
       {"optimization: objective", "element", n.cells, n.cells * t.objective,
        n.cell_list() + n.coordinates(), [parts] { return parts->objective_seconds(); }},
@@ -243,8 +233,8 @@ void measure(const std::string& name, const VolumeMesh& mesh, int n_rounds, doub
   smooth(smoothed, simultaneous);
   const FormulaTimes times = formula_times(ordered);
   Counts counts = counts_of(ordered);
-  counts.touching = cells_around_worst(smoothed);
-  auto lines = lines_of(mesh, ordered, smoothed, times, counts);
+  counts.worst = worst_cells(smoothed);
+  auto lines = lines_of(mesh, ordered, smoothed, times, counts, bandwidth);
   for (int round = 0; round < n_rounds; ++round)
     for (Line& line : lines) line.measured.push_back(line.measure());
   print_table(name, counts, lines, bandwidth);

@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshes/bench/triad_bandwidth.h"
+#include "meshes/bench/memory_speed.h"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <random>
 #include <vector>
 
 #include "smoothing/base/parallel.h"
 
 namespace smoothfem::bench {
+
+namespace {
+
+double median(std::vector<double> all) {
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+}  // namespace
 
 double triad_bandwidth() {
   constexpr std::size_t n = 1 << 25;
@@ -24,8 +36,27 @@ double triad_bandwidth() {
     seconds.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  std::nth_element(seconds.begin(), seconds.begin() + n_runs / 2, seconds.end());
-  return 3.0 * sizeof(double) * n / seconds[n_runs / 2];
+  return 3.0 * sizeof(double) * n / median(seconds);
+}
+
+double random_line_seconds(double n_bytes) {
+  constexpr std::size_t n_reads = 1 << 16, numbers_a_line = line_size / sizeof(std::uint64_t);
+  constexpr int n_runs = 15;
+  const auto n_lines = static_cast<std::size_t>(n_bytes / line_size) + 1;
+  std::vector<std::uint64_t> numbers(numbers_a_line * n_lines, 1);
+  std::vector<std::uint32_t> lines(n_reads);
+  std::mt19937 random(1);
+  std::vector<double> seconds;
+  for (int run = 0; run < n_runs; ++run) {
+    for (auto& line : lines) line = static_cast<std::uint32_t>(random() % n_lines);
+    std::uint64_t sum = 0;
+    const auto start = std::chrono::steady_clock::now();
+    for (const std::uint32_t line : lines) sum += numbers[numbers_a_line * line];
+    benchmark::DoNotOptimize(sum);
+    seconds.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return median(seconds) / n_reads;
 }
 
 }  // namespace smoothfem::bench

@@ -12,7 +12,7 @@
 #include <limits>
 #include <map>
 
-#include "meshes/bench/triad_bandwidth.h"
+#include "meshes/bench/memory_speed.h"
 #include "meshes/bench/volume_meshes.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
