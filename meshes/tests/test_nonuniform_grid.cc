@@ -6,17 +6,19 @@ namespace smoothfem {
 namespace {
 
 TEST(NonuniformGrid, HasTheCountsAndMeanRatiosOfTheThesis) {
-  const VolumeMesh mesh = mesh_of_domain<3>("nonuniform-grid");
-  expect_valid(mesh);
-  EXPECT_EQ(mesh.n_nodes(), 572u);
-  EXPECT_EQ(mesh.n_cells(), 360u);
-  EXPECT_EQ(mesh.topology().free_nodes().size(), 198u);
-  const MeshQuality quality = mesh_quality(mesh);
-  EXPECT_NEAR(quality.q_min, 0.0010, 5e-5);
-  EXPECT_NEAR(quality.q_mean, 0.0943, 5e-5);
-  const std::vector<double> ratios = cell_mean_ratios(mesh);
-  EXPECT_NEAR(*std::max_element(ratios.begin(), ratios.end()), 0.5714, 5e-5);
-  EXPECT_EQ(adjacency(mesh, 8).irregular_fraction, 0.0);
+  for (const std::string name : {"nonuniform-grid", "nonuniform-grid-z", "nonuniform-grid-sinh"}) {
+    const VolumeMesh mesh = mesh_of_domain<3>(name);
+    expect_valid(mesh);
+    EXPECT_EQ(mesh.n_nodes(), 572u);
+    EXPECT_EQ(mesh.n_cells(), 360u);
+    EXPECT_EQ(mesh.topology().free_nodes().size(), 198u);
+    const MeshQuality quality = mesh_quality(mesh);
+    EXPECT_NEAR(quality.q_min, 0.0010, 1e-6) << name;
+    EXPECT_NEAR(quality.q_mean, 0.0943, 1e-5) << name;
+    const std::vector<double> ratios = cell_mean_ratios(mesh);
+    EXPECT_NEAR(*std::max_element(ratios.begin(), ratios.end()), 0.5714, 1e-5) << name;
+    EXPECT_EQ(adjacency(mesh, 8).irregular_fraction, 0.0);
+  }
 }
 
 TEST(NonuniformGrid, HasFewerPlanesOnLargerScales) {
