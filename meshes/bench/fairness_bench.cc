@@ -8,7 +8,6 @@
 /// method's own, lanes that are not full) is what the ratio says; below 1 reading and computing
 /// went on at a time. All methods take turns; medians of rounds. Usage: fairness_bench [ROUNDS]
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -16,6 +15,7 @@
 
 #include "meshes/bench/formula_times.h"
 #include "meshes/bench/memory_speed.h"
+#include "meshes/bench/timing.h"
 #include "meshes/bench/volume_meshes.h"
 #include "meshes/bench/worst_cells.h"
 #include "smoothing/base/parallel.h"
@@ -80,18 +80,6 @@ struct Line {
   std::function<double()> measure;
   std::vector<double> measured = {};
 };
-
-double median(std::vector<double> all) {
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
-}
-
-double seconds_of(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Seconds of an iteration of a method's first stage as smooth() counts them, a median of some.
 double iteration_seconds(const VolumeMesh& mesh, const std::string& name,

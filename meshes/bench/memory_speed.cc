@@ -3,38 +3,26 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <random>
 #include <vector>
 
+#include "meshes/bench/timing.h"
 #include "smoothing/base/parallel.h"
 
 namespace smoothfem::bench {
-
-namespace {
-
-double median(std::vector<double> all) {
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
-}
-
-}  // namespace
 
 double triad_bandwidth() {
   constexpr std::size_t n = 1 << 25;
   constexpr int n_runs = 7;
   std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0), seconds;
   for (int run = 0; run < n_runs; ++run) {
-    const auto start = std::chrono::steady_clock::now();
-    parallel_for_ranges(n, n / 64, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) a[i] = b[i] + 3.0 * c[i];
-    });
-    benchmark::DoNotOptimize(a.data());
-    seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds.push_back(seconds_of([&] {
+      parallel_for_ranges(n, n / 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) a[i] = b[i] + 3.0 * c[i];
+      });
+      benchmark::DoNotOptimize(a.data());
+    }));
   }
   return 3.0 * sizeof(double) * n / median(seconds);
 }
@@ -49,12 +37,11 @@ double random_line_seconds(double n_bytes) {
   std::vector<double> seconds;
   for (int run = 0; run < n_runs; ++run) {
     for (auto& line : lines) line = static_cast<std::uint32_t>(random() % n_lines);
-    std::uint64_t sum = 0;
-    const auto start = std::chrono::steady_clock::now();
-    for (const std::uint32_t line : lines) sum += numbers[numbers_a_line * line];
-    benchmark::DoNotOptimize(sum);
-    seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds.push_back(seconds_of([&] {
+      std::uint64_t sum = 0;
+      for (const std::uint32_t line : lines) sum += numbers[numbers_a_line * line];
+      benchmark::DoNotOptimize(sum);
+    }));
   }
   return median(seconds) / n_reads;
 }

@@ -8,11 +8,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <map>
 
 #include "meshes/bench/memory_speed.h"
+#include "meshes/bench/timing.h"
 #include "meshes/bench/volume_meshes.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
@@ -22,18 +22,11 @@
 namespace smoothfem::bench {
 namespace {
 
-double seconds_of(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// Median of n runs.
 double median_seconds(int n, const auto& work) {
   std::vector<double> all;
   for (int i = 0; i < n; ++i) all.push_back(seconds_of(work));
-  std::nth_element(all.begin(), all.begin() + n / 2, all.end());
-  return all[n / 2];
+  return median(all);
 }
 
 /// What a pass over the mesh cannot avoid: cells' nodes and where their rows begin, coordinates,
