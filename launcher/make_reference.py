@@ -4,9 +4,10 @@
 meshes as it is, collections at their usual scale. Goes on where it was stopped: a study whose reference
 is of this commit is left alone, one that was interrupted goes on by itself. Shortest ones first. With --compare
 references stay as they are, with their times; whether this commit has the same numbers is kept in again.csv
-beside them, and exit code 1 says that it has not.
+beside them, and exit code 1 says that it has not. With --program-of nothing is run: which references were made by
+the program of a commit, as others have the same sources, is kept there.
 
-    make_reference.py SOURCE PROGRAM WORK [--compare] [STUDY...]
+    make_reference.py SOURCE PROGRAM WORK [--compare | --program-of COMMIT] [STUDY...]
 
 PROGRAM: bin/smoothfem, built from SOURCE without changes that are not committed; WORK: where studies run,
 with their meshes and figures. What is kept of them is in results/reference of SOURCE. Needs plots on PYTHONPATH."""
@@ -32,6 +33,7 @@ REASONS = "reasons/"  # studies that test reasons: reasons/NAME; what they are i
 KEPT_OF_REASONS = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json")
 PUBLISHED = ("gear", "energy", "reasons/gear-mesquite", "reasons/gear-rounding")  # which are of the published meshes
 SCALE = "subsection scale paper"
+SOURCES = ("*.cc", "*.h", "cmake", "CMakeLists.txt", "CMakePresets.json", ":!*/tests/*", ":!*/bench/*")  # of the program
 UNKNOWN_SECONDS = 1e9  # studies without a reference come last
 SHOWN = 5  # rows that differ
 
@@ -58,11 +60,15 @@ def seconds(folder):
     return sum(provenance(folder).get("seconds", {}).values()) or UNKNOWN_SECONDS
 
 
+def study_files(path):
+    """A study's file, and those that it includes."""
+    included = re.findall(r"^\s*include\s+(\S+)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    return [path, *(file for name in included for file in study_files(path.parent / name))]
+
+
 def has_paper_scale(path):
     """Whether a study file, or one that it includes, has the scale `paper`."""
-    text = path.read_text(encoding="utf-8")
-    included = re.findall(r"^\s*include\s+(\S+)", text, re.MULTILINE)
-    return SCALE in text or any(has_paper_scale(path.parent / name) for name in included)
+    return any(SCALE in file.read_text(encoding="utf-8") for file in study_files(path))
 
 
 def options(study):
@@ -108,9 +114,37 @@ def is_compared(reference, study, commit):
     return same_numbers.is_of(record, provenance(reference / study)) and record["again"] == commit
 
 
+def is_of_program(source, reference, study, commit):
+    """Whether a study's reference was made by a program with the sources of a commit's, from the same study where that
+    commit has it."""
+    sessions = provenance(reference / study)["sessions"]
+    files = [file.relative_to(source) for file in study_files(source / "studies" / f"{study}.prm")]
+    return not any(session["uncommitted_changes"] or git(source, "diff", "--name-only", session["commit"], commit, "--", *SOURCES)
+                   or git(source, "diff", "--name-only", "--diff-filter=M", session["commit"], commit, "--", *files)
+                   for session in sessions)
+
+
+def keep_program_of(source, reference, chosen, commit):
+    """Says and keeps which references were made by a commit's program, although they are of another commit."""
+    for study in chosen:
+        found = provenance(reference / study)
+        if (reference / study).is_dir() and not made_by(found, commit) and not is_compared(reference, study, commit) and \
+                is_of_program(source, reference, study, commit):
+            same_numbers.keep_same_program(reference, study, found["program"]["commit"], commit)
+            print(f"{study}: of the program of {commit}")
+
+
 def git(source, *words):
     """What git says of the sources."""
     return subprocess.run(["git", "-C", source, *words], capture_output=True, text=True, check=True).stdout.strip()
+
+
+def commit_named(source, name):
+    """The whole name of a commit; ends the program if there is none."""
+    try:
+        return git(source, "rev-parse", "--verify", "--quiet", f"{name}^{{commit}}")
+    except subprocess.CalledProcessError:
+        refuse(f"there is no commit '{name}'; git log lists them")
 
 
 def has_changes(source):
@@ -153,12 +187,17 @@ def main():
     parser = argparse.ArgumentParser(description="runs the studies of results/reference")
     for name in ("source", "program", "work"):
         parser.add_argument(name, type=Path)
-    parser.add_argument("--compare", action="store_true",
-                        help="leave references as they are, and say whether this commit gives their numbers")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--compare", action="store_true",
+                      help="leave references as they are, and say whether this commit gives their numbers")
+    what.add_argument("--program-of", metavar="COMMIT", help="run nothing, and say which references have that commit's program")
     parser.add_argument("studies", nargs="*")
     words = parser.parse_intermixed_args()  # --compare may stand before studies
     reference, studies = words.source / "results" / "reference", words.source / "studies"
     chosen = chosen_studies(words, reference, studies)
+    if words.program_of:
+        keep_program_of(words.source, reference, chosen, commit_named(words.source, words.program_of))
+        return 0
     if has_changes(words.source):
         refuse("there are changes that are not committed; commit them first, so that the results can be made again")
     commit, same = git(words.source, "rev-parse", "HEAD"), True

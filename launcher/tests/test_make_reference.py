@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `./run reference` refuses: one sentence, exit code 2, nothing written."""
+"""What `./run reference` refuses: one sentence, exit code 2, nothing written; and which references it says to be of the
+program of a commit."""
 
+import json
 import os
 import subprocess
 import sys
@@ -8,15 +10,21 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from plots.results.same_numbers import read_records
+
 SOURCE = Path(__file__).resolve().parents[2]
+
+
+def run_script(source, work, *words):
+    """The script, finished, with words behind the paths, as ./run has them."""
+    command = [sys.executable, "-B", SOURCE / "launcher" / "make_reference.py", source, "no-program", work, *words]
+    return subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, "PYTHONPATH": str(SOURCE)})
 
 
 class MakeReference(unittest.TestCase):
     def refused(self, source, work, *words):
-        """What the script says of words behind the paths, as ./run has them."""
-        command = [sys.executable, "-B", SOURCE / "launcher" / "make_reference.py", source, "no-program", work, *words]
-        found = subprocess.run(command, capture_output=True, text=True, check=False,
-                               env={**os.environ, "PYTHONPATH": str(SOURCE)})
+        """What the script says of words that it cannot do anything with."""
+        found = run_script(source, work, *words)
         self.assertEqual((found.returncode, found.stdout), (2, ""), found.stderr)
         self.assertEqual(len(found.stderr.splitlines()), 1, found.stderr)
         self.assertEqual(list(work.iterdir()), [])
@@ -32,6 +40,63 @@ class MakeReference(unittest.TestCase):
                 self.assertRegex(self.refused(source, work, *words), "^reference: there is no study 'nosuch'.*ring")
             self.assertRegex(self.refused(source, work, "--compare", "ring"), "^reference: 'ring' has no reference")
             self.assertEqual([path.name for path in source.iterdir()], ["studies"])
+
+
+class ProgramOf(unittest.TestCase):
+    """A repository of one source file, a test, and the studies a and b, which includes a."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.source = Path(folder.name)
+        self.git("init", "--quiet")
+        for name, text in (("x/f.cc", "1"), ("x/tests/test_f.cc", "1"), ("studies/reasons/c.prm", "include ../a.prm\n"),
+                           ("studies/a.prm", "subsection scale paper\n"), ("studies/b.prm", "include a.prm\n")):
+            self.write(name, text)
+        self.first = self.commit()
+        for study in ("a", "b", "reasons/c"):
+            self.write(f"results/reference/{study}/provenance.json", json.dumps({
+                "program": {"commit": self.first}, "sessions": [{"commit": self.first, "uncommitted_changes": study == "a"}]}))
+
+    def git(self, *words):
+        return subprocess.run(["git", "-C", self.source, "-c", "user.name=t", "-c", "user.email=t@localhost", *words],
+                              capture_output=True, text=True, check=True).stdout.strip()
+
+    def write(self, name, text):
+        (self.source / name).parent.mkdir(parents=True, exist_ok=True)
+        (self.source / name).write_text(text)
+
+    def commit(self):
+        self.git("add", "x", "studies")
+        self.git("commit", "--quiet", "-m", "t")
+        return self.git("rev-parse", "HEAD")
+
+    def of_program(self, commit):
+        """The studies that are said to be of a commit's program."""
+        found = run_script(self.source, self.source, "--program-of", commit)
+        self.assertEqual((found.returncode, found.stderr), (0, ""))
+        records = read_records(self.source / "results" / "reference")
+        for row in records.values():
+            self.assertEqual((row["commit"], row["rows"], row["different"]), (self.first, "", "0"))
+        return sorted(study for study, row in records.items() if row["again"] == commit)
+
+    def test_another_test_is_the_same_program(self):
+        self.write("x/tests/test_f.cc", "2")
+        self.write("studies/new.prm", "subsection scale paper\n")
+        self.assertEqual(self.of_program(self.commit()), ["b", "reasons/c"])
+
+    def test_other_sources_and_other_studies_are_not(self):
+        self.write("studies/b.prm", "include a.prm\nset threads = 2\n")
+        self.assertEqual(self.of_program(self.commit()), ["reasons/c"])
+        self.write("studies/a.prm", "subsection scale paper\nset threads = 2\n")
+        self.assertEqual(self.of_program(self.commit()), [])
+        self.write("x/f.cc", "2")
+        self.assertEqual(self.of_program(self.commit()), [])
+
+    def test_a_commit_that_there_is_not(self):
+        found = run_script(self.source, self.source, "--program-of", "nosuch")
+        self.assertEqual((found.returncode, found.stdout), (2, ""))
+        self.assertRegex(found.stderr, "^reference: there is no commit 'nosuch'")
 
 
 if __name__ == "__main__":

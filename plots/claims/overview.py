@@ -92,9 +92,10 @@ def runs(found, folders):
     commits = {commit for study in everything for commit in commits_of(study)}
     commit, covered = most_covered([study for study in everything if study.provenance], again)
     lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. {len(covered)} of the "
-             f"{len(everything)} studies are of commit {commit} or, run again there, have every number of their tables the same "
-             "to the last digit, but for times and memory. Times of different commits are not for comparing.", "",
-             "| study | scale | written | commit | run again at | system |", "|:--|:--|:--|:--|:--|:--|"]
+             f"{len(everything)} studies are of commit {commit}, were made by a program with the same sources, or, run again "
+             "there, have every number of their tables the same to the last digit, but for times and memory. Times of different "
+             "commits are not for comparing.", "",
+             "| study | scale | written | commit | run again at, or the same program as | system |", "|:--|:--|:--|:--|:--|:--|"]
     for study in everything:
         run = study.provenance or {}
         cells = (f"`{study.name}`", run.get("scale", MISSING), run.get("written", MISSING)[:len("2026-11-22")],
@@ -105,9 +106,11 @@ def runs(found, folders):
 
 
 def again_cell(row, run):
-    """Where a study was run again, and in how many rows of its tables that differs."""
+    """Where a study was run again, and in how many rows of its tables that differs; or which commit has the same program."""
     if not is_of(row, run):
         return MISSING
+    if not row["rows"]:
+        return f"{row['again'][:SHORT_COMMIT]}: same program"
     same = "same" if row["different"] == "0" else f"**{row['different']} of {row['rows']} rows differ**"
     return f"{row['again'][:SHORT_COMMIT]}: {same}"
 

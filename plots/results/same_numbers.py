@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a study that was run again has the numbers of its reference: every column of its CSV files to the last
-digit but for times and memory, which are the machine's. What was found is kept in results/reference/again.csv."""
+digit but for times and memory, which are the machine's. What was found is kept in results/reference/again.csv, and which
+references need not be run again, as they were made by a program with the same sources."""
 
 import csv
 import io
@@ -64,6 +65,11 @@ def keep_record(reference, study, commit, again, n_rows, n_different):
     """Keeps what was found of a study: its reference is of `commit`, it was run again at the commit `again`."""
     row = (study, commit, again, date.today().isoformat(), n_rows, n_different)
     write_records(reference, {**read_records(reference), study: dict(zip(COLUMNS, row))})
+
+
+def keep_same_program(reference, study, commit, again):
+    """Keeps that the program of a study's reference, of `commit`, is that of the commit `again`: no row was compared."""
+    keep_record(reference, study, commit, again, "", 0)
 
 
 def drop_record(reference, study):

@@ -59,6 +59,7 @@ class Overview(unittest.TestCase):
         self.assertEqual(again_cell(row, run), "bbbbbbb: same")
         self.assertEqual(again_cell({**row, "different": "2"}, run), "bbbbbbb: **2 of 9 rows differ**")
         self.assertEqual(again_cell({**row, "commit": "c" * 40}, run), "–")
+        self.assertEqual(again_cell({**row, "rows": ""}, run), "bbbbbbb: same program")
         self.assertEqual(again_cell({}, run), "–")
         found = [Study("ring", "Ring", [], run), Study("gear", "Gear", [], run)]
         self.assertEqual(most_covered(found, {}), ("aaaaaaa", ["ring", "gear"]))
