@@ -118,6 +118,8 @@ def is_of_program(source, reference, study, commit):
     """Whether a study's reference was made by a program with the sources of a commit's, from the same study where that
     commit has it."""
     sessions = provenance(reference / study)["sessions"]
+    for session in sessions:
+        commit_named(source, session["commit"])
     files = [file.relative_to(source) for file in study_files(source / "studies" / f"{study}.prm")]
     return not any(session["uncommitted_changes"] or git(source, "diff", "--name-only", session["commit"], commit, "--", *SOURCES)
                    or git(source, "diff", "--name-only", "--diff-filter=M", session["commit"], commit, "--", *files)
@@ -144,7 +146,7 @@ def commit_named(source, name):
     try:
         return git(source, "rev-parse", "--verify", "--quiet", f"{name}^{{commit}}")
     except subprocess.CalledProcessError:
-        refuse(f"there is no commit '{name}'; git log lists them")
+        refuse(f"there is no commit '{name}' here; git log lists them, git fetch --unshallow brings those of a whole history")
 
 
 def has_changes(source):

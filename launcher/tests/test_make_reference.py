@@ -98,6 +98,15 @@ class ProgramOf(unittest.TestCase):
         self.assertEqual((found.returncode, found.stdout), (2, ""))
         self.assertRegex(found.stderr, "^reference: there is no commit 'nosuch'")
 
+    def test_a_reference_of_a_commit_that_is_not_in_the_history(self):
+        commit = "1" * 40
+        self.write("results/reference/b/provenance.json", json.dumps({
+            "program": {"commit": commit}, "sessions": [{"commit": commit, "uncommitted_changes": False}]}))
+        found = run_script(self.source, self.source, "--program-of", self.first, "b")
+        self.assertEqual((found.returncode, found.stdout, len(found.stderr.splitlines())), (2, "", 1), found.stderr)
+        self.assertRegex(found.stderr, f"^reference: there is no commit '{commit}'")
+        self.assertFalse((self.source / "results" / "reference" / "again.csv").exists())
+
 
 if __name__ == "__main__":
     unittest.main()
