@@ -84,6 +84,8 @@ def of_test(test, tested, outcome):
             found += f", {met} of {of_all} cases meet it (without: {outcome.met[0]})"
     else:
         found = "the claim cannot be judged, as numbers for it are missing"
+    if tested.seeds:
+        found += f" (holds for {tested.seeds})"
     printed = "" if tested.printed == MISSING else f" (printed {tested.printed})"
     return (f"Suspected: {test['reason']} Tested by `{test['study']}`, {test['change']}: with this change {found}; "
             f"{tested.ours}{printed}.")

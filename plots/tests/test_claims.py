@@ -6,6 +6,7 @@ import json
 import math
 import re
 import shutil
+from dataclasses import replace
 from unittest import mock
 
 from plots.__main__ import main
@@ -13,11 +14,12 @@ from plots.claims import reasons as reasons_module
 from plots.claims.check import (COARSE, FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, Outcome, cases_of, check_claim,
                                 check_claims, met_in, number_of, read_claims, verdict_of)
 from plots.claims.expressions import Missing, evaluate
-from plots.claims.report import claims_as_markdown, known_reasons
+from plots.claims.report import claims_as_markdown, known_reasons, of_test
 from plots.claims.values import TRAJECTORY, Values
 from plots.results.data_folder import thesis_folder
 from plots.results.printed_values import read_printed_tables
 from plots.results.smoothing import read_results
+from plots.tables.number_format import MISSING
 from plots.tests.synthetic_results import change_provenance, results_row, write_csv, write_results
 from plots.tests.synthetic_volume import write_volume_results
 from plots.tests.test_read_results import InFolder
@@ -270,6 +272,14 @@ class ClaimsOfTheThesis(InFolder):
         check["quantity"] = "e_max('tri', 'getme', degree)"
         self.assertEqual(reasons(15), begin + "does not hold either, 0 of 2 cases meet it (without: 0); d = 1: 15, "
                                       "d = 2: 15 (printed 25).")
+
+    def test_a_test_with_several_seeds_says_for_how_many_the_claim_holds(self):
+        test = {"study": "reasons/other", "change": "other seeds", "reason": "Chance."}
+        judged = Outcome({"id": "X1"}, FAILS, MISSING, "3", met=(0, 1))
+        tested = replace(judged, seeds="1 of 2 seeds")
+        self.assertEqual(of_test(test, tested, judged),
+                         "Suspected: Chance. Tested by `reasons/other`, other seeds: with this change the claim does "
+                         "not hold either (holds for 1 of 2 seeds); 3.")
 
     def test_every_test_of_a_reason_is_a_study(self):
         for claim in json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8")):
