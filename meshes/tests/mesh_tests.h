@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -30,9 +31,11 @@ class FileTest : public ::testing::Test {
  protected:
   FileTest() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("smoothfem-") + std::to_string(::getpid()) + "-" +
-               test->test_suite_name() + "-" + test->name());
+    std::string name = std::string("smoothfem-") + std::to_string(::getpid()) + "-" +
+                       test->test_suite_name() + "-" + test->name();
+    // Those of tests with parameters have slashes, and removing a folder leaves the one it is in.
+    std::replace(name.begin(), name.end(), '/', '-');
+    folder_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::create_directories(folder_);
   }
   ~FileTest() override { std::filesystem::remove_all(folder_); }
