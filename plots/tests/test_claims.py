@@ -12,7 +12,7 @@ from unittest import mock
 from plots.__main__ import main
 from plots.claims import reasons as reasons_module
 from plots.claims.check import (COARSE, FAILS, HOLDS, NUMBER_IN_NOTE, UNKNOWN, Outcome, cases_of, check_claim,
-                                check_claims, met_in, number_of, read_claims, verdict_of)
+                                check_claims, met_in, number_of, read_claims, values_of, verdict_of)
 from plots.claims.expressions import Missing, evaluate
 from plots.claims.report import claims_as_markdown, known_reasons, of_test
 from plots.claims.values import TRAJECTORY, Values
@@ -280,6 +280,21 @@ class ClaimsOfTheThesis(InFolder):
         self.assertEqual(of_test(test, tested, judged),
                          "Suspected: Chance. Tested by `reasons/other`, other seeds: with this change the claim does "
                          "not hold either (holds for 1 of 2 seeds); 3.")
+
+    def test_methods_that_failed_have_no_numbers(self):
+        folder = write_results(self.folder / "failed")
+        for name in ("summary.csv", "iterations.csv"):
+            with open(folder / name, newline="", encoding="utf-8") as stream:
+                rows = list(csv.DictReader(stream))
+            for row in rows:
+                if row["method"] == "getme":
+                    row["status"] = "failed: it took too long"
+            write_csv(folder / name, list(rows[0]), rows)
+        [ours] = values_of(read_results(folder))
+        for quantity in ("q_min('tri', 'getme')", "at_start('q_min', 'tri', 'getme', 1)",
+                         "speedup('tri', 1, 'e_max', 'getme')"):
+            self.assertIsNone(number_of(quantity, {}, ours), quantity)
+        self.assertIsNotNone(number_of("q_min('tri', 'initial')", {}, ours))
 
     def test_every_test_of_a_reason_is_a_study(self):
         for claim in json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8")):
