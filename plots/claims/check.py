@@ -11,8 +11,6 @@ import re
 import statistics
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from ..results.data_folder import thesis_folder
 from ..results.rows import ResultsError
 from ..tables.number_format import MISSING
@@ -77,19 +75,9 @@ def check_claims(claims, results, printed):
 
 
 def values_of(results):
-    """The Values of each seed, without methods that failed: their numbers are the initial mesh's."""
-    found = []
-    for each in (results, *results.repetitions):
-        summary, thresholds, iterations = (without_failures(rows, each.failures)
-                                           for rows in (each.summary, each.thresholds, each.iterations))
-        found.append(Values(summary.records(), thresholds.records(), iterations))
-    return found
-
-
-def without_failures(rows, failures):
-    """The rows of meshes and methods that are no failures."""
-    pairs = zip(*map(rows.text, ("mesh", "method")))
-    return rows.where(np.array([pair not in failures for pair in pairs], dtype=bool))
+    """The Values of each seed, without methods that failed."""
+    seeds = (each.without_failures() for each in (results, *results.repetitions))
+    return [Values(each.summary.records(), each.thresholds.records(), each.iterations) for each in seeds]
 
 
 def with_tests(outcome, theirs):

@@ -52,7 +52,12 @@ def totals(outcomes):
 
 def verdict_cell(outcome):
     """The verdict, and of how many seeds alone the claim holds."""
-    return emphasized(outcome.verdict) + (f" (holds for {outcome.seeds})" if outcome.seeds else "")
+    return emphasized(outcome.verdict) + of_seeds(outcome)
+
+
+def of_seeds(outcome):
+    """Of how many seeds alone the claim holds; nothing where there is one seed."""
+    return f" (holds for {outcome.seeds})" if outcome.seeds else ""
 
 
 def emphasized(verdict):
@@ -84,11 +89,9 @@ def of_test(test, tested, outcome):
             found += f", {met} of {of_all} cases meet it (without: {outcome.met[0]})"
     else:
         found = "the claim cannot be judged, as numbers for it are missing"
-    if tested.seeds:
-        found += f" (holds for {tested.seeds})"
     printed = "" if tested.printed == MISSING else f" (printed {tested.printed})"
-    return (f"Suspected: {test['reason']} Tested by `{test['study']}`, {test['change']}: with this change {found}; "
-            f"{tested.ours}{printed}.")
+    return (f"Suspected: {test['reason']} Tested by `{test['study']}`, {test['change']}: with this change "
+            f"{found}{of_seeds(tested)}; {tested.ours}{printed}.")
 
 
 def known_reasons(outcomes):

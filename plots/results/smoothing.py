@@ -84,6 +84,16 @@ class Results:
         return {(mesh, method): status for mesh, method, status in zip(*map(rows.text, ("mesh", "method", "status")))
                 if status.startswith(FAILED)}
 
+    def without_failures(self):
+        """The results of methods that gave a mesh: the numbers of the others are the initial mesh's."""
+        failures = self.failures
+
+        def rows_of(rows):
+            pairs = zip(*map(rows.text, ("mesh", "method")))
+            return rows.where(np.array([pair not in failures for pair in pairs], dtype=bool))
+        return replace(self, summary=rows_of(self.summary), iterations=rows_of(self.iterations),
+                       thresholds=rows_of(self.thresholds))
+
     @property
     def note(self):
         """What the study says about comparing its numbers with the thesis; may be empty."""
