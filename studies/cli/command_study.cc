@@ -34,12 +34,6 @@ void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-bool started_by_mpirun() {
-  for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
-    if (std::getenv(variable) != nullptr) return true;
-  return false;
-}
-
 ReadyStudy read(const Arguments& arguments) {
   return read_any_study(find_study(arguments.study), arguments.quick ? "quick" : arguments.scale);
 }
