@@ -25,8 +25,8 @@ bool started_by_mpirun() {
 }
 
 void begin_mpi() {
-  std::vector<const char*>
-      added;  // until MPI has read them: programs that this one starts need not
+  // Only until MPI has read them: a Python that uses this library may start programs by mpirun.
+  std::vector<const char*> added;
   if (!started_by_mpirun())
     for (const auto& [name, value] : kByItself)
       if (std::getenv(name) == nullptr && ::setenv(name, value, 1) == 0) added.push_back(name);
