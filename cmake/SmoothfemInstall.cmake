@@ -56,8 +56,8 @@ foreach(folder base geometry getme laplacian loop mesh optimization polygons qua
     COMPONENT development)
 endforeach()
 foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/mesh_file.h
-        meshes/io/mesh_view.h meshes/io/vtu_series.h fem/finite_element_space.h fem/manufactured_solution.h
-        fem/poisson_solver.h fem/ranks.h fem/reference_element.h)
+        meshes/io/mesh_view.h meshes/io/vtu_series.h fem/space/finite_element_space.h fem/solutions/manufactured_solution.h
+        fem/poisson_solver.h fem/ranks/ranks.h fem/elements/reference_element.h)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)
 endforeach()

@@ -3,10 +3,10 @@
 
 #include <chrono>
 
-#include "fem/assembly.h"
-#include "fem/condition_number.h"
-#include "fem/conjugate_gradients.h"
-#include "fem/error_norms.h"
+#include "fem/assembly/assembly.h"
+#include "fem/assembly/error_norms.h"
+#include "fem/linear_algebra/condition_number.h"
+#include "fem/linear_algebra/conjugate_gradients.h"
 
 namespace smoothfem {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/finite_element_space.h"
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/manufactured_solution.h"
+#include "fem/space/finite_element_space.h"
 
 namespace smoothfem {
 

@@ -66,6 +66,13 @@ def study_files(path):
     return [path, *(file for name in included for file in study_files(path.parent / name))]
 
 
+def known_studies(source):
+    """The files of the built-in studies and of those that test reasons, by name."""
+    studies = source / "studies"
+    return {**{path.stem: path for path in studies.glob("catalogue/*/*.prm")},
+            **{REASONS + path.stem: path for path in (studies / REASONS).glob("*.prm")}}
+
+
 def has_paper_scale(path):
     """Whether a study file, or one that it includes, has the scale `paper`."""
     return any(SCALE in file.read_text(encoding="utf-8") for file in study_files(path))
@@ -120,7 +127,7 @@ def is_of_program(source, reference, study, commit):
     sessions = provenance(reference / study)["sessions"]
     for session in sessions:
         commit_named(source, session["commit"])
-    files = [file.relative_to(source) for file in study_files(source / "studies" / f"{study}.prm")]
+    files = [file.relative_to(source) for file in study_files(known_studies(source)[study])]
     return not any(session["uncommitted_changes"] or git(source, "diff", "--name-only", session["commit"], commit, "--", *SOURCES)
                    or git(source, "diff", "--name-only", "--diff-filter=M", session["commit"], commit, "--", *files)
                    for session in sessions)
@@ -160,11 +167,10 @@ def refuse(why):
     sys.exit(2)
 
 
-def chosen_studies(words, reference, studies):
+def chosen_studies(words, reference):
     """The studies to run, shortest ones first; ends the program where one cannot be."""
-    known = [path.stem for path in studies.glob("*.prm")
-             if path.stem in COLLECTIONS or has_paper_scale(path)]
-    known += [REASONS + path.stem for path in (studies / REASONS).glob("*.prm")]
+    known = [study for study, path in known_studies(words.source).items()
+             if study in COLLECTIONS or study.startswith(REASONS) or has_paper_scale(path)]
     wrong = [study for study in words.studies if study not in known]
     if wrong:
         refuse(f"there is no study '{wrong[0]}' with a reference; choose of {', '.join(sorted(known))}")
@@ -195,8 +201,8 @@ def main():
     what.add_argument("--program-of", metavar="COMMIT", help="run nothing, and say which references have that commit's program")
     parser.add_argument("studies", nargs="*")
     words = parser.parse_intermixed_args()  # --compare may stand before studies
-    reference, studies = words.source / "results" / "reference", words.source / "studies"
-    chosen = chosen_studies(words, reference, studies)
+    reference = words.source / "results" / "reference"
+    chosen = chosen_studies(words, reference)
     if words.program_of:
         keep_program_of(words.source, reference, chosen, commit_named(words.source, words.program_of))
         return 0
@@ -212,7 +218,7 @@ def main():
         if not is_done(results, commit):
             found = provenance(results)
             other = ["--force"] if found and not made_by(found, commit) else []
-            file = studies / f"{study}.prm" if study.startswith(REASONS) else study
+            file = known_studies(words.source)[study] if study.startswith(REASONS) else study
             code = subprocess.run([words.program, "study", file, *options(study), "--out", results, *other],
                                   check=False).returncode
             if code != 0:

@@ -38,7 +38,7 @@ GRADIENT = """
 ## The energy's gradient
 
 What a step down the energy needs beside its solve by CG with algebraic multigrid, on the flange of Section 6.3 at the size of the
-thesis (`fem/bench/fem_bench.cc`), {cores} threads:
+thesis (`studies/bench/fem_bench.cc`), {cores} threads:
 
 | cells | degree | solve, s | gradient, s | gradient / solve |
 |:--|--:|--:|--:|--:|

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/manufactured_solution.h"
 
 namespace smoothfem {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/manufactured_solution.h"
 
 namespace smoothfem {
 

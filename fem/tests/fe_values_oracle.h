@@ -18,7 +18,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/manufactured_solution.h"
 
 namespace smoothfem {
 

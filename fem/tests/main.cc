@@ -2,7 +2,7 @@
 // Trilinos needs MPI, on one process too.
 #include <gtest/gtest.h>
 
-#include "fem/mpi_session.h"
+#include "fem/ranks/mpi_session.h"
 
 int main(int argc, char** argv) {
   const smoothfem::MpiSession mpi;

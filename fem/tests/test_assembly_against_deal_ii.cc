@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "fem/assembly.h"
-#include "fem/error_norms.h"
-#include "fem/reference_element.h"
+#include "fem/assembly/assembly.h"
+#include "fem/assembly/error_norms.h"
+#include "fem/elements/reference_element.h"
 #include "fem/tests/fe_values_oracle.h"
 #include "fem/tests/unit_mesh.h"
 

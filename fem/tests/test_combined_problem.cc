@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fem/poisson_problem.h"
+#include "fem/adaptivity/poisson_problem.h"
 #include "fem/tests/gradient_of_differences.h"
 #include "fem/tests/unit_mesh.h"
 #include "smoothing/solution/error_indicators.h"

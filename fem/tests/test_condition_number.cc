@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/condition_number.h"
+#include "fem/linear_algebra/condition_number.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "fem/assembly.h"
+#include "fem/assembly/assembly.h"
 #include "fem/poisson_solver.h"
 #include "fem/tests/random_vector.h"
 #include "fem/tests/unit_mesh.h"

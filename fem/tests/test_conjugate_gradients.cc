@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/conjugate_gradients.h"
+#include "fem/linear_algebra/conjugate_gradients.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "fem/lanczos_eigenvalues.h"
+#include "fem/linear_algebra/lanczos_eigenvalues.h"
 #include "fem/tests/random_vector.h"
 
 namespace smoothfem {

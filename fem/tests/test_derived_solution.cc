@@ -6,8 +6,8 @@
 #include <numbers>
 #include <thread>
 
-#include "fem/check_pieces.h"
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/check_pieces.h"
+#include "fem/solutions/manufactured_solution.h"
 #include "fem/tests/unit_mesh.h"
 
 namespace smoothfem {

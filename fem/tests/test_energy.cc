@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "fem/poisson_problem.h"
+#include "fem/adaptivity/poisson_problem.h"
 #include "fem/poisson_solver.h"
 #include "fem/tests/gradient_of_differences.h"
 #include "fem/tests/unit_mesh.h"

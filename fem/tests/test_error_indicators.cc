@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "fem/poisson_problem.h"
+#include "fem/adaptivity/poisson_problem.h"
+#include "fem/adaptivity/residual_indicator.h"
 #include "fem/poisson_solver.h"
-#include "fem/residual_indicator.h"
 #include "fem/tests/unit_mesh.h"
 
 namespace smoothfem {

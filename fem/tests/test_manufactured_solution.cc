@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/manufactured_solution.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/mpi_session.h"
+#include "fem/ranks/mpi_session.h"
 
 #include <gtest/gtest.h>
 

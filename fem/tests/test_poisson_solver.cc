@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <set>
 
-#include "fem/assembly.h"
-#include "fem/conjugate_gradients.h"
-#include "fem/error_norms.h"
+#include "fem/assembly/assembly.h"
+#include "fem/assembly/error_norms.h"
+#include "fem/linear_algebra/conjugate_gradients.h"
+#include "fem/linear_algebra/trilinos_matrix.h"
 #include "fem/tests/unit_mesh.h"
-#include "fem/trilinos_matrix.h"
 
 namespace smoothfem {
 namespace {

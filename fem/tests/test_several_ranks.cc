@@ -9,9 +9,9 @@
 #include <iostream>
 #include <limits>
 
-#include "fem/energy_solver.h"
-#include "fem/mpi_session.h"
+#include "fem/adaptivity/energy_solver.h"
 #include "fem/poisson_solver.h"
+#include "fem/ranks/mpi_session.h"
 #include "fem/tests/unit_mesh.h"
 
 namespace smoothfem {

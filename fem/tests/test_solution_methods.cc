@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fem/poisson_problem.h"
+#include "fem/adaptivity/poisson_problem.h"
 #include "fem/poisson_solver.h"
 #include "fem/tests/unit_mesh.h"
 #include "smoothing/base/parallel.h"

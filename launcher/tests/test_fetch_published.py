@@ -64,11 +64,11 @@ class FetchPublished(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         self.data = self.folder / "data"
-        (self.data / "studies").mkdir(parents=True)
-        (self.data / "studies" / "small.prm").write_text(
+        (self.data / "studies" / "catalogue" / "any").mkdir(parents=True)
+        (self.data / "studies" / "catalogue" / "any" / "small.prm").write_text(
             "subsection mesh a\n  set published file = a.mesh\nend\n"
             "subsection mesh b\n  set published file = b.mesh\nend\n")
-        (self.data / "studies" / "generated.prm").write_text("set title = none\n")
+        (self.data / "studies" / "catalogue" / "any" / "generated.prm").write_text("set title = none\n")
         digest = hashlib.sha256(CONTENT).hexdigest()
         (self.data / "studies" / "published.json").write_text(json.dumps(
             {name: {"url": f"http://127.0.0.1:9/{name}", "sha256": digest} for name in ("a.mesh", "b.mesh")}))
@@ -159,7 +159,7 @@ class FetchPublished(unittest.TestCase):
 
     def test_catalogue_of_the_program(self):
         catalogue = json.loads((STUDIES / "published.json").read_text(encoding="utf-8"))
-        gear = (STUDIES / "gear.prm").read_text(encoding="utf-8")
+        gear = (STUDIES / "catalogue" / "thesis" / "gear.prm").read_text(encoding="utf-8")
         for name, source in catalogue.items():
             self.assertIn(f"published file = {name}\n", gear)
             self.assertRegex(source["url"], rf"^https://.*/[0-9a-f]{{40}}/.*/{name}$")

@@ -50,8 +50,10 @@ class ProgramOf(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.source = Path(folder.name)
         self.git("init", "--quiet")
-        for name, text in (("x/f.cc", "1"), ("x/tests/test_f.cc", "1"), ("studies/reasons/c.prm", "include ../a.prm\n"),
-                           ("studies/a.prm", "subsection scale paper\n"), ("studies/b.prm", "include a.prm\n")):
+        for name, text in (("x/f.cc", "1"), ("x/tests/test_f.cc", "1"),
+                           ("studies/reasons/c.prm", "include ../catalogue/x/a.prm\n"),
+                           ("studies/catalogue/x/a.prm", "subsection scale paper\n"),
+                           ("studies/catalogue/x/b.prm", "include a.prm\n")):
             self.write(name, text)
         self.first = self.commit()
         for study in ("a", "b", "reasons/c"):
@@ -82,13 +84,13 @@ class ProgramOf(unittest.TestCase):
 
     def test_another_test_is_the_same_program(self):
         self.write("x/tests/test_f.cc", "2")
-        self.write("studies/new.prm", "subsection scale paper\n")
+        self.write("studies/catalogue/x/new.prm", "subsection scale paper\n")
         self.assertEqual(self.of_program(self.commit()), ["b", "reasons/c"])
 
     def test_other_sources_and_other_studies_are_not(self):
-        self.write("studies/b.prm", "include a.prm\nset threads = 2\n")
+        self.write("studies/catalogue/x/b.prm", "include a.prm\nset threads = 2\n")
         self.assertEqual(self.of_program(self.commit()), ["reasons/c"])
-        self.write("studies/a.prm", "subsection scale paper\nset threads = 2\n")
+        self.write("studies/catalogue/x/a.prm", "subsection scale paper\nset threads = 2\n")
         self.assertEqual(self.of_program(self.commit()), [])
         self.write("x/f.cc", "2")
         self.assertEqual(self.of_program(self.commit()), [])

@@ -5,7 +5,7 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/node_order.h"
-#include "meshes/io/vtk_files.h"
+#include "meshes/io/vtk/vtk_files.h"
 #include "smoothing/base/text.h"
 
 namespace smoothfem {

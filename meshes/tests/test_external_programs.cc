@@ -10,7 +10,7 @@
 #include "meshes/external/command_line.h"
 #include "meshes/external/returned_mesh.h"
 #include "meshes/external/text_vtk.h"
-#include "meshes/io/medit_text.h"
+#include "meshes/io/text/medit_text.h"
 #include "meshes/tests/labelled_box.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/loop/smoother.h"

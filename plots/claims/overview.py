@@ -6,7 +6,7 @@ import re
 import sys
 from dataclasses import dataclass
 
-from ..results.data_folder import data_folder
+from ..results.data_folder import data_folder, study_files
 from ..results.printed_values import read_printed_tables
 from ..results.rows import ResultsError
 from ..results.same_numbers import is_of, read_records
@@ -44,7 +44,7 @@ def pages():
 def studies(folders):
     """The studies of which there are claims, by name; `folders` is the folder of results folders."""
     found = []
-    for path in sorted((data_folder() / "studies").glob("*.prm")):
+    for path in study_files().values():
         claims = read_claims(path.stem)
         if not claims:
             continue

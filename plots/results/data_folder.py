@@ -27,6 +27,11 @@ def data_folder():
                        "above; set SMOOTHFEM_DATA to the folder that has it.")
 
 
+def study_files():
+    """The files of the built-in studies, by name."""
+    return {path.stem: path for path in sorted((data_folder() / "studies" / "catalogue").glob("*/*.prm"))}
+
+
 def thesis_folder():
     """The folder of printed values, deviations and claims; its README.md explains the files."""
     return data_folder() / THESIS

@@ -95,7 +95,7 @@ class ResultsReadmeNumbers(unittest.TestCase):
 
     def test_constants_are_those_of_the_program(self):
         text = without_made("results/README.md")
-        rows = source("fem/condition_number.h", r"dense_limit = (\d+)")
+        rows = source("fem/linear_algebra/condition_number.h", r"dense_limit = (\d+)")
         tolerance = source("studies/gear.prm", r"cg tolerance *= (\S+)")
         margin = float(source("studies/gear.prm", r"margin *= (\S+)"))
         for phrase in (f"`dense` (up to {rows} rows)", rf"<= {tolerance} \|b\|",

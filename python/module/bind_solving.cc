@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "fem/mpi_session.h"
 #include "fem/poisson_solver.h"
+#include "fem/ranks/mpi_session.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
 #include "smoothing/base/find_named.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/manufactured_solution.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/metrics/metric.h"

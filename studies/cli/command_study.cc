@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "fem/mpi_session.h"
+#include "fem/ranks/mpi_session.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/interruption.h"
 #include "studies/cli/commands.h"

@@ -35,8 +35,8 @@ class PrintedTables : public ::testing::Test {
 
   /// As the study `gear` does it.
   static SolutionRecord solve(const PlanarMesh& mesh, int degree) {
-    static const Study gear =
-        read_study(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "gear.prm");
+    static const Study gear = read_study(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" /
+                                         "catalogue" / "thesis" / "gear.prm");
     PoissonOptions options = gear.finite_elements;
     options.degree = degree;
     return PoissonSolver<2>(&mesh, options)

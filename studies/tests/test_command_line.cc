@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "fem/manufactured_solution.h"
+#include "fem/solutions/manufactured_solution.h"
 #include "meshes/domains/catalogue.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/preset.h"
@@ -339,8 +339,8 @@ TEST_F(CommandLine, QualityOfAnInvalidMeshIsShownBeforeItIsRefused) {
 }
 
 TEST_F(CommandLine, ListNamesEverythingThereIs) {
-  const Outcome list =
-      smoothfem({"list", "--studies", (fs::path(SMOOTHFEM_SOURCE_DIR) / "studies").string()});
+  const Outcome list = smoothfem(
+      {"list", "--studies", (fs::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "catalogue").string()});
   ASSERT_EQ(list.exit_code, 0) << list.err;
   const auto expect_listed = [&](const std::string& name) {
     EXPECT_NE(list.out.find(" " + name), std::string::npos) << name;

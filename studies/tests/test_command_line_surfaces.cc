@@ -47,8 +47,9 @@ TEST_F(CommandLine, GeneratesDistortsAndSmoothsASurface) {
 TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
   ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3"}).exit_code, 0);
   write_mesh(file("box.vtu"), test::box_mesh(2, 2, 2, test::BoxCells::hexahedra));
-  const Outcome list = smoothfem(
-      {"list", "--studies", (std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies").string()});
+  const Outcome list =
+      smoothfem({"list", "--studies",
+                 (std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "catalogue").string()});
   ASSERT_EQ(list.exit_code, 0) << list.err;
   for (const auto& info : method_catalogue()) {
     SCOPED_TRACE(info.name);

@@ -10,7 +10,7 @@ namespace smoothfem {
 namespace {
 
 const std::filesystem::path gear_file =
-    std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "gear.prm";
+    std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "catalogue" / "thesis" / "gear.prm";
 
 std::vector<std::string> names_of(const std::vector<StudyMethod>& methods) {
   std::vector<std::string> names;

@@ -12,15 +12,16 @@ namespace smoothfem {
 namespace fs = std::filesystem;
 
 fs::path built_in_studies() {
-  return data_folder() / "studies";
+  return data_folder() / "studies" / "catalogue";
 }
 
 std::vector<fs::path> study_files(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder))
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".prm") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
   return files;
 }
 
@@ -34,8 +35,9 @@ fs::path find_study(const std::string& path_or_name) {
 }
 
 bool is_built_in(const fs::path& file) {
-  const fs::path own = built_in_studies() / file.filename();
-  return fs::is_regular_file(own) && read_study_text(own) == read_study_text(file);
+  for (const fs::path& own : study_files(built_in_studies()))
+    if (own.filename() == file.filename()) return read_study_text(own) == read_study_text(file);
+  return false;
 }
 
 }  // namespace smoothfem

@@ -10,7 +10,8 @@ namespace smoothfem {
 /// The folder of the studies that come with the program. Throws InputError if its data are missing.
 std::filesystem::path built_in_studies();
 
-/// The study files in a folder, sorted by name; none if it is not there.
+/// The study files in a folder and those below it, sorted by name; empty if the folder does not
+/// exist.
 std::vector<std::filesystem::path> study_files(const std::filesystem::path& folder);
 
 /// The file of a study: a path, or the name of one of those that come with the program. Throws

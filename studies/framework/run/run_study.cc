@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <optional>
 
-#include "fem/check_pieces.h"
-#include "fem/chosen_points.h"
-#include "fem/poisson_problem.h"
+#include "fem/adaptivity/poisson_problem.h"
+#include "fem/elements/chosen_points.h"
+#include "fem/solutions/check_pieces.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/energy_solver.h"
+#include "fem/adaptivity/energy_solver.h"
 #include "fem/poisson_solver.h"
 
 namespace smoothfem {

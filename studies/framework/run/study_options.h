@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "fem/ranks.h"
+#include "fem/ranks/ranks.h"
 
 namespace smoothfem {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "fem/mpi_session.h"
+#include "fem/ranks/mpi_session.h"
 #include "studies/framework/run/study_options.h"
 #include "studies/kinds/collection/member_row.h"
 #include "studies/kinds/collection/member_study.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/ranks.h"
+#include "fem/ranks/ranks.h"
 #include "studies/kinds/collection/task_process.h"
 
 namespace smoothfem {

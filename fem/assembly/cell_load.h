@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "fem/assembly/cell_integrals.h"
+
+namespace smoothfem {
+
+/// The integrals of f phi_i over a cell, and those of |f phi_i|.
+template <std::size_t n_dofs>
+struct CellLoad {
+  std::array<double, n_dofs> values{}, scales{};
+
+  /// weighted_f: gets f times the mapped weight of each of the table's points, unless it is null.
+  template <int dim, std::size_t n_vertices>
+  CellLoad(const QuadratureTable& table,
+           const std::array<Vector<dim, double>, n_vertices>& vertices,
+           const ManufacturedSolution<dim>& solution, double* weighted_f = nullptr) {
+    for (std::size_t q = 0; q < table.n_points; ++q) {
+      const auto mapped = map_point<dim, double>(table, q, vertices);
+      const double f = solution.load(point_of(mapped.position)) * mapped.weight;
+      if (weighted_f != nullptr) weighted_f[q] = f;
+      for (std::size_t i = 0; i < n_dofs; ++i) {
+        values[i] += f * table.shape[q * n_dofs + i];
+        scales[i] += std::abs(f * table.shape[q * n_dofs + i]);
+      }
+    }
+  }
+
+  bool is_near(const CellLoad& finer, double tolerance) const {
+    double change = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < n_dofs; ++i) {
+      change += (finer.values[i] - values[i]) * (finer.values[i] - values[i]);
+      square += finer.scales[i] * finer.scales[i];
+    }
+    return change <= tolerance * tolerance * square;
+  }
+};
+
+}  // namespace smoothfem

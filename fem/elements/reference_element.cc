@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/reference_element.h"
+
+#include <deal.II/base/multithread_info.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_pyramid_p.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_wedge_p.h>
+
+#include <array>
+#include <memory>
+
+#include "fem/elements/chosen_points.h"
+#include "smoothing/base/input_error.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// deal.II would start as many threads as the machine has, for tables that take no time, whatever
+/// --threads says. What runs in parallel here does so on threads of our own.
+void keep_deal_ii_on_this_thread() {
+  [[maybe_unused]] static const bool once = [] {
+    dealii::MultithreadInfo::set_thread_limit(1);
+    return true;
+  }();
+}
+
+bool is_simplex(ElementType type) {
+  return type == ElementType::triangle || type == ElementType::tetrahedron;
+}
+
+/// Pyramids and prisms: degree 1 only.
+template <int dim>
+std::unique_ptr<dealii::FiniteElement<dim>> lagrange_element(ElementType type, int degree) {
+  if (is_simplex(type)) return std::make_unique<dealii::FE_SimplexP<dim>>(degree);
+  if constexpr (dim == 3) {
+    if (type == ElementType::pyramid) return std::make_unique<dealii::FE_PyramidP<3>>(degree);
+    if (type == ElementType::prism) return std::make_unique<dealii::FE_WedgeP<3>>(degree);
+  }
+  return std::make_unique<dealii::FE_Q<dim>>(degree);
+}
+
+/// Appends values and gradients of all shape functions at one point.
+template <int dim>
+void append_shapes(const dealii::FiniteElement<dim>& element, const dealii::Point<dim>& point,
+                   std::vector<double>& values, std::vector<double>& gradients) {
+  for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i) {
+    values.push_back(element.shape_value(i, point));
+    const auto gradient = element.shape_grad(i, point);
+    for (int d = 0; d < dim; ++d) gradients.push_back(gradient[d]);
+  }
+}
+
+template <int dim>
+QuadratureTable make_table(const dealii::FiniteElement<dim>& element,
+                           const dealii::FiniteElement<dim>& geometry,
+                           const dealii::Quadrature<dim>& rule) {
+  // deal.II 9.4 gives empty rules for degrees it does not know, without a word in Release.
+  if (rule.size() == 0) throw std::logic_error("empty quadrature rule");
+  QuadratureTable table;
+  table.n_points = rule.size();
+  table.weights = rule.get_weights();
+  for (unsigned int q = 0; q < rule.size(); ++q) {
+    append_shapes(element, rule.point(q), table.shape, table.shape_gradient);
+    append_shapes(geometry, rule.point(q), table.geometry, table.geometry_gradient);
+  }
+  return table;
+}
+
+/// table: of a rule that is exact for products of two shape functions.
+AffineTable make_affine_table(const QuadratureTable& table, std::size_t n_dofs, std::size_t dim) {
+  AffineTable affine;
+  const auto integrate = [&](const auto& integrand, std::vector<double>& entries) {
+    for (std::size_t i = 0; i < n_dofs; ++i)
+      for (std::size_t j = i; j < n_dofs; ++j) {
+        double sum = 0.0;
+        for (std::size_t q = 0; q < table.n_points; ++q)
+          sum += table.weights[q] * integrand(q * n_dofs + i, q * n_dofs + j);
+        entries.push_back(sum);
+      }
+  };
+  integrate([&](std::size_t i, std::size_t j) { return table.shape[i] * table.shape[j]; },
+            affine.mass);
+  const auto& gradient = table.shape_gradient;
+  for (std::size_t a = 0; a < dim; ++a)
+    for (std::size_t b = a; b < dim; ++b)
+      integrate(
+          [&](std::size_t i, std::size_t j) {
+            const double ab = gradient[dim * i + a] * gradient[dim * j + b];
+            return a == b ? ab : ab + gradient[dim * i + b] * gradient[dim * j + a];
+          },
+          affine.stiffness);
+  return affine;
+}
+
+/// Of degree 5: exact for products of two shape functions of degree 2.
+template <int dim>
+dealii::Quadrature<dim> matrix_rule() {
+  return dealii::QGaussSimplex<dim>(3);
+}
+
+/// On cells that are no simplices: Gauss points in each direction, in those of pyramid and prism
+/// from a cube that is squeezed to the cell. There the factor by which it is squeezed takes one
+/// point more, with which the rule is exact for the same polynomials as on a cube. (The gradients
+/// of the pyramid's rational shape functions are polynomials in the cube's coordinates.)
+template <int dim>
+dealii::Quadrature<dim> gauss_rule(ElementType type, unsigned int n_points) {
+  if constexpr (dim == 3) {
+    if (type == ElementType::pyramid || type == ElementType::prism) {
+      const dealii::QGauss<1> plain(n_points), squeezed(n_points + 1);
+      const bool pyramid = type == ElementType::pyramid;
+      std::vector<dealii::Point<3>> points;
+      std::vector<double> weights;
+      for (unsigned int c = 0; c < squeezed.size(); ++c)
+        for (unsigned int b = 0; b < plain.size(); ++b)
+          for (unsigned int a = 0; a < plain.size(); ++a) {
+            const double x = plain.point(a)[0], y = plain.point(b)[0], z = squeezed.point(c)[0];
+            const double width = 1.0 - z;
+            const double weight = squeezed.weight(c) * plain.weight(b) * plain.weight(a) * width;
+            // The pyramid's base is [-1, 1]^2; the prism's triangle lies in the first two
+            // directions.
+            if (pyramid)
+              points.emplace_back(width * (2.0 * x - 1.0), width * (2.0 * y - 1.0), z);
+            else
+              points.emplace_back(width * x, z, y);
+            weights.push_back(pyramid ? 4.0 * width * weight : weight);
+          }
+      return {points, weights};
+    }
+  }
+  return dealii::QGauss<dim>(n_points);
+}
+
+template <int dim>
+dealii::Quadrature<dim> error_rule(int degree) {
+  if constexpr (dim == 2)
+    return dealii::QWitherdenVincentSimplex<2>(6);  // degree 11
+  else
+    return dealii::QWitherdenVincentSimplex<3>(degree == 1 ? 3 : 4);  // degree 5 or 7
+}
+
+/// Geometry shape functions at the support points of the element's dofs.
+template <int dim>
+std::vector<double> support_of(const dealii::FiniteElement<dim>& element,
+                               const dealii::FiniteElement<dim>& geometry) {
+  std::vector<double> support;
+  for (const auto& point : element.get_unit_support_points())
+    for (unsigned int v = 0; v < geometry.n_dofs_per_cell(); ++v)
+      support.push_back(geometry.shape_value(v, point));
+  return support;
+}
+
+template <int dim>
+ReferenceElement make_element(ElementType type, int degree, int n_tensor_points) {
+  const auto element = lagrange_element<dim>(type, degree);
+  const auto geometry = lagrange_element<dim>(type, 1);
+  ReferenceElement reference{.type = type,
+                             .n_vertices = geometry->n_dofs_per_cell(),
+                             .n_dofs = element->n_dofs_per_cell(),
+                             .support = support_of(*element, *geometry),
+                             .affine = {},
+                             .matrices = {},
+                             .errors = {}};
+  if (is_simplex(type)) {
+    reference.matrices = make_table<dim>(*element, *geometry, matrix_rule<dim>());
+    reference.affine = make_affine_table(reference.matrices, reference.n_dofs, dim);
+    reference.errors = make_table<dim>(*element, *geometry, error_rule<dim>(degree));
+  } else {
+    const auto table = [&](int n_points) {
+      return make_table<dim>(*element, *geometry,
+                             gauss_rule<dim>(type, static_cast<unsigned int>(n_points)));
+    };
+    const bool is_chosen = n_tensor_points == 0;
+    reference.matrices = table(is_chosen ? chosen_points::ladder.front() : n_tensor_points);
+    reference.errors = reference.matrices;
+    if (is_chosen) {
+      reference.check = table(chosen_points::check_points);
+      for (std::size_t level = 1; level < chosen_points::ladder.size(); ++level)
+        reference.finer.push_back(table(chosen_points::ladder[level]));
+    }
+  }
+  return reference;
+}
+
+/// Corners of the simplices that a reference simplex falls into when its edges are halved, as
+/// multiples of 1/2: at each corner one, and in space four of the octahedron between (Bey 1995).
+template <int dim>
+std::vector<std::array<dealii::Point<dim>, dim + 1>> halved_simplices() {
+  std::array<dealii::Point<dim>, dim + 1> corners;
+  for (unsigned int d = 0; d < dim; ++d) corners[d + 1][d] = 1.0;
+  const auto middle = [&](std::size_t a, std::size_t b) {
+    return dealii::Point<dim>(0.5 * (corners[a] + corners[b]));
+  };
+  std::vector<std::array<dealii::Point<dim>, dim + 1>> halved;
+  for (std::size_t a = 0; a <= dim; ++a) {
+    halved.emplace_back();
+    for (std::size_t b = 0; b <= dim; ++b) halved.back()[b] = middle(a, b);
+  }
+  if constexpr (dim == 2) {
+    halved.push_back({middle(0, 1), middle(1, 2), middle(0, 2)});
+  } else {
+    halved.push_back({middle(0, 1), middle(0, 2), middle(0, 3), middle(1, 3)});
+    halved.push_back({middle(0, 1), middle(0, 2), middle(1, 2), middle(1, 3)});
+    halved.push_back({middle(0, 2), middle(0, 3), middle(1, 3), middle(2, 3)});
+    halved.push_back({middle(0, 2), middle(1, 2), middle(1, 3), middle(2, 3)});
+  }
+  return halved;
+}
+
+/// The rule on each of these.
+template <int dim>
+dealii::Quadrature<dim> on_halved_simplices(const dealii::Quadrature<dim>& rule) {
+  const auto simplices = halved_simplices<dim>();
+  std::vector<dealii::Point<dim>> points;
+  std::vector<double> weights;
+  for (const auto& corners : simplices)
+    for (unsigned int q = 0; q < rule.size(); ++q) {
+      dealii::Point<dim> point = corners[0];
+      for (unsigned int d = 0; d < dim; ++d)
+        point += rule.point(q)[d] * (corners[d + 1] - corners[0]);
+      points.push_back(point);
+      weights.push_back(rule.weight(q) / static_cast<double>(simplices.size()));
+    }
+  return {points, weights};
+}
+
+/// Of degrees 5, 7 and 11 on triangles, 3, 5 and 7 on tetrahedra, then on halved cells.
+template <int dim>
+std::vector<dealii::Quadrature<dim>> load_rules(ElementType type) {
+  std::vector<dealii::Quadrature<dim>> rules;
+  if (is_simplex(type)) {
+    for (const unsigned int n : dim == 2 ? std::array{3U, 4U, 6U} : std::array{2U, 3U, 4U})
+      rules.push_back(dealii::QWitherdenVincentSimplex<dim>(n));
+    rules.push_back(on_halved_simplices<dim>(rules.back()));
+    if (dim == 2) rules.push_back(on_halved_simplices<dim>(rules.back()));
+  } else {
+    for (const unsigned int n : dim == 2 ? std::array{3U, 5U, 8U, 16U} : std::array{2U, 3U, 5U, 8U})
+      rules.push_back(dealii::QGauss<dim>(n));
+  }
+  return rules;
+}
+
+template <int dim>
+EnergyRules make_rules_of_energy(ElementType type, int degree) {
+  const auto element = lagrange_element<dim>(type, degree);
+  const auto geometry = lagrange_element<dim>(type, 1);
+  const auto table = [&](const dealii::Quadrature<dim>& rule) {
+    return make_table<dim>(*element, *geometry, rule);
+  };
+  EnergyRules rules;
+  if (is_simplex(type))
+    rules.gradients = table(dealii::QGaussSimplex<dim>(static_cast<unsigned int>(degree)));
+  for (const auto& rule : load_rules<dim>(type)) rules.load.push_back(table(rule));
+  return rules;
+}
+
+template <int dim>
+QuadratureTable make_table_at_support(ElementType type, int degree) {
+  const auto element = lagrange_element<dim>(type, degree);
+  const auto& points = element->get_unit_support_points();
+  return make_table<dim>(*element, *lagrange_element<dim>(type, 1),
+                         dealii::Quadrature<dim>(points, std::vector<double>(points.size(), 0.0)));
+}
+
+/// dim: of the facet.
+template <int dim>
+FacetElement make_facet(bool simplex, int degree) {
+  const auto lagrange = [&](int of_degree) -> std::unique_ptr<dealii::FiniteElement<dim>> {
+    if (simplex) return std::make_unique<dealii::FE_SimplexP<dim>>(of_degree);
+    return std::make_unique<dealii::FE_Q<dim>>(of_degree);
+  };
+  constexpr unsigned int n_points = 8;
+  const auto element = lagrange(degree), geometry = lagrange(1);
+  FacetElement facet{.n_vertices = geometry->n_dofs_per_cell(),
+                     .n_dofs = element->n_dofs_per_cell(),
+                     .support = support_of(*element, *geometry),
+                     .rule = {}};
+  if constexpr (dim == 2)
+    facet.rule = make_table<2>(*element, *geometry,
+                               simplex ? error_rule<2>(degree) : dealii::QGauss<2>(n_points));
+  else
+    facet.rule = make_table<1>(*element, *geometry, dealii::QGauss<1>(n_points));
+  return facet;
+}
+
+}  // namespace
+
+FacetElement make_facet_element(std::size_t n_vertices, int degree) {
+  keep_deal_ii_on_this_thread();
+  return n_vertices == 2 ? make_facet<1>(false, degree) : make_facet<2>(n_vertices == 3, degree);
+}
+
+QuadratureTable make_support_table(ElementType type, int degree) {
+  keep_deal_ii_on_this_thread();
+  return dimension_of(type) == 2 ? make_table_at_support<2>(type, degree)
+                                 : make_table_at_support<3>(type, degree);
+}
+
+EnergyRules make_energy_rules(ElementType type, int degree) {
+  keep_deal_ii_on_this_thread();
+  return dimension_of(type) == 2 ? make_rules_of_energy<2>(type, degree)
+                                 : make_rules_of_energy<3>(type, degree);
+}
+
+ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points) {
+  keep_deal_ii_on_this_thread();
+  return dimension_of(type) == 2 ? make_element<2>(type, degree, n_tensor_points)
+                                 : make_element<3>(type, degree, n_tensor_points);
+}
+
+}  // namespace smoothfem

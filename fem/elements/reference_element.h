@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "smoothing/mesh/element_type.h"
+
+namespace smoothfem {
+
+/// Values at the points of one quadrature rule on a reference cell. All arrays run over the points
+/// first, then over the dofs (or vertices); gradients have an entry for each dimension.
+struct QuadratureTable {
+  std::size_t n_points = 0;
+  std::vector<double> weights;
+  std::vector<double> shape, shape_gradient;        ///< of the finite element
+  std::vector<double> geometry, geometry_gradient;  ///< of the straight-sided mapping (degree 1)
+};
+
+/// Integrals over the reference simplex: its mapping is affine, so those over a cell are
+/// combinations of them. Upper triangles, row by row.
+struct AffineTable {
+  std::vector<double> mass;  ///< of phi_i phi_j
+  /// For each pair of directions a <= b, in the order 00, 01, 11 or 00, 01, 02, 11, 12, 22: of
+  /// d_a phi_i d_b phi_j, and where a < b of d_b phi_i d_a phi_j too.
+  std::vector<double> stiffness;
+};
+
+/// A Lagrange element on its reference cell. Vertices and dofs are in deal.II's order.
+struct ReferenceElement {
+  ElementType type;
+  std::size_t n_vertices = 0;
+  std::size_t n_dofs = 0;
+  /// Geometry shape functions at the dofs' support points, n_dofs x n_vertices: where a dof is.
+  std::vector<double> support;
+  AffineTable affine;        ///< simplices: stiffness, mass and load
+  QuadratureTable matrices;  ///< other cells: stiffness, mass and load; all: load by quadrature
+  QuadratureTable errors;    ///< for norms and errors
+  /// Rules for both with more and more points, for cells that need them (chosen_points.h); empty:
+  /// one rule is for all cells.
+  std::vector<QuadratureTable> finer{};
+  QuadratureTable check{};  ///< where there are finer ones: a coarser rule, to judge the first by
+
+  std::size_t n_rules() const { return 1 + finer.size(); }
+  /// In the order of their points; only 0 for simplices.
+  const QuadratureTable& rule(std::size_t level) const {
+    return level == 0 ? matrices : finer[level - 1];
+  }
+};
+
+/// A facet of cells as an element of its own: what the cells' shape functions are on it.
+struct FacetElement {
+  std::size_t n_vertices = 0;  ///< 2: an edge; 3, 4: a triangle or quadrilateral in space
+  std::size_t n_dofs = 0;
+  std::vector<double> support;  ///< as that of ReferenceElement
+  QuadratureTable rule;         ///< 8 Gauss points per direction; degree 11 on triangles
+};
+
+/// Degree 1 or 2 on triangles (3/6 nodes), quadrilaterals (4/9), tetrahedra (4/10) or hexahedra
+/// (8/27), degree 1 on pyramids and prisms. Simplices: matrices exact; errors by a rule of degree
+/// 11 on triangles, of degree 5 (for elements of degree 1) or 7 (degree 2) on tetrahedra. Other
+/// cells: tensor Gauss rule with n_tensor_points per direction for all; the stiffness of a
+/// distorted cell is rational, so no rule is exact; pyramids and prisms: the same squeezed. 0
+/// points: those of chosen_points::ladder, of which each cell takes what it needs.
+ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
+
+/// Values at the support points of the element's dofs, in their order; without weights.
+QuadratureTable make_support_table(ElementType type, int degree);
+
+/// What the energy of a solution on an element needs besides its matrices
+/// (fem/adaptivity/energy.h).
+struct EnergyRules {
+  QuadratureTable gradients;          ///< of simplices: exact for products of two gradients
+  std::vector<QuadratureTable> load;  ///< for f, finer and finer: up to halved cells, twice
+};
+
+/// type: triangle, quadrilateral, tetrahedron or hexahedron.
+EnergyRules make_energy_rules(ElementType type, int degree);
+
+/// n_vertices: 2, 3 or 4; degree: 1 or 2.
+FacetElement make_facet_element(std::size_t n_vertices, int degree);
+
+}  // namespace smoothfem

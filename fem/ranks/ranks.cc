@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/ranks/ranks.h"
+
+#include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/partitioner.h>
+
+namespace smoothfem {
+
+namespace {
+
+/// Counts and offsets are then in items, not in bytes: an int holds them for longer.
+class ItemType {
+ public:
+  explicit ItemType(std::size_t size) {
+    MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  ~ItemType() { MPI_Type_free(&type_); }
+  ItemType(const ItemType&) = delete;
+  ItemType& operator=(const ItemType&) = delete;
+  MPI_Datatype get() const { return type_; }
+
+ private:
+  MPI_Datatype type_{};
+};
+
+/// Where each rank's items begin.
+std::vector<int> offsets_of(const std::vector<int>& counts) {
+  std::vector<int> offsets(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+  return offsets;
+}
+
+}  // namespace
+
+Ranks::Ranks(MPI_Comm communicator) : communicator_(communicator) {
+  MPI_Comm_size(communicator, &size_);
+  MPI_Comm_rank(communicator, &rank_);
+}
+
+void Ranks::sum(std::span<double> values) const {
+  if (size_ > 1)
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                  communicator_);
+}
+
+double Ranks::sum(double value) const {
+  sum({&value, 1});
+  return value;
+}
+
+std::size_t Ranks::sum(std::size_t value) const {
+  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_UINT64_T, MPI_SUM, communicator_);
+  return value;
+}
+
+double Ranks::max(double value) const {
+  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+  return value;
+}
+
+std::size_t Ranks::sum_before(std::size_t value) const {
+  std::size_t before = 0;
+  if (size_ > 1) MPI_Exscan(&value, &before, 1, MPI_UINT64_T, MPI_SUM, communicator_);
+  return is_root() ? 0 : before;  // MPI leaves the root's undefined
+}
+
+void Ranks::broadcast_bytes(void* bytes, std::size_t n_bytes) const {
+  if (size_ > 1) MPI_Bcast(bytes, static_cast<int>(n_bytes), MPI_BYTE, 0, communicator_);
+}
+
+std::vector<int> Ranks::gather_counts(std::size_t n_values) const {
+  std::vector<int> counts(is_root() ? static_cast<std::size_t>(size_) : 0);
+  const int count = static_cast<int>(n_values);
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, communicator_);
+  return counts;
+}
+
+void Ranks::gather_items(const void* values, const std::vector<int>& counts, std::size_t item_size,
+                         void* all, std::size_t n_values) const {
+  const ItemType type(item_size);
+  const auto offsets = offsets_of(counts);
+  MPI_Gatherv(values, static_cast<int>(n_values), type.get(), all, counts.data(), offsets.data(),
+              type.get(), 0, communicator_);
+}
+
+void Ranks::scatter_items(const void* all, const std::vector<int>& counts, std::size_t item_size,
+                          void* values, std::size_t n_values) const {
+  const ItemType type(item_size);
+  const auto offsets = offsets_of(counts);
+  MPI_Scatterv(all, counts.data(), offsets.data(), type.get(), values, static_cast<int>(n_values),
+               type.get(), 0, communicator_);
+}
+
+struct Halo::Partition {
+  dealii::Utilities::MPI::Partitioner partitioner;
+  mutable dealii::AlignedVector<double> sent;
+  mutable std::vector<MPI_Request> requests;
+};
+
+namespace {
+
+dealii::IndexSet index_set(std::size_t n_total, const std::vector<std::size_t>& indices) {
+  dealii::IndexSet set(n_total);
+  set.add_indices(indices.begin(), indices.end());
+  return set;
+}
+
+dealii::IndexSet index_range(std::size_t n_total, std::size_t first, std::size_t n) {
+  dealii::IndexSet set(n_total);
+  set.add_range(first, first + n);
+  return set;
+}
+
+}  // namespace
+
+Halo::Halo(const Ranks& ranks, std::size_t n_total, std::size_t first_own, std::size_t n_own,
+           const std::vector<std::size_t>& ghosts) {
+  if (ranks.size() == 1 || n_total == 0) return;  // deal.II divides by the number of entries
+  partition_ = std::make_shared<const Partition>(Partition{
+      {index_range(n_total, first_own, n_own), index_set(n_total, ghosts), ranks.communicator()},
+      {},
+      {}});
+  partition_->sent.resize(partition_->partitioner.n_import_indices());
+}
+
+void Halo::update(Eigen::VectorXd& values) const {
+  if (!partition_) return;
+  const auto& partitioner = partition_->partitioner;
+  const std::size_t n_own = partitioner.locally_owned_size();
+  const dealii::ArrayView<const double> own(values.data(), n_own);
+  const dealii::ArrayView<double> ghosts(values.data() + n_own, partitioner.n_ghost_indices());
+  const dealii::ArrayView<double> sent(partition_->sent.data(), partition_->sent.size());
+  partitioner.export_to_ghosted_array_start<double, dealii::MemorySpace::Host>(
+      0, own, sent, ghosts, partition_->requests);
+  partitioner.export_to_ghosted_array_finish<double, dealii::MemorySpace::Host>(
+      ghosts, partition_->requests);
+}
+
+}  // namespace smoothfem

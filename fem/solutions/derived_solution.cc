@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <memory>
+
+#include "fem/formulas/formula_functions.h"
+#include "fem/formulas/formula_program.h"
+#include "fem/solutions/check_solution.h"
+#include "fem/solutions/diffusivity_formulas.h"
+
+namespace smoothfem {
+
+using GiNaC::ex;
+
+namespace {
+
+template <class Work>
+auto on_formula(const std::string& key, const std::string& text, const std::string& needed,
+                const Work& work) {
+  std::string reason;
+  try {
+    return work();
+  } catch (const InputError& error) {
+    reason = error.what();
+  } catch (const std::exception&) {  // GiNaC's
+    reason = "it cannot be derived";
+  }
+  throw InputError("the solution's '" + key + "', '" + text + "', cannot be read (" + reason +
+                   "): it needs " + needed);
+}
+
+std::string one_formula(int dim) {
+  return std::string("a formula in ") + (dim == 2 ? "x and y" : "x, y and z") +
+         ", such as sin(pi*x)*y^2 or if(x < 0.5, x, y)";
+}
+
+/// Parts between separators that stand outside of all brackets.
+std::vector<std::string> split_outside_brackets(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char c : text) {
+    depth += (c == '(') - (c == ')');
+    if (c == separator && depth == 0)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// The values of formulas at a point; copies share the program.
+template <int dim, std::size_t n>
+class Values {
+ public:
+  explicit Values(const std::vector<ex>& formulas)
+      : program_(std::make_shared<const FormulaProgram>(formulas)) {}
+  std::array<double, n> at(const Point<dim>& p) const {
+    std::array<double, n> values;
+    program_->evaluate(p.data(), values.data());
+    return values;
+  }
+
+ private:
+  std::shared_ptr<const FormulaProgram> program_;
+};
+
+template <int dim>
+void add_conditions(const std::vector<ex>& formulas, ManufacturedSolution<dim>& solution) {
+  std::vector<ex> conditions;
+  for (const auto& formula : formulas) find_conditions(formula, conditions);
+  if (conditions.empty()) return;
+  solution.conditions = [n = conditions.size(), program = std::make_shared<const FormulaProgram>(
+                                                    conditions)](const Point<dim>& p) {
+    std::vector<double> values(n);
+    program->evaluate(p.data(), values.data());
+    return values;
+  };
+}
+
+template <int dim>
+std::vector<ex> all_entries(const DiffusivityFormulas<dim>& formulas) {
+  std::vector<ex> entries;
+  for (const auto& row : formulas.entries) entries.insert(entries.end(), row.begin(), row.end());
+  return entries;
+}
+
+}  // namespace
+
+void find_conditions(const ex& e, std::vector<ex>& conditions) {
+  if (GiNaC::is_the_function<choose_SERIAL>(e) &&
+      std::none_of(conditions.begin(), conditions.end(),
+                   [&](const ex& known) { return known.is_equal(e.op(1)); }))
+    conditions.push_back(e.op(1));
+  for (std::size_t k = 0; k < e.nops(); ++k) find_conditions(e.op(k), conditions);
+}
+
+ex read_formula(const std::string& key, const std::string& text, int dim) {
+  if (text.find_first_not_of(" \t") == std::string::npos)
+    throw InputError("the solution's '" + key + "' is empty: it needs " + one_formula(dim));
+  return on_formula(key, text, one_formula(dim), [&] { return parse_formula(text, dim); });
+}
+
+template <int dim>
+DiffusivityFormulas<dim>::DiffusivityFormulas() {
+  for (std::size_t i = 0; i < dim; ++i)
+    for (std::size_t j = 0; j < dim; ++j) entries[i][j] = i == j ? 1 : 0;
+}
+
+template <int dim>
+DiffusivityFormulas<dim>::DiffusivityFormulas(const std::string& given) : DiffusivityFormulas() {
+  text = given;
+  const auto rows = split_outside_brackets(text, ';');
+  const bool one = rows.size() == 1 && split_outside_brackets(text, ',').size() == 1;
+  if (one) {
+    const ex a = read_formula("diffusivity", text, dim);
+    for (std::size_t i = 0; i < dim; ++i) entries[i][i] = a;
+    return;
+  }
+  bool is_square = rows.size() == dim;
+  for (std::size_t i = 0; is_square && i < dim; ++i) {
+    const auto row = split_outside_brackets(rows[i], ',');
+    is_square = row.size() == dim;
+    for (std::size_t j = 0; is_square && j < dim; ++j)
+      entries[i][j] = read_formula("diffusivity", row[j], dim);
+  }
+  if (!is_square)
+    throw InputError(
+        "the solution's 'diffusivity', '" + text + "', is neither one formula nor " +
+        std::to_string(dim) + " rows of " + std::to_string(dim) + " formulas: write it as " +
+        (dim == 2 ? "'a11, a12 ; a21, a22'" : "'a11, a12, a13 ; a21, a22, a23 ; a31, a32, a33'"));
+}
+
+template <int dim>
+void add_diffusivity(const DiffusivityFormulas<dim>& formulas,
+                     ManufacturedSolution<dim>& solution) {
+  constexpr std::size_t n_entries = dim * dim;
+  const auto entries = all_entries(formulas);
+  const auto values = on_formula("diffusivity", formulas.text, one_formula(dim),
+                                 [&] { return Values<dim, n_entries>(entries); });
+  solution.diffusivity = [values](const Point<dim>& p) -> Diffusivity<dim> {
+    const auto a = values.at(p);
+    return Eigen::Map<const Eigen::Matrix<double, dim, dim, Eigen::RowMajor>>(a.data());
+  };
+  std::vector<ex> derivatives;
+  for (std::size_t k = 0; k < dim; ++k)
+    for (const ex& entry : entries) derivatives.push_back(entry.diff(formula_variables()[k]));
+  const auto slopes = on_formula("diffusivity", formulas.text, one_formula(dim),
+                                 [&] { return Values<dim, n_entries * dim>(derivatives); });
+  solution.diffusivity_derivatives = [slopes](const Point<dim>& p) {
+    const auto values = slopes.at(p);
+    std::array<Diffusivity<dim>, dim> all;
+    for (std::size_t k = 0; k < dim; ++k)
+      all[k] = Eigen::Map<const Eigen::Matrix<double, dim, dim, Eigen::RowMajor>>(
+          &values[k * n_entries]);
+    return all;
+  };
+  if (!solution.conditions) add_conditions(entries, solution);
+}
+
+template <int dim>
+ManufacturedSolution<dim> derived_solution(const std::string& u, const std::string& diffusivity,
+                                           std::span<const Point<dim>> sample) {
+  const ex value = read_formula("u", u, dim);
+  const auto a =
+      diffusivity.empty() ? DiffusivityFormulas<dim>() : DiffusivityFormulas<dim>(diffusivity);
+  ManufacturedSolution<dim> solution{.name = "expression",
+                                     .formula = u,
+                                     .source = "the study file",
+                                     .value = {},
+                                     .value_and_gradient = {},
+                                     .load = {}};
+  on_formula("u", u, one_formula(dim), [&] {
+    const auto& x = formula_variables();
+    std::vector<ex> value_and_gradient{value};
+    for (std::size_t j = 0; j < dim; ++j) value_and_gradient.push_back(value.diff(x[j]));
+    ex load = 0;
+    for (std::size_t i = 0; i < dim; ++i) {
+      ex flux = 0;
+      for (std::size_t j = 0; j < dim; ++j) flux += a.entries[i][j] * value_and_gradient[1 + j];
+      load -= flux.diff(x[i]);
+    }
+    solution.value = [values = Values<dim, 1>({value})](const Point<dim>& p) {
+      return values.at(p)[0];
+    };
+    solution.load = [values = Values<dim, 1>({load})](const Point<dim>& p) {
+      return values.at(p)[0];
+    };
+    solution.value_and_gradient = [values = Values<dim, 1 + dim>(value_and_gradient)](
+                                      const Point<dim>& p) -> ValueAndGradient<dim> {
+      const auto all = values.at(p);
+      return {all[0], Eigen::Map<const Point<dim>>(all.data() + 1)};
+    };
+  });
+  std::vector<ex> formulas = all_entries(a);
+  formulas.push_back(value);
+  add_conditions(formulas, solution);
+  if (!diffusivity.empty()) add_diffusivity(a, solution);
+  check_solution(solution, {"'u'", "gradient, derived from 'u',", "load, derived from 'u',", true},
+                 sample);
+  return solution;
+}
+
+#define SMOOTHFEM_INSTANTIATE(dim)                                                            \
+  template struct DiffusivityFormulas<dim>;                                                   \
+  template void add_diffusivity(const DiffusivityFormulas<dim>&, ManufacturedSolution<dim>&); \
+  template ManufacturedSolution<dim> derived_solution(const std::string&, const std::string&, \
+                                                      std::span<const Point<dim>>);
+SMOOTHFEM_INSTANTIATE(2)
+SMOOTHFEM_INSTANTIATE(3)
+#undef SMOOTHFEM_INSTANTIATE
+
+}  // namespace smoothfem

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/space/finite_element_space.h"
+
+#include <algorithm>
+
+#include "fem/space/natural_load.h"
+#include "fem/space/numbered_dofs.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr auto absent = FiniteElementSpace<2>::absent;
+
+/// The nodes around each local dof, from any cell that has it; their weights are all the same.
+template <int dim>
+void locate_dofs(FiniteElementSpace<dim>& space) {
+  std::vector<std::vector<NodeIndex>> nodes(space.n_local);
+  for (const auto& group : space.groups) {
+    const auto& element = group.element;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+      auto& row = nodes[group.dofs[k]];
+      if (!row.empty()) continue;
+      const std::size_t cell = k / element.n_dofs, i = k % element.n_dofs;
+      for (std::size_t v = 0; v < element.n_vertices; ++v)
+        if (element.support[i * element.n_vertices + v] > 1e-12)
+          row.push_back(group.vertices[cell * element.n_vertices + v]);
+      std::sort(row.begin(), row.end());
+    }
+  }
+  space.vertex_dof.assign(space.nodes.size(), absent);
+  for (std::uint32_t dof = 0; dof < nodes.size(); ++dof) {
+    space.dof_nodes.append(nodes[dof]);
+    if (nodes[dof].size() == 1) space.vertex_dof[nodes[dof][0]] = dof;
+  }
+}
+
+/// For each of this rank's equations the cells (group, number) that contribute to it.
+template <int dim>
+std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> cells_of_rows(
+    const FiniteElementSpace<dim>& space) {
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> cells(space.n_own);
+  for (std::uint32_t g = 0; g < space.groups.size(); ++g) {
+    const auto& group = space.groups[g];
+    for (std::size_t k = 0; k < group.dofs.size(); ++k)
+      if (group.dofs[k] < space.n_own)
+        cells[group.dofs[k]].emplace_back(g, static_cast<std::uint32_t>(k / group.element.n_dofs));
+  }
+  return cells;
+}
+
+template <int dim>
+void build_pattern(FiniteElementSpace<dim>& space) {
+  const auto cells = cells_of_rows(space);
+  std::vector<int> starts{0}, columns;
+  std::vector<std::uint32_t> row;
+  for (std::size_t i = 0; i < space.n_own; ++i) {
+    row.clear();
+    for (const auto& [g, c] : cells[i]) {
+      const auto& group = space.groups[g];
+      const auto* dofs = &group.dofs[c * group.element.n_dofs];
+      std::copy_if(dofs, dofs + group.element.n_dofs, std::back_inserter(row),
+                   [&](std::uint32_t dof) { return dof < space.n_columns; });
+    }
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    columns.insert(columns.end(), row.begin(), row.end());
+    starts.push_back(static_cast<int>(columns.size()));
+  }
+  const std::vector<double> zeros(columns.size(), 0.0);
+  space.pattern = Eigen::Map<const SparseMatrix>(
+      static_cast<Eigen::Index>(space.n_own), static_cast<Eigen::Index>(space.n_columns),
+      static_cast<Eigen::Index>(columns.size()), starts.data(), columns.data(), zeros.data());
+}
+
+template <int dim>
+void find_entries(FiniteElementSpace<dim>& space) {
+  const int* starts = space.pattern.outerIndexPtr();
+  const int* columns = space.pattern.innerIndexPtr();
+  for (auto& group : space.groups) {
+    const std::size_t n = group.element.n_dofs;
+    group.entries.reserve(group.n_cells() * n * n);
+    for (std::size_t first = 0; first < group.dofs.size(); first += n)
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) {
+          const std::uint32_t row = group.dofs[first + i], column = group.dofs[first + j];
+          const bool stored = row < space.n_own && column < space.n_columns;
+          group.entries.push_back(
+              stored ? static_cast<std::uint32_t>(std::lower_bound(columns + starts[row],
+                                                                   columns + starts[row + 1],
+                                                                   static_cast<int>(column)) -
+                                                  columns)
+                     : absent);
+        }
+  }
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<Point<dim>> FiniteElementSpace<dim>::local_coordinates(
+    std::span<const Point<dim>> coordinates) const {
+  std::vector<Point<dim>> of_ranks;
+  of_ranks.reserve(nodes_of_ranks.size());
+  for (const NodeIndex node : nodes_of_ranks) of_ranks.push_back(coordinates[node]);
+  return ranks.scatter(of_ranks, nodes.size());
+}
+
+template <int dim>
+std::vector<Point<dim>> FiniteElementSpace<dim>::dof_points(
+    std::span<const Point<dim>> local_coordinates) const {
+  std::vector<Point<dim>> points(n_local);
+  for (std::size_t dof = 0; dof < n_local; ++dof) {
+    Point<dim> sum = Point<dim>::Zero();
+    for (const NodeIndex node : dof_nodes[dof]) sum += local_coordinates[node];
+    points[dof] = sum / static_cast<double>(dof_nodes[dof].size());
+  }
+  return points;
+}
+
+template <int dim>
+std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
+    const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks,
+    const std::vector<std::string>& natural_groups) {
+  if (degree != 1 && degree != 2)
+    throw InputError("finite elements of degree " + std::to_string(degree) +
+                     " are not available; choose 1 or 2");
+  auto space = std::make_shared<FiniteElementSpace<dim>>();
+  space->degree = degree;
+  space->ranks = ranks;
+  const NaturalBoundary natural = number_dofs(mesh, tensor_points, natural_groups, *space);
+  if (space->n_free == 0)
+    throw InputError(
+        "no unknown is left for the finite element solution: every node of the mesh is on its "
+        "boundary, so refine the mesh or take degree 2");
+  space->nodes_of_ranks = ranks.gather(space->nodes);
+  locate_dofs(*space);
+  find_natural_facets(natural, *space);
+  build_pattern(*space);
+  find_entries(*space);
+  return space;
+}
+
+template struct FiniteElementSpace<2>;
+template struct FiniteElementSpace<3>;
+template std::shared_ptr<const FiniteElementSpace<2>> make_finite_element_space(
+    const Mesh<2>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&);
+template std::shared_ptr<const FiniteElementSpace<3>> make_finite_element_space(
+    const Mesh<3>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&);
+
+}  // namespace smoothfem

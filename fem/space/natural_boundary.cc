@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/space/natural_boundary.h"
+
+#include <algorithm>
+
+#include "smoothing/mesh/fixed_nodes.h"
+
+namespace smoothfem {
+
+namespace {
+
+using Facet = std::vector<NodeIndex>;
+
+Facet sorted(Facet facet) {
+  std::sort(facet.begin(), facet.end());
+  return facet;
+}
+
+/// Facets of the boundary that the group labels.
+std::vector<Facet> facets_of_group(const Topology& topology, const std::string& group) {
+  const MeshLabels& labels = topology.labels();
+  std::set<Facet> labelled;
+  for (std::size_t f = 0; f < labels.facets.size(); ++f) {
+    const int tag = labels.facet_tags[f];
+    const auto name = labels.names.find({topology.dimension() - 1, tag});
+    if (group == std::to_string(tag) || (name != labels.names.end() && group == name->second))
+      labelled.insert(sorted({labels.facets[f].begin(), labels.facets[f].end()}));
+  }
+  std::vector<Facet> facets;
+  for (std::size_t f = 0; f < topology.boundary_facets().size(); ++f) {
+    const auto nodes = topology.boundary_facets()[f];
+    if (labelled.contains(sorted({nodes.begin(), nodes.end()})))
+      facets.emplace_back(nodes.begin(), nodes.end());
+  }
+  return facets;
+}
+
+}  // namespace
+
+NaturalBoundary::NaturalBoundary(const Topology* topology, const std::vector<std::string>& groups,
+                                 const Ranks& ranks) {
+  if (groups.empty()) return;
+  std::vector<NodeIndex> numbers;  // of all facets: how many nodes, and which
+  if (topology != nullptr)
+    for (const auto& group : groups)
+      for (const auto& facet : facets_of_group(*topology, group)) {
+        numbers.push_back(static_cast<NodeIndex>(facet.size()));
+        numbers.insert(numbers.end(), facet.begin(), facet.end());
+      }
+  ranks.broadcast(numbers);
+  for (auto next = numbers.begin(); next != numbers.end();) {
+    const auto end = next + 1 + static_cast<std::ptrdiff_t>(*next);
+    Facet facet(next + 1, end);
+    if (sorted_.insert(sorted(facet)).second) facets_.push_back(std::move(facet));
+    next = end;
+  }
+}
+
+bool NaturalBoundary::contains(std::vector<NodeIndex> facet) const {
+  return sorted_.contains(sorted(std::move(facet)));
+}
+
+void require_natural_groups(const Topology& topology, const std::vector<std::string>& groups) {
+  if (groups.empty()) return;
+  (void)fixed_nodes(topology, {FixedNodesRule::Kind::groups, groups});  // refuses unknown ones
+  std::set<Facet> natural;
+  for (const auto& group : groups) {
+    const auto facets = facets_of_group(topology, group);
+    if (facets.empty())
+      throw InputError("the group '" + group +
+                       "' has a natural condition, but no facet on the boundary: name groups of "
+                       "the boundary only");
+    natural.insert(facets.begin(), facets.end());
+  }
+  if (natural.size() == topology.boundary_facets().size())
+    throw InputError(
+        "the whole boundary has natural conditions, which leave the solution open up to a "
+        "constant: take a group out of 'natural'");
+}
+
+}  // namespace smoothfem

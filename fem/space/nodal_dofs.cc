@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/space/nodal_dofs.h"
+
+#include <algorithm>
+
+namespace smoothfem {
+
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+constexpr auto absent = FiniteElementSpace<3>::absent;
+/// How a rank has a node: it is its own, another's, or no cell's.
+constexpr std::uint32_t other = 0, own = 1, unused = 2;
+
+/// Cells level by level around the first one, so that neighbours come near each other.
+std::vector<CellIndex> walk_over(const Topology& topology) {
+  std::vector<CellIndex> order;
+  std::vector<bool> seen(topology.n_cells(), false);
+  const auto take = [&](CellIndex cell) {
+    if (!seen[cell]) order.push_back(cell);
+    seen[cell] = true;
+  };
+  std::size_t next = 0;
+  for (CellIndex start = 0; start < topology.n_cells(); ++start)
+    for (take(start); next < order.size(); ++next)
+      for (const NodeIndex node : topology.cell_nodes(order[next]))
+        for (const CellIndex neighbour : topology.node_cells(node)) take(neighbour);
+  return order;
+}
+
+/// What the root tells each rank: numbers of nodes in the mesh and of free dofs, and the cells.
+class Dealer {
+ public:
+  Dealer(const Topology& topology, const NaturalBoundary& natural, std::size_t n_ranks)
+      : topology_(topology), n_ranks_(n_ranks), order_(walk_over(topology)) {
+    find_owners();
+    number_free_nodes(natural);
+  }
+
+  /// First number of a free dof; numbers of nodes, of own cells, of cells; for each node its number
+  /// in the mesh, how the rank has it, its number among all free dofs or `absent`; for each cell
+  /// the number of its nodes and which of those they are. The rank's own cells come first. One rank
+  /// alone has all nodes, with their numbers.
+  Numbers of_rank(std::size_t rank) const {
+    std::vector<CellIndex> cells;
+    for (std::size_t k = first_cell(rank); k < first_cell(rank + 1); ++k)
+      cells.push_back(order_[k]);
+    const std::size_t n_own_cells = cells.size();
+    for (std::size_t k = 0; n_ranks_ > 1 && k < order_.size(); ++k)
+      if ((k < first_cell(rank) || k >= first_cell(rank + 1)) && contributes(order_[k], rank))
+        cells.push_back(order_[k]);
+    Numbers of_nodes, of_cells, local(topology_.n_nodes(), absent);
+    std::uint32_t n_nodes = 0;
+    const auto add_node = [&](NodeIndex node) {
+      local[node] = n_nodes++;
+      const std::uint32_t had = owner_[node] == absent ? unused
+                                : owner_[node] == rank ? own
+                                                       : other;
+      of_nodes.insert(of_nodes.end(), {node, had, number_[node]});
+    };
+    for (NodeIndex node = 0; n_ranks_ == 1 && node < topology_.n_nodes(); ++node) add_node(node);
+    for (const CellIndex cell : cells) {
+      const auto nodes = topology_.cell_nodes(cell);
+      of_cells.push_back(static_cast<std::uint32_t>(nodes.size()));
+      for (const NodeIndex node : nodes) {
+        if (local[node] == absent) add_node(node);
+        of_cells.push_back(local[node]);
+      }
+    }
+    Numbers message{first_number_[rank], n_nodes, static_cast<std::uint32_t>(n_own_cells),
+                    static_cast<std::uint32_t>(cells.size())};
+    message.insert(message.end(), of_nodes.begin(), of_nodes.end());
+    message.insert(message.end(), of_cells.begin(), of_cells.end());
+    return message;
+  }
+
+ private:
+  std::size_t first_cell(std::size_t rank) const { return rank * order_.size() / n_ranks_; }
+
+  /// A cell of another rank needs to be known if it contributes to an equation here.
+  bool contributes(CellIndex cell, std::size_t rank) const {
+    const auto nodes = topology_.cell_nodes(cell);
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](NodeIndex node) { return owner_[node] == rank; });
+  }
+
+  /// The first rank that has a cell with it.
+  void find_owners() {
+    owner_.assign(topology_.n_nodes(), absent);
+    for (std::uint32_t rank = 0; rank < n_ranks_; ++rank)
+      for (std::size_t k = first_cell(rank); k < first_cell(rank + 1); ++k)
+        for (const NodeIndex node : topology_.cell_nodes(order_[k]))
+          owner_[node] = std::min(owner_[node], rank);
+  }
+
+  /// Rank by rank, as its cells come.
+  void number_free_nodes(const NaturalBoundary& natural) {
+    std::vector<bool> taken(topology_.n_nodes(), false);  // on the boundary, or numbered
+    for (std::size_t f = 0; f < topology_.boundary_facets().size(); ++f) {
+      const auto facet = topology_.boundary_facets()[f];
+      if (natural.empty() || !natural.contains({facet.begin(), facet.end()}))
+        for (const NodeIndex node : facet) taken[node] = true;
+    }
+    number_.assign(topology_.n_nodes(), absent);
+    std::uint32_t next = 0;
+    for (std::size_t rank = 0; rank < n_ranks_; ++rank) {
+      first_number_.push_back(next);
+      for (std::size_t k = first_cell(rank); k < first_cell(rank + 1); ++k)
+        for (const NodeIndex node : topology_.cell_nodes(order_[k])) {
+          if (taken[node] || owner_[node] != rank) continue;
+          taken[node] = true;
+          number_[node] = next++;
+        }
+    }
+  }
+
+  const Topology& topology_;
+  const std::size_t n_ranks_;
+  const std::vector<CellIndex> order_;
+  Numbers owner_, number_, first_number_;
+};
+
+Numbers message_of_root(const Topology* topology, const NaturalBoundary& natural,
+                        const Ranks& ranks) {
+  std::vector<std::size_t> lengths;
+  Numbers all;
+  if (topology != nullptr) {
+    const auto n_ranks = static_cast<std::size_t>(ranks.size());
+    const Dealer dealer(*topology, natural, n_ranks);
+    for (std::size_t rank = 0; rank < n_ranks; ++rank) {
+      const Numbers message = dealer.of_rank(rank);
+      lengths.push_back(message.size());
+      all.insert(all.end(), message.begin(), message.end());
+    }
+  }
+  return ranks.scatter(all, ranks.scatter(lengths, 1).front());
+}
+
+/// The root's message as a space.
+class SpaceFiller {
+ public:
+  SpaceFiller(const Numbers& message, FiniteElementSpace<3>& space)
+      : first_number_(message[0]),
+        n_nodes_(message[1]),
+        n_own_cells_(message[2]),
+        n_cells_(message[3]),
+        of_nodes_(&message[4]),
+        of_cells_(of_nodes_ + 3 * n_nodes_),
+        space_(space) {}
+
+  void number_dofs() {
+    std::size_t n_own_dofs = 0;
+    Numbers ghosts;
+    for (std::size_t i = 0; i < n_nodes_; ++i) {
+      space_.nodes.push_back(of_nodes_[3 * i]);
+      n_own_dofs += is_own(i);
+      if (number(i) == absent) continue;
+      space_.n_own += is_own(i);
+      if (!is_own(i)) ghosts.push_back(number(i));
+    }
+    std::sort(ghosts.begin(), ghosts.end());
+    space_.n_own_boundary = n_own_dofs - space_.n_own;
+    space_.n_columns = space_.n_own + ghosts.size();
+    space_.n_dofs = space_.ranks.sum(n_own_dofs);
+    space_.n_free = space_.ranks.sum(space_.n_own);
+    for (std::size_t i = 0; i < space_.n_own; ++i)
+      space_.column_numbers.push_back(first_number_ + i);
+    space_.column_numbers.insert(space_.column_numbers.end(), ghosts.begin(), ghosts.end());
+    space_.halo = Halo(space_.ranks, space_.n_free, first_number_, space_.n_own,
+                       {ghosts.begin(), ghosts.end()});
+    number_local_dofs(ghosts);
+  }
+
+  void add_cells(const TensorPoints& tensor_points) {
+    const std::uint32_t* next = of_cells_;
+    for (std::size_t c = 0; c < n_cells_; ++c) {
+      std::vector<NodeIndex> nodes(next + 1, next + 1 + *next);
+      next += 1 + *next;
+      auto& group = group_of(element_type(3, nodes.size()), tensor_points);
+      const ElementType type = group.element.type;
+      if (type == ElementType::pyramid || type == ElementType::hexahedron)
+        for (std::size_t k = 2; k + 1 < nodes.size(); k += 4)  // deal.II's squares: lexicographic
+          std::swap(nodes[k], nodes[k + 1]);
+      group.n_own += c < n_own_cells_;
+      for (const NodeIndex node : nodes) group.dofs.push_back(dof_of_node_[node]);
+      group.vertices.insert(group.vertices.end(), nodes.begin(), nodes.end());
+    }
+  }
+
+ private:
+  bool is_own(std::size_t i) const { return of_nodes_[3 * i + 1] == own; }
+  bool is_unused(std::size_t i) const { return of_nodes_[3 * i + 1] == unused; }
+  std::uint32_t number(std::size_t i) const { return of_nodes_[3 * i + 2]; }
+
+  /// Own free dofs, those of others, then the boundary's: own ones first.
+  void number_local_dofs(const Numbers& ghosts) {
+    std::size_t next_own = space_.n_columns, next_other = next_own + space_.n_own_boundary;
+    for (std::size_t i = 0; i < n_nodes_; ++i) {
+      std::size_t dof = absent;
+      if (number(i) != absent && is_own(i))
+        dof = number(i) - first_number_;
+      else if (number(i) != absent)
+        dof = space_.n_own +
+              static_cast<std::size_t>(std::lower_bound(ghosts.begin(), ghosts.end(), number(i)) -
+                                       ghosts.begin());
+      else if (!is_unused(i))
+        dof = is_own(i) ? next_own++ : next_other++;
+      dof_of_node_.push_back(static_cast<std::uint32_t>(dof));
+    }
+    space_.n_local = next_other;
+  }
+
+  ElementCells& group_of(ElementType type, const TensorPoints& tensor_points) {
+    for (auto& group : space_.groups)
+      if (group.element.type == type) return group;
+    auto& group = space_.groups.emplace_back();
+    group.element = make_reference_element(type, 1, tensor_points.hexahedron);
+    return group;
+  }
+
+  const std::uint32_t first_number_;
+  const std::size_t n_nodes_, n_own_cells_, n_cells_;
+  const std::uint32_t* const of_nodes_;
+  const std::uint32_t* const of_cells_;
+  FiniteElementSpace<3>& space_;
+  Numbers dof_of_node_;
+};
+
+}  // namespace
+
+void number_nodal_dofs(const Topology* topology, const TensorPoints& tensor_points,
+                       const NaturalBoundary& natural, FiniteElementSpace<3>& space) {
+  const Numbers message = message_of_root(topology, natural, space.ranks);
+  SpaceFiller filler(message, space);
+  filler.number_dofs();
+  filler.add_cells(tensor_points);
+}
+
+}  // namespace smoothfem

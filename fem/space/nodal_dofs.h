@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/space/finite_element_space.h"
+#include "fem/space/natural_boundary.h"
+
+namespace smoothfem {
+
+/// As number_dofs, for elements of degree 1 on volume meshes of any types of cells: dofs are nodes.
+/// topology: on the root, null elsewhere. Several ranks get parts of about as many cells, which
+/// follow each other in a walk over neighbours. Collective.
+void number_nodal_dofs(const Topology* topology, const TensorPoints& tensor_points,
+                       const NaturalBoundary& natural, FiniteElementSpace<3>& space);
+
+}  // namespace smoothfem

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/space/finite_element_space.h"
+#include "fem/space/natural_boundary.h"
+
+namespace smoothfem {
+
+/// As require_finite_elements, but collective: the root alone sees what is wrong with a mesh, but
+/// all have to stop, or the others would wait for it for ever. topology: null elsewhere.
+template <int dim>
+void require_on_all_ranks(const Topology* topology, int degree,
+                          const std::vector<std::string>& natural_groups, const Ranks& ranks);
+
+/// Fills what deal.II knows of a space, from its degree and ranks: the numbers of dofs, the cells
+/// with their dofs and nodes (not their coordinates), the nodes, the columns' numbers and the halo.
+/// Parameters and errors: see make_finite_element_space. Returns where conditions are natural.
+/// Collective.
+template <int dim>
+NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,
+                            const std::vector<std::string>& natural_groups,
+                            FiniteElementSpace<dim>& space);
+
+}  // namespace smoothfem

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/io/abaqus/abaqus_lines.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "meshes/io/abaqus/abaqus_file.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == text.npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+std::string unquoted(std::string_view text) {
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
+    text = text.substr(1, text.size() - 2);
+  return std::string(text);
+}
+
+/// Commas inside quotes do not separate.
+std::vector<std::string_view> split_at_commas(std::string_view text) {
+  std::vector<std::string_view> parts;
+  std::size_t begin = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    if (i < text.size() && text[i] == '"') quoted = !quoted;
+    if (i == text.size() || (text[i] == ',' && !quoted)) {
+      parts.push_back(trimmed(text.substr(begin, i - begin)));
+      begin = i + 1;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string capitals(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool AbaqusLines::next_line() {
+  while (reader_.next_line()) {
+    const std::string_view text = reader_.text();
+    if (text.starts_with(abaqus_name_comment))
+      name_comments_.emplace_back(trimmed(text.substr(abaqus_name_comment.size())));
+    if (!text.starts_with("**")) return true;
+    if (trimmed(text) == abaqus_first_comment) is_open_ = true;
+    if (trimmed(text) == abaqus_last_comment) is_open_ = false;
+  }
+  return false;
+}
+
+bool AbaqusLines::next_keyword() {
+  while (!at_keyword_) {
+    if (!next_line()) {
+      if (is_open_) fail("the file has no last line as smoothfem writes it; it is truncated");
+      return false;
+    }
+    at_keyword_ = trimmed(reader_.text()).starts_with('*');
+  }
+  at_keyword_ = false;
+  std::string text(trimmed(reader_.text()));
+  while (text.ends_with(',')) {
+    if (!next_line()) fail("the keyword line ends with a comma, but nothing follows");
+    text += trimmed(reader_.text());
+  }
+  split_keyword_line(std::move(text));
+  return true;
+}
+
+void AbaqusLines::split_keyword_line(std::string text) {
+  parameters_.clear();
+  const auto parts = split_at_commas(text);
+  keyword_ = capitals(trimmed(parts.front().substr(1)));
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const std::size_t equals = parts[i].find('=');
+    const std::string_view value =
+        equals == parts[i].npos ? std::string_view{} : trimmed(parts[i].substr(equals + 1));
+    parameters_.emplace_back(capitals(trimmed(parts[i].substr(0, equals))), unquoted(value));
+  }
+}
+
+bool AbaqusLines::has_parameter(std::string_view key) const {
+  return std::any_of(parameters_.begin(), parameters_.end(),
+                     [&](const auto& parameter) { return parameter.first == key; });
+}
+
+std::string AbaqusLines::parameter(std::string_view key, const std::string& fallback) const {
+  for (const auto& [name, value] : parameters_)
+    if (name == key) return value;
+  return fallback;
+}
+
+bool AbaqusLines::next_data() {
+  if (at_keyword_ || !next_line()) return false;
+  at_keyword_ = trimmed(reader_.text()).starts_with('*');
+  return !at_keyword_;
+}
+
+std::optional<std::size_t> AbaqusLines::label_if_number() {
+  const std::string_view field = reader_.word();
+  std::size_t label = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), label);
+  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+  return label;
+}
+
+void AbaqusLines::require_no_empty_field() const {
+  const auto fields = split_at_commas(reader_.text());
+  for (std::size_t i = 0; i + 1 < fields.size(); ++i)
+    if (fields[i].empty()) fail("field " + std::to_string(i + 1) + " of the line is empty");
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <set>
+#include <string>
+
+#include "meshes/io/abaqus/abaqus_file.h"
+#include "meshes/io/abaqus/abaqus_lines.h"
+#include "meshes/io/atomic_file.h"
+#include "meshes/io/mesh_assembly.h"
+#include "smoothing/base/input_error.h"
+#include "smoothing/base/text.h"
+
+namespace smoothfem {
+
+namespace {
+
+struct NamedElement {
+  std::string_view name;
+  AbaqusElement element;
+};
+
+/// The types that are written come first of their kind: continuum elements in space, plane stress
+/// elements, shells, trusses.
+constexpr std::array element_types{
+    NamedElement{"C3D4", {3, 4}}, NamedElement{"C3D5", {3, 5}},   NamedElement{"C3D6", {3, 6}},
+    NamedElement{"C3D8", {3, 8}}, NamedElement{"SC6", {3, 6}},    NamedElement{"SC8", {3, 8}},
+    NamedElement{"CPS3", {2, 3}}, NamedElement{"CPS4", {2, 4}},   NamedElement{"CPE3", {2, 3}},
+    NamedElement{"CPE4", {2, 4}}, NamedElement{"CAX3", {2, 3}},   NamedElement{"CAX4", {2, 4}},
+    NamedElement{"C2D3", {2, 3}}, NamedElement{"C2D4", {2, 4}},   NamedElement{"S3", {2, 3}},
+    NamedElement{"S4", {2, 4}},   NamedElement{"STRI3", {2, 3}},  NamedElement{"M3D3", {2, 3}},
+    NamedElement{"M3D4", {2, 4}}, NamedElement{"SFM3D3", {2, 3}}, NamedElement{"SFM3D4", {2, 4}},
+    NamedElement{"R3D3", {2, 3}}, NamedElement{"R3D4", {2, 4}},   NamedElement{"T2D2", {1, 2}},
+    NamedElement{"T3D2", {1, 2}}, NamedElement{"B21", {1, 2}},    NamedElement{"B31", {1, 2}},
+    NamedElement{"R2D2", {1, 2}}, NamedElement{"SAX1", {1, 2}}};
+
+/// Facets of volume meshes are shells, those of planar ones trusses.
+std::string type_name(int mesh_dim, int dim, std::size_t n_nodes) {
+  if (dim == 1) return "T2D2";
+  if (dim < mesh_dim) return n_nodes == 3 ? "S3" : "S4";
+  for (const auto& [name, element] : element_types)
+    if (element.dimension == dim && element.n_nodes == n_nodes) return std::string(name);
+  return {};
+}
+
+}  // namespace
+
+std::optional<AbaqusElement> abaqus_element(std::string_view type) {
+  // Heat transfer and acoustic elements have the same shapes.
+  if (type.starts_with("DC") || type.starts_with("AC")) type.remove_prefix(1);
+  for (const auto& [name, element] : element_types) {
+    if (!type.starts_with(name)) continue;
+    const std::string_view variant = type.substr(name.size());  // R, H, I, T, ...
+    if (variant == "R5" || std::all_of(variant.begin(), variant.end(), [](char c) {
+          return std::isalpha(static_cast<unsigned char>(c));
+        }))
+      return element;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+using Names = std::map<std::pair<int, int>, std::string>;
+
+/// Quotes keep blanks and other characters together.
+std::string quoted_if_needed(const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+  });
+  return plain && std::isalpha(static_cast<unsigned char>(name.front())) ? name : '"' + name + '"';
+}
+
+/// The set of a tag: its name if it has one that Abaqus can hold and no other tag has.
+std::string set_name(const std::pair<int, int>& key, const Names& names) {
+  const auto found = names.find(key);
+  const auto same_name = [&](const auto& other) {
+    return other.first != key && other.first.first == key.first &&
+           capitals(other.second) == capitals(found->second);
+  };
+  if (found == names.end() || found->second.empty() ||
+      found->second.find('"') != std::string::npos ||
+      std::any_of(names.begin(), names.end(), same_name))
+    return std::string(abaqus_tag_set) + std::to_string(key.second);
+  return quoted_if_needed(found->second);
+}
+
+class AbaqusWriter {
+ public:
+  explicit AbaqusWriter(const MeshView& mesh) : mesh_(mesh), labels_(mesh.topology().labels()) {}
+
+  std::string text() {
+    text_.append(abaqus_first_comment).append("\n");
+    for (const auto& [key, name] : labels_.names)
+      text_.append(abaqus_name_comment).append(physical_name_line(key, name)).append("\n");
+    write_nodes();
+    const Topology& topology = mesh_.topology();
+    const int dim = mesh_.dimension();
+    std::size_t first = 1;
+    write_elements(dim, topology.cells(), labels_.cell_tags,
+                   [&](std::size_t c) { return cell_label(c); });
+    for (std::size_t c = 0; c < topology.n_cells(); ++c) first = std::max(first, cell_label(c) + 1);
+    write_elements(dim - 1, labels_.facets, labels_.facet_tags,
+                   [&](std::size_t f) { return first + f; });
+    write_fixed();
+    text_.append(abaqus_last_comment).append("\n");
+    return std::move(text_);
+  }
+
+ private:
+  std::size_t node_label(std::size_t i) const {
+    return labels_.node_ids.empty() ? i + 1 : labels_.node_ids[i];
+  }
+  std::size_t cell_label(std::size_t c) const {
+    return labels_.cell_ids.empty() ? c + 1 : labels_.cell_ids[c];
+  }
+
+  void write_nodes() {
+    text_ += "*NODE\n";
+    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      append_number(text_, node_label(i));
+      for (const double x : mesh_.point(i)) {
+        text_ += ", ";
+        append_number(text_, x);
+      }
+      text_ += '\n';
+    }
+  }
+
+  /// One block for each type and tag; the labels tell the order.
+  template <class LabelOf>
+  void write_elements(int dim, const CompressedRows<NodeIndex>& rows, const std::vector<int>& tags,
+                      const LabelOf& label_of) {
+    std::map<std::pair<std::size_t, int>, std::vector<std::size_t>> blocks;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      blocks[{rows[i].size(), tags.empty() ? 0 : tags[i]}].push_back(i);
+    for (const auto& [key, members] : blocks) {
+      const auto& [n_nodes, tag] = key;
+      text_ += "*ELEMENT, TYPE=" + type_name(mesh_.dimension(), dim, n_nodes);
+      if (tag != 0) text_ += ", ELSET=" + set_name({dim, tag}, labels_.names);
+      text_ += '\n';
+      for (const std::size_t i : members) {
+        append_number(text_, label_of(i));
+        for (const NodeIndex node : rows[i]) {
+          text_ += ", ";
+          append_number(text_, node_label(node));
+        }
+        text_ += '\n';
+      }
+    }
+  }
+
+  void write_fixed() {
+    constexpr int n_a_line = 16;  // as many as Abaqus reads
+    text_ += "*NSET, NSET=" + std::string(abaqus_fixed_set);
+    int n_written = 0;
+    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      if (!mesh_.topology().is_fixed(i)) continue;
+      text_ += n_written++ % n_a_line == 0 ? "\n" : ", ";
+      append_number(text_, node_label(i));
+    }
+    text_ += '\n';
+  }
+
+  const MeshView& mesh_;
+  const MeshLabels& labels_;
+  std::string text_;
+};
+
+}  // namespace
+
+void write_abaqus(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
+                  const MeshWriteOptions&) {
+  require_no_polygons(path, mesh);
+  write_atomically(path, AbaqusWriter(mesh).text());
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/io/vtk/vtk_grid.h"
+
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <utility>
+
+#include "meshes/io/line_reader.h"
+#include "meshes/io/node_order.h"
+#include "smoothing/base/input_error.h"
+
+namespace smoothfem {
+
+void VtkCells::append(VtkCells other, std::size_t first_point) {
+  if (size() == 0 && first_point == 0) {
+    *this = std::move(other);
+    return;
+  }
+  const std::size_t first = nodes.size();
+  for (const NodeIndex node : other.nodes)
+    nodes.push_back(static_cast<NodeIndex>(first_point + node));
+  require_countable(nodes.size());
+  for (std::size_t c = 1; c < other.offsets.size(); ++c)
+    offsets.push_back(static_cast<RowOffset>(first + other.offsets[c]));
+  types.insert(types.end(), other.types.begin(), other.types.end());
+}
+
+std::string VtkCells::missing_point(std::int64_t point, std::size_t n_points) const {
+  // Offsets may all be there before the nodes.
+  const auto next = std::upper_bound(offsets.begin(), offsets.end(), nodes.size());
+  return "cell " + std::to_string(next - offsets.begin() - 1) + " names point " +
+         std::to_string(point) + ", but the file has only " + std::to_string(n_points) + " points";
+}
+
+bool is_honoured_point_array(std::string_view name) {
+  return name == "fixed" || name == "node_id";
+}
+
+bool is_honoured_cell_array(std::string_view name) {
+  return name == "physical_tag" || name == "cell_id";
+}
+
+namespace {
+
+/// What a VTK cell type is here: its dimension and number of nodes (0: any).
+struct CellKind {
+  int dimension;
+  std::size_t n_nodes;
+};
+
+std::optional<CellKind> kind_of(int vtk_type) {
+  switch (vtk_type) {
+    case VTK_VERTEX:
+    case VTK_POLY_VERTEX:
+    case VTK_POLY_LINE:
+      return CellKind{0, 0};
+    case VTK_LINE:
+      return CellKind{1, 2};
+    case VTK_TRIANGLE:
+      return CellKind{2, 3};
+    case VTK_QUAD:
+    case VTK_PIXEL:
+      return CellKind{2, 4};
+    case VTK_POLYGON:
+      return CellKind{2, 0};
+    case VTK_TETRA:
+      return CellKind{3, 4};
+    case VTK_PYRAMID:
+      return CellKind{3, 5};
+    case VTK_WEDGE:
+      return CellKind{3, 6};
+    case VTK_HEXAHEDRON:
+    case VTK_VOXEL:
+      return CellKind{3, 8};
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Six times a prism's volume, roughly: enough for its sign.
+double signed_prism_volume(const std::vector<Point<3>>& x, std::span<const NodeIndex> nodes) {
+  const Point<3> base = (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]) +
+                        (x[nodes[4]] - x[nodes[3]]).cross(x[nodes[5]] - x[nodes[3]]);
+  return base.dot(x[nodes[3]] + x[nodes[4]] + x[nodes[5]] - x[nodes[0]] - x[nodes[1]] -
+                  x[nodes[2]]);
+}
+
+/// Other programs may keep anything under the name of a number; 0 is none.
+std::size_t id_of(double value) {
+  constexpr double largest_exact = 9007199254740992.0;
+  return value >= 1.0 && value <= largest_exact ? static_cast<std::size_t>(value) : 0;
+}
+
+int tag_of(double value) {
+  return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
+}
+
+/// Makes the parts of a grid, which is used up.
+class GridParts {
+ public:
+  GridParts(const std::string& path, VtkGrid& grid)
+      : path_(path), grid_(grid), cells_(grid.cells) {}
+
+  MeshParts make() {
+    if (grid_.points.empty()) fail("the file has no points");
+    if (cells_.size() == 0) fail("the file has no cells; it holds no mesh or is truncated");
+    if (cells_.types.size() != cells_.size())
+      fail("the file has " + std::to_string(cells_.size()) + " cells but " +
+           std::to_string(cells_.types.size()) + " cell types; it is truncated or damaged");
+    std::array<std::size_t, 4> n_cells{};
+    for (std::size_t c = 0; c < cells_.size(); ++c) ++n_cells[check_cell(c)];
+    choose_wedge_order();
+    read_point_arrays();
+    read_names();
+    divide(n_cells);
+    parts_.coordinates = std::move(grid_.points);
+    return std::move(parts_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(path_ + ": " + message);
+  }
+
+  std::span<NodeIndex> nodes_of(std::size_t cell) {
+    return std::span(cells_.nodes)
+        .subspan(cells_.offsets[cell], cells_.offsets[cell + 1] - cells_.offsets[cell]);
+  }
+
+  [[noreturn]] void refuse_type(std::size_t cell, int type) const {
+    const std::string name = vtkCellTypes::GetClassNameFromTypeId(type);
+    const bool curved = name.find("Quadratic") != name.npos || name.find("Order") != name.npos ||
+                        name.find("Lagrange") != name.npos || name.find("Bezier") != name.npos;
+    fail("cell " + std::to_string(cell) + " has the VTK type " + std::to_string(type) + " (" +
+         name + "); " +
+         (curved ? "cells with nodes besides their corners cannot be read: save the mesh with "
+                   "linear cells"
+                 : "only triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and "
+                   "hexahedra can be read"));
+  }
+
+  /// Brings the nodes into our order, wedges excepted, and returns the cell's dimension: 0 for
+  /// cells that are left out.
+  std::size_t check_cell(std::size_t cell) {
+    const int type = cells_.types[cell];
+    const auto kind = kind_of(type);
+    if (!kind) refuse_type(cell, type);
+    const auto nodes = nodes_of(cell);
+    if (kind->n_nodes != 0 && nodes.size() != kind->n_nodes)
+      fail("cell " + std::to_string(cell) + " has " + std::to_string(nodes.size()) +
+           " nodes, but its type has " + std::to_string(kind->n_nodes));
+    if (type == VTK_PIXEL) permute(nodes, vtk_pixel);
+    if (type == VTK_VOXEL) permute(nodes, vtk_voxel);
+    return static_cast<std::size_t>(kind->dimension);
+  }
+
+  /// The rows are still as in the file, which is Gmsh's order unless VTK's fits as well or better.
+  void choose_wedge_order() {
+    std::size_t n_wedges = 0, n_positive = 0;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (cells_.types[c] != VTK_WEDGE) continue;
+      ++n_wedges;
+      n_positive += signed_prism_volume(grid_.points, nodes_of(c)) > 0.0;
+    }
+    if (n_wedges == 0 || 2 * n_positive > n_wedges) return;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      if (cells_.types[c] == VTK_WEDGE) permute(nodes_of(c), vtk_wedge);
+  }
+
+  /// Null if the file has no such array.
+  const std::vector<double>* array_of(const auto& arrays, std::string_view name, std::size_t n,
+                                      const std::string& kind) const {
+    const auto found = arrays.find(name);
+    if (found == arrays.end()) return nullptr;
+    if (found->second.size() != n)
+      fail("the " + kind + " array '" + std::string(name) + "' has " +
+           std::to_string(found->second.size()) + " values for " + std::to_string(n) + " " + kind +
+           "s");
+    return &found->second;
+  }
+
+  void read_point_arrays() {
+    const std::size_t n = grid_.points.size();
+    if (const auto* ids = array_of(grid_.point_arrays, "node_id", n, "point"))
+      std::transform(ids->begin(), ids->end(), std::back_inserter(parts_.node_ids), id_of);
+    if (const auto* fixed = array_of(grid_.point_arrays, "fixed", n, "point")) {
+      parts_.fixed.emplace();
+      for (const double value : *fixed) parts_.fixed->push_back(value != 0.0);
+    }
+  }
+
+  void read_names() {
+    std::istringstream lines(grid_.physical_names);
+    for (std::string line; std::getline(lines, line);)
+      if (!add_physical_name(line, parts_))
+        fail("the field '" + std::string(vtk_names_array) + "' has the line " + in_quotes(line) +
+             ", which is not 'dimension tag name'");
+  }
+
+  /// Cells by their dimension.
+  void divide(const std::array<std::size_t, 4>& n_cells) {
+    const auto* tags = array_of(grid_.cell_arrays, "physical_tag", cells_.size(), "cell");
+    const auto* ids = array_of(grid_.cell_arrays, "cell_id", cells_.size(), "cell");
+    const auto* only = std::find(n_cells.begin() + 1, n_cells.end(), cells_.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      const int dimension = kind_of(cells_.types[c])->dimension;
+      if (dimension == 0) continue;
+      ElementList& elements = parts_.elements[static_cast<std::size_t>(dimension)];
+      if (only == n_cells.end()) elements.nodes.append(nodes_of(c));
+      if (tags) elements.tags.push_back(tag_of((*tags)[c]));
+      if (ids) elements.ids.push_back(id_of((*ids)[c]));
+    }
+    if (only != n_cells.end())  // large meshes are not held twice
+      parts_.elements[static_cast<std::size_t>(only - n_cells.begin())].nodes =
+          CompressedRows<NodeIndex>(std::move(cells_.offsets), std::move(cells_.nodes));
+  }
+
+  const std::string& path_;
+  VtkGrid& grid_;
+  VtkCells& cells_;
+  MeshParts parts_;
+};
+
+}  // namespace
+
+MeshParts parts_of_grid(const std::string& path, VtkGrid grid) {
+  return GridParts(path, grid).make();
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "meshes/io/line_reader.h"
+#include "meshes/io/mesh_assembly.h"
+#include "meshes/io/vtk/vtk_files.h"
+#include "meshes/io/vtk/vtk_grid.h"
+#include "meshes/io/vtk/vtk_legacy_input.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// The cell sections of polygonal data in the order in which cell arrays count them, with VTK's
+/// types of cells that have few nodes, and of all others. An unstructured grid has the first only.
+struct PolygonalSection {
+  std::string_view keyword;
+  std::size_t n_nodes;
+  std::uint8_t type_of_few, next_type, type_of_many;
+};
+constexpr std::array polygonal_sections{
+    PolygonalSection{"vertices", 1, 1, 2, 2}, PolygonalSection{"lines", 2, 3, 4, 4},
+    PolygonalSection{"polygons", 3, 5, 9, 7}, PolygonalSection{"triangle_strips", 0, 6, 6, 6}};
+
+std::uint8_t type_of(const PolygonalSection& section, std::size_t n_nodes) {
+  return n_nodes == section.n_nodes       ? section.type_of_few
+         : n_nodes == section.n_nodes + 1 ? section.next_type
+                                          : section.type_of_many;
+}
+
+/// Walks through the sections of a file. No count is trusted: nothing is allocated before the file
+/// has shown that it can hold it.
+class LegacyVtkReader {
+ public:
+  LegacyVtkReader(const std::filesystem::path& path, std::string_view content)
+      : in_(path, content) {}
+
+  VtkGrid grid() {
+    read_data_set();
+    while (in_.next_keyword()) read_section(in_.keyword());
+    for (VtkCells& cells : cells_) grid_.cells.append(std::move(cells));
+    return std::move(grid_);
+  }
+
+ private:
+  /// What arrays belong to.
+  enum class Attributes { field, cells, points };
+
+  void read_data_set() {
+    if (!in_.next_keyword() || in_.keyword() != "dataset")
+      in_.fail("expected 'DATASET' after the file type");
+    const std::string kind = lower_case(in_.word("the kind of the data set"));
+    is_polygonal_ = kind == "polydata";
+    if (!is_polygonal_ && kind != "unstructured_grid")
+      in_.fail("the file holds no unstructured grid and no polygonal data, but " + in_quotes(kind));
+  }
+
+  void read_section(const std::string& keyword) {
+    if (keyword == "points") return read_points();
+    if (keyword == "metadata") return in_.skip_metadata();
+    if (keyword == "cell_data" || keyword == "point_data") return begin_attributes(keyword);
+    if (!is_polygonal_ && keyword == "cells") return read_cells(cells_[0]);
+    if (!is_polygonal_ && keyword == "cell_types") return read_types();
+    for (std::size_t s = 0; is_polygonal_ && s < polygonal_sections.size(); ++s)
+      if (keyword == polygonal_sections[s].keyword) return read_polygonal(s);
+    if (keyword == "field") return read_field();
+    if (attributes_ == Attributes::field || !read_attribute(keyword))
+      in_.fail("expected the name of a section, but found " + in_quotes(keyword) +
+               "; the section before has more numbers than announced, or the file is damaged");
+  }
+
+  void read_points() {
+    if (!grid_.points.empty()) in_.fail("there is a second section POINTS");
+    const std::uint64_t n = in_.count("the number of points");
+    const VtkNumber type = in_.number_type();
+    in_.require_numbers(n, 3, type, "points");
+    grid_.points.resize(n);
+    double* coordinate = n > 0 ? grid_.points[0].data() : nullptr;
+    in_.read_numbers<double>(type, 3 * n, "a coordinate",
+                             [&](double value) { *coordinate++ = value; });
+  }
+
+  void read_cells(VtkCells& cells) {
+    if (cells.size() > 0) in_.fail("there is a second section of the same cells");
+    const std::uint64_t n = in_.count("the number of cells");
+    const std::uint64_t size = in_.count("the size of the cells");
+    if (in_.version() < 5)
+      read_rows(cells, n, size);
+    else if (n > 0)  // the number of offsets
+      read_offsets_and_nodes(cells, n, size);
+  }
+
+  [[noreturn]] void refuse_rows() const {
+    in_.fail("the section does not have the rows it announces; the file is truncated or damaged");
+  }
+
+  void add_node(VtkCells& cells, std::int64_t point) {
+    if (!cells.add_node(point, grid_.points.size()))
+      in_.fail(cells.missing_point(point, grid_.points.size()));
+  }
+
+  /// n rows "k i1 .. ik" of size integers altogether.
+  void read_rows(VtkCells& cells, std::uint64_t n, std::uint64_t size) {
+    in_.require_numbers(size, 1, VtkNumber::int32, "integers");
+    if (n > size) refuse_rows();
+    cells.offsets.reserve(n + 1);
+    cells.nodes.reserve(size - n);
+    std::uint64_t n_left = size, row_left = 0;
+    bool in_row = false;
+    in_.read_numbers<std::int64_t>(VtkNumber::int32, size, "a cell", [&](std::int64_t value) {
+      --n_left;
+      if (in_row) {
+        add_node(cells, value);
+        --row_left;
+      } else {
+        if (value < 0 || static_cast<std::uint64_t>(value) > n_left || cells.size() == n)
+          refuse_rows();
+        row_left = static_cast<std::uint64_t>(value);
+      }
+      in_row = row_left > 0;
+      if (!in_row) cells.end_cell();
+    });
+    if (in_row || cells.size() != n) refuse_rows();
+  }
+
+  /// Since version 5.
+  void read_offsets_and_nodes(VtkCells& cells, std::uint64_t n_offsets, std::uint64_t n_nodes) {
+    in_.require_keyword("offsets");
+    VtkNumber type = in_.integer_type();
+    in_.require_numbers(n_offsets, 1, type, "offsets");
+    cells.offsets.clear();
+    cells.offsets.reserve(n_offsets);
+    in_.read_numbers<std::int64_t>(type, n_offsets, "an offset", [&](std::int64_t offset) {
+      const bool is_first = cells.offsets.empty();
+      const std::int64_t least = is_first ? 0 : cells.offsets.back();
+      const std::uint64_t most = is_first ? 0 : std::min<std::uint64_t>(n_nodes, UINT32_MAX);
+      if (offset < least || static_cast<std::uint64_t>(offset) > most) refuse_rows();
+      cells.offsets.push_back(static_cast<RowOffset>(offset));
+    });
+    if (cells.offsets.back() != n_nodes) refuse_rows();
+    in_.require_keyword("connectivity");
+    type = in_.integer_type();
+    in_.require_numbers(n_nodes, 1, type, "nodes");
+    cells.nodes.reserve(n_nodes);
+    in_.read_numbers<std::int64_t>(type, n_nodes, "a cell",
+                                   [&](std::int64_t point) { add_node(cells, point); });
+  }
+
+  void read_types() {
+    const std::uint64_t n = in_.count("the number of cell types");
+    in_.require_numbers(n, 1, VtkNumber::int32, "cell types");
+    std::vector<std::uint8_t>& types = cells_[0].types;
+    if (!types.empty()) in_.fail("there is a second section CELL_TYPES");
+    types.reserve(n);
+    in_.read_numbers<std::int64_t>(VtkNumber::int32, n, "a cell type", [&](std::int64_t type) {
+      types.push_back(in_.cell_type(types.size(), type));
+    });
+  }
+
+  void read_polygonal(std::size_t s) {
+    VtkCells& cells = cells_[s];
+    read_cells(cells);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      cells.types.push_back(
+          type_of(polygonal_sections[s], cells.offsets[c + 1] - cells.offsets[c]));
+  }
+
+  void begin_attributes(const std::string& keyword) {
+    const bool of_cells = keyword == "cell_data";
+    attributes_ = of_cells ? Attributes::cells : Attributes::points;
+    n_tuples_ = in_.count("the number of values");
+    std::size_t n = of_cells ? 0 : grid_.points.size();
+    for (std::size_t s = 0; of_cells && s < cells_.size(); ++s) n += cells_[s].size();
+    if (n_tuples_ != n)
+      in_.fail("there are " + std::to_string(n_tuples_) + " values announced for " +
+               std::to_string(n) + (of_cells ? " cells" : " points"));
+  }
+
+  /// False if the keyword begins none.
+  bool read_attribute(const std::string& keyword) {
+    static constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> sizes{
+        {{"vectors", 3},
+         {"normals", 3},
+         {"tensors", 9},
+         {"tensors6", 6},
+         {"global_ids", 1},
+         {"pedigree_ids", 1},
+         {"edge_flags", 1}}};
+    const auto* size = std::find_if(sizes.begin(), sizes.end(),
+                                    [&](const auto& entry) { return entry.first == keyword; });
+    const bool is_known = size != sizes.end() || keyword == "scalars" ||
+                          keyword == "lookup_table" || keyword == "texture_coordinates" ||
+                          keyword == "color_scalars";
+    if (!is_known) return false;
+    const std::string name(in_.word("the array's name"));
+    if (keyword == "lookup_table") {
+      in_.skip_colours(in_.count("the size of the lookup table"), 4);
+    } else if (keyword == "color_scalars") {
+      const std::uint64_t n_components = in_.count("the number of components");
+      in_.skip_colours(n_tuples_, n_components);
+    } else if (keyword == "scalars") {
+      const std::string type(in_.word("the array's type"));
+      const std::uint64_t n_components = in_.has_word() ? in_.count("the number of components") : 1;
+      in_.require_keyword("lookup_table");
+      in_.word("the name of the lookup table");
+      read_array(name, type, n_components, n_tuples_);
+    } else {
+      const std::uint64_t n_components =
+          size != sizes.end() ? size->second : in_.count("the number of components");
+      read_array(name, std::string(in_.word("the array's type")), n_components, n_tuples_);
+    }
+    return true;
+  }
+
+  void read_field() {
+    in_.word("the field's name");
+    for (std::uint64_t n = in_.count("the number of the field's arrays"); n > 0; --n) {
+      std::string name(in_.word("an array of the field"));
+      while (name == "METADATA") {
+        in_.skip_metadata();
+        name = in_.word("an array of the field");
+      }
+      if (name == "NULL_ARRAY") continue;
+      const std::uint64_t n_components = in_.count("the number of components");
+      const std::uint64_t n_tuples = in_.count("the number of values");
+      read_array(name, std::string(in_.word("the array's type")), n_components, n_tuples);
+    }
+  }
+
+  /// Keeps what is honoured.
+  void read_array(const std::string& name, const std::string& type_name, std::uint64_t n_components,
+                  std::uint64_t n_tuples) {
+    const bool is_names = attributes_ == Attributes::field && name == vtk_names_array;
+    const bool is_kept = (attributes_ == Attributes::points && is_honoured_point_array(name)) ||
+                         (attributes_ == Attributes::cells && is_honoured_cell_array(name));
+    const auto type = in_.number_type(type_name);
+    if (!type || (!is_names && !is_kept)) return in_.skip_array(type_name, n_components, n_tuples);
+    in_.require_numbers(n_tuples, n_components, *type, "values");
+    auto& arrays = attributes_ == Attributes::cells ? grid_.cell_arrays : grid_.point_arrays;
+    std::vector<double>* kept = is_kept ? &arrays[name] : nullptr;
+    if (kept) kept->clear();
+    std::uint64_t component = 0;
+    in_.read_numbers<double>(*type, n_components * n_tuples, "a value", [&](double value) {
+      if (component == 0 && kept) kept->push_back(value);
+      if (component == 0 && is_names) grid_.physical_names += vtk_character(value);
+      if (++component == n_components) component = 0;
+    });
+  }
+
+  LegacyVtkInput in_;
+  bool is_polygonal_ = false;
+  Attributes attributes_ = Attributes::field;
+  std::uint64_t n_tuples_ = 0;
+  std::array<VtkCells, polygonal_sections.size()> cells_;  ///< by section of polygonal data
+  VtkGrid grid_;
+};
+
+MeshParts legacy_vtk_parts(const std::filesystem::path& path) {
+  const std::string content = read_whole_file(path);
+  return parts_of_grid(path.string(), LegacyVtkReader(path, content).grid());
+}
+
+}  // namespace
+
+MeshFile read_legacy_vtk(const std::filesystem::path& path) {
+  return assemble_mesh(path, legacy_vtk_parts(path));
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "meshes/io/line_reader.h"
+#include "meshes/io/vtk/vtk_numbers.h"
+#include "meshes/io/vtk/vtu_bytes.h"
+#include "meshes/io/vtk/xml_tags.h"
+#include "smoothing/base/input_error.h"
+
+namespace smoothfem {
+
+/// An element `<DataArray>`.
+struct VtuArray {
+  std::string_view name, type, format;
+  std::uint64_t n_components = 1;
+  std::uint64_t n_tuples = 0;  ///< of field data; other arrays do not say it
+  std::string_view text;       ///< between its tags
+  std::uint64_t offset = 0;    ///< in the appended data
+  std::size_t position = 0;    ///< in the file
+};
+
+/// Those below one element: `<Points>`, `<Cells>`, `<PointData>`,
+/// `<CellData>` or `<FieldData>`.
+using VtuSection = std::vector<VtuArray>;
+
+struct VtuPiece {
+  std::uint64_t n_points = 0, n_cells = 0;
+  std::map<std::string, VtuSection, std::less<>> sections;
+
+  /// Null if there is none; an empty name stands for any.
+  const VtuArray* array(std::string_view section, std::string_view name) const;
+};
+
+/// The elements of a .vtu file with an unstructured grid. No count is trusted: arrays are read when
+/// the file has shown that it can hold them. Each array can be read once: of large
+/// ones in Base64 the text is gone then, so that large meshes do not need the memory twice. Throws
+/// InputError "path:line: ..." for whatever is wrong.
+class VtuFile {
+ public:
+  VtuFile(const std::filesystem::path& path, std::string content);
+  VtuFile(const VtuFile&) = delete;
+  VtuFile& operator=(const VtuFile&) = delete;
+
+  const std::vector<VtuPiece>& pieces() const { return pieces_; }
+  const VtuSection& field_data() const { return field_data_; }
+
+  /// use(number) for n numbers that the array has, neither more nor fewer, each as Value: double,
+  /// or std::int64_t, for which the array must hold integers. start() comes before, when it is
+  /// known that they are there: the time to allocate.
+  template <class Value, class Start, class Use>
+  void read(const VtuArray& array, std::uint64_t n, const Start& start, const Use& use) {
+    const VtkNumber type = type_of(array);
+    if (!std::is_floating_point_v<Value> && !is_integer(type))
+      fail(array, "has numbers of type " + in_quotes(array.type) + " instead of integers");
+    if (array.format == "ascii") {
+      LineReader lines = open_text(array, n);
+      start();
+      for (std::uint64_t i = 0; i < n; ++i) use(number_in_text<Value>(lines));
+      if (lines.find_word())
+        fail(array, "has more values than the " + std::to_string(n) + " announced");
+    } else if (n > 0) {
+      auto bytes = open_binary(array, n, type);
+      start();
+      std::vector<char> chunk;
+      for (std::uint64_t left = n; left > 0;) {
+        const std::size_t n_now = std::min<std::uint64_t>(left, 4096);
+        chunk.resize(n_now * size_of(type));
+        in_array(array, [&] { bytes.read(chunk.data(), chunk.size()); });
+        for_each_vtk_number<Value>(type, encoding_.is_swapped, chunk.data(), n_now, use);
+        left -= n_now;
+      }
+      release(array);
+    }
+  }
+
+  [[noreturn]] void fail(const VtuArray& array, const std::string& message) const;
+  /// About a piece as a whole.
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  void read_tag();
+  void read_file_tag();
+  void read_array_tag();
+  void read_appended();
+  std::uint64_t number(std::string_view attribute, std::uint64_t fallback) const;
+  VtkNumber type_of(const VtuArray& array) const;
+  void release(const VtuArray& array);
+
+  LineReader open_text(const VtuArray& array, std::uint64_t n) const;
+  VtuArrayBytes open_binary(const VtuArray& array, std::uint64_t n, VtkNumber type);
+
+  /// Errors of a call with the place of the array.
+  template <class Call>
+  decltype(auto) in_array(const VtuArray& array, const Call& call) const {
+    try {
+      return call();
+    } catch (const InputError& error) {
+      fail(array, error.what());
+    }
+  }
+
+  template <class Value>
+  static Value number_in_text(LineReader& lines) {
+    lines.require_word("a number");
+    if constexpr (std::is_floating_point_v<Value>) {
+      return lines.number("a number");
+    } else {
+      const std::string_view found = lines.word();
+      Value value = 0;
+      const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
+      if (error != std::errc() || end != found.data() + found.size())
+        lines.fail("found " + in_quotes(found) + ", which is not an integer");
+      return value;
+    }
+  }
+
+  std::filesystem::path path_;
+  std::string content_;
+  XmlTags tags_;
+  VtuEncoding encoding_;
+  std::string_view appended_;
+  bool appended_is_base64_ = false;
+  std::vector<VtuPiece> pieces_;
+  VtuSection field_data_;
+  std::uint64_t n_decompressed_ = 0;
+};
+
+}  // namespace smoothfem
