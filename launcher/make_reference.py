@@ -21,16 +21,14 @@ import sys
 from pathlib import Path
 
 from plots.results import same_numbers
-from plots.results.collection import packed
-from plots.results.rows import read_provenance
+from plots.results.rows import packed, read_provenance
 
-KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv", "provenance.json", "tables")
+# What is kept of a study: its rows, packed, from which `smoothfem plot` makes tables and figures.
+KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv")
 COLLECTIONS = ("field", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their usual scale
-KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv", "provenance.json", "tables")
-PACKED = ("iterations.csv", "metrics.csv")  # of collections, whose records are many
-DRAWN = ("gear", "volume", "field")  # whose figures are kept, too
+KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")
+TABLES = "*.md"  # tables of collections, which need iterations.csv and metrics.csv: too large to be kept
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME; what they are is in their files
-KEPT_OF_REASONS = ("iterations.csv", "summary.csv", "thresholds.csv", "provenance.json")
 PUBLISHED = ("gear", "energy", "reasons/gear-mesquite", "reasons/gear-rounding")  # which are of the published meshes
 SCALE = "subsection scale paper"
 SOURCES = ("*.cc", "*.h", "cmake", "CMakeLists.txt", "CMakePresets.json", ":!*/tests/*", ":!*/bench/*")  # of the program
@@ -80,10 +78,10 @@ def has_paper_scale(path):
 
 def options(study):
     """How a study is run for the reference."""
-    figures = [] if study in DRAWN else ["--no-figures"]
     if study in PUBLISHED:
-        return ["--published", *figures]
-    return figures if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper", *figures]
+        return ["--published", "--no-figures"]
+    scale = [] if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper"]
+    return [*scale, "--no-figures"]
 
 
 def keep(results, reference, study):
@@ -91,16 +89,14 @@ def keep(results, reference, study):
     new = (reference / study).with_name(f".{Path(study).name}.new")
     shutil.rmtree(new, ignore_errors=True)
     new.mkdir(parents=True)
-    kept = (KEPT_OF_COLLECTIONS if study in COLLECTIONS else KEPT_OF_REASONS if study.startswith(REASONS) else KEPT)
-    for name in kept + (("figures",) if study in DRAWN else ()):
-        source = results / name
-        if source.is_dir():
-            shutil.copytree(source, new / name, ignore=shutil.ignore_patterns("*.pdf"))
-        elif source.exists():
-            shutil.copy2(source, new / name)
-    if study in COLLECTIONS:
-        for name in filter(lambda name: (results / name).exists(), PACKED):
+    shutil.copy2(results / "provenance.json", new)
+    for name in KEPT_OF_COLLECTIONS if study in COLLECTIONS else KEPT:
+        if (results / name).exists():
             packed(new / name).write_bytes(lzma.compress((results / name).read_bytes(), preset=9))
+    if study in COLLECTIONS:
+        (new / "tables").mkdir()
+        for table in (results / "tables").glob(TABLES):
+            shutil.copy2(table, new / "tables")
     shutil.rmtree(reference / study, ignore_errors=True)
     new.rename(reference / study)
     same_numbers.drop_record(reference, study)

@@ -5,6 +5,7 @@ the claim itself is judged on its results."""
 from functools import lru_cache
 
 from ..results.data_folder import data_folder
+from ..results.rows import is_there
 from ..results.smoothing import read_results
 
 REASONS = "reasons"  # the folder's name, in studies and in results/reference
@@ -18,7 +19,7 @@ def reference():
 def results_of_test(test):
     """The results of the study that tests a reason (an entry of a claim's `tests`); None if it was not run."""
     folder = reference() / test["study"]
-    return results_of(folder) if (folder / "summary.csv").exists() else None
+    return results_of(folder) if is_there(folder / "summary.csv") else None
 
 
 @lru_cache(maxsize=None)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .rows import SOLVING, ResultsError, Rows, entries, order_of, read_provenance, read_rows
+from .rows import SOLVING, ResultsError, Rows, entries, is_there, open_rows, order_of, read_provenance, read_rows
 from .smoothing import INITIAL
 
 MEMBER_COLUMNS = ("member", "family", "elements", "solution", "status", "reason")
@@ -49,28 +49,11 @@ class CollectionResults:
         return self.titles.get(name, name)
 
 
-def packed(path):
-    """The file that xz has made of a large CSV file, and that may stand in its place."""
-    return path.with_name(path.name + ".xz")
-
-
-def is_there(path):
-    """Whether there is a large CSV file, packed or not."""
-    return path.exists() or packed(path).exists()
-
-
-def open_large(path):
-    """A large CSV file to be read, packed or not."""
-    if packed(path).exists() and not path.exists():
-        return lzma.open(packed(path), "rt", newline="", encoding="utf-8")
-    return open(path, newline="", encoding="utf-8")
-
-
 def read_some_columns(path, names, optional=()):
     """Some columns of a CSV file, which may be large; raises ResultsError if it is missing, truncated or lacks
     one of them. Optional ones are left out where they are not there."""
     try:
-        with open_large(path) as stream:
+        with open_rows(path) as stream:
             lines = csv.reader(stream)
             header = next(lines, [])
             missing = [name for name in names if name not in header]
@@ -131,8 +114,8 @@ def read_collection_results(folder):
     else:
         iterations = read_some_columns(file, columns, OPTIONAL)
     split = folder / "refined.csv"
-    refined = read_some_columns(split, REFINED) if split.exists() else Rows(split, {})
-    has_summary = (folder / "summary.csv").exists()
+    refined = read_some_columns(split, REFINED) if is_there(split) else Rows(split, {})
+    has_summary = is_there(folder / "summary.csv")
     summary = read_some_columns(folder / "summary.csv", SUMMARY) if has_summary else Rows(file, {})
     titles = {INITIAL: "Initial", **{entry["name"]: str(entry["title"]) for entry in entries(provenance, "methods")
                                      if entry.get("title")}}

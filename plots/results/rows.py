@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import lzma
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -66,17 +67,34 @@ class Rows:
         return [dict(zip(self.columns, fields)) for fields in zip(*self.columns.values())]
 
 
+def packed(path):
+    """The path of the xz file that may replace a CSV file."""
+    return path.with_name(path.name + ".xz")
+
+
+def is_there(path):
+    """True if a CSV file exists, packed or not."""
+    return path.exists() or packed(path).exists()
+
+
+def open_rows(path):
+    """Opens a CSV file for reading, packed or not."""
+    if packed(path).exists() and not path.exists():
+        return lzma.open(packed(path), "rt", newline="", encoding="utf-8")
+    return open(path, newline="", encoding="utf-8")
+
+
 def read_rows(path, required=(), ends_with_line=True):
     """Reads a CSV file with a header line; raises ResultsError if it is missing, truncated or lacks a
     required column. The program ends every line; files that users write may leave out the last end."""
     path = Path(path)
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
+        with open_rows(path) as stream:
             text = stream.read()
         lines = list(csv.reader(io.StringIO(text, newline="")))
     except FileNotFoundError:
         raise ResultsError(f"{path}: the file is missing; has the study been run?") from None
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except (EOFError, OSError, UnicodeDecodeError, csv.Error, lzma.LZMAError) as error:
         raise ResultsError(f"{path}: the file cannot be read ({error}).") from None
     if not lines:
         raise ResultsError(f"{path}: the file is empty.")

@@ -8,8 +8,7 @@ import io
 from datetime import date
 from itertools import zip_longest
 
-from .collection import is_there, open_large
-from .rows import read_rows
+from .rows import is_there, open_rows, read_rows
 from .write_files import write_atomically
 
 FILE = "again.csv"
@@ -22,7 +21,7 @@ def table_of(path):
     """The rows of a CSV file, packed or not; none if there is no such file."""
     if not is_there(path):
         return []
-    with open_large(path) as lines:
+    with open_rows(path) as lines:
         return list(csv.DictReader(lines))
 
 

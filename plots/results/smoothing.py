@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from .names import find_all
-from .rows import (ResultsError, Rows, entries, is_built_in, order_of, read_provenance, read_rows)
+from .rows import ResultsError, Rows, entries, is_built_in, is_there, order_of, read_provenance, read_rows
 from .seeds import by_seed
 
 # What tables and figures cannot do without; any other column may be absent and then counts as empty.
@@ -168,7 +168,7 @@ def read_results(folder):
 
 def read_if_there(path):
     """The same for a file that may be absent: then it has no rows."""
-    if path.exists():
+    if is_there(path):
         return read_checked(path)
     return Rows(path, {name: np.array([], dtype=object) for name in REQUIRED_COLUMNS[path.name]})
 
