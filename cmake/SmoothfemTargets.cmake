@@ -54,11 +54,14 @@ function(smoothfem_add_copy_for_arch target arch folder)
   smoothfem_precompile(${copy})
 endfunction()
 
-# What `./run test` builds besides the program.
+# What `./run test` builds besides the program; `./run test --fast LIBRARY` builds smoothfem_tests_LIBRARY.
 add_custom_target(smoothfem_tests)
+foreach(library smoothing meshes fem studies python plots)
+  add_custom_target(smoothfem_tests_${library})
+endforeach()
+add_dependencies(smoothfem_tests_python smoothfem)
 if(SMOOTHFEM_BUILD_TESTS)
   enable_testing()
-  include(GoogleTest)
   # Their own lines need not be fast, but compiled quickly; the libraries they call are.
   set(test_compile_options -O0)
   # The headers of the tests, compiled once for all of them.
@@ -70,14 +73,16 @@ if(SMOOTHFEM_BUILD_TESTS)
   smoothfem_precompile(smoothfem_test_headers <gtest/gtest.h> <gmock/gmock.h>)
 endif()
 
-# smoothfem_add_test(NAME label SOURCES source... LIBRARIES library...): a GoogleTest executable whose
-# tests carry the ctest label unit, integration or long. Tests find the repository and the meshes that
-# are not part of it.
+# smoothfem_add_test(NAME label [SERIAL] [SHARDS n] SOURCES source... LIBRARIES library...): a GoogleTest program, which
+# is one entry of ctest, or n of them that share its cases. A program a case would start 2,000 processes, each of which
+# loads up to 225 libraries; NAME --gtest_filter=CASE in the folder tests runs one. The labels are unit, integration or
+# long, the library of the calling folder, and compiled. SERIAL: nothing else runs meanwhile. Tests find the repository
+# and the meshes that are not part of it.
 function(smoothfem_add_test name label)
   if(NOT SMOOTHFEM_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "SHARDS" "SOURCES;LIBRARIES;DEFINITIONS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE smoothfem_options ${ARG_LIBRARIES} GTest::gtest GTest::gmock
                                         GTest::gtest_main)
@@ -88,9 +93,29 @@ function(smoothfem_add_test name label)
     SMOOTHFEM_SHARED_MESHES="${PROJECT_SOURCE_DIR}/../shared/meshes"
     ${ARG_DEFINITIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  smoothfem_list_test(${name} ${label} "${ARG_SERIAL}" "${ARG_SHARDS}")
+endfunction()
+
+# The entries of ctest of a test program, and the targets that build it.
+function(smoothfem_list_test name label serial shards)
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME library)
   add_dependencies(smoothfem_tests ${name})
-  gtest_discover_tests(${name} PROPERTIES LABELS ${label} DISCOVERY_MODE PRE_TEST
-                       DISCOVERY_TIMEOUT 120)  # the first time, libraries come from the disk
+  if(label STREQUAL unit AND TARGET smoothfem_tests_${library})
+    add_dependencies(smoothfem_tests_${library} ${name})
+  endif()
+  if(NOT shards)
+    set(shards 1)
+  endif()
+  foreach(shard RANGE 1 ${shards})
+    set(entry ${name})
+    if(shards GREATER 1)
+      string(APPEND entry _${shard})
+    endif()
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1)
+    set_tests_properties(${entry} PROPERTIES LABELS "${label};${library};compiled" RUN_SERIAL "${serial}"
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
+  endforeach()
 endfunction()
 
 # smoothfem_add_bench(NAME SOURCES source... LIBRARIES library...): a program with Google Benchmark.

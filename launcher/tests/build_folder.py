@@ -2,7 +2,6 @@
 """Where the tests find what was built: SMOOTHFEM_BUILD, which ctest sets."""
 
 import os
-import re
 import subprocess
 from pathlib import Path
 
@@ -31,9 +30,3 @@ def run(*command, folder=None, check=True, timeout=600, **more):
                              f"{outcome.stdout[-2000:]}\n{outcome.stderr[-2000:]}")
     return outcome
 
-
-def method_names():
-    """Names of all methods of this program; `command` is another program's."""
-    text = run(SMOOTHFEM, "list").stdout
-    names = re.findall(r"^  (\S+): ", text[:text.index("\nPRESETS")], re.MULTILINE)
-    return [name for name in names if name != "command"]
