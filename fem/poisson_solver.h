@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"
 
@@ -37,24 +38,6 @@ struct PoissonOptions {
   ConditionNumberMethod condition_number = ConditionNumberMethod::verified;
   Recorded jacobi_cg = Recorded::always;
   Recorded multigrid_cg = Recorded::never;
-};
-
-/// The finite element numbers of one mesh: a row of the results.
-struct SolutionRecord {
-  int degree = 0;
-  std::size_t n_dofs = 0, n_free = 0;
-  double assembly_seconds = 0.0;  ///< of matrix and right-hand side
-  double condition_number = 0.0, lambda_min = 0.0, lambda_max = 0.0;
-  std::string condition_method;     ///< "none" where it was not asked for
-  double condition_residual = 0.0;  ///< see ConditionNumber::residual
-  std::size_t cg_iterations = 0, jacobi_cg_iterations = 0, amg_cg_iterations = 0;
-  double cg_seconds = 0.0, jacobi_cg_seconds = 0.0, amg_setup_seconds = 0.0, amg_cg_seconds = 0.0;
-  bool cg_converged = false;
-  double e_max = 0.0, e_mean = 0.0, e_l2 = 0.0, e_h1 = 0.0;  ///< the thesis' protocol
-  double l2_error = 0.0, h1_error = 0.0;                     ///< true errors by quadrature
-  /// Gauss points per direction of the hexahedron that needed most; 0 where none were chosen.
-  int most_points = 0;
-  std::string status;  ///< "ok", or what is wrong with the numbers
 };
 
 /// Solves -div(A grad u) = f with Dirichlet boundary values, and natural ones on the groups of the

@@ -88,7 +88,8 @@ def parse_study(arguments):
                         f"{', '.join(f'.{name}' for name in FORMATS[:-1])} or .{FORMATS[-1]}, a file for the figure chosen, without tables; of several "
                         "each name says which it is")
     parser.add_argument("--no-figures", action="store_true", help="make the tables only")
-    parser.add_argument("--quiet", action="store_true", help="print neither tables nor paths")
+    parser.add_argument("--verbose", action="store_true", help="print all tables and the paths of all files")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but warnings")
     options = parser.parse_args(arguments)
     if options.no_figures and is_figure(options.out):
         parser.error(f"{options.out} is a figure, but --no-figures asks for none; leave out one of them")
@@ -168,21 +169,31 @@ def make_study(options):
     folder = options.out or outputs.folder
     for sentence in outputs.warnings:
         warn(sentence)
-    for table in tables:
-        tell(as_text(table))
+    tell("\n".join(as_text(table) for table in tables) if options.verbose or options.only else outputs.screen)
     paths = [write_atomically(folder / "tables" / name, text) for name, text in texts]
     if not wanted.isdisjoint(drawn):
         from .figures.planned import save_figures
         paths += save_figures([figure for figure in figures if figure.name in wanted], outputs.study_title,
                               folder / "figures", options.format, warn)
-    for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
-        tell(sentence)
     whole = not (options.only or options.no_figures or options.out or request != Request())
     if whole:
         try:
-            tell(f"wrote {outputs.write_page()}")
+            paths.append(outputs.write_page())
         except NoLibrary as error:  # the tables and figures are there without the page
             warn(str(error))
+    if options.verbose:
+        for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
+            tell(sentence)
+    else:
+        tell(summary_of(paths, folder))
+
+
+def summary_of(paths, folder):
+    """One sentence on what has been written where."""
+    page = [path for path in paths if path.suffix == ".html"]
+    count = f"{len(paths)} file{'' if len(paths) == 1 else 's'}"
+    return (f"Wrote {count} to {folder}; --verbose lists them." +
+            (f" Open {page[0]} in a browser." if page else ""))
 
 
 def own_names(names, stem):

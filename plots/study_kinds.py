@@ -17,7 +17,9 @@ from .results.smoothing import left_out, read_results
 from .tables.collection import make_collection_tables
 from .tables.energy import make_energy_tables
 from .tables.polygons import make_polygon_tables
+from .tables.formats import as_text
 from .tables.regularization import make_regularization_tables
+from .tables.screen import screen
 from .tables.seeds import make_seed_tables
 from .tables.smoothing import make_tables
 
@@ -35,6 +37,7 @@ class Outputs:
     study_title: str
     tables: tuple
     plan: Callable
+    screen: str  # what a study shows when it ends
     plan_of_meshes: Callable = lambda report: []
     texts: dict = field(default_factory=dict)
     remarks: tuple = ()  # sentences on what a user may look for in vain
@@ -81,7 +84,7 @@ def smoothing_outputs(folder, request):
         from .report.page import write_report
         return write_report(results, outcomes, against, path)
     tables = (*make_tables(results, printed), *make_seed_tables(results), *make_energy_tables(results))
-    return Outputs(results.folder, results.study_title, tables, plan, plan_of_meshes, texts,
+    return Outputs(results.folder, results.study_title, tables, plan, screen(results), plan_of_meshes, texts,
                    () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page)
 
 
@@ -92,8 +95,8 @@ def polygon_outputs(folder, request):
     def plan():
         from .figures.polygon_study import plan_polygon_figures
         return plan_polygon_figures(results)
-    return Outputs(results.folder, results.study_title, tuple(make_polygon_tables(results)), plan,
-                   least_width=LEAST_WIDTH)
+    tables = tuple(make_polygon_tables(results))
+    return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH)
 
 
 def regularization_outputs(folder, request):
@@ -103,8 +106,8 @@ def regularization_outputs(folder, request):
     def plan():
         from .figures.regularization import plan_regularization_figures
         return plan_regularization_figures(results)
-    return Outputs(results.folder, results.study_title, tuple(make_regularization_tables(results)), plan,
-                   least_width=LEAST_WIDTH)
+    tables = tuple(make_regularization_tables(results))
+    return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH)
 
 
 def collection_outputs(folder, request):
@@ -119,7 +122,7 @@ def collection_outputs(folder, request):
     def plots():
         from .report.collection_plots import collection_plots
         return collection_plots(results)
-    return Outputs(results.folder, results.study_title, tuple(tables), plan, texts={"findings": findings},
+    return Outputs(results.folder, results.study_title, tuple(tables), plan, findings, texts={"findings": findings},
                    least_width=LEAST_WIDTH, plots=plots)
 
 

@@ -18,23 +18,36 @@ def rows(path):
         return list(csv.DictReader(stream))
 
 
+def make(folder, name, *options):
+    """Makes a new smoother below a folder; returns its own folder."""
+    shown = run(SMOOTHFEM, "new-smoother", name, *options, folder=folder).stdout
+    if f"{name}/README.md says what to do next:" not in shown:
+        raise AssertionError(shown)
+    for path in (folder / name).iterdir():
+        if re.search(r"@\w+@", path.read_text(encoding="utf-8")):
+            raise AssertionError(f"{path} has a mark that is not filled in")
+    return folder / name
+
+
 class NewSmoother(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """The smoother in C++, built once."""
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.built = make(Path(temporary.name), "ab-cd")
+        run("cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Debug", folder=cls.built)
+        run("cmake", "--build", "build", folder=cls.built)
+        cls.library = cls.built / "libab_cd.so"
+
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
-    def make(self, name, *options):
-        """The folder of a new smoother."""
-        told = run(SMOOTHFEM, "new-smoother", name, *options, folder=self.folder).stdout
-        self.assertIn(f"{name}/README.md says what to do next:", told)
-        for path in (self.folder / name).iterdir():
-            self.assertNotRegex(path.read_text(encoding="utf-8"), r"@\w+@", path)
-        return self.folder / name
-
     def study(self, folder, name):
         """Rows of the summary of the study that comes with it."""
-        run(SMOOTHFEM, "study", f"{name}.prm", "--quiet", folder=folder)
+        run(SMOOTHFEM, "study", f"{name}.prm", "--quiet", "--no-figures", folder=folder)
         found = rows(folder / "results" / name / "summary.csv")
         mine = [row for row in found if row["method"] == name]
         self.assertEqual({row["status"] for row in mine}, {"ok"})
@@ -45,15 +58,8 @@ class NewSmoother(unittest.TestCase):
         tables = "".join(path.read_text() for path in (folder / "results" / name / "tables").glob("*.md"))
         self.assertIn(name, tables.replace("AbCd", name))
 
-    def build(self, folder):
-        """The plugin in a folder, built against the build tree."""
-        run("cmake", "-S", ".", "-B", "build", folder=folder)
-        run("cmake", "--build", "build", folder=folder)
-        return folder / "libab_cd.so"
-
     def test_cpp(self):
-        folder = self.make("ab-cd")
-        self.assertEqual(self.build(folder), folder / "libab_cd.so")
+        folder = self.built
         told = run("ctest", "--test-dir", "build", "--output-on-failure", folder=folder).stdout
         self.assertIn("100% tests passed", told)
         self.assertIn("\n  ab-cd: AbCd\n", run(SMOOTHFEM, "list", "--plugin", "./libab_cd.so", folder=folder).stdout)
@@ -63,12 +69,12 @@ class NewSmoother(unittest.TestCase):
         self.assertNotIn(str(folder), provenance)
 
     def test_python(self):
-        folder = self.make("ab-cd", "--python")
+        folder = make(self.folder, "ab-cd", "--python")
         run("sh", "test.sh", SMOOTHFEM, folder=folder)
         self.study(folder, "ab-cd")
 
     def test_command(self):
-        folder = self.make("ab-cd", "--command")
+        folder = make(self.folder, "ab-cd", "--command")
         run("sh", "test.sh", SMOOTHFEM, folder=folder)
         self.study(folder, "ab-cd")
         self.assertTrue((folder / "results" / "ab-cd" / "logs" / "tri_ab-cd.log").is_file())
@@ -91,7 +97,7 @@ class NewSmoother(unittest.TestCase):
         self.assertIn("is not a shared library", self.refused("list", "--plugin", "text.so"))
         other = next(BUILD.glob("lib/libsmoothfem_fem.so*"))
         self.assertIn("is no plugin of smoothfem", self.refused("list", "--plugin", other))
-        library = self.build(self.make("ab-cd"))
+        library = self.library
         good = library.read_bytes()
         at = good.index(ABI_MARK) + len(ABI_MARK)
         (self.folder / "old.so").write_bytes(re.sub(re.escape(good[at - len(ABI_MARK):at + 4]),

@@ -25,6 +25,7 @@ struct Domain {
   std::vector<std::string> elements;  ///< of element_names(), that it can be meshed with; the
                                       ///< default ones first
   std::vector<std::string> random_elements{};  ///< those of them whose meshes the seed changes
+  bool is_surface = false;                     ///< its meshes are surfaces in space
   AnyMesh (*make)(const DomainParameters&);    ///< its `elements` are one of the domain's
 
   /// A valid mesh of the domain, whose boundary nodes are fixed (on surfaces: kept by constraints).

@@ -81,6 +81,7 @@ const RegisteredDomain registered(
          "stand-in for Section 5.1.2's surface mesh: its counts and quality, a tent with two peaks",
      .dimension = 2,
      .elements = {"quadrilaterals"},
+     .is_surface = true,
      .make = generate});
 
 }  // namespace

@@ -143,7 +143,7 @@ class Options(CommandLine):
         names, _ = self.made("--format", "pdf")
         self.assertFalse([name for name in names if re.search(r"\d_\d|figure|claims", name)])
         self.assertLessEqual({"history.pdf", "meshes.pdf", "model.pdf", "table_errors.tex"}, names)
-        code, output, _ = self.run_main(self.results, "--only", "errors")
+        code, output, _ = self.run_main(self.results, "--only", "errors", "--verbose")
         self.assertEqual(code, 0)
         self.assertIn("No claims.md: the thesis says nothing about this study.\n", output)
         change_provenance(self.results, built_in=True)

@@ -19,7 +19,7 @@ struct Arguments {
   double edge_scale = 1.0, distort_to = 0.0, least_quality = 0.0;
   int sweeps = 1;
   std::uint64_t seed = 1;
-  bool quiet = false;
+  bool quiet = false, list = false;
 };
 
 template <int dim, int spacedim>
@@ -41,7 +41,17 @@ void distort_and_write(Mesh<dim, spacedim>& mesh, const Arguments& arguments) {
               mesh.n_cells(), arguments.elements.c_str(), mesh_quality(mesh).q_mean);
 }
 
+void list_domains() {
+  for (const Domain& domain : domains())
+    std::printf("%-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
+                joined(domain.elements).c_str());
+}
+
 void generate(Arguments arguments) {
+  if (arguments.domain.empty())
+    throw InputError("which domain? 'smoothfem generate --list' shows the available ones");
+  if (arguments.out.empty())
+    throw InputError("name the mesh to write, for example by '-o " + arguments.domain + ".vtu'");
   if (!(arguments.distort_to >= 0.0 && arguments.distort_to < 1.0))
     throw InputError("--distort-to is " + std::to_string(arguments.distort_to) +
                      ", but a mean quality lies between 0 (not distorted) and 1");
@@ -61,12 +71,12 @@ void generate(Arguments arguments) {
 
 }  // namespace
 
-void add_generate_command(CLI::App& app) {
+void smoothfem_add_generate_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("generate", "generate and distort the mesh of a domain");
-  command->add_option("domain", arguments->domain, "domain (see 'list')")->required();
-  command->add_option("-o,--out", arguments->out, "mesh to write; - for standard output")
-      ->required();
+  auto* command = add_subcommand(app, "generate");
+  command->add_option("domain", arguments->domain, "domain (see --list)");
+  command->add_flag("--list", arguments->list, "only list the domains");
+  command->add_option("-o,--out", arguments->out, "mesh to write; - for standard output");
   command->add_option("--to", arguments->to, "format of standard output: msh, vtu, ...");
   command->add_option("--elements", arguments->elements,
                       joined(element_names()) + "; default: the domain's first (see list)");
@@ -91,7 +101,7 @@ void add_generate_command(CLI::App& app) {
   add_examples(*command,
                {"smoothfem generate gear --elements quadrilaterals --distort-to 0.418 -o gear.msh",
                 "smoothfem generate flange --elements hexahedra -o flange.vtu"});
-  command->callback([arguments] { generate(*arguments); });
+  command->callback([arguments] { arguments->list ? list_domains() : generate(*arguments); });
 }
 
 }  // namespace smoothfem

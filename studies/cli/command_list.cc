@@ -100,10 +100,9 @@ void list_the_rest() {
 
 }  // namespace
 
-void add_list_command(CLI::App& app) {
+void smoothfem_add_list_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  auto* command =
-      app.add_subcommand("list", "methods with their parameters and sources, studies, formats");
+  auto* command = add_subcommand(app, "list");
   command->add_option("--studies", arguments->studies,
                       "folder with study files (those that come with the program unless given)");
   command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");

@@ -15,10 +15,9 @@ struct Arguments {
 
 }  // namespace
 
-void add_merge_command(CLI::App& app) {
+void smoothfem_add_merge_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand(
-      "merge", "put results folders of one collection together, as of several shards");
+  auto* command = add_subcommand(app, "merge");
   command->add_option("folders", arguments->folders, "results folders")->required();
   command->add_option("-o,--out", arguments->out, "folder to make")->required();
   add_examples(*command, {"smoothfem merge results/shard-1 results/shard-2 --out results/field"});

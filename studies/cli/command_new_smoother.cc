@@ -87,8 +87,7 @@ void make_folder(const Arguments& arguments) {
 
 void add_new_smoother_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand(
-      "new-smoother", "make a folder with the source of a new smoother, ready to build and to run");
+  auto* command = add_subcommand(app, "new-smoother");
   command->add_option("name", arguments->name, "its name, such as half-laplace")->required();
   auto* python = command->add_flag("--python", arguments->python, "in Python; in C++ unless given");
   command

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "smoothing/quality/warpage.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/plots.h"
 #include "studies/cli/standard_streams.h"
 #include "studies/framework/results/csv_text.h"
 
@@ -196,12 +198,24 @@ void mark_bad_cells(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
   if (bad.size() > n_listed) std::printf("  ...\n");
 }
 
-void require_csv_path(const std::filesystem::path& path) {
-  if (path.extension() != ".csv")
-    throw InputError(
-        "the histogram " + path.string() +
-        " must end with .csv, or, for a picture by './run quality' or the installed smoothfem, "
-        "with .png, .pdf or .svg");
+bool is_picture(const std::filesystem::path& path) {
+  return path.extension() == ".png" || path.extension() == ".pdf" || path.extension() == ".svg";
+}
+
+void require_histogram_path(const std::filesystem::path& path) {
+  if (path.extension() != ".csv" && !is_picture(path))
+    throw InputError("the histogram " + path.string() +
+                     " must end with .csv, or, to be drawn, with .png, .pdf or .svg");
+}
+
+/// Writes the counts as CSV, or draws them by the Python package.
+void write_histogram(const std::filesystem::path& path, const std::string& counts) {
+  if (!is_picture(path)) return write_atomically(path, counts);
+  const ScratchFolder folder;
+  const auto csv = folder.path() / "counts.csv";
+  write_atomically(csv, counts);
+  if (std::system(plots_command({"histogram", csv.string(), path.string()}).c_str()) != 0)
+    throw InputError("the histogram " + path.string() + " cannot be drawn, for the reason above");
 }
 
 template <int dim, int spacedim>
@@ -221,12 +235,12 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
   if (!arguments.mark.empty()) mark_bad_cells(arguments, mesh, cell_quality);
   std::fflush(stdout);
   if (!arguments.histogram.empty())
-    write_atomically(arguments.histogram, histogram_csv(topology, cell_quality));
+    write_histogram(arguments.histogram, histogram_csv(topology, cell_quality));
   require_valid(mesh, arguments.in, cell_lines);
 }
 
 void report_quality(Arguments arguments) {
-  if (!arguments.histogram.empty()) require_csv_path(arguments.histogram);
+  if (!arguments.histogram.empty()) require_histogram_path(arguments.histogram);
   if (!(arguments.below >= 0.0 && arguments.below <= 1.0))
     throw InputError("--below is " + std::to_string(arguments.below) +
                      ", but a mean ratio lies between 0 and 1");
@@ -244,8 +258,7 @@ void report_quality(Arguments arguments) {
 
 void add_quality_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand(
-      "quality", "quality numbers of a mesh file; exit code 2 if it has invalid cells");
+  auto* command = add_subcommand(app, "quality");
   command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
   command->add_option("--from", arguments->from, "format of standard input: msh, vtu, ...");
   command->add_option(

@@ -157,7 +157,16 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
 }
 
+/// "part.msh" as "part_smoothed.msh", in the same folder.
+std::string default_output(const std::string& in) {
+  if (in == "-") return in;
+  std::filesystem::path path = in;
+  const std::string name = path.stem().string() + "_smoothed" + path.extension().string();
+  return path.replace_filename(name);
+}
+
 void smooth_file(SmoothArguments arguments) {
+  if (arguments.out.empty()) arguments.out = default_output(arguments.in);
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   const auto output = file_for_standard_output(arguments.out, arguments.to);
@@ -179,12 +188,12 @@ void smooth_file(SmoothArguments arguments) {
 
 void add_smooth_command(CLI::App& app) {
   auto arguments = std::make_shared<SmoothArguments>();
-  auto* command = app.add_subcommand("smooth", "smooth a mesh file");
+  auto* command = add_subcommand(app, "smooth");
   command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
-  command->add_option("-m,--method", arguments->method, "method (see 'list'), or python:FILE:CLASS")
-      ->required();
-  command->add_option("-o,--out", arguments->out, "mesh to write; - for standard output")
-      ->required();
+  command->add_option("-m,--method", arguments->method,
+                      "method (see 'list'), or python:FILE:CLASS");
+  command->add_option("-o,--out", arguments->out,
+                      "mesh to write; - for standard output (default: IN_smoothed, or - for -)");
   command->add_option("--from", arguments->from, "format of standard input: msh, vtu, ...");
   command->add_option("--to", arguments->to, "format of standard output: msh, vtu, ...");
   command->add_option("--preset", arguments->preset,

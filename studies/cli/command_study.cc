@@ -12,6 +12,7 @@
 #include "smoothing/base/interruption.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/definition/find_study.h"
+#include "studies/framework/run/peak_memory.h"
 #include "studies/kinds/study_kinds.h"
 
 namespace smoothfem {
@@ -23,8 +24,10 @@ struct Arguments {
   std::string scale;
   bool quick = false;
   bool list = false;
-  bool print_ranks = false;
+  bool print_plan = false;
   bool published = false;
+  bool no_figures = false;
+  bool verbose = false;
   StudyOptions options;
 };
 
@@ -75,10 +78,29 @@ void run_on_all_ranks(Arguments& arguments) {
   }
 }
 
-/// Processes make a study faster where they divide the finite elements of volume meshes.
-void print_ranks(const Arguments& arguments) {
-  const bool faster = read(arguments).benefits_from_mpi;
-  std::printf("%u\n", faster ? std::max(1U, std::thread::hardware_concurrency()) : 1U);
+/// Prints what the launcher has to do around a study, a line each: "ranks N", as many processes as
+/// make it fastest on this machine; "out FOLDER"; "draw OPTION" for the drawing; "fetch NAME" if
+/// published meshes are wanted. Prints nothing for what the program does alone.
+void print_plan(const Arguments& arguments) {
+  if (arguments.list || arguments.options.dry_run) return;
+  // Processes make a study faster where they divide the finite elements of volume meshes.
+  unsigned n_ranks = 1;
+  std::string name = std::filesystem::path(arguments.study).stem();
+  try {
+    const ReadyStudy study = read(arguments);
+    name = study.header.name;
+    if (study.benefits_from_mpi) n_ranks = std::max(1U, std::thread::hardware_concurrency());
+  } catch (const InputError&) {  // published meshes may be missing yet; the run itself reports what
+                                 // is wrong
+    if (!arguments.published) throw;
+  }
+  const auto& out = arguments.options.out;
+  std::printf("ranks %u\nout %s\n", n_ranks,
+              (out.empty() ? std::filesystem::path("results") / name : out).c_str());
+  if (arguments.options.quiet) std::printf("draw --quiet\n");
+  if (arguments.verbose) std::printf("draw --verbose\n");
+  if (arguments.no_figures) std::printf("draw --no-figures\n");
+  if (arguments.published) std::printf("fetch %s\n", arguments.study.c_str());
 }
 
 void list_studies() {
@@ -91,10 +113,10 @@ void list_studies() {
 
 }  // namespace
 
-void add_study_command(CLI::App& app) {
+void smoothfem_add_study_command(CLI::App& app) {
+  return_freed_memory();
   auto arguments = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand(
-      "study", "run a study: CSV tables and meshes. Goes on where an interrupted run was");
+  auto* command = add_subcommand(app, "study");
   auto* name = command->add_option("study", arguments->study,
                                    "study file (.prm), or name of a built-in study");
   command->add_flag("--list", arguments->list, "only list the built-in studies")->excludes(name);
@@ -120,34 +142,32 @@ void add_study_command(CLI::App& app) {
                       "their results together");
   command->add_flag("--force", arguments->options.force,
                     "start anew; the folder of an earlier run is kept under another name");
-  command->add_flag("--quiet", arguments->options.quiet, "no progress");
+  command->add_flag("--quiet", arguments->options.quiet, "no progress, no results on the screen");
+  command->add_flag("--verbose", arguments->verbose, "print all tables and the paths of all files");
   // For the launcher, which draws; this program never does.
-  command->add_flag("--no-figures")->description("make tables, but draw nothing");
+  command->add_flag("--no-figures", arguments->no_figures, "make tables, but draw nothing")
+      ->envname("SMOOTHFEM_NO_FIGURES");
   command->add_flag("--dry-run", arguments->options.dry_run,
                     "only say what would run, about how long, and what memory and disk it takes");
-  command->add_flag(
-      "--print-ranks", arguments->print_ranks,
-      "only print the number of processes that this study runs fastest with on this machine");
+  command->add_flag("--print-plan", arguments->print_plan)->group("");  // for the launcher
   command->add_option("--task-socket", arguments->options.task_socket)->group("");  // not shown
   add_plugin_option(*command);
   add_examples(*command, {"smoothfem study gear --quick", "smoothfem study my.prm --dry-run",
                           "smoothfem study gear --plugin ./libmine.so"});
   command->callback([arguments] {
-    if (arguments->list) return list_studies();
+    if (arguments->list) return arguments->print_plan ? void() : list_studies();
     if (arguments->quick && !arguments->scale.empty() && arguments->scale != "quick")
       throw InputError("--quick asks for the scale quick, --scale for " + arguments->scale +
                        "; give one of them");
     if (arguments->study.empty())
       throw InputError("which study? 'smoothfem study --list' shows those there are");
+    if (arguments->print_plan) return print_plan(*arguments);
     // The launcher fetches, and passes on the folder.
-    if (arguments->published)
+    if (arguments->published && arguments->options.mesh_dir.empty())
       throw InputError(
           "--published is for the command smoothfem by itself, not under mpirun; run it "
           "once without, or name the folder of the meshes by --mesh-dir");
-    if (arguments->print_ranks)
-      print_ranks(*arguments);
-    else
-      run_on_all_ranks(*arguments);
+    run_on_all_ranks(*arguments);
   });
 }
 

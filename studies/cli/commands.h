@@ -10,11 +10,35 @@ namespace smoothfem {
 /// Each adds one subcommand to the program. Their callbacks throw InputError.
 void add_smooth_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
-void add_study_command(CLI::App& app);
-void add_generate_command(CLI::App& app);
-void add_list_command(CLI::App& app);
-void add_merge_command(CLI::App& app);
 void add_new_smoother_command(CLI::App& app);
+void add_plot_command(CLI::App& app);
+void add_report_command(CLI::App& app);
+void add_complete_command(CLI::App& app);
+
+/// The commands of the modules, found by their names when the module is loaded.
+extern "C" {
+void smoothfem_add_study_command(CLI::App& app);
+void smoothfem_add_generate_command(CLI::App& app);
+void smoothfem_add_list_command(CLI::App& app);
+void smoothfem_add_merge_command(CLI::App& app);
+}
+
+/// A command as `smoothfem --help` lists it.
+struct Command {
+  std::string name, description;
+  void (*add)(CLI::App&);   ///< null: the command is in a module
+  const char* module = "";  ///< file next to the program
+};
+
+/// All commands, in the order of the help.
+const std::vector<Command>& commands();
+
+/// Adds a command with all its options, for which it loads the command's module, or without them.
+/// Throws InputError if the module is missing.
+void add_command(CLI::App& app, const Command& command, bool with_options);
+
+/// Adds the subcommand of a name to the program, with the description that commands() has.
+CLI::App* add_subcommand(CLI::App& app, const std::string& name);
 
 /// --plugin, which loads libraries of methods before the command runs.
 void add_plugin_option(CLI::App& command);

@@ -8,7 +8,6 @@
 #include "smoothing/base/find_named.h"
 #include "smoothing/simd/registers.h"
 #include "studies/cli/commands.h"
-#include "studies/framework/run/peak_memory.h"
 
 namespace smoothfem {
 
@@ -24,7 +23,6 @@ std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int
   if (given.empty() && argc > 1 && argv[1][0] != '-') {
     for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(command->get_name());
-    names.push_back("plot");  // the launcher's
     return no_such_name("command", argv[1], names);
   }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || given.empty())
@@ -45,16 +43,11 @@ int run(int argc, char** argv) {
   CLI::App app("smoothfem: what mesh smoothing does to a finite element solution", "smoothfem");
   app.set_version_flag("--version", "smoothfem " SMOOTHFEM_VERSION " (vector registers: " +
                                         std::string(registers()) + ")");
-  app.footer("smoothfem plot FOLDER draws the tables and figures of a results folder anew.");
   app.require_subcommand(1);
   app.option_defaults()->always_capture_default();
-  add_study_command(app);
-  add_smooth_command(app);
-  add_quality_command(app);
-  add_generate_command(app);
-  add_list_command(app);
-  add_merge_command(app);
-  add_new_smoother_command(app);
+  for (const Command& command : commands())
+    add_command(app, command, argc > 1 && argv[1] == command.name);
+  add_complete_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -76,7 +69,6 @@ void require_all_printed() {
 }  // namespace smoothfem
 
 int main(int argc, char** argv) {
-  smoothfem::return_freed_memory();
   try {
     const int exit_code = smoothfem::run(argc, argv);
     smoothfem::require_all_printed();

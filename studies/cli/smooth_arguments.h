@@ -12,7 +12,8 @@ namespace smoothfem {
 
 /// What the user gave to `smooth`.
 struct SmoothArguments {
-  std::string in, out, from, to, method, preset, boundary, fix, log, series;
+  std::string in, out, from, to, preset, boundary, fix, log, series;
+  std::string method = "getme";
   std::vector<std::string> settings;
   std::optional<double> feature_angle, slide_distance, only_below;
   int rings = 2;      ///< of cells around those that only_below names

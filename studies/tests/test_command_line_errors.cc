@@ -242,8 +242,7 @@ TEST_F(BadInput, OptionsAreAnsweredWithTheNearestOne) {
   expect_refused({"quality", "good.mesh", "another.mesh"}, {"no further word", "'another.mesh'"});
   expect_refused({"study", "gear", "--quick", "--scale", "paper"}, {"--quick", "paper"});
   EXPECT_EQ(
-      smoothfem({"study", "polygons", "--quick", "--scale", "quick", "--print-ranks"}).exit_code,
-      0);
+      smoothfem({"study", "polygons", "--quick", "--scale", "quick", "--print-plan"}).exit_code, 0);
 }
 
 TEST_F(BadInput, FolderThatCannotBeMade) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "smoothing/tests/volume_meshes.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/study.h"
 #include "studies/tests/study_tests.h"
@@ -146,6 +147,23 @@ class StudyFile : public FileTest {
     EXPECT_NE(message.find(word), std::string::npos) << message;
   }
 };
+
+TEST_F(StudyFile, HasTheDimensionsOfItsFirstMeshUnlessItSaysOthers) {
+  write_mesh(file("box.vtu"), test::box_mesh(1, 1, 1, test::BoxCells::hexahedra));
+  const std::string own =
+      "set meshes = m\nset degrees =\nset methods = getme\nsubsection mesh m\n set ";
+  const auto cells_and_space = [&](const std::string& text) {
+    const MeshDimensions found = read(text).dimensions;
+    return std::pair(found.cells, found.space);
+  };
+  EXPECT_EQ(cells_and_space(own + "file = box.vtu\nend\n"), std::pair(3, 3));
+  EXPECT_EQ(cells_and_space(own + "domain = sphere\nend\n"), std::pair(3, 3));
+  EXPECT_EQ(cells_and_space(own + "domain = gear\nend\n"), std::pair(2, 2));
+  EXPECT_EQ(cells_and_space(own + "domain = roof\nend\n"), std::pair(2, 3));
+  EXPECT_EQ(cells_and_space(own + "domain = roof\nend\nset surface = false\n"), std::pair(2, 2));
+  EXPECT_EQ(cells_and_space(own + "file = box.vtu\nend\nset dimension = 2\n"), std::pair(2, 2));
+  EXPECT_EQ(cells_and_space(own + "file = missing.vtu\nend\n"), std::pair(2, 2));
+}
 
 const std::string one_mesh = "set meshes = a\nsubsection mesh a\n set file = a.mesh\nend\n";
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "meshes/domains/catalogue.h"
+#include "meshes/io/mesh_file.h"
 #include "smoothing/base/find_named.h"
 #include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/plugin.h"
@@ -239,11 +241,42 @@ StudyHeader read_header(ParameterHandler& p, const std::filesystem::path& file,
   return header;
 }
 
-MeshDimensions read_dimensions(ParameterHandler& p) {
-  const int cells = static_cast<int>(p.get_integer("dimension"));
-  if (!p.get_bool("surface")) return {cells, cells};
-  if (cells != 2) throw InputError("surface meshes have 'dimension = 2', not 3; leave it out");
-  return {cells, 3};
+/// The dimensions of the first mesh that can be found; planar if none can, of which the run then
+/// says why.
+MeshDimensions dimensions_of_meshes(const StudyText& text, const std::vector<std::string>& meshes) {
+  ParameterHandler p;
+  for (const auto& mesh : meshes) declare_mesh(p, 2, mesh);
+  parse_study(p, text, true);
+  for (const auto& mesh : meshes) {
+    const Subsection subsection(p, "mesh " + mesh);
+    const std::filesystem::path file = p.get("file");
+    if (!file.empty()) {
+      const auto path = file.is_relative() ? text.file().parent_path() / file : file;
+      if (!std::filesystem::is_regular_file(path)) continue;
+      return std::visit(
+          []<int dim, int spacedim>(const Mesh<dim, spacedim>&) {
+            return MeshDimensions{dim, spacedim};
+          },
+          read_mesh(path).mesh);
+    }
+    for (const Domain& domain : domains())
+      if (domain.name == p.get("domain"))
+        return {domain.dimension, domain.is_surface ? 3 : domain.dimension};
+  }
+  return {};
+}
+
+MeshDimensions read_dimensions(ParameterHandler& p, const StudyText& text,
+                               const std::vector<std::string>& meshes) {
+  const std::string cells = p.get("dimension"), surface = p.get("surface");
+  if (cells == "3" && surface == "true")
+    throw InputError("surface meshes have 'dimension = 2', not 3; leave it out");
+  if (surface == "true") return {2, 3};
+  if (cells == "3") return {3, 3};
+  if (cells == "2" && surface == "false") return {2, 2};
+  const MeshDimensions found = dimensions_of_meshes(text, meshes);
+  if (cells == "2") return {2, found.cells == 2 ? found.space : 2};
+  return surface == "false" ? MeshDimensions{found.cells, found.cells} : found;
 }
 
 }  // namespace
@@ -282,7 +315,8 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
   declare_lists(lists);
   parse_study(lists, text, true);
   const auto meshes = split_list(lists.get("meshes"));
-  const MeshDimensions dimensions = in_file(file, [&] { return read_dimensions(lists); });
+  const MeshDimensions dimensions =
+      in_file(file, [&] { return read_dimensions(lists, text, meshes); });
   in_file(file, [&] {
     for (const std::filesystem::path plugin : split_list(lists.get("plugins")))
       load_plugin(plugin.is_relative() ? file.parent_path() / plugin : plugin);
@@ -319,6 +353,8 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
     type_of[method] = type;
   }
   parse_study(p, text, false);
+  p.set("dimension", std::to_string(dimensions.cells));
+  p.set("surface", dimensions.space > dimensions.cells);
   Study study;
   if (solutions.empty())
     name_solution(p);

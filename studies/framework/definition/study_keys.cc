@@ -65,9 +65,12 @@ void declare_lists(ParameterHandler& p) {
                   "What can be compared with the literature, in one sentence.");
   p.declare_entry("preset", "", Patterns::Anything(),
                   "Parameters of the methods (see 'list'); empty: their defaults.");
-  p.declare_entry("dimension", "2", Patterns::Integer(2, 3), "Of the meshes: 2 or 3.");
-  p.declare_entry("surface", "false", Patterns::Bool(),
-                  "Whether the meshes, of dimension 2, are surfaces in space; without degrees.");
+  p.declare_entry("dimension", "", Patterns::Selection("|2|3"),
+                  "Of the meshes' cells: 2 or 3; empty: that of the first mesh.");
+  p.declare_entry(
+      "surface", "", Patterns::Selection("|true|false"),
+      "Whether the meshes, of dimension 2, are surfaces in space, which have no finite elements; "
+      "empty: as the first mesh.");
   p.declare_entry("plugins", "", Patterns::Anything(),
                   "Shared libraries with methods of your own, relative to this file, separated by "
                   "commas.");

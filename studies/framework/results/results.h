@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/poisson_solver.h"
+#include "fem/solution_record.h"
 #include "meshes/metrics/metric_statistics.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/quality/warpage.h"

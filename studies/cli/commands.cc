@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "smoothing/loop/plugin.h"
 #include "studies/cli/commands.h"
 
+#include <algorithm>
+
+#include "smoothing/loop/plugin.h"
+
 namespace smoothfem {
+
+CLI::App* add_subcommand(CLI::App& app, const std::string& name) {
+  const auto known = std::find_if(commands().begin(), commands().end(),
+                                  [&](const Command& command) { return command.name == name; });
+  return app.add_subcommand(name, known->description);
+}
 
 void add_plugin_option(CLI::App& command) {
   command
@@ -11,7 +20,7 @@ void add_plugin_option(CLI::App& command) {
           [](const std::vector<std::string>& libraries) {
             for (const auto& library : libraries) load_plugin(library);
           },
-          "shared library with methods of your own (see new-smoother)")
+          "shared library with your methods (see new-smoother)")
       ->allow_extra_args(false);
 }
 

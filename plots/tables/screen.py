@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A screen of results: what each method made of each mesh, on a few lines, for the end of a study."""
+
+import math
+
+from ..results.smoothing import INITIAL
+from .number_format import MISSING
+
+MAX_ROWS = 40  # of all meshes and degrees together; the tables have the others
+BEST = "*"
+
+
+def best_of(values, choose):
+    """The best of the numbers; NaN if there is none."""
+    return choose((value for value in values if not math.isnan(value)), default=math.nan)
+
+
+class Column:
+    """A column: heading, how a number is written, and which number is best (max, min or None)."""
+
+    def __init__(self, heading, value, text, best=None):
+        self.heading, self.value, self.text, self.best = heading, value, text, best
+
+
+def number(row, name):
+    """A field of a row as a number; NaN if it is empty."""
+    field = row.get(name, "")
+    return float(field) if field else math.nan
+
+
+def smoothing_seconds(row, _):
+    """Preparation and main loops."""
+    return number(row, "smoothing_seconds") + (number(row, "preparation_seconds") if row.get("preparation_seconds") else 0.0)
+
+
+def factor(name):
+    """The function that divides a row's number by that of the initial mesh."""
+    return lambda row, initial: number(row, name) / number(initial, name) if number(initial, name) else math.nan
+
+
+def plain(name):
+    """The function that takes a row's number as it is."""
+    return lambda row, initial: number(row, name)
+
+
+QUALITY = (Column("q_min", plain("q_min"), "{:.4f}".format, max), Column("q_mean", plain("q_mean"), "{:.4f}".format, max))
+TIME = (Column("time [s]", smoothing_seconds, "{:.3g}".format),)
+SOLUTION = (Column("H1 error", factor("h1_error"), "{:.3f}".format, min), Column("L2 error", factor("l2_error"), "{:.3f}".format, min),
+            Column("CG", plain("cg_iterations"), "{:.0f}".format, min))
+ERRORS = "H1 and L2 error: true errors, as factors of the initial mesh's. CG: iterations."
+
+
+def screen(results):
+    """The text: one block for each mesh and degree, one line a method, the best numbers marked; below it each method
+    that failed, with its reason."""
+    has_solutions = any(row.get("h1_error") for row in results.summary.records())
+    columns = (*QUALITY, *(SOLUTION if has_solutions else ()), *TIME)
+    lines, n_rows, left_out = [], 0, 0
+    for mesh in results.meshes:
+        for degree in results.degrees or ("",):
+            rows = {row["method"]: row for row in results.summary.select(mesh=mesh).records() if row.get("degree", "") == degree}
+            block = block_lines(results, mesh, degree, rows, columns)
+            if n_rows and n_rows + len(block) > MAX_ROWS:
+                left_out += 1
+                continue
+            lines += block
+            n_rows += len(block)
+    lines += [f"Failed: {results.title(method)} on {results.title(mesh)}: {status}"
+              for (mesh, method), status in results.failures.items()]
+    if left_out:
+        lines.append(f"{left_out} more blocks of meshes and degrees are in the tables.")
+    lines.append(f"{BEST} best of the methods." + (f" {ERRORS}" if has_solutions else ""))
+    return "\n".join(lines) + "\n"
+
+
+def block_lines(results, mesh, degree, rows, columns):
+    """Heading and lines of one mesh and degree."""
+    initial = rows.get(INITIAL, {})
+    failed = {method for name, method in results.failures if name == mesh}
+    methods = [method for method in (INITIAL, *results.methods) if method in rows and method not in failed]
+    numbers = {method: [column.value(rows[method], initial) for column in columns] for method in methods}
+    best = [best_of((numbers[method][i] for method in methods if method != INITIAL), column.best) if column.best else None
+            for i, column in enumerate(columns)]
+    width = max(len(results.title(method)) for method in (*methods, INITIAL))
+    title = results.title(mesh) + (f", degree {degree}" if degree else "")
+    lines = [title, " " * (width + 2) + " ".join(f"{column.heading:>10}" for column in columns)]
+    for method in methods:
+        cells = [cell(value, column, method != INITIAL and value == best[i])
+                 for i, (value, column) in enumerate(zip(numbers[method], columns))]
+        status = rows[method].get("status", "ok")
+        lines.append(f"  {results.title(method):<{width}}" + " ".join(cells) + ("" if status in ("ok", "not solved") else f"  {status}"))
+    return lines
+
+
+def cell(value, column, is_best):
+    """A number of ten characters, the mark of the best behind it."""
+    text = MISSING if math.isnan(value) else column.text(value)
+    return f"{text + (BEST if is_best else ' '):>10}"

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "smoothing/base/data_folder.h"
+#include "smoothing/base/input_error.h"
+#include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/preset.h"
+#include "studies/cli/commands.h"
+
+namespace smoothfem {
+
+namespace {
+
+std::vector<std::string> study_names() {
+  std::vector<std::string> names;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(data_folder() / "studies" / "catalogue"))
+    if (entry.path().extension() == ".prm") names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> names_of(const std::string& what) {
+  std::vector<std::string> names;
+  if (what == "commands")
+    for (const Command& command : commands()) names.push_back(command.name);
+  else if (what == "methods")
+    for (const auto& info : method_catalogue(true)) names.push_back(info.name);
+  else if (what == "presets")
+    for (const auto& preset : presets()) names.push_back(preset.name);
+  else if (what == "studies")
+    names = study_names();
+  else
+    throw InputError("complete takes commands, methods, presets or studies, not '" + what + "'");
+  return names;
+}
+
+}  // namespace
+
+/// Not in the help: the completion of command lines asks for names, and has to be quick.
+void add_complete_command(CLI::App& app) {
+  auto what = std::make_shared<std::string>();
+  auto* command = app.add_subcommand("complete", "")->group("");
+  command->add_option("what", *what)->required();
+  command->callback([what] {
+    for (const std::string& name : names_of(*what)) std::printf("%s\n", name.c_str());
+  });
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include "smoothing/base/input_error.h"
+#include "studies/cli/commands.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr const char* study_commands = "smoothfem_study_commands.so";
+constexpr const char* generate_command = "smoothfem_generate_command.so";
+
+/// The function that a module has for a command. The module stays loaded: its libraries have
+/// registered what users name. Its symbols are global, since Open MPI loads components that need
+/// them.
+void (*added_by_module(const Command& command))(CLI::App&) {
+  const auto file = std::filesystem::canonical("/proc/self/exe").parent_path() / command.module;
+  void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  void* add =
+      module ? dlsym(module, ("smoothfem_add_" + command.name + "_command").c_str()) : nullptr;
+  if (!add) throw InputError(std::string(dlerror()) + "; install the program anew");
+  return reinterpret_cast<void (*)(CLI::App&)>(add);
+}
+
+}  // namespace
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all{
+      {"study", "run a study: tables, figures and meshes; resumes an interrupted run", nullptr,
+       study_commands},
+      {"smooth", "smooth a mesh file", add_smooth_command},
+      {"quality", "quality numbers of a mesh file; exit code 2 if it has invalid cells",
+       add_quality_command},
+      {"generate", "generate and distort the mesh of a domain", nullptr, generate_command},
+      {"list", "list methods with parameters and sources, presets, studies, domains, formats",
+       nullptr, study_commands},
+      {"plot", "make tables and figures of a results folder anew", add_plot_command},
+      {"report", "make report.html of a results folder anew", add_report_command},
+      {"merge", "merge the results folders of one collection, for example of several shards",
+       nullptr, study_commands},
+      {"new-smoother", "make a folder with the source of a new smoother, ready to build and to run",
+       add_new_smoother_command},
+  };
+  return all;
+}
+
+void add_command(CLI::App& app, const Command& command, bool with_options) {
+  if (command.add)
+    command.add(app);
+  else if (with_options)
+    added_by_module(command)(app);
+  else
+    add_subcommand(app, command.name);
+}
+
+}  // namespace smoothfem
