@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the results on the published gears agree with the print: the table in README.md."""
+"""How far the results on the published gears agree with the thesis: a table of the manual."""
 
 from ..results.printed_values import read_printed_tables
 from ..results.smoothing import INITIAL, read_results
@@ -32,12 +32,12 @@ def agreement(folder):
                                  f"Laplacians and GETMe: {same(counts)}"),
         ("Table 6.2, solver", f"condition numbers {within(condition, lambda row: row['method'] != AREA_WEIGHTED)}, but "
                               f"those of the area-weighted Laplace meshes are printed {min(halved):.2f} to "
-                              f"{max(halved):.2f} times as large as ours, while CG counts and errors of these "
+                              f"{max(halved):.2f} times as large as here, while CG counts and errors of these "
                               f"meshes agree; CG iterations {within(cg, lambda row: row['method'] != INITIAL)}, on the "
                               f"initial meshes {within(cg, lambda row: row['method'] == INITIAL)}"),
         ("Table 6.3, errors", f"{within(errors, lambda row: row not in worst)}, {same(errors)} in all printed digits; on "
                               f"the initial triangles at d = 2 {within(errors, lambda row: row in worst)}"),
-        ("Table 6.4, thresholds", "computed from our own runs; " + ", ".join(
+        ("Table 6.4, thresholds", "computed from runs of this program; " + ", ".join(
             f"{results.title(method)} reaches {sum(met)} of {len(met)}" for method, met in reached.items())))
     return ["| thesis | agreement |", "|---|---|", *(f"| {name} | {text} |" for name, text in lines), "",
             "Differences are the largest relative ones, less half a unit of the last printed digit."]

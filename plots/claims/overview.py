@@ -1,26 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python3 -m plots.claims.overview: writes what holds of the thesis' claims into results/README.md, and
-how far the published gears' tables come out into README.md, from the results in results/reference."""
+"""An overview of all claims of the thesis, from the results in results/reference: a page of the manual."""
 
 import re
-import sys
 from dataclasses import dataclass
 
 from ..results.data_folder import data_folder, study_files
 from ..results.printed_values import read_printed_tables
-from ..results.rows import ResultsError
 from ..results.same_numbers import is_of, read_records
 from ..results.smoothing import read_provenance, read_results
-from ..results.write_files import write_atomically
 from ..tables.formats import escape_markdown
 from ..tables.number_format import MISSING
-from .agreement import agreement
 from .check import UNKNOWN, Outcome, check_claims, read_claims
-from .reasons import REASONS, reference
+from .reasons import REASONS
 from .report import known_reasons, totals, verdict_cell
 
-# The lines around the overview.
-BEGIN, END = "<!-- made by python3 -m plots.claims.overview -->", "<!-- end of what it made -->"
 TITLE = re.compile(r"^set title\s*=\s*(.*?)\s*$", re.MULTILINE)
 SHORT_COMMIT = 7  # digits
 
@@ -33,12 +26,6 @@ class Study:
     title: str
     outcomes: list
     provenance: dict  # None: there are no results
-
-
-def pages():
-    """What is made: path -> Markdown."""
-    return {data_folder() / "results" / "README.md": overview(reference()),
-            data_folder() / "README.md": "\n".join(agreement(reference() / "gear")) + "\n"}
 
 
 def studies(folders):
@@ -64,10 +51,9 @@ def overview(folders):
     found = studies(folders)
     lines = [totals([outcome for study in found for outcome in study.outcomes]) + ".", "", *runs(found, folders), ""]
     for study in found:
-        table = f"reference/{study.name}/tables/claims.md"
         where = ("there are no results to check them with" if study.provenance is None
-                 else f"the numbers are in [{table}]({table})")
-        lines += [f"### {study.title}", "", f"{totals(study.outcomes)}; {where}.", "",
+                 else f"the numbers are in `results/reference/{study.name}/tables/claims.md`")
+        lines += [f"## {study.title}", "", f"{totals(study.outcomes)}; {where}.", "",
                   "| | Section | Claim | |", "|:--|:--|:--|:--|"]
         for outcome in study.outcomes:
             cells = (outcome.claim["id"], outcome.claim["section"], outcome.claim["statement"])
@@ -134,30 +120,3 @@ def commits_of(study):
     sessions = (study.provenance or {}).get("sessions", [])
     return list(dict.fromkeys(session["commit"][:SHORT_COMMIT] + ("+" if session["uncommitted_changes"] else "")
                               for session in sessions))
-
-
-def with_made(path, made):
-    """The text of a file with what stands between the two lines replaced; ResultsError if they are not
-    there."""
-    text = path.read_text(encoding="utf-8")
-    before, begin, rest = text.partition(BEGIN + "\n")
-    _, end, after = rest.partition(END + "\n")
-    if not begin or not end:
-        raise ResultsError(f"{path}: the lines `{BEGIN}` and `{END}` are not there.")
-    return f"{before}{begin}\n{made}\n{end}{after}"
-
-
-def main():
-    """Writes the files anew; returns the exit code."""
-    try:
-        texts = {path: with_made(path, made) for path, made in pages().items()}
-        for path, text in texts.items():
-            write_atomically(path, text)
-    except (OSError, ResultsError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is made from the reference results and stands in results/README.md and README.md."""
+"""The overview of claims that is made from the reference results."""
 
 import json
 import re
@@ -9,21 +9,15 @@ from pathlib import Path
 
 from plots.claims.agreement import paired, same, within
 from plots.claims.check import FAILS, HOLDS, read_claims
-from plots.claims.overview import (BEGIN, END, Study, again_cell, most_covered, overview, pages, reference,
-                                   studies, with_made)
+from plots.claims.overview import Study, again_cell, most_covered, overview, studies
+from plots.claims.reasons import reference
 from plots.results.data_folder import thesis_folder
-from plots.results.rows import ResultsError
 
 
 class Overview(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.made, cls.studies = overview(reference()), studies(reference())
-
-    def test_it_is_made_from_the_results_there_are(self):
-        for path, made in pages().items():
-            self.assertEqual(path.read_text(encoding="utf-8"), with_made(path, made),
-                             "run python3 -m plots.claims.overview")
 
     def test_every_claim_has_a_row_with_its_verdict(self):
         claims = json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8"))
@@ -73,23 +67,11 @@ class Overview(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             found = overview(Path(folder))
         n = len([claim for claim in read_claims("ring") if "beside" not in claim])
-        section = found.partition("### Embedded ring\n")[2].partition("###")[0]
+        section = found.partition("## Embedded ring\n")[2].partition("##")[0]
         self.assertIn(f"Of {n} claims 0 hold, 0 do not hold, {n} cannot be checked", section)
         self.assertIn("there are no results", section)
         self.assertRegex(found, r"\| `ring` \| – \| – \| no results \| – \| – \|")
         self.assertNotIn("| holds |", found)
-
-    def test_what_is_between_the_lines_is_replaced(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "page.md"
-            path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n")
-            once = with_made(path, "new")
-            self.assertEqual(once, f"before\n{BEGIN}\n\nnew\n{END}\nafter\n")
-            path.write_text(once)
-            self.assertEqual(with_made(path, "new"), once)
-            path.write_text("no lines")
-            with self.assertRaisesRegex(ResultsError, re.escape(str(path))):
-                with_made(path, "new")
 
 
 class Agreement(unittest.TestCase):

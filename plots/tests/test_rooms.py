@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).resolve().parents[1]
 # Claims are shown as a table.
 KNOWN_ROOMS = {"results": set(), "statistics": set(), "collections": {"results", "statistics"},
                "tables": {"results", "collections"}, "figures": {"results", "collections", "statistics"},
-               "claims": {"results", "tables"},
+               "claims": {"results", "tables"}, "manual": {"results", "tables", "claims"},
                "report": {"results", "collections", "tables", "claims", "figures"}}
 
 

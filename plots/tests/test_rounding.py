@@ -3,7 +3,7 @@
 
 import unittest
 
-from plots.claims.overview import reference
+from plots.claims.reasons import reference
 from plots.results.data_folder import thesis_folder
 from plots.results.rows import read_rows
 

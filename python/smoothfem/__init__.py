@@ -134,7 +134,7 @@ def solve(mesh, problem, degree=1, *, condition_number="verified", multigrid=Fal
 
     mesh: of triangles and quadrilaterals, of tetrahedra or of hexahedra. problem: a name of problems(), or
     (u, gradient, f) as expressions: ("x^2", "2*x ; 0", "-2"). degree: 1 or 2. condition_number: "none",
-    "lanczos" or "verified". multigrid: also CG with algebraic multigrid. cg_tolerance: on |r| / |b|, above 0.
+    "lanczos" or "verified". multigrid: also CG with algebraic multigrid. cg_tolerance: largest relative residual, above 0.
     Raises InputError for a mesh with invalid cells or other ones, and for a problem that is none.
     """
     return _core.solve(mesh, problem, degree, condition_number, multigrid, cg_tolerance)

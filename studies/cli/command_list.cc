@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "fem/solutions/manufactured_solution.h"
 #include "meshes/domains/catalogue.h"
@@ -11,6 +12,7 @@
 #include "meshes/metrics/metric.h"
 #include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/list_columns.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/kinds/study_kinds.h"
 
@@ -21,6 +23,7 @@ namespace {
 struct Arguments {
   std::filesystem::path studies;  ///< empty: those that come with the program
   bool study_keys = false;
+  std::string columns;  ///< CSV file; empty: all
 };
 
 /// A parameter with its range, and the kind of meshes that alone has it.
@@ -61,7 +64,7 @@ void list_methods() {
     list_parameters(info.name);
   }
   std::printf(
-      "\nA smoother written in Python is a method, too: python:FILE:CLASS, as README.md shows.\n");
+      "\nA smoother written in Python is a method, too: python:FILE:CLASS, as the tutorial shows.\n");
   std::printf("\nPRESETS (smooth --preset NAME)\n\n");
   for (const auto& preset : presets())
     std::printf("  %-16s %s. Source: %s.\n", preset.name.c_str(), preset.description.c_str(),
@@ -106,9 +109,20 @@ void smoothfem_add_list_command(CLI::App& app) {
   command->add_option("--studies", arguments->studies,
                       "folder with study files (those that come with the program unless given)");
   command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");
+  const auto* columns =
+      command
+          ->add_option("--columns", arguments->columns,
+                       "the columns of the CSV files of results, or of one, such as summary.csv")
+          ->expected(0, 1)
+          ->type_name("[FILE]");
   add_plugin_option(*command);
-  add_examples(*command, {"smoothfem list", "smoothfem list --study-keys"});
-  command->callback([arguments] {
+  add_examples(*command, {"smoothfem list", "smoothfem list --study-keys",
+                          "smoothfem list --columns summary.csv"});
+  command->callback([arguments, columns] {
+    if (columns->count() > 0) {
+      list_columns(arguments->columns);
+      return;
+    }
     if (arguments->study_keys) {
       for (const auto& kind : study_kinds())
         std::printf("# Keys of studies of the kind %s\n%s\n", kind.name.c_str(),

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,17 +13,13 @@
 
 namespace smoothfem {
 
-/// The columns that results/README.md documents for a file: the first cells, in backticks, of the
-/// table under the file's heading.
+/// Returns the columns of a CSV file in their order, as studies/columns.json documents them; empty for a
+/// file that is not documented.
 inline std::vector<std::string> documented_columns(const std::string& csv_file) {
-  std::ifstream readme(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "results" / "README.md");
-  std::vector<std::string> columns;
-  bool here = false;
-  for (std::string line; std::getline(readme, line);) {
-    if (line.starts_with("#")) here = line == "## " + csv_file;
-    if (here && line.starts_with("| `")) columns.push_back(line.substr(3, line.find('`', 3) - 3));
-  }
-  return columns;
+  std::ifstream text(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "columns.json");
+  const auto files = nlohmann::json::parse(text).at("files");
+  if (!files.contains(csv_file)) return {};
+  return files.at(csv_file).at("columns").get<std::vector<std::string>>();
 }
 
 inline void expect_documented(const std::string& csv_file, const std::string& text) {

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which pages have which generated blocks."""
+
+from ..claims.reasons import reference
+from ..results.data_folder import data_folder
+from . import answer, fidelity, moving_nodes, sizes
+
+
+def blocks():
+    """{path of a page: {name of a block: Markdown}}."""
+    docs = data_folder() / "docs"
+    found = answer.Field(reference())
+    return {
+        data_folder() / "README.md": {"findings": answer.in_short(found)},
+        docs / "explanation" / "answer.md": answer.blocks(found, reference()),
+        docs / "explanation" / "fidelity.md": fidelity.blocks(reference()),
+        docs / "explanation" / "reducing-the-error-tables.md": moving_nodes.blocks(reference()),
+        docs / "how-to" / "restart-and-mpi.md": {"largest": sizes.largest(reference())},
+    }
