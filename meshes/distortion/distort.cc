@@ -24,8 +24,8 @@ void require_in_range(const DistortionParameters& p) {
                      std::to_string(p.n_candidates));
   if (p.n_sweeps < 1)
     throw InputError("the distortion needs at least 1 sweep, not " + std::to_string(p.n_sweeps));
-  if (!(p.least_quality >= 0.0 && p.least_quality < 1.0))
-    throw InputError("the distortion's least quality " + std::to_string(p.least_quality) +
+  if (!(p.min_quality >= 0.0 && p.min_quality < 1.0))
+    throw InputError("the distortion's least quality " + std::to_string(p.min_quality) +
                      " is not between 0 and 1");
   if (!(p.tolerance > 0.0)) throw InputError("the distortion's tolerance must be positive");
 }

@@ -42,12 +42,12 @@ struct DistortionParameters {
   DistortionKind kind = DistortionKind::worst_candidate;
   int n_candidates = default_candidates(2);  ///< valid random points per node, at least 1;
                                              ///< random_steps has no use for them
-  int n_sweeps = 1;            ///< times all nodes are moved, at least 1; several sweeps of worst
-                               ///< candidates make meshes that resist every smoother
-  double least_quality = 0.0;  ///< no cell's mean ratio falls below it, or below its own if that is
-                               ///< lower; in [0, 1). Many steps would make few cells much worse
-                               ///< than the thesis prints
-  double tolerance = 1e-4;     ///< largest distance of q_mean from the target, positive
+  int n_sweeps = 1;          ///< times all nodes are moved, at least 1; several sweeps of worst
+                             ///< candidates make meshes that resist every smoother
+  double min_quality = 0.0;  ///< no cell's mean ratio falls below it, or below its own if that is
+                             ///< lower; in [0, 1). Many steps would make few cells much worse
+                             ///< than the thesis prints
+  double tolerance = 1e-4;   ///< largest distance of q_mean from the target, positive
 };
 
 struct DistortionResult {

@@ -45,7 +45,7 @@ class NodeMoves {
         parameters_(parameters) {
     // Cells that are worse from the beginning must not get worse still.
     least_quality_ = cell_mean_ratios(mesh);
-    for (double& quality : least_quality_) quality = std::min(quality, parameters.least_quality);
+    for (double& quality : least_quality_) quality = std::min(quality, parameters.min_quality);
     const Topology& topology = mesh.topology();
     for (const NodeIndex i : topology.free_nodes()) {
       for (const NodeIndex j : topology.node_neighbours(i))

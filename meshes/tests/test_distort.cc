@@ -247,7 +247,7 @@ TEST(Distort, LeavesNoCellBelowTheLeastQuality) {
        {DistortionKind::worst_candidate, DistortionKind::random_steps}) {
     PlanarMesh free = grid(20, true), bounded = grid(20, true);
     const DistortionParameters parameters{
-        .target_q_mean = 0.5, .kind = kind, .n_sweeps = 3, .least_quality = 0.1};
+        .target_q_mean = 0.5, .kind = kind, .n_sweeps = 3, .min_quality = 0.1};
     distort(bounded, parameters);
     EXPECT_GE(mesh_quality(bounded).q_min, 0.1);
     EXPECT_NEAR(mesh_quality(bounded).q_mean, 0.5, 1e-4);
@@ -260,7 +260,7 @@ TEST(Distort, LeavesNoCellBelowTheLeastQuality) {
 TEST(Distort, DoesNotMakeCellsWorseThatAreBelowTheLeastQuality) {
   PlanarMesh mesh = grid(6, true);
   const double before = mesh_quality(mesh).q_min;
-  distort_within(mesh, 0.8, {.kind = DistortionKind::random_steps, .least_quality = 0.9});
+  distort_within(mesh, 0.8, {.kind = DistortionKind::random_steps, .min_quality = 0.9});
   EXPECT_GE(mesh_quality(mesh).q_min, before);
 }
 
@@ -277,7 +277,7 @@ TEST(DistortErrors, SayWhatCanBeReached) {
               HasSubstr("1.500000 is not between 0 and 1"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_candidates = 0}); }), HasSubstr("not 0"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_sweeps = 0}); }), HasSubstr("not 0"));
-  EXPECT_THAT(input_error_of([&] { distort(mesh, {.least_quality = 1.0}); }),
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.min_quality = 1.0}); }),
               HasSubstr("least quality 1.000000 is not between 0 and 1"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.tolerance = 0.0}); }), HasSubstr("positive"));
 }

@@ -47,7 +47,7 @@ class RealMeshes : public testing::TestWithParam<Run> {
   template <int dim, int spacedim>
   static void check(const Mesh<dim, spacedim>& mesh) {
     const auto& [file, preset, name] = GetParam();
-    if (!takes_meshes<dim, spacedim>(name)) GTEST_SKIP() << "not for meshes of this kind";
+    if (!supports_mesh_kind<dim, spacedim>(name)) GTEST_SKIP() << "not for meshes of this kind";
     auto method = make_method<dim, spacedim>(name);
     if (preset != "defaults") {
       // Named in the capture: clang 14 does not take structured bindings by [&].

@@ -133,10 +133,10 @@ class Triangulation {
 
   /// By a margin, so that no flip makes a triangle that rounding could turn over.
   bool is_counterclockwise(NodeIndex a, NodeIndex b, NodeIndex c) const {
-    constexpr double least_quality = 1e-3;
+    constexpr double min_quality = 1e-3;
     const std::array corners{vector_of(coordinates_[a]), vector_of(coordinates_[b]),
                              vector_of(coordinates_[c])};
-    return mean_ratio(std::span<const Vector2<double>, 3>(corners)) > least_quality;
+    return mean_ratio(std::span<const Vector2<double>, 3>(corners)) > min_quality;
   }
 
   /// Leaves neighbours_ behind: connect() must follow.

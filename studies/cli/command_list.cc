@@ -32,7 +32,7 @@ void list_parameter(const Parameter& parameter, const char* only_for) {
 
 template <int dim>
 Parameters parameters_of(std::optional<Method<dim>>& made, const std::string& method) {
-  if (!takes_meshes<dim>(method)) return {};
+  if (!supports_mesh_kind<dim>(method)) return {};
   made.emplace(make_method<dim>(method));
   return made->parameters();
 }
