@@ -53,7 +53,7 @@ TEST(FixedNodes, RefusesUnknownGroupsAndRulesAndListsTheAvailableOnes) {
               HasSubstr("the mesh has no labelled boundary groups"));
 }
 
-TEST(FixedNodes, NodesOfNoCellStayFixedAndLabelsStay) {
+TEST(FixedNodes, KeepsUnusedNodesFixedAndLabels) {
   const VolumeMesh mesh = test::make_volume_mesh(
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {9, 9, 9}}, test::rows_of({{0, 1, 2, 3}}));
   const auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule("free"));

@@ -16,9 +16,10 @@ namespace smoothfem {
 class CellsAroundNodes {
  public:
   /// Larger meshes (of 16 million tetrahedra) use the topology's tables and no additional memory.
-  static constexpr std::size_t max_entries = std::size_t{1} << 28;
+  static constexpr std::size_t default_max_entries = std::size_t{1} << 28;
 
-  explicit CellsAroundNodes(std::size_t max_entries = max_entries) : max_entries_(max_entries) {}
+  explicit CellsAroundNodes(std::size_t max_entries = default_max_entries)
+      : max_entries_(max_entries) {}
 
   /// Builds the table, unless it belongs to this topology already.
   void prepare(std::shared_ptr<const Topology> topology);

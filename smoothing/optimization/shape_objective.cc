@@ -61,8 +61,7 @@ template <int dim>
 struct OtherBlockSums {
   static constexpr HessianBlocks blocks = HessianBlocks::all;
   const std::vector<std::uint32_t>& unknown;
-  const std::array<std::uint32_t, 2>*
-      positions;  ///< positions in the matrix of the next cell's pairs
+  const std::array<std::uint32_t, 2>* positions;  ///< in the matrix, of the next cell's pairs
   BlockMatrix<dim>& hessian;
 
   template <class Cells, class Real, std::size_t extent>

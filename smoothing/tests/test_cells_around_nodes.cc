@@ -13,7 +13,7 @@ namespace {
 template <int dim>
 void expect_cells_of_topology(const Mesh<dim>& mesh) {
   const Topology& topology = mesh.topology();
-  for (const std::size_t max_entries : {CellsAroundNodes::max_entries, std::size_t{0}}) {
+  for (const std::size_t max_entries : {CellsAroundNodes::default_max_entries, std::size_t{0}}) {
     CellsAroundNodes around(max_entries);
     around.prepare(mesh.shared_topology());
     for (std::size_t i = 0; i < topology.free_nodes().size(); ++i) {
