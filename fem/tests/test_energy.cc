@@ -175,7 +175,7 @@ TEST_P(EnergyTest, TurnsWithTheProblem) {
   });
 }
 
-TEST_P(EnergyTest, HasTheSameBitsWithEveryNumberOfThreads) {
+TEST_P(EnergyTest, IsBitwiseIdenticalForEveryNumberOfThreads) {
   const int default_threads = n_threads();
   GetParam().on_mesh(30, 8, 0.15, []<int dim>(const Mesh<dim>& mesh) {
     const auto problem = make_poisson_problem<dim>(smooth_solution<dim>());

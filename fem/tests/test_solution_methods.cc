@@ -135,7 +135,7 @@ TEST_P(EveryMethodWithAProblem, TellsItsSolvesAndKeepsToItsBudget) {
   });
 }
 
-TEST_P(EveryMethodWithAProblem, GivesTheSameBitsTwiceAndWithEveryNumberOfThreads) {
+TEST_P(EveryMethodWithAProblem, IsBitwiseIdenticalForEveryRunAndNumberOfThreads) {
   const int default_threads = n_threads();
   in_every_dimension([]<int dim>() {
     const auto mesh = distorted_meshes<dim>()[0];
@@ -154,7 +154,7 @@ TEST_P(EveryMethodWithAProblem, GivesTheSameBitsTwiceAndWithEveryNumberOfThreads
   set_n_threads(default_threads);
 }
 
-TEST_P(EveryMethodWithAProblem, TakesMeshesWithNothingToMove) {
+TEST_P(EveryMethodWithAProblem, AcceptsMeshesWithoutFreeNodes) {
   const auto free = unit_square(3, Cells::triangles, 0.2);
   const auto mesh =
       Mesh<2>(std::make_shared<const Topology>(2, free.n_nodes(), free.topology().cells(),

@@ -96,7 +96,7 @@ class NewSmoother(unittest.TestCase):
         (self.folder / "text.so").write_text("text")
         self.assertIn("is not a shared library", self.refused("list", "--plugin", "text.so"))
         other = next(BUILD.glob("lib/libsmoothfem_fem.so*"))
-        self.assertIn("is no plugin of smoothfem", self.refused("list", "--plugin", other))
+        self.assertIn("is not a plugin of smoothfem", self.refused("list", "--plugin", other))
         library = self.library
         good = library.read_bytes()
         at = good.index(ABI_MARK) + len(ABI_MARK)
@@ -104,7 +104,7 @@ class NewSmoother(unittest.TestCase):
                                                     ABI_MARK + b"\xff\0\0\0", good))
         self.assertIn("was built against another smoothfem", self.refused("list", "--plugin", "old.so"))
         (self.folder / "half.so").write_bytes(good[:len(good) * 3 // 4])
-        self.assertIn("is not whole", self.refused("list", "--plugin", "half.so"))
+        self.assertIn("is incomplete", self.refused("list", "--plugin", "half.so"))
         copy = self.folder / "copy.so"
         copy.write_bytes(good)
         self.assertIn("'ab-cd'", self.refused("list", "--plugin", library, "--plugin", copy))

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Whether every method is given the same care: how long each takes for what it visits, on one
-/// thread, beside what that needs at least. That is the time of its bare formulas on a mesh that
-/// fits the innermost cache, and the time that the numbers it has to read and write once an
-/// iteration take at the bandwidth of a triad a = b + s c; of GETMe sequential, which goes from one
-/// end of the mesh to the other with every transformation, the time that the lines of memory take
-/// that these numbers are in. What comes on top (numbers read twice or from far away, tables of the
-/// method's own, lanes that are not full) is what the ratio says; below 1 reading and computing
-/// went on at a time. All methods take turns; medians of rounds. Usage: fairness_bench [ROUNDS]
+/// Compares how well each method is optimized: the time it takes for each visited cell or node, on
+/// one thread, with two lower bounds. The first bound is the time of its bare formulas on a mesh
+/// that fits the innermost cache. The second is the time to read and write its numbers once in an
+/// iteration, at the bandwidth of a triad a = b + s c. GETMe sequential jumps through the mesh with
+/// every transformation; its second bound is the time to load the cache lines of these numbers.
+///
+/// The ratio shows the rest: numbers read twice or from far away, tables of the method's own, lanes
+/// that are not full. Below 1, reading and computing overlap. All methods take turns; times are
+/// medians of rounds. Usage: fairness_bench [ROUNDS]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -27,21 +28,22 @@
 namespace smoothfem::bench {
 namespace {
 
-/// What there is in a mesh to be visited, read and written.
+/// Numbers of things in a mesh to visit, read and write.
 struct Counts {
   double cells = 0.0, nodes = 0.0, free_nodes = 0.0, cell_nodes = 0.0;
-  double neighbours = 0.0, around = 0.0;  ///< of the free nodes: joined by an edge; their cells
+  double neighbours = 0.0,
+         around = 0.0;           ///< of the free nodes: nodes joined by an edge; their cells
   double sharing_several = 0.0;  ///< of all cells: other cells that share two nodes or more
   WorstCells worst;
 
-  /// Bytes of the list of the cells' nodes, of the table of cells around nodes, of coordinates.
+  /// Bytes of the list of the cells' nodes, of the table of cells around nodes, and of coordinates.
   double cell_list() const { return 4.0 * (cell_nodes + cells); }
   double node_cells() const { return 4.0 * (around + 2.0 * free_nodes); }
   double node_neighbours() const { return 4.0 * (neighbours + 2.0 * free_nodes); }
   double coordinates() const { return 24.0 * nodes; }
 };
 
-/// How many other cells share two nodes or more with one.
+/// Number of other cells that share two nodes or more with a cell.
 std::size_t n_sharing_several(const Topology& topology, CellIndex cell) {
   std::vector<CellIndex> others;
   for (const NodeIndex i : topology.cell_nodes(cell))
@@ -73,15 +75,15 @@ Counts counts_of(const VolumeMesh& mesh) {
   return counts;
 }
 
-/// A line of the table. measure: seconds of one iteration, `visits` of them.
+/// A line of the table. measure: returns the seconds of one iteration; visits: their number in it.
 struct Line {
   std::string method, visited;
-  double visits, formulas, bytes;  ///< seconds and bytes an iteration needs at least
+  double visits, formulas, bytes;  ///< lower bounds of seconds and bytes in an iteration
   std::function<double()> measure;
   std::vector<double> measured = {};
 };
 
-/// Seconds of an iteration of a method's first stage as smooth() counts them, a median of some.
+/// Median time in seconds of an iteration of a method's first stage, as smooth() counts it.
 double iteration_seconds(const VolumeMesh& mesh, const std::string& name,
                          const std::string& tolerance) {
   constexpr int n = 9;
@@ -98,7 +100,7 @@ double iteration_seconds(const VolumeMesh& mesh, const std::string& name,
   return median(differences);
 }
 
-/// Seconds of a transformation of GETMe sequential, of a thousand on a mesh.
+/// Time in seconds of a transformation of GETMe sequential, from a thousand on a mesh.
 double transformation_seconds(const VolumeMesh& mesh) {
   const auto stages = stages_of<3>("getme-sequential");
   SmoothingState<3> state{mesh, {}};

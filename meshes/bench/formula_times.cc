@@ -24,7 +24,7 @@ using Corners = std::array<Vector3<Lanes>, n>;
 template <std::size_t n>
 using Nodes = std::span<const Vector3<Lanes>, n>;
 
-/// The first cells of a mesh, on nodes of their own: some 10 KiB.
+/// The first cells of a mesh, with separate nodes: about 10 KiB.
 template <std::size_t n>
 class FewCells {
  public:
@@ -53,7 +53,7 @@ class FewCells {
   std::vector<NodeIndex> nodes_;
 };
 
-/// The shortest of several runs over all batches, for one of `n_each` things a batch has.
+/// Shortest time of several runs over all batches, for one of `n_each` items in a batch.
 template <class Work>
 double seconds_per(std::size_t n_each, const Work& work) {
   constexpr int n_runs = 400;
@@ -88,7 +88,7 @@ Lanes weighted_centroid(Nodes<n> corners) {
   return weighted.x + weighted.y + weighted.z + size;
 }
 
-/// What one cell adds to the sums of its nodes: weight times position, and the weight (here 1).
+/// Adds one cell's weight times position, and its weight (here 1), to the sums of its nodes.
 template <std::size_t n>
 Lanes transformed(const ElementRegularization<3>& element, Nodes<n> corners, double* sums) {
   Corners<n> moved;
@@ -103,7 +103,7 @@ Lanes transformed(const ElementRegularization<3>& element, Nodes<n> corners, dou
   return quality;
 }
 
-/// Seconds for one cell by itself, as GETMe sequential takes it.
+/// Time in seconds for a single cell, as in GETMe sequential.
 template <std::size_t n>
 double alone_seconds(const ElementRegularization<3>& element, const FewCells<n>& cells) {
   std::array<Vector3<double>, n> corners, moved;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Times of the smoothers: whole runs and single kernels, by element and as multiples of a plain
-/// Laplace sweep over the same mesh (the cheapest thing a smoother can do). Meshes: a generated
-/// distorted grid, and the published gears where they are at hand (shared_mesh.h).
+/// Measures the smoothers: whole runs and single kernels, for each element and as multiples of a
+/// plain Laplace sweep over the same mesh, the cheapest smoother. Meshes: a generated distorted
+/// grid and, if available, the published gears (shared_mesh.h).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ std::vector<NamedMesh> meshes() {
   return all;
 }
 
-/// work_seconds: of one run of what is measured.
+/// work_seconds: time of one run of the measured work.
 void report(benchmark::State& state, const NamedMesh& named, double work_seconds) {
   state.counters["ns/element"] = 1e9 * work_seconds / static_cast<double>(named.mesh.n_cells());
   state.counters["laplace_sweeps"] = work_seconds / named.laplace_sweep_seconds;
@@ -89,7 +89,7 @@ void mean_ratios(benchmark::State& state, const NamedMesh& named) {
   report(state, named, seconds_since(start) / static_cast<double>(state.iterations()));
 }
 
-/// One iteration (of GETMe sequential: one transformation), again and again.
+/// Repeats one iteration (one transformation of GETMe sequential).
 void single_step(benchmark::State& state, const NamedMesh& named, const std::string& method_name) {
   const auto stages = stages_of<2>(method_name);
   SmoothingState<2> smoothing{named.mesh, cell_mean_ratios(named.mesh)};

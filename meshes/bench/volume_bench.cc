@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Times of the smoothers on volume meshes of the size of the thesis' Section 6.3: 568,000
-/// distorted tetrahedra, 68,600 distorted hexahedra, on one and two threads. An iteration is set in
-/// relation to a plain Laplace sweep, to the same work on a mesh that fits the innermost cache, and
-/// to the time that the bytes it must move take at the bandwidth of a triad a = b + s c. One more
-/// benchmark smooths ten million tetrahedra and says how much memory that took.
+/// Measures the smoothers on volume meshes of the size of the thesis' Section 6.3: 568,000
+/// distorted tetrahedra and 68,600 distorted hexahedra, on one and two threads. An iteration is
+/// compared with a plain Laplace sweep and with the same work on a mesh that fits the innermost
+/// cache. It is also compared with the time to move its bytes at the bandwidth of a triad a = b + s
+/// c. One more benchmark smooths ten million tetrahedra and reports the memory used.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -29,7 +29,7 @@ double median_seconds(int n, const auto& work) {
   return median(all);
 }
 
-/// What a pass over the mesh cannot avoid: cells' nodes and where their rows begin, coordinates,
+/// Smallest number of bytes of a pass over the mesh: the cells' nodes and row offsets, coordinates,
 /// qualities written, sums of the nodes read and written, new coordinates.
 double bytes_of_iteration(const VolumeMesh& mesh) {
   const double nodes = static_cast<double>(mesh.n_nodes());
@@ -38,7 +38,7 @@ double bytes_of_iteration(const VolumeMesh& mesh) {
          nodes * (3 * sizeof(Point<3>) + 2 * 4 * sizeof(double));
 }
 
-/// Seconds of one iteration of a method's first stage, a median.
+/// Median time in seconds of one iteration of a method's first stage.
 double iteration_seconds(const VolumeMesh& mesh, const std::string& method, int n) {
   const Reordering<3> reordering(mesh.shared_topology());
   SmoothingState<3> state{reordering.apply(mesh), {}};
@@ -84,7 +84,7 @@ void iteration(benchmark::State& state, const std::string& name, const std::stri
   state.counters["to_bandwidth"] = seconds / (bytes_of_iteration(mesh) / triad_bandwidth());
 }
 
-/// One transformation of the sequential method, on the mesh that the simultaneous one leaves.
+/// Measures one transformation of the sequential method on the mesh of the simultaneous one.
 void sequential_step(benchmark::State& state, const std::string& name) {
   set_n_threads(1);
   VolumeMesh mesh = mesh_named(name);
@@ -129,7 +129,8 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// Kuhn tetrahedra: n^3 cubes of six. Run alone, its peak memory is that of the mesh and smoothing.
+/// Smooths Kuhn tetrahedra: n^3 cubes of six. Run alone, its peak memory is that of the mesh and
+/// smoothing.
 void many_tetrahedra(benchmark::State& state) {
   set_n_threads(static_cast<int>(state.range(1)));
   VolumeMesh mesh = kuhn_cube(static_cast<std::uint32_t>(state.range(0)));

@@ -37,7 +37,7 @@ void generate_bored_cube(const std::filesystem::path& path) {
   });
 }
 
-/// The mesh in a file, made first if it is not there.
+/// Reads the mesh from a file; makes the file first if it is missing.
 template <class Make>
 VolumeMesh kept(const std::string& name, const Make& make) {
   const auto path = std::filesystem::temp_directory_path() / ("smoothfem_bench_" + name);

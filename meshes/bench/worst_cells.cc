@@ -13,10 +13,10 @@ namespace smoothfem::bench {
 
 namespace {
 
-/// The lines of some arrays, as if each array began with one.
+/// Counts the cache lines of some arrays, each assumed to begin at one.
 class Lines {
  public:
-  /// Entries first .. first + n - 1 of an array of T.
+  /// Adds entries first .. first + n - 1 of an array of T.
   template <class T>
   void add(int array, std::size_t first, std::size_t n = 1) {
     for (std::size_t line = first * sizeof(T) / line_size;
@@ -29,8 +29,8 @@ class Lines {
   std::set<std::pair<int, std::size_t>> lines_;
 };
 
-/// Lines with the numbers of the cells around a cell's nodes, and with these cells' nodes,
-/// coordinates, qualities, and the keys by which the next one is chosen.
+/// Counts the cache lines of the cells around a cell: their numbers, nodes, coordinates, qualities,
+/// and the keys that choose the next cell.
 std::size_t n_lines_around(const Topology& topology, CellIndex cell) {
   enum Array { cells_of_nodes, nodes_of_cells, coordinates, qualities, keys };
   Lines lines;

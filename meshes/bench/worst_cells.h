@@ -5,14 +5,14 @@
 
 namespace smoothfem::bench {
 
-/// What GETMe sequential has to look at around the cells that it takes first, of each on average.
+/// Data that GETMe sequential reads around its first cells, averaged over these cells.
 struct WorstCells {
   double n_touching = 0.0;  ///< cells that share a node with it
-  double n_lines = 0.0;     ///< lines of memory that hold what is needed of it and of these
-  double n_bytes = 0.0;     ///< the same of all cells: where these lines are
+  double n_lines = 0.0;     ///< cache lines with the data of it and of these cells
+  double n_bytes = 0.0;     ///< bytes of these data for all cells, which span these lines
 };
 
-/// Those of the lowest quality of all that have a free node.
+/// Averages over the cells of the lowest quality that have a free node.
 WorstCells worst_cells(const VolumeMesh& mesh);
 
 }  // namespace smoothfem::bench

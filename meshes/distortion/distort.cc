@@ -20,18 +20,18 @@ void require_in_range(const DistortionParameters& p) {
     throw InputError("the distortion's target mean quality " + std::to_string(p.target_q_mean) +
                      " is not between 0 and 1");
   if (p.n_candidates < 1)
-    throw InputError("the distortion needs at least 1 candidate per node, not " +
+    throw InputError("the distortion needs at least 1 candidate for each node, not " +
                      std::to_string(p.n_candidates));
   if (p.n_sweeps < 1)
     throw InputError("the distortion needs at least 1 sweep, not " + std::to_string(p.n_sweeps));
-  if (!(p.least_quality >= 0.0 && p.least_quality < 1.0))
-    throw InputError("the distortion's least quality " + std::to_string(p.least_quality) +
+  if (!(p.min_quality >= 0.0 && p.min_quality < 1.0))
+    throw InputError("the distortion's least quality " + std::to_string(p.min_quality) +
                      " is not between 0 and 1");
   if (!(p.tolerance > 0.0)) throw InputError("the distortion's tolerance must be positive");
 }
 
-/// Fewer nodes of a level are not worth a thread; those of volume meshes take longer by far.
-constexpr std::size_t least_nodes_per_thread(int dim) {
+/// Fewer nodes of a level are not worth a thread. Nodes of volume meshes take far longer.
+constexpr std::size_t min_nodes_per_thread(int dim) {
   return dim == 2 ? 64 : 4;
 }
 
@@ -43,14 +43,14 @@ class Distortion {
         n_sweeps_(parameters.n_sweeps),
         levels_(dependency_levels(mesh.topology())) {}
 
-  /// Moves all nodes within a radius and returns the mean quality that gives.
+  /// Moves all nodes within a radius. Returns the resulting mean quality.
   double apply(double radius) {
     moves_.undo_all();
     for (int sweep = 0; sweep < n_sweeps_; ++sweep)
       for (std::size_t level = 0; level < levels_.size(); ++level) {
         const auto nodes = levels_[level];
         parallel_for_ranges(
-            nodes.size(), least_nodes_per_thread(dim), [&](std::size_t first, std::size_t last) {
+            nodes.size(), min_nodes_per_thread(dim), [&](std::size_t first, std::size_t last) {
               for (const NodeIndex node : nodes.subspan(first, last - first))
                 moves_.mesh().coordinates()[node] = moves_.moved(node, sweep, radius);
             });
@@ -58,10 +58,11 @@ class Distortion {
     return mesh_quality(moves_.mesh()).q_mean;
   }
 
-  /// Moves further nodes, one after the other, until the mean quality, at present above the target,
-  /// has fallen to it; the last one stops on its way. The points that keep a node's cells valid
-  /// form a convex set, because the Jacobian at each point is linear in the node's coordinates, so
-  /// the way is valid (on surfaces nearly; it is looked at). False if the target is not reached.
+  /// Moves further nodes, one after the other, until the mean quality has fallen from above the
+  /// target to it. The last node stops on its way. That way is valid: the points that keep a node's
+  /// cells valid form a convex set, because the Jacobian at each point is linear in the node's
+  /// coordinates. On surfaces this holds nearly, and validity is checked. Returns false if the
+  /// target is not reached.
   bool finish(double target, double radius) {
     const auto n_cells = static_cast<double>(moves_.mesh().n_cells());
     double excess = (mesh_quality(moves_.mesh()).q_mean - target) * n_cells;
@@ -100,9 +101,9 @@ class Distortion {
   }
 
  private:
-  /// The free nodes in levels: those of one level move at the same time, with the outcome of one
-  /// node after the other. A node depends on the nodes before it that share a cell with it, and so
-  /// its level is behind theirs.
+  /// Returns the free nodes in levels. Nodes of one level move at the same time, with the result of
+  /// moving them one after the other. A node depends on the earlier nodes that share a cell with
+  /// it, and so its level comes after theirs.
   static CompressedRows<NodeIndex> dependency_levels(const Topology& topology) {
     std::vector<std::size_t> level_of_node(topology.n_nodes(), 0);
     std::vector<std::vector<NodeIndex>> levels;
@@ -162,7 +163,7 @@ DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& 
                      ", because the mesh itself has " + std::to_string(q_initial) +
                      "; distortion only lowers it");
 
-  // The mean quality falls with the radius until the balls hold all valid points: the first step
+  // The mean quality falls with the radius until the balls hold all valid points. The first step
   // below the target brackets the radius.
   Distortion<dim, spacedim> distortion(mesh, parameters);
   double lower = 0.0, upper = 0.0, q_lowest = q_initial;
@@ -176,7 +177,7 @@ DistortionResult distort(Mesh<dim, spacedim>& mesh, const DistortionParameters& 
     const double middle = 0.5 * (lower + upper);
     (distortion.apply(middle) > target ? lower : upper) = middle;
   }
-  // The quality jumps where a node's choice changes, by much on small meshes.
+  // The quality jumps where a node's choice changes; the jumps are large on small meshes.
   if (distortion.apply(lower) > target && !distortion.finish(target, upper))
     throw InputError(not_reached(target, q_lowest, q_initial));
   const DistortionResult result{lower, mesh_quality(distortion.mesh()).q_mean};

@@ -15,26 +15,27 @@
 
 namespace smoothfem {
 
-/// Uniform in the unit ball. By rejection: sine and cosine differ between machines.
+/// Returns a point that is uniform in the unit ball, by rejection: sine and cosine differ between
+/// machines.
 template <int dim>
 Point<dim> point_in_unit_ball(SplitMix64& random) {
   while (true) {
     Point<dim> point;
     for (int d = dim - 1; d >= 0; --d) point[d] = 2.0 * random.uniform() - 1.0;
-    // Here and below Eigen would sum in an order that depends on how it is compiled.
+    // Here and below Eigen would sum in an order that depends on compiler flags.
     if (squared_length(vector_of(point)) <= 1.0) return point;
   }
 }
 
-/// In a ball larger than the node's cells few points are valid; some nodes have hardly any.
+/// Few points of a ball larger than the node's cells are valid; some nodes have hardly any.
 constexpr int tries_per_candidate = 20;
 
-/// By this a step is shortened. Together with ten sweeps it gives the published gears' quantiles of
-/// mean ratio (see DistortionKind); with one half their mean quality is not reached.
+/// Factor that shortens a step. With ten sweeps it gives the quantiles of mean ratio of the
+/// published gears (see DistortionKind); with one half, their mean quality is not reached.
 constexpr double step_shortening = 0.8;
-constexpr int most_shortenings = 60;  // to a millionth
+constexpr int max_shortenings = 60;  // to a millionth
 
-/// The new place of one node of a mesh that is being distorted; the others stay.
+/// Computes the new position of one node of a mesh that is being distorted; the others stay.
 template <int dim, int spacedim>
 class NodeMoves {
  public:
@@ -43,9 +44,9 @@ class NodeMoves {
         original_(mesh.coordinates().begin(), mesh.coordinates().end()),
         edge_length_(mesh.n_nodes(), 0.0),
         parameters_(parameters) {
-    // Cells that are worse from the beginning must not get worse still.
-    least_quality_ = cell_mean_ratios(mesh);
-    for (double& quality : least_quality_) quality = std::min(quality, parameters.least_quality);
+    // Cells that are worse from the beginning must not become even worse.
+    min_quality_ = cell_mean_ratios(mesh);
+    for (double& quality : min_quality_) quality = std::min(quality, parameters.min_quality);
     const Topology& topology = mesh.topology();
     for (const NodeIndex i : topology.free_nodes()) {
       for (const NodeIndex j : topology.node_neighbours(i))
@@ -58,20 +59,20 @@ class NodeMoves {
   const Mesh<dim, spacedim>& mesh() const { return mesh_; }
   void undo_all() { std::copy(original_.begin(), original_.end(), mesh_.coordinates().begin()); }
 
-  /// Where a node goes in a sweep; where it is if that is nowhere.
+  /// Returns a node's position after a sweep; its present position if there is no valid one.
   Point<spacedim> moved(NodeIndex node, int sweep, double radius) {
     return parameters_.kind == DistortionKind::random_steps ? stepped(node, sweep, radius)
                                                             : worst_candidate(node, sweep, radius);
   }
 
-  /// Mean quality of a node's cells; 0 if one is invalid, folded or below the least quality
-  /// allowed.
+  /// Returns the mean quality of a node's cells; 0 if one is invalid, folded or below the smallest
+  /// quality allowed.
   double quality_around(NodeIndex node) const {
     double sum = 0.0;
     const auto cells = mesh_.topology().node_cells(node);
     for (const CellIndex cell : cells) {
       const double quality = cell_mean_ratio(mesh_, cell);
-      if (!(quality > 0.0) || quality < least_quality_[cell]) return 0.0;
+      if (!(quality > 0.0) || quality < min_quality_[cell]) return 0.0;
       sum += quality;
     }
     if (std::any_of(cells.begin(), cells.end(), [&](CellIndex cell) { return is_folded(cell); }))
@@ -84,7 +85,7 @@ class NodeMoves {
     return counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
   }
 
-  /// Of a node's candidates the valid one of lowest quality; where the node is if none is valid.
+  /// Returns the valid candidate of lowest quality; the node's present position if none is valid.
   Point<spacedim> worst_candidate(NodeIndex node, int sweep, double radius) {
     Point<spacedim>& x = mesh_.coordinates()[node];
     const Point<spacedim> present = x;
@@ -108,13 +109,13 @@ class NodeMoves {
     return worst;
   }
 
-  /// From where the node is by a random vector, shortened until its cells are valid.
+  /// Returns the node's position moved by a random vector, shortened until its cells are valid.
   Point<spacedim> stepped(NodeIndex node, int sweep, double radius) {
     Point<spacedim>& x = mesh_.coordinates()[node];
     Point<spacedim> present = x;
     SplitMix64 random = random_for(node, sweep);
     Point<spacedim> step = radius * edge_length_[node] * point_in_unit_ball<spacedim>(random);
-    for (int i = 0; i < most_shortenings; ++i, step *= step_shortening) {
+    for (int i = 0; i < max_shortenings; ++i, step *= step_shortening) {
       x = allowed_position<dim, spacedim>(mesh_, node, present + step);
       if (!(quality_around(node) > 0.0)) continue;
       Point<spacedim> there = x;
@@ -125,7 +126,7 @@ class NodeMoves {
     return present;
   }
 
-  /// Cells have to be more than valid at their corners: finite elements are solved on distorted
+  /// Cells must be valid not only at their corners: finite elements are solved on distorted
   /// hexahedra, and distorted surfaces are written to files.
   bool is_folded(CellIndex cell) const {
     if constexpr (dim == 3) {
@@ -135,7 +136,7 @@ class NodeMoves {
       for (std::size_t k = 0; k < 8; ++k) corners[k] = mesh_.coordinates()[nodes[k]];
       return !has_positive_mapping(corners);
     } else if constexpr (spacedim > dim) {
-      // Valid also by its own mean normal: a file of the mesh tells no other.
+      // Checks validity by its own mean normal, too: a file of the mesh has no other.
       bool valid = false;
       with_corners<dim>(
           mesh_.topology().cell_nodes(cell), mesh_.coordinates().data(),
@@ -147,8 +148,8 @@ class NodeMoves {
 
   Mesh<dim, spacedim> mesh_;
   std::vector<Point<spacedim>> original_;
-  std::vector<double> edge_length_;    ///< mean over the edges at a node, in the original mesh
-  std::vector<double> least_quality_;  ///< of each cell
+  std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
+  std::vector<double> min_quality_;  ///< of each cell
   DistortionParameters parameters_;
 };
 

@@ -19,12 +19,12 @@ constexpr double ascending = 25.0, descending = 60.0, branch_length = 16.0;
 constexpr double branch_foot = 0.8 * arch_radius;
 constexpr double blend_radius = 1.5;  ///< of the fillets where branches begin
 constexpr double boundary_edge = 0.854, inner_edge = 1.2;
-/// Thin against the edges: the prisms have a mean ratio of about 0.087, as in the thesis.
+/// Thin compared with the edges: the prisms have a mean ratio of about 0.087, as in the thesis.
 constexpr double layer_height = 0.012;
 constexpr int n_layers = 6;
 
-/// Curves of the model where a branch meets the arch: they lie between the vessel's ends, and not
-/// in its plane of symmetry as the seams of the parts do.
+/// Returns the curves of the model where a branch meets the arch. They lie between the vessel's
+/// ends, and not in its plane of symmetry like the seams of the parts.
 std::vector<int> branch_curves() {
   gmsh::vectorpair curves;
   gmsh::model::getEntities(curves, 1);
@@ -65,7 +65,7 @@ VolumeCells tetrahedra() {
   });
 }
 
-/// Sums of the boundary triangles' normals, of unit length.
+/// Returns the sums of the boundary triangles' normals, with unit length.
 std::vector<Point<3>> node_normals(const VolumeCells& mesh,
                                    const CompressedRows<NodeIndex>& triangles) {
   std::vector<Point<3>> normals(mesh.coordinates.size(), Point<3>::Zero());
@@ -101,8 +101,8 @@ void append_layers(VolumeCells& mesh) {
 
 /// A vessel with an arch and two branches that begin in fillets, filled with tetrahedra and wrapped
 /// in six layers of thin prisms: about 35,551 tetrahedra and 80,724 prisms (thesis, Section 5.4.3).
-/// Its three ends are cut off flat, with sharp rims. Boundary nodes are fixed. Throws InputError if
-/// the edge scale is not 1.
+/// Its three ends are flat, with sharp rims. Boundary nodes are fixed. Throws InputError if the
+/// edge scale is not 1.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("aorta", p.edge_scale, 1);
   VolumeCells mesh = tetrahedra();

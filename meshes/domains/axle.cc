@@ -16,11 +16,11 @@ constexpr double flange_radius = 6.0, flange_height = 1.2;
 constexpr double shaft_radius = 2.0, shaft_end = 9.0, bore_radius = 0.7;
 constexpr int n_holes = 16;  // with the bore: genus 17
 constexpr double hole_circle = 4.4, hole_radius = 0.12;
-/// Of edges at the holes and far from them; their ratio is that of the lengths in the mesh.
+/// Edge lengths at the holes and far from them; their ratio is that of the lengths in the mesh.
 constexpr double small_edge = 0.00378, large_edge = 0.621;
-constexpr double most_edge = 1.2;  // longer ones do not fit the flange
-/// Of the edge length over the distance from a hole: so steep that triangles and tetrahedra become
-/// about as poor as in the thesis.
+constexpr double max_edge = 1.2;  // longer ones do not fit the flange
+/// Growth of the edge length with the distance from a hole. It is so steep that the quality of
+/// triangles and tetrahedra is about as low as in the thesis.
 constexpr double growth = 0.5;
 
 void add_axle() {
@@ -32,7 +32,7 @@ void add_axle() {
   add_solid({{axis, flange_radius, 0, flange_height}, {axis, shaft_radius, 0, shaft_end}}, removed);
 }
 
-/// Of the model.
+/// Returns curves of the model.
 std::vector<double> curves_of_holes() {
   gmsh::vectorpair curves;
   gmsh::model::getEntities(curves, 1);
@@ -51,7 +51,7 @@ std::vector<double> curves_of_holes() {
 /// Edges grow with the distance from the holes' curves.
 void set_edge_lengths(GmshSession& session, const std::vector<double>& holes, double edge_scale) {
   namespace field = gmsh::model::mesh::field;
-  const double longest = std::min(edge_scale * large_edge, most_edge);
+  const double longest = std::min(edge_scale * large_edge, max_edge);
   const int distance = field::add("Distance");
   field::setNumbers(distance, "EdgesList", holes);
   field::setNumber(distance, "NNodesByEdge", 100);
@@ -66,14 +66,15 @@ void set_edge_lengths(GmshSession& session, const std::vector<double>& holes, do
   session.set_option("Mesh.CharacteristicLengthMax", longest);
 }
 
-/// A stub axle of genus 17: a shaft and a flange with a bore along the axis and 16 holes, meshed
-/// with tetrahedra that are small at the holes and large elsewhere (thesis, Section 5.2.3). Edge
-/// scale 1: about 400,128 tetrahedra; to 6. Boundary nodes are fixed. Throws InputError for an edge
-/// scale out of range.
+/// A stub axle of genus 17: a shaft and a flange with a bore along the axis and 16 holes. Its
+/// tetrahedra are small at the holes and large elsewhere (thesis, Section 5.2.3). Edge scale 1:
+/// about 400,128 tetrahedra; up to 6. Boundary nodes are fixed. Throws InputError for an edge scale
+/// out of range.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("axle", p.edge_scale, 6);
   VolumeCells mesh = mesh_with_tetrahedra("the axle", [&](GmshSession& session) {
-    session.set_option("Mesh.Optimize", 0);  // nor does the thesis use its mesher's optimizer
+    // The thesis does not use its mesher's optimizer either.
+    session.set_option("Mesh.Optimize", 0);
     add_axle();
     set_edge_lengths(session, curves_of_holes(), p.edge_scale);
   });

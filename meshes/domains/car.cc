@@ -14,15 +14,15 @@ struct Body {
   static constexpr double front = 0.0, windscreen = 1.3, rear_window = 3.3, rear = 4.2;
   static constexpr double half_width = 0.8, floor = 0.2, bonnet = 0.8, roof = 1.4;
 };
-/// Where a wheel stands on the road; it ends at the floor and at the body's side.
+/// Position of a wheel on the road; it ends at the floor and at the body's side.
 struct Wheels {
   static constexpr double front_from = 0.45, front_to = 1.0, rear_from = 3.3, rear_to = 3.85;
   static constexpr double inside = 0.6;
 };
 
-/// Widths of cells, from a thin layer on, each `growth` times the one before, up to the widest. The
-/// four unknowns (cells are longer along the flow than across) give the thesis' number of cells and
-/// its least and mean quality.
+/// Widths of cells: they start with a thin layer and grow by the factor `growth` up to the widest.
+/// The four free parameters (cells are longer along the flow than across) give the thesis' number
+/// of cells and its lowest and mean quality.
 struct Layers {
   double widest, thinnest = 0.0014, growth = 2.7;
 };
@@ -34,7 +34,7 @@ struct Plane {
   bool is_thin;
 };
 
-/// The fewest layers that reach from one plane to the next, shrunk to fit.
+/// Returns the fewest layers that reach from one plane to the next, shrunk to fit.
 std::vector<double> widths(const Plane& from, const Plane& to, const Layers& layers) {
   const double length = to.coordinate - from.coordinate;
   std::vector<double> widths;
@@ -64,7 +64,7 @@ std::vector<double> axis(const std::vector<Plane>& planes, const Layers& layers)
   return coordinates;
 }
 
-/// In the grid before it takes the car's shape: two boxes on wheels.
+/// True inside the body, in the grid before it takes the car's shape: two boxes on wheels.
 bool is_in_body(double x, double y, double z) {
   if (y > Body::half_width) return false;
   const bool in_lower_box =
@@ -76,8 +76,8 @@ bool is_in_body(double x, double y, double z) {
   return in_lower_box || in_cabin || (at_wheel && y > Wheels::inside && z < Body::floor);
 }
 
-/// Where the grid's planes cross at the body, and how far such a point moves to give the car's
-/// shape. y: in the plane of symmetry and at the body's side.
+/// Position where the grid's planes cross at the body, and the movement of that point to give the
+/// car's shape. y: in the plane of symmetry and at the body's side.
 struct Shift {
   double x, z;
   Point<3> in_middle, at_side;
@@ -93,7 +93,7 @@ const std::array shape{
     Shift{Body::rear, Body::floor, {-0.05, 0.0, 0.10}, {-0.12, -0.08, 0.10}},
 };
 
-/// Between neighbouring planes of an axis.
+/// Position between neighbouring planes of an axis.
 struct Place {
   std::size_t plane;
   double fraction;
@@ -106,8 +106,8 @@ Place place(const std::array<double, n>& planes, double coordinate) {
   return {k, (coordinate - planes[k]) / (planes[k + 1] - planes[k])};
 }
 
-/// A point of the grid goes as the eight crossings of planes around it do (trilinear); those on the
-/// road, in the sky, far ahead, behind and beside stay.
+/// Moves a point of the grid like the eight crossings of planes around it (trilinear). Points on
+/// the road, in the sky, far ahead, behind and at the sides stay.
 Point<3> shaped(const Point<3>& point) {
   constexpr std::array xs{inlet,      Body::front, Body::windscreen, Body::rear_window,
                           Body::rear, outlet};
@@ -128,15 +128,17 @@ Point<3> shaped(const Point<3>& point) {
   return moved;
 }
 
-/// A stand-in for the mesh of the flow around one half of a car of the thesis, Section 5.3.4, whose
-/// body and blocks are not published: a grid around a body with bonnet, windscreen, roof, rear
-/// window and the lower part of two wheels on the road, cut off at the plane of symmetry y = 0,
-/// with thin layers that follow the body's faces and the road. Faces between the grid's planes are
-/// ruled, without arches or fillets. Its numbers of nodes and of cells are within 2 % of the
-/// 1,710,978 and 1,610,234 of the thesis, its least and mean quality near the .0043 and .6195
-/// there. Unlike there, all nodes inside but those at the body's edges and corners are regular.
-/// edge_scale (1 to 8): all lengths of cells times that. As many thin layers remain, so cells get
-/// fewer by less than its third power, and flatter. Throws InputError for another edge scale.
+/// A stand-in for the mesh of the flow around one half of a car (thesis, Section 5.3.4), whose body
+/// and blocks are not published. It is a grid around a body with bonnet, windscreen, roof, rear
+/// window and the lower part of two wheels on the road. The plane of symmetry y = 0 cuts it off.
+/// Thin layers follow the body's faces and the road. Faces between the grid's planes are ruled,
+/// without arches or fillets.
+///
+/// Its numbers of nodes and cells are within 2 % of the 1,710,978 and 1,610,234 of the thesis, its
+/// lowest and mean quality near the .0043 and .6195 there. Unlike there, all inner nodes but those
+/// at the body's edges and corners are regular. edge_scale (1 to 8) multiplies all lengths of
+/// cells. The number of thin layers stays the same, so that the number of cells falls by less than
+/// its third power, and cells get flatter. Throws InputError for another edge scale.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("car", p.edge_scale, 8);
   Layers along{.widest = widest_along * p.edge_scale};

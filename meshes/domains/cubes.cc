@@ -11,20 +11,20 @@
 namespace smoothfem {
 namespace {
 
-/// Of the whole cube with edge scale 1.
+/// Along the whole cube, with edge scale 1.
 constexpr int edges_a_side = 32;
 
 /// A cube between equal coordinates, or seven eighths of it.
 struct Cube {
   std::string name;
-  double first, last;  ///< of each coordinate
-  bool has_corner;     ///< the eighth with the largest coordinates
+  double first, last;  ///< range of each coordinate
+  bool has_corner;     ///< true: with the eighth that has the largest coordinates
 };
 
 const Cube whole{"cube", 0.0, 1.0, true};
 const Cube fichera{"Fichera corner", -1.0, 1.0, false};
 
-/// n hexahedra along each side; n is even where a corner is left out.
+/// Makes n hexahedra along each side; n is even if a corner is left out.
 VolumeCells hexahedra(const Cube& cube, int n) {
   std::vector<double> planes;
   for (int i = 0; i <= n; ++i) planes.push_back(cube.first + (cube.last - cube.first) * i / n);
@@ -51,7 +51,7 @@ VolumeCells tetrahedra(const Cube& cube, int n) {
   });
 }
 
-/// Even meshes: tetrahedra by Gmsh with edges of one length, hexahedra by a grid.
+/// Uniform meshes: tetrahedra by Gmsh with edges of equal length, hexahedra by a grid.
 AnyMesh generate(const Cube& cube, const DomainParameters& p) {
   constexpr int largest_edge_scale = 8;
   require_edge_scale(cube.name, p.edge_scale, largest_edge_scale);
@@ -62,13 +62,14 @@ AnyMesh generate(const Cube& cube, const DomainParameters& p) {
 
 const RegisteredDomain cube(
     {.name = "cube",
-     .description = "unit cube, 32 edges a side, for solutions with fronts, layers and peaks",
+     .description = "unit cube, 32 edges on each side, for solutions with fronts, layers and peaks",
      .dimension = 3,
      .elements = {"tetrahedra", "hexahedra"},
      .make = [](const DomainParameters& p) { return generate(whole, p); }});
 const RegisteredDomain fichera_corner(
     {.name = "fichera",
-     .description = "seven unit cubes around the re-entrant corner at the origin, 16 edges a unit",
+     .description =
+         "seven unit cubes around the re-entrant corner at the origin, 16 edges per unit length",
      .dimension = 3,
      .elements = {"tetrahedra", "hexahedra"},
      .make = [](const DomainParameters& p) { return generate(fichera, p); }});

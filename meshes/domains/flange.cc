@@ -26,7 +26,7 @@ struct Circle {
   double radius;
 };
 
-/// i-th of n points in equal distances, counterclockwise from the direction of x.
+/// Returns the i-th of n points at equal distances, counterclockwise from the direction of x.
 Point<2> point_on(const Circle& circle, int i, int n) {
   const double angle = 2.0 * std::numbers::pi * i / n;
   return circle.centre + circle.radius * Point<2>(std::cos(angle), std::sin(angle));
@@ -43,9 +43,9 @@ std::vector<Circle> bolt_holes() {
 
 // --- Hexahedra -----------------------------------------------------------------------------------
 
-/// Quadrilaterals between the first circle and the others, of about an edge length.
+/// Makes quadrilaterals between the first circle and the others, with edges of about edge_length.
 PlanarCells quadrilaterals(const std::vector<Circle>& circles, double edge_length) {
-  constexpr int fewest = 6;  // of edges before halving; fewer bend the sides of small cells over
+  constexpr int fewest = 6;  // edges before halving; with fewer, the sides of small cells bend over
   std::vector<std::vector<Point<2>>> polygons;
   std::vector<std::size_t> circle_of_node;
   for (const Circle& circle : circles) {
@@ -64,14 +64,15 @@ PlanarCells quadrilaterals(const std::vector<Circle>& circles, double edge_lengt
         const Point<2> chord = 0.5 * (coarse.coordinates[a] + coarse.coordinates[b]);
         return circle.centre + circle.radius * (chord - circle.centre).normalized();
       });
-  // Where edges are long against a hole, its arcs reach into the cells at their chords.
+  // If edges are long compared with a hole, its arcs reach into the cells at their chords.
   PlanarMesh mesh(std::make_shared<const Topology>(2, cells.coordinates.size(), cells.cells),
                   cells.coordinates);
   untangle(mesh);
   return cells_of(mesh);
 }
 
-/// The first mesh's cells, then the second's; nodes that lie on the circle in both become one.
+/// Returns the first mesh's cells, then the second's; nodes that lie on the circle in both are
+/// merged.
 PlanarCells joined_at(const Circle& circle, const PlanarCells& first, const PlanarCells& second) {
   const auto is_on = [&](const Point<2>& p) {
     return std::abs((p - circle.centre).norm() - circle.radius) < 1e-9 * circle.radius;
@@ -100,7 +101,8 @@ PlanarCells joined_at(const Circle& circle, const PlanarCells& first, const Plan
   return whole;
 }
 
-/// Quadrilaterals of the hub's annulus, then those of the ring around it; the seam is at the hub.
+/// Quadrilaterals of the hub's annulus, followed by those of the ring around it. The seam is at the
+/// hub.
 struct Footprint {
   PlanarCells cells;
   std::size_t n_in_hub;
@@ -121,8 +123,8 @@ void append_layers(std::vector<double>& heights, double top, std::size_t n) {
     heights.push_back(bottom + (top - bottom) * static_cast<double>(k) / static_cast<double>(n));
 }
 
-/// The footprint in as many layers as give a count of cells: the disc's as thick as they should be
-/// all, the hub's, which have fewer cells, as many as are then missing.
+/// Sweeps the footprint to reach a number of cells. The layers of the disc get the wanted
+/// thickness; the hub, which has fewer cells, gets as many layers as are then missing.
 VolumeCells swept(const Footprint& base, double n_wanted) {
   const auto n_all = static_cast<double>(base.cells.cells.size());
   const auto n_hub = static_cast<double>(base.n_in_hub);
@@ -141,7 +143,7 @@ VolumeCells swept(const Footprint& base, double n_wanted) {
   });
 }
 
-/// Keeps of several meshes the one whose count of cells is nearest to a wanted one.
+/// Keeps the mesh whose number of cells is nearest to a wanted one.
 class NearestCount {
  public:
   explicit NearestCount(double n_wanted) : n_wanted_(n_wanted) {}
@@ -149,7 +151,7 @@ class NearestCount {
   bool is_close() const { return deviation_ <= 0.012; }
   double n_wanted() const { return n_wanted_; }
 
-  /// Returns the mesh's count as a fraction of the wanted one.
+  /// Offers a mesh. Returns its number of cells as a fraction of the wanted one.
   double offer(VolumeCells mesh) {
     const double fraction = static_cast<double>(mesh.cells.size()) / n_wanted_;
     if (std::abs(fraction - 1.0) < deviation_) {
@@ -174,15 +176,16 @@ class NearestCount {
   VolumeCells mesh_;
 };
 
-constexpr int most_tries = 10;
+constexpr int max_tries = 10;
 
 VolumeCells hexahedra(double edge_scale) {
   constexpr double n_cells = 67055.0, edge_length = 0.27;
-  // Longer ones do not fit between the holes and the rims; then only the layers get thicker.
+  // Longer edges do not fit between the holes and the rims; beyond that only the layers get
+  // thicker.
   constexpr double longest = 0.7;
   const double length = std::min(edge_scale * edge_length, longest);
   NearestCount nearest(n_cells / (edge_scale * edge_scale * edge_scale));
-  for (int i = 0; i < most_tries && !nearest.is_close(); ++i) {
+  for (int i = 0; i < max_tries && !nearest.is_close(); ++i) {
     const double change = 0.01 * static_cast<double>((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0);
     nearest.offer(swept(footprint((1.0 + change) * length), nearest.n_wanted()));
   }
@@ -193,7 +196,7 @@ VolumeCells hexahedra(double edge_scale) {
 
 VolumeCells tetrahedra(const EdgeLengths& lengths) {
   const Point<2> axis = Point<2>::Zero();
-  // What is removed sticks out, so that no planes coincide.
+  // The removed part sticks out, so that no planes coincide.
   const double below = -1.0, above = Shape::height + 1.0;
   std::vector<Cylinder> removed{{axis, Shape::bore_radius, below, above}};
   for (const Circle& hole : bolt_holes())
@@ -203,13 +206,14 @@ VolumeCells tetrahedra(const EdgeLengths& lengths) {
                     removed, lengths);
 }
 
-/// The length on the boundary decides on the ratio of nodes to cells, that inside on their count.
+/// Searches both edge lengths: the boundary length determines the ratio of nodes to cells, the
+/// inner length the number of cells.
 VolumeCells tetrahedra(double edge_scale) {
   constexpr double n_cells = 566004.0;
   constexpr EdgeLengths first_try{0.215, 0.193};
   NearestCount nearest(n_cells / (edge_scale * edge_scale * edge_scale));
   EdgeLengths lengths{edge_scale * first_try.boundary, edge_scale * first_try.inside};
-  for (int i = 0; i < most_tries && !nearest.is_close(); ++i)
+  for (int i = 0; i < max_tries && !nearest.is_close(); ++i)
     lengths.inside *= std::cbrt(nearest.offer(tetrahedra(lengths)));
   return nearest.take();
 }

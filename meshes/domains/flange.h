@@ -5,9 +5,9 @@
 
 namespace smoothfem {
 
-/// A round flange with a hub, a bore through both and bolt holes on a circle through the disc;
-/// the axis is z. Lengths are in units of the coordinates. Genus and bounding box are those of the
-/// volume model of the thesis, Section 6.3, whose shape is not published; the proportions give its
+/// A round flange with a hub, a bore through both and bolt holes on a circle through the disc; the
+/// axis is z. Lengths are in units of the coordinates. Genus and bounding box are those of the
+/// volume model of the thesis, Section 6.3, whose shape is not published. The proportions give its
 /// ratio of surface to volume.
 struct FlangeShape {
   static constexpr double radius = 8.0;
@@ -23,19 +23,20 @@ struct FlangeShape {
 
 struct FlangeParameters {
   ElementType element_type = ElementType::tetrahedron;  ///< tetrahedron or hexahedron
-  /// Edges this much longer than in the mesh of the thesis' size (566,004 tetrahedra or 67,055
-  /// hexahedra), which has edge_scale^3 times more cells. From 1 to 4.
+  /// Factor on the edge lengths, from 1 to 4. A mesh with 1 has the thesis' size (566,004
+  /// tetrahedra or 67,055 hexahedra) and edge_scale^3 times more cells.
   double edge_scale = 1.0;
 };
 
 /// Meshes the flange: tetrahedra by Gmsh's Delaunay mesher, hexahedra by sweeping quadrilaterals
-/// along z. The count of cells is met within 2 % usually, always within 10 %; where edges are
+/// along z. The number of cells is usually met within 2 %, always within 10 %. Where edges are
 /// longer than a hole's gap to the rims (edge_scale above 2.5), hexahedra get flat. Boundary nodes
-/// are fixed and lie on the planes and cylinders, cells are valid and all of one type. There is no
-/// randomness besides Gmsh's fixed seed, and Gmsh uses one thread: the same parameters give the
-/// same mesh, bit for bit, with the same Gmsh and C library. Takes a second for hexahedra, up to
-/// half a minute for tetrahedra. Throws InputError for another element type, an edge scale out of
-/// range, and if the mesh should turn out to be invalid or of another genus.
+/// are fixed and lie on the planes and cylinders; cells are valid and all of one type.
+///
+/// Gmsh uses a fixed seed and one thread: with the same Gmsh and C library, equal parameters give
+/// bitwise identical meshes. Takes a second for hexahedra, up to half a minute for tetrahedra.
+/// Throws InputError for another element type, an edge scale out of range, and if the mesh turns
+/// out to be invalid or of another genus.
 VolumeMesh generate_flange(const FlangeParameters& parameters);
 
 }  // namespace smoothfem

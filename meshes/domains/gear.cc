@@ -29,7 +29,7 @@ double involute_function(double angle) {
 }
 
 /// Involute of the circle with radius `base` about the origin, between the base circle and `tip`.
-/// It leaves the base circle at `start` and turns to smaller angles if `side` is +1, to larger ones
+/// It leaves the base circle at `start`. It turns to smaller angles if `side` is +1, to larger ones
 /// if it is -1. Its arc length is base roll^2 / 2, which gives the constant speed.
 Curve involute(double base, double tip, double start, double side, bool outwards) {
   const double last_roll = std::sqrt(tip * tip / (base * base) - 1.0);
@@ -62,7 +62,7 @@ Outline teeth(const GearParameters& p) {
   for (int tooth = 0; tooth < p.n_teeth; ++tooth) {
     const double middle = 2.0 * pi * tooth / p.n_teeth, next = 2.0 * pi * (tooth + 1) / p.n_teeth;
     const double right = middle - half_at_base, left = middle + half_at_base;
-    // Below the base circle there is no involute; the flank goes on towards the centre.
+    // Below the base circle there is no involute; the flank continues straight to the centre.
     outline.push_back(
         segment(on_circle(origin, p.root_radius, right), on_circle(origin, base_radius, right)));
     outline.push_back(involute(base_radius, p.tip_radius, right, -1.0, true));
@@ -153,10 +153,10 @@ std::vector<Outline> gear_outlines(const GearParameters& p) {
 
 namespace {
 
-/// Meshes with varying edge length until the count of cells is met. Triangles may be too few by a
-/// little, because edges can be split afterwards.
+/// Varies the edge length until the number of cells is met. Triangles may be slightly too few,
+/// because edges can be split afterwards.
 PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
-  constexpr int most_tries = 16;
+  constexpr int max_tries = 16;
   const bool tri = p.element_type == ElementType::triangle;
   const auto target = static_cast<double>(p.n_cells);
   const double aim = tri ? 0.998 * target : target;
@@ -165,7 +165,7 @@ PlanarCells with_n_cells(const Polygons& polygons, const GearParameters& p) {
                           aim);
   PlanarCells best;
   double best_deviation = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_tries && best_deviation > close_enough * target; ++i) {
+  for (int i = 0; i < max_tries && best_deviation > close_enough * target; ++i) {
     PlanarCells mesh = tri ? mesh_region(polygons, search.length(), PlanarPattern::triangles)
                            : mesh_quadrilaterals(polygons, search.length());
     const auto n = static_cast<double>(mesh.cells.size());

@@ -7,7 +7,8 @@
 namespace smoothfem {
 namespace {
 
-/// From 0 to 1, with 2 n_half intervals that grow by a factor from the middle to both sides.
+/// Returns planes from 0 to 1, with 2 n_half intervals that grow by a factor from the middle to
+/// both sides.
 std::vector<double> growing(int n_half, double factor) {
   std::vector<double> x{0.0};
   for (int i = -n_half; i < n_half; ++i)
@@ -17,7 +18,7 @@ std::vector<double> growing(int n_half, double factor) {
   return x;
 }
 
-/// The same with planes where sinh(slope t) has equal steps of t.
+/// Returns planes from 0 to 1 where sinh(slope t) has equal steps of t.
 std::vector<double> by_sinh(int n_half, double slope) {
   std::vector<double> x;
   for (int i = -n_half; i <= n_half; ++i)
@@ -25,11 +26,11 @@ std::vector<double> by_sinh(int n_half, double slope) {
   return x;
 }
 
-/// The nonuniform grid of the thesis, Section 5.3.1: 13 x 4 x 11 nodes, equidistant in y, in x and
-/// z finer towards the middle. The thesis does not print its coordinates; here x and z lie between
-/// 0 and 1, and the numbers that say how fine the middle is, and the step of y, give the printed
-/// mean ratios: least .0010, greatest .5714, mean .0943. edge_scale (1 to 5): that much fewer
-/// intervals in x and z. Throws InputError for another one.
+/// The nonuniform grid of the thesis, Section 5.3.1: 13 x 4 x 11 nodes, equidistant in y, finer
+/// towards the middle in x and z. The thesis does not print its coordinates. Here x and z lie
+/// between 0 and 1. The fineness in the middle and the step of y give the printed mean ratios:
+/// lowest .0010, highest .5714, mean .0943. edge_scale (1 to 5) divides the numbers of intervals in
+/// x and z. Throws InputError for another edge scale.
 template <std::vector<double> (*planes)(int, double)>
 AnyMesh grid(const DomainParameters& p, double in_x, double in_z, double step_in_y) {
   require_edge_scale("nonuniform grid", p.edge_scale, 5);
@@ -40,8 +41,8 @@ AnyMesh grid(const DomainParameters& p, double in_x, double in_z, double step_in
                  "generated nonuniform grid");
 }
 
-// The three numbers of each solve the equations for the three printed mean ratios, which have more
-// than one solution.
+// The three numbers of each grid solve the equations for the three printed mean ratios, which have
+// more than one solution.
 AnyMesh finer_in_x(const DomainParameters& p) {
   return grid<growing>(p, 5.00644, 1.593665, 0.816804);
 }
@@ -55,19 +56,19 @@ AnyMesh sinh_in_x(const DomainParameters& p) {
 const RegisteredDomain registered(
     {.name = "nonuniform-grid",
      .description =
-         "Section 5.3.1's grid: its 13 x 4 x 11 nodes and printed mean ratios, planes of our own",
+         "Section 5.3.1's grid: its 13 x 4 x 11 nodes and printed mean ratios, other planes",
      .dimension = 3,
      .elements = {"hexahedra"},
      .make = finer_in_x});
 const RegisteredDomain registered_finer_in_z(
     {.name = "nonuniform-grid-z",
-     .description = "the same, finer in z than in x where it was the other way",
+     .description = "nonuniform-grid, but finer in z than in x instead of the reverse",
      .dimension = 3,
      .elements = {"hexahedra"},
      .make = finer_in_z});
 const RegisteredDomain registered_sinh(
     {.name = "nonuniform-grid-sinh",
-     .description = "the same with planes by the hyperbolic sine",
+     .description = "nonuniform-grid with planes by the hyperbolic sine",
      .dimension = 3,
      .elements = {"hexahedra"},
      .make = sinh_in_x});

@@ -38,7 +38,7 @@ void build_geometry() {
 }
 
 /// A piston: a cylinder with grooves, a bowl, a hollow below and a hole for the pin, meshed with
-/// tetrahedra of equal size; edge scale 1: about 4,129,608 tetrahedra (thesis, Section 5.5.2);
+/// tetrahedra of equal size (thesis, Section 5.5.2). Edge scale 1: about 4,129,608 tetrahedra; up
 /// to 12. Boundary nodes are fixed. Throws InputError for an edge scale out of range.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("piston", p.edge_scale, 12);

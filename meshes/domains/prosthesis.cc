@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t n_inner = 1441;
 constexpr double boundary_edge = 0.315;  // gives about 1,228 boundary nodes
-constexpr double margin = 0.15;          // of random nodes to the boundary
+constexpr double margin = 0.15;          // distance of random nodes from the boundary
 constexpr double shaft_height = 10.0, tip_radius = 0.5, top_radius = 1.4;
 const Point<3> neck_foot(0.0, 0.0, 9.0), head_centre(2.3, 0.0, 12.1);
 constexpr double neck_radius = 0.7, head_radius = 1.4;
 
-/// The boundary's nodes.
+/// Returns the boundary's nodes.
 std::vector<Point<3>> boundary_nodes() {
   GmshSession session;
   std::vector<Point<3>> nodes;
@@ -44,7 +44,7 @@ std::vector<Point<3>> boundary_nodes() {
   return nodes;
 }
 
-/// Whether a point lies inside, at least `depth` below the boundary of one of the parts.
+/// True if a point lies inside, at least `depth` below the boundary of one of the parts.
 bool is_inside(const Point<3>& p, double depth) {
   const double height = p.z() / shaft_height;  // as a fraction
   const bool in_shaft =
@@ -70,15 +70,16 @@ std::vector<Point<3>> random_nodes(std::uint64_t seed) {
   return nodes;
 }
 
-/// A hip stem: a tapered shaft with a neck and a ball on it, 1,228 boundary nodes as in the thesis
-/// (Section 5.2.2, within 2 %), and 1,441 random nodes inside. Boundary nodes are fixed. Throws
-/// InputError if the edge scale is not 1.
+/// A hip stem: a tapered shaft with a neck and a ball on it. It has 1,228 boundary nodes as in the
+/// thesis (Section 5.2.2, within 2 %), and 1,441 random nodes inside. Boundary nodes are fixed.
+/// Throws InputError if the edge scale is not 1.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("prosthesis", p.edge_scale, 1);
   std::vector<Point<3>> nodes = boundary_nodes();
   const auto inner = random_nodes(p.seed);
   nodes.insert(nodes.end(), inner.begin(), inner.end());
-  // The Delaunay mesh fills the convex hull: cells outside go, and so do flat ones on the surface.
+  // The Delaunay mesh fills the convex hull: cells outside are removed, and so are flat ones on the
+  // surface.
   constexpr double flat = 0.02;
   return mesh_of(delaunay_mesh(std::move(nodes), "the stem",
                                [](const Point<3>& centre, double quality) {

@@ -26,7 +26,8 @@ Outline plate() {
   return outline;
 }
 
-/// The plate, the bores of the two wheels, and those of bolts along the rim and between the wheels.
+/// Returns the plate, the bores of the two wheels, and those of bolts along the rim and between the
+/// wheels.
 std::vector<Outline> outlines() {
   constexpr double wheel_radius = 3.0, bolt_radius = 0.95;
   std::vector<Outline> all{plate(), circle({-4.6, 0.0}, wheel_radius),
@@ -41,14 +42,14 @@ std::vector<Outline> outlines() {
 }
 
 /// A stand-in for the pump carter of the thesis, Section 5.5.3, before its distortion: a plate with
-/// round corners, two large bores and 16 small ones, meshed with quadrilaterals and swept along z.
-/// 2.78 million nodes and 2.65 million hexahedra, within .5 % of the thesis, and as there 90 % of
-/// the nodes have eight cells. edge_scale (1 to 8) gives edge_scale^3 times fewer cells. Takes two
-/// seconds and half a gigabyte for 1. Throws InputError for another edge scale.
+/// round corners, two large bores and 16 small ones. It is meshed with quadrilaterals and swept
+/// along z. 2.78 million nodes and 2.65 million hexahedra, within .5 % of the thesis; as there, 90
+/// % of the nodes have eight cells. edge_scale (1 to 8) gives edge_scale^3 times fewer cells. With
+/// 1 it takes two seconds and half a gigabyte. Throws InputError for another edge scale.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("pump housing", p.edge_scale, 8);
   constexpr double n_cells = 41359.0, n_boundary_edges = 2816.0, n_layers = 64.0;
-  // As many halvings as leave Gmsh a mesh that resolves the bores.
+  // As many halvings as still let Gmsh resolve the bores.
   const int n_halvings =
       std::clamp(3 - static_cast<int>(std::lround(std::log2(p.edge_scale))), 1, 3);
   const auto stride = static_cast<std::size_t>(1) << n_halvings;
@@ -59,7 +60,7 @@ AnyMesh generate(const DomainParameters& p) {
       polygons, static_cast<std::size_t>(std::lround(n_cells / (p.edge_scale * p.edge_scale))),
       {.n_halvings = n_halvings});
   smooth_quadrilaterals(base);
-  // Layers as thick as the edges are long.
+  // Layers are as thick as the edges are long.
   const double edge = std::sqrt(area(polygons) / static_cast<double>(base.cells.size()));
   const double n = std::round(n_layers / p.edge_scale);
   return mesh_of(sweep(base, equal_layers(n * edge, n)), "generated pump housing");

@@ -14,12 +14,12 @@
 namespace smoothfem {
 namespace {
 
-/// Random numbers of the same seed for different things.
+/// Streams of random numbers of the same seed, by purpose.
 enum Stream : std::uint64_t { disturbance, removal, cutting };
 
 // --- The domain ----------------------------------------------------------------------------------
 
-/// A circle whose radius varies: by `wave` of itself, in several waves around.
+/// A circle whose radius varies by the fraction `wave`, in several waves around it.
 Outline wavy_circle(const Point<2>& centre, double radius, double wave, double phase) {
   constexpr int n = 2000;
   std::vector<Point<2>> points;
@@ -46,12 +46,13 @@ std::vector<Outline> domain() {
 
 // --- Triangles -----------------------------------------------------------------------------------
 
-/// Exactly so many squares and boundary edges, from a finer grid without some of its squares.
+/// Returns the wanted numbers of squares and boundary edges exactly, from a finer grid without some
+/// of its squares.
 GridRegion region_with(const Polygons& polygons, std::size_t n_cells, std::size_t n_boundary_edges,
                        std::uint64_t seed) {
-  constexpr int most_tries = 60;
+  constexpr int max_tries = 60;
   double spacing = std::sqrt(area(polygons) / static_cast<double>(n_cells));
-  for (int i = 0; i < most_tries; ++i, spacing *= 0.998) {
+  for (int i = 0; i < max_tries; ++i, spacing *= 0.998) {
     GridRegion region(polygons, spacing);
     if (region.n_boundary_edges() > n_boundary_edges) continue;
     const std::size_t n_dents = (n_boundary_edges - region.n_boundary_edges()) / 2;
@@ -62,7 +63,7 @@ GridRegion region_with(const Polygons& polygons, std::size_t n_cells, std::size_
       return region;
   }
   throw InputError(
-      "no grid has the squares that the random planar domain needs; take another seed");
+      "no grid has the squares that the random planar domain needs; choose another seed");
 }
 
 bool is_convex(const PlanarCells& squares, CellIndex c) {
@@ -73,8 +74,8 @@ bool is_convex(const PlanarCells& squares, CellIndex c) {
   return true;
 }
 
-/// Each node moved at random by up to a radius, or by a half, a quarter of that ... where its
-/// squares would not stay convex.
+/// Moves each node at random by up to a radius. If its squares would not stay convex, tries a half,
+/// a quarter, ... of the movement.
 PlanarCells disturbed(const Topology& topology, PlanarCells squares, double radius,
                       std::uint64_t seed) {
   for (NodeIndex i = 0; i < squares.coordinates.size(); ++i) {
@@ -93,7 +94,7 @@ PlanarCells disturbed(const Topology& topology, PlanarCells squares, double radi
   return squares;
 }
 
-/// Each square cut at the diagonal whose triangles' circles do not hold the fourth node.
+/// Cuts each square at the diagonal whose triangles' circles do not contain the fourth node.
 PlanarMesh with_delaunay_diagonals(PlanarCells squares) {
   std::vector<Diagonal> diagonals;
   for (CellIndex c = 0; c < squares.cells.size(); ++c) {
@@ -103,7 +104,7 @@ PlanarMesh with_delaunay_diagonals(PlanarCells squares) {
       const Point<2> next = p(k + 1) - p(k), previous = p(k + 3) - p(k);
       return std::atan2(cross(next, previous), next.dot(previous));
     };
-    // The corners of the two greater opposite angles are joined.
+    // Joins the corners of the two opposite angles with the larger sum.
     diagonals.emplace_back(angle(1) + angle(3) <= angle(0) + angle(2) ? 0 : 1);
   }
   cut_quadrilaterals(squares, diagonals);
@@ -152,12 +153,14 @@ PlanarCells mixed(double edge_scale, std::uint64_t seed) {
 }
 
 /// Stand-ins for the undistorted planar meshes of the thesis, Section 5.1.1, with its numbers of
-/// nodes and cells (Table 5.1); its domain is not published, this one is round with waves and has
-/// nine holes. Triangles: the squares of a grid inside the domain, its nodes disturbed at random so
-/// that the mean quality is the printed one, each square cut at its Delaunay diagonal.
-/// Quadrilaterals: Gmsh's, halved and smoothed. Mixed: such quadrilaterals, some of them, chosen at
-/// random, cut at one of their diagonals. edge_scale: 1 to 2; the numbers of nodes and cells are
-/// met exactly for 1. Throws InputError for another edge scale.
+/// nodes and cells (Table 5.1). The thesis' domain is not published; this one is round with waves
+/// and has nine holes.
+///
+/// Triangles: the squares of a grid inside the domain, each cut at its Delaunay diagonal. Their
+/// nodes are disturbed at random so that the mean quality is the printed one. Quadrilaterals:
+/// Gmsh's, halved and smoothed. Mixed: such quadrilaterals, of which a random part is cut at one of
+/// the diagonals. edge_scale: 1 to 2; the numbers of nodes and cells are met exactly for 1. Throws
+/// InputError for another edge scale.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("random planar domain", p.edge_scale, 2);
   if (p.elements == "triangles") return triangles(p.edge_scale, p.seed);

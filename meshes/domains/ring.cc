@@ -15,8 +15,8 @@ namespace {
 constexpr double ring_radius = 7.25, tube_radius = 0.8, cavity_radius = 3.8;
 constexpr std::array<std::size_t, 3> n_cells{24, 25, 16};
 constexpr std::size_t n_along = 201, n_around = 13;  // a torus of 2 * 201 * 13 triangles
-// Each section is turned by about half a node, so that triangles get equal sides; by so many nodes
-// after the whole way round.
+// Each section is turned by about half a node, so that triangles get equal sides. The whole way
+// around adds up to this number of nodes.
 constexpr std::size_t n_turned = 100;
 constexpr double pyramid_height = 0.4;  // below 0.5, where pyramids in one cell's room would meet
 constexpr double edge_length = 0.467;   // gives about 74,000 tetrahedra
@@ -83,10 +83,10 @@ CompressedRows<NodeIndex> append_torus(VolumeCells& mesh) {
   return triangles;
 }
 
-/// A ring-shaped hole in a cuboid of 24 x 25 x 16 unit hexahedra (thesis, Section 5.4.2): the
-/// hexahedra within three layers around the ring make room for tetrahedra, with one layer of
-/// pyramids between both. The ring is a torus of 5,226 triangles. Boundary nodes, those of the ring
-/// among them, are fixed. Throws InputError if the edge scale is not 1.
+/// A ring-shaped hole in a cuboid of 24 x 25 x 16 unit hexahedra (thesis, Section 5.4.2). The
+/// hexahedra within three layers around the ring are replaced by tetrahedra, with one layer of
+/// pyramids between both. The ring is a torus of 5,226 triangles. Boundary nodes, also those of the
+/// ring, are fixed. Throws InputError if the edge scale is not 1.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("ring", p.edge_scale, 1);
   VolumeCells mesh = outer_grid();

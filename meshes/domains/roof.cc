@@ -20,10 +20,11 @@ const std::array<Point<2>, 2>& masts() {
   return centres;
 }
 
-/// Between two anchors, the membrane on its left: a membrane pulls alike everywhere, and so bends a
-/// cable to an arc.
+/// Edge cable between two anchors, with the membrane on its left. The membrane pulls equally
+/// everywhere and so bends a cable to an arc.
 Curve cable(const Point<2>& from, const Point<2>& to) {
-  // Of the span. Leaves corners as sharp as the lowest quality of the thesis asks for.
+  // Relative to the span. The corners become so sharp that the lowest quality is that of the
+  // thesis.
   constexpr double sag = 0.1794;
   const Point<2> span = to - from;
   const double radius = span.norm() * (1.0 + 4.0 * sag * sag) / (8.0 * sag);
@@ -33,7 +34,8 @@ Curve cable(const Point<2>& from, const Point<2>& to) {
   return arc(centre, radius, start, start - 4.0 * std::atan(2.0 * sag));
 }
 
-/// Cables between anchors at the corners and in the middle of the long sides, and the rings.
+/// Returns the cables between anchors at the corners and in the middle of the long sides, and the
+/// rings.
 std::vector<Outline> plan() {
   const std::array<Point<2>, 6> anchors{
       Point<2>(-half_length, -half_width), Point<2>(0.0, -half_width),
@@ -48,8 +50,8 @@ std::vector<Outline> plan() {
 
 // --- The membrane --------------------------------------------------------------------------------
 
-/// The height of a membrane under tension is a harmonic function where its slope is moderate; a
-/// mast's part is the logarithm of the distance from it.
+/// The height of a membrane under tension is a harmonic function where its slope is moderate. A
+/// mast contributes the logarithm of the distance from it.
 double height(const Point<2>& p) {
   constexpr double steepness = 2.2;  // gives the mesh the mean quality of the thesis
   double sum = 0.0;
@@ -57,13 +59,15 @@ double height(const Point<2>& p) {
   return steepness * sum;
 }
 
-/// A stand-in for the pavilion roof of the thesis, Section 5.1.2, whose mesh is not published: a
-/// tensile membrane between six anchors with sagging edge cables, drawn up to the rings of two
-/// masts. Lengths in metres. It has the 23,101 nodes and 22,676 quadrilaterals of the thesis and
-/// its qualities q*_min = .2467 (at the corners) and q_mean = .9814 to .0005: an unstructured mesh
-/// of the plan, whose cells the membrane's slope makes longer. The anchors stay, other nodes of
-/// cables and rings move along them; there are no other features. edge_scale (1 to 3, beyond which
-/// rings have corners): edges longer by this factor. Throws InputError for another one.
+/// A stand-in for the pavilion roof of the thesis, Section 5.1.2, whose mesh is not published. It
+/// is a tensile membrane between six anchors with sagging edge cables, drawn up to the rings of two
+/// masts. Lengths in metres.
+///
+/// It has the 23,101 nodes and 22,676 quadrilaterals of the thesis and its qualities q*_min = .2467
+/// (at the corners) and q_mean = .9814 within .0005. An unstructured mesh of the plan is lifted,
+/// and the membrane's slope makes its cells longer. The anchors stay; other nodes of cables and
+/// rings move along them. There are no other features. edge_scale (1 to 3; above it rings have
+/// corners) multiplies the edge lengths. Throws InputError for another edge scale.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("roof", p.edge_scale, 3);
   const PlanarCells mesh = mesh_with_n_quadrilaterals(

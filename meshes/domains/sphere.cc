@@ -13,12 +13,12 @@ namespace {
 
 constexpr int n_divisions = 3;
 constexpr std::size_t n_inner = 346;
-/// Of the grid's nodes, in units of its spacing; in each direction.
+/// Random displacement of the grid's nodes in each direction, in units of its spacing.
 constexpr double disturbance = 0.5;
 
 using Triangle = std::array<NodeIndex, 3>;
 
-/// Nodes on the unit sphere: the octahedron's triangles divided into four, some times.
+/// Returns nodes on the unit sphere: the octahedron's triangles, repeatedly divided into four.
 std::vector<Point<3>> sphere_nodes() {
   std::vector<Point<3>> nodes{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   std::vector<Triangle> triangles;
@@ -43,9 +43,10 @@ std::vector<Point<3>> sphere_nodes() {
   return nodes;
 }
 
-/// The grid's nodes nearest to the centre, disturbed at random.
+/// Returns the grid's nodes nearest to the centre, disturbed at random.
 std::vector<Point<3>> inner_nodes(std::uint64_t seed) {
-  // As many grid nodes as wanted lie in a ball of this radius, half a spacing below the surface.
+  // A ball of this radius, half a spacing below the surface, contains the wanted number of grid
+  // nodes.
   constexpr int n = 6;
   constexpr double spacing = 0.188;
   std::vector<Point<3>> nodes;
@@ -63,10 +64,10 @@ std::vector<Point<3>> inner_nodes(std::uint64_t seed) {
   return nodes;
 }
 
-/// A ball of 258 surface nodes, those of an octahedron divided three times, and 346 nodes of a
-/// randomly disturbed grid inside, with their Delaunay tetrahedra (thesis, Section 5.2.1). Flat
-/// tetrahedra make its quality low. Surface nodes are fixed. Throws InputError if the edge scale is
-/// not 1.
+/// A ball of 258 surface nodes and 346 inner nodes, with their Delaunay tetrahedra (thesis, Section
+/// 5.2.1). The surface nodes are those of an octahedron divided three times, the inner ones those
+/// of a randomly disturbed grid. Flat tetrahedra lower its quality. Surface nodes are fixed. Throws
+/// InputError if the edge scale is not 1.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("sphere", p.edge_scale, 1);
   std::vector<Point<3>> nodes = sphere_nodes();

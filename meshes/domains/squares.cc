@@ -8,10 +8,10 @@
 namespace smoothfem {
 namespace {
 
-/// Of an edge with edge scale 1.
+/// Cells along an edge with edge scale 1.
 constexpr int cells_per_unit = 96;
 
-/// A region of unit squares whose corners have whole coordinates.
+/// A region of unit squares whose corners have integer coordinates.
 struct Squares {
   std::string name;
   std::vector<Point<2>> corners;  ///< of its outline, counterclockwise
@@ -26,7 +26,7 @@ const Squares l_shape{
       return !(p.x() > 0.0 && p.y() < 0.0);
     }};
 
-/// The outline with n edges a unit.
+/// The outline with n edges per unit length.
 std::vector<Point<2>> polygon(const Squares& squares, int n) {
   std::vector<Point<2>> points;
   for (std::size_t k = 0; k < squares.corners.size(); ++k) {
@@ -38,7 +38,7 @@ std::vector<Point<2>> polygon(const Squares& squares, int n) {
   return points;
 }
 
-/// A grid with n squares a unit.
+/// A grid with n squares per unit length.
 PlanarCells grid(const Squares& squares, int n) {
   const int n_lines = n * (squares.last - squares.first) + 1;
   const auto at = [&](double i, double j) -> Point<2> {
@@ -62,7 +62,7 @@ PlanarCells grid(const Squares& squares, int n) {
   return cells;
 }
 
-/// Even meshes: triangles by Gmsh between edges of one length, quadrilaterals by a grid.
+/// Uniform meshes: triangles by Gmsh between edges of equal length, quadrilaterals by a grid.
 AnyMesh generate(const Squares& squares, const DomainParameters& p) {
   constexpr int largest_edge_scale = 24;
   require_edge_scale(squares.name, p.edge_scale, largest_edge_scale);
@@ -75,14 +75,15 @@ AnyMesh generate(const Squares& squares, const DomainParameters& p) {
 
 const RegisteredDomain square(
     {.name = "square",
-     .description = "unit square, 96 edges a side, for solutions with fronts, layers and peaks",
+     .description =
+         "unit square, 96 edges on each side, for solutions with fronts, layers and peaks",
      .dimension = 2,
      .elements = {"triangles", "quadrilaterals"},
      .make = [](const DomainParameters& p) { return generate(unit_square, p); }});
 const RegisteredDomain l(
     {.name = "l-shape",
      .description =
-         "three unit squares around the re-entrant corner at the origin, 96 edges a unit",
+         "three unit squares around the re-entrant corner at the origin, 96 edges per unit length",
      .dimension = 2,
      .elements = {"triangles", "quadrilaterals"},
      .make = [](const DomainParameters& p) { return generate(l_shape, p); }});

@@ -13,14 +13,15 @@ namespace {
 constexpr int n_levels_of_thesis = 10;
 constexpr double octant_edge = 1000.0;
 
-/// The cell is one of the 2 x 2 x 2 thirds next to the origin.
+/// True if the cell is one of the 2 x 2 x 2 thirds next to the origin.
 bool is_refined_further(const LatticeCell& cell) {
   return std::all_of(cell.begin(), cell.end(), [](const LatticePoint& p) {
     return std::all_of(p.begin(), p.end(), [](int x) { return x <= 2; });
   });
 }
 
-/// Cells of one of the eight cubes of an octant; `far` says along which axes it is the outer one.
+/// Returns the cells of one of the eight cubes of an octant. `far` marks the axes along which it is
+/// the outer one.
 std::vector<LatticeCell> cells_of_cube(const LatticePoint& far, bool is_last_level) {
   const int n_far = far[0] + far[1] + far[2];
   if (n_far == 3) return whole_template();
@@ -34,7 +35,7 @@ std::vector<LatticeCell> cells_of_cube(const LatticePoint& far, bool is_last_lev
   return cells;
 }
 
-/// Lattice cells of the positive octant in units of the last level's thirds.
+/// Returns lattice cells of the positive octant in units of the last level's thirds.
 std::vector<LatticeCell> octant(int n_levels) {
   std::vector<LatticeCell> cells;
   int third = 1;  // of a cube's edge, first at the last level
@@ -50,8 +51,8 @@ std::vector<LatticeCell> octant(int n_levels) {
   return cells;
 }
 
-/// All octants. Mirroring an odd number of times turns cells inside out; so do their two faces
-/// when they are swapped.
+/// Mirrors the octant to all octants. An odd number of mirrorings inverts cells; swapping their two
+/// faces undoes that.
 VolumeCells mirrored(const std::vector<LatticeCell>& cells, double unit) {
   VolumeCells cube;
   std::map<LatticePoint, NodeIndex> numbers;
@@ -75,12 +76,13 @@ VolumeCells mirrored(const std::vector<LatticeCell>& cells, double unit) {
 }
 
 /// The subdivision mesh of the thesis, Section 5.3.2, before its distortion: a cube with edges 2000
-/// and its centre at the origin, refined towards the centre. An octant is cut into eight cubes; the
-/// templates of hexahedron_templates.h refine the one at the centre in all directions and its
-/// neighbours as far as they touch it. The two thirds of that cube next to the centre are the next
-/// level's octant. Ten levels give the 6,165 nodes and 5,984 hexahedra of the thesis;
-/// edge_scale (1 to 10) times fewer levels make a smaller mesh. Throws InputError for another edge
-/// scale.
+/// and its centre at the origin, refined towards the centre.
+///
+/// An octant is cut into eight cubes. The templates of hexahedron_templates.h refine the one at the
+/// centre in all directions, and its neighbours where they touch it. The two thirds of that cube
+/// next to the centre are the next level's octant. Ten levels give the 6,165 nodes and 5,984
+/// hexahedra of the thesis. edge_scale (1 to 10) divides the number of levels. Throws InputError
+/// for another edge scale.
 AnyMesh generate(const DomainParameters& p) {
   require_edge_scale("subdivision mesh", p.edge_scale, n_levels_of_thesis);
   const int n_levels = static_cast<int>(std::lround(n_levels_of_thesis / p.edge_scale));

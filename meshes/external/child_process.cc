@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// In the child, where nothing but calls of the system is safe. Does not return.
-[[noreturn]] void become(const char* command, const char* folder, char* const* environment,
-                         int output) {
-  setpgid(0, 0);                     // so that all it starts can be killed together
+/// Runs in the child, where only async-signal-safe calls are allowed after fork. Does not return.
+[[noreturn]] void execute_command(const char* command, const char* folder, char* const* environment,
+                                  int output) {
+  setpgid(0, 0);                     // so that all processes it starts can be killed together
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // it ends with this process
   const int nothing = open("/dev/null", O_RDONLY);
   if (chdir(folder) == 0 && dup2(nothing, 0) >= 0 && dup2(output, 1) >= 0 && dup2(output, 2) >= 0)
@@ -36,7 +36,7 @@ using Clock = std::chrono::steady_clock;
   _exit(127);
 }
 
-/// Waits, longer and longer between two looks, so that short runs are timed well.
+/// Waits with growing pauses between checks, so that short runs are timed well.
 int wait_for(pid_t child, double timeout_seconds, CommandEnd& end) {
   const auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
@@ -75,19 +75,19 @@ CommandEnd run_command(const std::string& command, const fs::path& folder, doubl
   const int output = open(printed.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   const std::vector<char*> environment = environment_of_children();
   const pid_t child = output < 0 ? -1 : fork();
-  if (child == 0) become(command.c_str(), folder.c_str(), environment.data(), output);
+  if (child == 0) execute_command(command.c_str(), folder.c_str(), environment.data(), output);
   const int error = errno;
   if (output >= 0) close(output);
   if (child < 0)
     throw InputError("cannot start '" + command + "': " + std::strerror(error) +
                      "; close other programs, or free some space");
-  setpgid(child, child);  // the child may not have come to it yet
+  setpgid(child, child);  // the child may not have done it yet
   CommandEnd end;
   const int status = wait_for(child, timeout_seconds, end);
   if (interruption()) throw Interrupted{};
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
-  constexpr int killed = 128;  // what shells add to the signal that has killed their command
+  constexpr int killed = 128;  // shells add this to the signal that killed a command
   if (end.exit_code > killed && end.exit_code < killed + NSIG) end.signal = end.exit_code - killed;
   end.output = file_content(printed);
   return end;

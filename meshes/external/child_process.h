@@ -7,32 +7,33 @@
 
 namespace smoothfem {
 
-/// How a command ended.
+/// End and output of a command.
 struct CommandEnd {
-  int exit_code = 0;       ///< 127: it was not found
-  int signal = 0;          ///< that killed it; 0: none
-  bool timed_out = false;  ///< it ran too long, and was killed with all it had started
+  int exit_code = 0;  ///< 127: the command was not found
+  int signal = 0;     ///< signal that killed it; 0: none
+  /// True if it ran too long and was killed with all processes it had started.
+  bool timed_out = false;
   double wall_seconds = 0.0;
-  std::string output{};  ///< what it printed, standard error included
+  std::string output{};  ///< its output, including standard error
 };
 
-/// Runs a command by /bin/sh in a folder, without input, and waits for its end. At the end it does
-/// not outlive this process. Throws Interrupted when the user asks this process to end (see
-/// interruption.h), and InputError if no process can be started.
+/// Runs a command by /bin/sh in a folder, without input, and waits for its end. The command ends
+/// with this process at the latest. Throws Interrupted when the user asks this process to end
+/// (interruption.h), and InputError if no process can be started.
 CommandEnd run_command(const std::string& command, const std::filesystem::path& folder,
                        double timeout_seconds);
 
-/// This process' environment without what mpirun has told it: a program that uses MPI itself would
-/// take itself for one of our ranks. Ends with a null pointer.
+/// Returns this process' environment without the variables of mpirun: a program that uses MPI would
+/// take itself for one of this program's ranks. Ends with a null pointer.
 std::vector<char*> environment_of_children();
 
-/// The file that /bin/sh starts for this name; empty if there is none.
+/// Returns the file that /bin/sh starts for this name; empty if there is no such file.
 std::filesystem::path find_program(const std::string& name);
 
-/// A word that /bin/sh takes as it is.
+/// Returns a word quoted so that /bin/sh keeps it unchanged.
 std::string shell_quoted(const std::string& word);
 
-/// A new empty folder for temporary files; gone with all that is in it when this is.
+/// A new, empty temporary folder; removed with its content at the end of its lifetime.
 class ScratchFolder {
  public:
   ScratchFolder();

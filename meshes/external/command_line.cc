@@ -9,7 +9,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Where the first word ends, its closing quote included.
+/// Returns the end of the first word, after its closing quote.
 std::size_t end_of_first_word(const std::string& command) {
   char quote = 0;
   for (std::size_t i = command.find_first_not_of(' '); i < command.size(); ++i)

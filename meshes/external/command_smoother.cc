@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Two formats have the extension .mesh: for planar meshes `mesh` is polygonal text.
+/// Two formats have the extension .mesh; for planar meshes `mesh` is polygonal text.
 std::string extension(const std::string& format) {
   return format == "medit" ? "mesh" : format;
 }
 
-/// What users say about a command.
+/// The user's parameters of a command.
 struct CommandParameters {
   std::string command, format = "vtk", out_format, files, series, time_pattern, startup_command,
                        version_command;
@@ -33,40 +33,41 @@ struct CommandParameters {
   Parameters list() {
     return {
         {"command",
-         "the program and its options, run by /bin/sh in an empty folder; {in} and {out} are its "
-         "mesh files (without {out} it changes {in}), {iterations} is how many it shall do, "
-         "{folder} the folder that names of files are relative to",
+         "program with its options, run by /bin/sh in an empty folder; {in} and {out} are its "
+         "mesh files (without {out} it changes {in}), {iterations} is the number of iterations, "
+         "{folder} is the base of relative file names",
          &command},
         {"format",
-         "of {in}: vtk (legacy, as text), vtu, msh (text), mesh, inp, or medit: in.mesh with the "
-         "edges or faces of the boundary, planar too",
+         "format of {in}: vtk (legacy, as text), vtu, msh (text), mesh, inp, or medit: in.mesh "
+         "with "
+         "the edges or faces of the boundary, also for planar meshes",
          &format},
-        {"out_format", "of {out}; empty: that of {in}", &out_format},
-        {"files", "files to copy beside {in}, separated by commas", &files},
-        {"max_iterations", "{iterations} is this at most, in the last run", &max_iterations, 1.0,
-         1e6},
-        {"every",
-         "runs anew with {iterations} = 1, 2, 4, 8, ... if 0, otherwise with each multiple of this",
+        {"out_format", "format of {out}; empty: that of {in}", &out_format},
+        {"files", "files to copy next to {in}, separated by commas", &files},
+        {"max_iterations", "largest value of {iterations}, used in the last run", &max_iterations,
+         1.0, 1e6},
+        {"every", "step of {iterations} between separate runs; 0: runs with 1, 2, 4, 8, ...",
          &every, 0.0, 1e6},
         {"series",
-         "the files of one run that leaves a mesh after each iteration: a name with {iteration}, "
+         "files of one run that writes a mesh after each iteration: a name with {iteration}, "
          "which begins with 1",
          &series},
         {"repeat",
-         "without {iterations} and a series: how many times to run, each time on what the run "
-         "before has made",
+         "without {iterations} and a series: number of runs, each on the mesh of the previous "
+         "run",
          &repeat, 1.0, 1e6},
         {"time_pattern",
-         "regular expression whose first group is the time that the program prints; without it "
-         "the time is that of the clock, less what a run of startup_command takes",
+         "regular expression whose first group is the time that the program prints; empty: "
+         "wall-clock time less that of a run of startup_command",
          &time_pattern},
         {"time_unit", "seconds in a unit of that time: 0.001 for milliseconds", &time_unit, 0.0,
          1e6, true},
         {"startup_command",
-         "the same program doing nothing; empty: with {iterations} = 0, if the command has that",
+         "the same program without work; empty: with {iterations} = 0, if the command has it",
          &startup_command},
-        {"version_command", "prints the program's version, for the provenance", &version_command},
-        {"timeout", "longest time of a run, in seconds", &timeout, 0.0, 1e9, true}};
+        {"version_command", "command that prints the program's version, for the provenance",
+         &version_command},
+        {"timeout", "largest time of a run, in seconds", &timeout, 0.0, 1e9, true}};
   }
 
   bool counts_iterations() const { return has_placeholder(command, "iterations"); }
@@ -76,7 +77,7 @@ struct CommandParameters {
     return has_placeholder(command, "out") ? "out." + extension(file_out_format()) : in();
   }
 
-  /// Throws InputError where they say nothing that can be run.
+  /// Throws InputError if they do not define a command that can be run.
   void check() const {
     const std::string needs = ", such as 'set command = mmg3d_O3 -noinsert -noswap {in} {out}'";
     if (command.empty()) throw InputError("the method command needs a command" + needs);
@@ -96,19 +97,19 @@ struct CommandParameters {
       const std::regex pattern(time_pattern);
       if (!time_pattern.empty() && pattern.mark_count() == 0)
         throw InputError("the time_pattern '" + time_pattern +
-                         "' has no group; put what stands for the number into brackets, as in "
+                         "' has no group; put the part for the number in parentheses, as in "
                          "'time: ([0-9.]+)'");
     } catch (const std::regex_error&) {
       throw InputError("the time_pattern '" + time_pattern +
-                       "' is no regular expression; write one such as 'time: ([0-9.]+)'");
+                       "' is not a regular expression; write one such as 'time: ([0-9.]+)'");
     }
   }
 };
 
-/// Another program as a smoother: it gets the mesh in a file and leaves one in which nothing but
-/// the nodes' places differ. Each record is what the program makes of the initial mesh in so many
-/// iterations, by a run of its own, or a file of one run's series, or (repeat) what it makes of the
-/// record before.
+/// An external program as a smoother. It reads the mesh from a file and writes a file in which only
+/// the nodes' positions differ. A record has one of three sources: a run of the program on the
+/// initial mesh with so many iterations; a file of one run's series; or (repeat) a run on the
+/// previous record.
 template <int dim>
 class CommandSmoother final : public Smoother<dim> {
  public:
@@ -155,11 +156,12 @@ class CommandSmoother final : public Smoother<dim> {
     const bool counts = p_.counts_iterations();
     const int n = counts ? count_after(n_done_) : n_done_ + 1;
     const ScratchFolder scratch;
-    const Run made = run_on(counts ? *initial_ : state.mesh, counts ? n : 1, scratch.path());
+    const Run made = run_program(counts ? *initial_ : state.mesh, counts ? n : 1, scratch.path());
     const auto points =
         returned_coordinates<dim>(present_file(scratch.path(), p_.out()), *initial_);
     const double time = method_seconds(made, last_time(made.output));
-    // Runs of so many iterations begin at the initial mesh, others where the one before ended.
+    // Runs with a number of iterations start from the initial mesh, other runs from the previous
+    // record.
     seconds_ = counts ? time : seconds_ + time;
     wall_seconds_ = counts ? made.wall_seconds : wall_seconds_ + made.wall_seconds;
     return report(state, points, n, false);
@@ -183,7 +185,7 @@ class CommandSmoother final : public Smoother<dim> {
     return std::min(next, p_.max_iterations);
   }
 
-  /// Those of a series are known when it is there, and may be fewer.
+  /// The number of records of a series is known after its run, and may be smaller.
   int n_records() const {
     if (!p_.series.empty()) return p_.max_iterations;
     if (!p_.counts_iterations()) return p_.repeat;
@@ -192,23 +194,24 @@ class CommandSmoother final : public Smoother<dim> {
     return n_records;
   }
 
-  /// All files of the series come from one run, at the first step.
+  /// Reads the next file of the series. All of them come from one run, at the first step.
   StepReport next_of_series(SmoothingState<dim>& state) {
     if (!series_) {
       series_.emplace();
-      series_run_ = run_on(*initial_, p_.max_iterations, series_->path());
+      series_run_ = run_program(*initial_, p_.max_iterations, series_->path());
       n_in_series_ = 0;
       while (n_in_series_ < p_.max_iterations && fs::exists(series_file(n_in_series_ + 1)))
         ++n_in_series_;
       if (n_in_series_ == 0)
-        throw SmootherFailure("it left no file " + series_file(1).filename().string() + said());
+        throw SmootherFailure("it left no file " + series_file(1).filename().string() +
+                              last_output_text());
       series_times_ = p_.time_pattern.empty()
                           ? std::vector<double>()
                           : matched_numbers(series_run_.output, p_.time_pattern);
     }
     const int n = n_done_ + 1;
     const auto points = returned_coordinates<dim>(series_file(n), *initial_);
-    // One time for each iteration, or one for all, of which each takes the same share.
+    // One time for each iteration, or one for all, of which each gets an equal share.
     const auto i = static_cast<std::size_t>(n - 1);
     if (series_times_.size() >= static_cast<std::size_t>(n_in_series_))
       seconds_ = p_.time_unit * series_times_[i];
@@ -222,7 +225,7 @@ class CommandSmoother final : public Smoother<dim> {
     return series_->path() / with_placeholder(p_.series, "iteration", std::to_string(iteration));
   }
 
-  /// What the program says, or what it takes beyond its start and its files.
+  /// Returns the time that the program prints, or the run's time less its start and its files.
   double method_seconds(const Run& made, std::optional<double> printed) {
     if (printed) return p_.time_unit * *printed;
     if (!startup_seconds_) startup_seconds_ = measured_startup();
@@ -233,38 +236,40 @@ class CommandSmoother final : public Smoother<dim> {
     if (p_.time_pattern.empty()) return std::nullopt;
     const auto times = matched_numbers(output, p_.time_pattern);
     if (times.empty())
-      throw SmootherFailure("it prints nothing that the time_pattern '" + p_.time_pattern +
-                            "' matches" + said());
+      throw SmootherFailure("it printed nothing that the time_pattern '" + p_.time_pattern +
+                            "' matches" + last_output_text());
     return times.back();
   }
 
   double measured_startup() {
     if (p_.startup_command.empty() && !p_.counts_iterations()) return 0.0;
     const ScratchFolder scratch;
-    lay_out(*initial_, scratch.path());
+    write_input_files(*initial_, scratch.path());
     const Run idle = run(filled_in(p_.startup_command.empty() ? p_.command : p_.startup_command, 0),
                          scratch.path());
     return idle.exit_code == 0 && idle.signal == 0 ? idle.wall_seconds : 0.0;
   }
 
-  /// Throws SmootherFailure unless the program ended well.
-  Run run_on(const Mesh<dim>& mesh, int n_iterations, const fs::path& folder) {
-    lay_out(mesh, folder);
+  /// Runs the program. Throws SmootherFailure if it fails.
+  Run run_program(const Mesh<dim>& mesh, int n_iterations, const fs::path& folder) {
+    write_input_files(mesh, folder);
     (void)program();
     Run made = run(filled_in(p_.command, n_iterations), folder);
     if (made.timed_out)
       throw SmootherFailure("it ran for more than " + number_text(p_.timeout) +
                             " s and was ended; give it fewer iterations, or a longer timeout");
     if (made.signal != 0)
-      throw SmootherFailure("it was killed by signal " + std::to_string(made.signal) + said());
+      throw SmootherFailure("it was killed by signal " + std::to_string(made.signal) +
+                            last_output_text());
     if (made.exit_code != 0)
-      throw SmootherFailure("it ended with exit code " + std::to_string(made.exit_code) + said());
+      throw SmootherFailure("it ended with exit code " + std::to_string(made.exit_code) +
+                            last_output_text());
     return made;
   }
 
-  /// The mesh, as text where the format has such a form, which most programs read, and the files
-  /// that go with it.
-  void lay_out(const Mesh<dim>& mesh, const fs::path& folder) const {
+  /// Writes the mesh and copies the accompanying files. The mesh is text if the format has a text
+  /// form, which most programs read.
+  void write_input_files(const Mesh<dim>& mesh, const fs::path& folder) const {
     if (p_.format == "vtk")
       write_text_vtk(folder / p_.in(), mesh);
     else if (p_.format == "medit")
@@ -284,7 +289,7 @@ class CommandSmoother final : public Smoother<dim> {
     Run made = run_command(command, folder, p_.timeout);
     last_output_ = made.output;
     if (!folders_.log.empty()) {
-      std::error_code ignored;  // opening the file tells
+      std::error_code ignored;  // opening the file reports an error
       fs::create_directories(folders_.log.parent_path(), ignored);
       std::ofstream log(folders_.log, std::ios::app);
       log << "$ " << command << "\n" << made.output;
@@ -301,8 +306,8 @@ class CommandSmoother final : public Smoother<dim> {
     return made;
   }
 
-  /// ": it said '...'", the last thing a program printed.
-  std::string said() const {
+  /// Returns "; the last it printed: '...'", or nothing.
+  std::string last_output_text() const {
     constexpr std::size_t longest = 200;
     std::string line = last_line(last_output_).substr(0, longest);
     std::erase_if(line, [](char c) { return static_cast<unsigned char>(c) < ' '; });
@@ -317,43 +322,44 @@ class CommandSmoother final : public Smoother<dim> {
     filled = with_placeholder(filled, "folder",
                               shell_quoted(fs::absolute(folders_.given).lexically_normal()));
     const std::string word = first_word(command);
-    return (word.find('/') == std::string::npos ? word : shell_quoted(in_given_folder(word))) +
+    return (word.find('/') == std::string::npos ? word : shell_quoted(in_study_folder(word))) +
            filled;
   }
 
-  /// As users see it: relative to the folder of their study.
-  fs::path in_given_folder(const fs::path& name) const {
+  /// Returns a path relative to the folder of the user's study.
+  fs::path in_study_folder(const fs::path& name) const {
     return fs::absolute(name.is_relative() ? folders_.given / name : name).lexically_normal();
   }
 
   fs::path program() const {
     const std::string word = first_word(p_.command);
     const auto found =
-        find_program(word.find('/') == std::string::npos ? word : in_given_folder(word).string());
+        find_program(word.find('/') == std::string::npos ? word : in_study_folder(word).string());
     if (found.empty())
       throw SmootherFailure("there is no program '" + word +
-                            "' here; install it, or give its path, relative to the study file");
+                            "'; install it, or give its path, relative to the study file");
     return found;
   }
 
   std::vector<fs::path> given_files() const {
     std::vector<fs::path> files;
     for (const auto& name : split_list(p_.files)) {
-      const auto file = in_given_folder(name);
+      const auto file = in_study_folder(name);
       if (!fs::is_regular_file(file))
         throw SmootherFailure("there is no file '" + file.filename().string() +
-                              "' in the folder of the study, to be copied for the command");
+                              "' in the folder of the study; the command needs a copy of it");
       for (const auto& other : files)
         if (other.filename() == file.filename())
           throw SmootherFailure("two of its files have the name '" + file.filename().string() +
-                                "', which one folder cannot hold; rename one of them");
+                                "', which cannot be in one folder; rename one of them");
       files.push_back(file);
     }
     return files;
   }
 
   fs::path present_file(const fs::path& folder, const std::string& name) const {
-    if (!fs::exists(folder / name)) throw SmootherFailure("it left no file " + name + said());
+    if (!fs::exists(folder / name))
+      throw SmootherFailure("it left no file " + name + last_output_text());
     return folder / name;
   }
 
@@ -369,13 +375,14 @@ class CommandSmoother final : public Smoother<dim> {
   double seconds_ = 0.0, wall_seconds_ = 0.0;
 };
 
-const RegisteredMethod registered({.name = "command",
-                                   .title = "Command",
-                                   .description = "another program smooths: it reads the mesh from "
-                                                  "a file and writes it with its nodes moved",
-                                   .source = "the program that is run",
-                                   .needs_parameters = true},
-                                  single_stage<CommandSmoother>());
+const RegisteredMethod registered(
+    {.name = "command",
+     .title = "Command",
+     .description = "smooths by an external program, which reads the mesh "
+                    "from a file and writes it with moved nodes",
+     .source = "the external program",
+     .needs_parameters = true},
+    single_stage<CommandSmoother>());
 
 }  // namespace
 }  // namespace smoothfem

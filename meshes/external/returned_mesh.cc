@@ -19,31 +19,32 @@ std::string count_text(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-NodeMap matching_nodes(const Topology& ours, const Topology& theirs) {
-  if (ours.n_nodes() != theirs.n_nodes())
-    throw SmootherFailure("its mesh has " + count_text(theirs.n_nodes(), "node") + " in place of " +
-                          std::to_string(ours.n_nodes()) +
+NodeMap matching_nodes(const Topology& given, const Topology& returned) {
+  if (given.n_nodes() != returned.n_nodes())
+    throw SmootherFailure("its mesh has " + count_text(returned.n_nodes(), "node") +
+                          " in place of " + std::to_string(given.n_nodes()) +
                           ": nodes are matched by their numbers, so none may be added or dropped");
-  NodeMap map(ours.n_nodes());
-  const auto& ids = ours.labels().node_ids;
-  const auto& their_ids = theirs.labels().node_ids;
-  if (their_ids.empty()) {
+  NodeMap map(given.n_nodes());
+  const auto& ids = given.labels().node_ids;
+  const auto& returned_ids = returned.labels().node_ids;
+  if (returned_ids.empty()) {
     for (NodeIndex i = 0; i < map.size(); ++i) map[i] = i;
     return map;
   }
   std::unordered_map<std::size_t, NodeIndex> by_id;
   for (NodeIndex i = 0; i < map.size(); ++i) by_id[ids.empty() ? i + 1 : ids[i]] = i;
   for (NodeIndex i = 0; i < map.size(); ++i) {
-    const auto found = by_id.find(their_ids[i]);
+    const auto found = by_id.find(returned_ids[i]);
     if (found == by_id.end())
-      throw SmootherFailure("its mesh has a node with the number " + std::to_string(their_ids[i]) +
-                            ", which it was not given: nodes keep their numbers");
+      throw SmootherFailure("its mesh has a node with the number " +
+                            std::to_string(returned_ids[i]) +
+                            ", which the given mesh does not have: nodes must keep their numbers");
     map[i] = found->second;
   }
   return map;
 }
 
-/// A cell whatever its first node and direction: eight nodes at most, or a hash of more.
+/// A cell, independent of its first node and direction: up to eight nodes, or a hash of more.
 using CellKey = std::array<NodeIndex, 8>;
 
 template <class Number>
@@ -65,12 +66,13 @@ std::vector<CellKey> sorted_keys(const Topology& topology, const Number& number)
   return keys;
 }
 
-void require_same_cells(const Topology& ours, const Topology& theirs, const NodeMap& map) {
-  if (ours.n_cells() != theirs.n_cells())
-    throw SmootherFailure("its mesh has " + count_text(theirs.n_cells(), "cell") + " in place of " +
-                          std::to_string(ours.n_cells()) + ": only nodes may move");
-  const auto given = sorted_keys(ours, [](NodeIndex i) { return i; });
-  const auto returned = sorted_keys(theirs, [&](NodeIndex i) { return map[i]; });
+void require_same_cells(const Topology& given, const Topology& returned, const NodeMap& map) {
+  if (given.n_cells() != returned.n_cells())
+    throw SmootherFailure("its mesh has " + count_text(returned.n_cells(), "cell") +
+                          " in place of " + std::to_string(given.n_cells()) +
+                          ": only nodes may move");
+  const auto given = sorted_keys(given, [](NodeIndex i) { return i; });
+  const auto returned = sorted_keys(returned, [&](NodeIndex i) { return map[i]; });
   std::size_t n_changed = 0;
   for (auto a = given.begin(), b = returned.begin(); a != given.end() && b != returned.end();)
     if (*a == *b) {
@@ -85,10 +87,10 @@ void require_same_cells(const Topology& ours, const Topology& theirs, const Node
   if (given != returned)
     throw SmootherFailure("its mesh has other cells (" +
                           count_text(std::max<std::size_t>(1, n_changed), "cell") +
-                          " changed): only nodes may move, no edges or faces be swapped");
+                          " changed): only nodes may move, edges and faces must not be swapped");
 }
 
-/// Files of text may hold no more than six digits.
+/// Text files may have no more than six digits.
 template <int dim>
 void keep_fixed_nodes(const Mesh<dim>& mesh, std::vector<Point<dim>>& points) {
   constexpr double digits = 1e-6;
@@ -106,14 +108,14 @@ void keep_fixed_nodes(const Mesh<dim>& mesh, std::vector<Point<dim>>& points) {
   if (n_moved > 0)
     throw SmootherFailure("it has moved " + count_text(n_moved, "fixed node") + ", by up to " +
                           std::to_string(farthest) +
-                          ": fixed nodes, such as those of the boundary, have to stay");
+                          ": fixed nodes, for example those of the boundary, must stay");
 }
 
 MeshFile read_returned(const std::filesystem::path& file) {
   try {
     return read_mesh(file);
   } catch (const InputError& error) {
-    std::string reason = error.what();  // without the folder, which is there for a moment only
+    std::string reason = error.what();  // without the temporary folder
     if (const auto at = reason.find(file.string()); at != std::string::npos)
       reason.replace(at, file.string().size(), file.filename().string());
     throw SmootherFailure("its mesh cannot be read: " + reason);

@@ -8,10 +8,10 @@
 
 namespace smoothfem {
 
-/// The coordinates of a mesh file that another program has made from `mesh`, in the order of its
-/// nodes: by the numbers in the file where it has some, otherwise one after the other. Fixed nodes
-/// keep theirs exactly, however few digits the file has. Throws SmootherFailure if the file cannot
-/// be read, has other nodes or cells, or has moved fixed nodes.
+/// Returns the coordinates of a mesh file that an external program has made from `mesh`, in the
+/// order of its nodes. Nodes are matched by the numbers in the file if it has some, otherwise by
+/// their order. Fixed nodes keep their coordinates exactly, even if the file has few digits. Throws
+/// SmootherFailure if the file cannot be read, has other nodes or cells, or has moved fixed nodes.
 template <int dim>
 std::vector<Point<dim>> returned_coordinates(const std::filesystem::path& file,
                                              const Mesh<dim>& mesh);

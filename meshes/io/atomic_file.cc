@@ -24,7 +24,7 @@ namespace {
 }
 
 void require_replaceable(const fs::path& path) {
-  if (path.filename().empty()) fail(path, "it names no file; give a file name");
+  if (path.filename().empty()) fail(path, "it is not a file name; give a file name");
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) fail(path, "it is a folder; give a file name");
@@ -43,8 +43,9 @@ void create_folder_of(const fs::path& path) {
                    (error ? error.message() : std::strerror(ENOTDIR)) + ")");
 }
 
-/// Hidden, and different for every call of every process, so that two writers never share one.
-fs::path temporary_beside(const fs::path& path) {
+/// Returns a hidden name, different for every call of every process, so that two writers never
+/// share one.
+fs::path temporary_path_for(const fs::path& path) {
   static std::atomic<unsigned> n_calls{0};
   fs::path name = ".";
   name += path.stem();
@@ -71,19 +72,20 @@ class Descriptor {
   int value_;
 };
 
-/// Errors of delayed writes (quota, network file systems) show up here at the latest.
+/// Flushes the file. Errors of delayed writes (quota, network file systems) show up here at the
+/// latest.
 void flush_to_disk(const fs::path& path, const fs::path& temporary) {
   const Descriptor file(temporary, O_RDONLY);
   if (file.value() < 0) fail(path, std::strerror(errno));
   if (::fsync(file.value()) != 0) fail(path, std::strerror(errno));
 }
 
-/// Removes the temporary unless it became the target.
+/// Removes the temporary file unless it became the target.
 class RemovedAtExit {
  public:
   explicit RemovedAtExit(fs::path path) : path_(std::move(path)) {}
   ~RemovedAtExit() {
-    std::error_code ignored;  // it may never have been created
+    std::error_code ignored;  // the file may never have been created
     if (!kept_) fs::remove(path_, ignored);
   }
   RemovedAtExit(const RemovedAtExit&) = delete;
@@ -111,7 +113,7 @@ void write_all(const fs::path& path, const fs::path& temporary, std::string_view
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   require_replaceable(path);
   create_folder_of(path);
-  const fs::path temporary = temporary_beside(path);
+  const fs::path temporary = temporary_path_for(path);
   RemovedAtExit guard(temporary);
   try {
     write(temporary);
@@ -133,7 +135,7 @@ void write_atomically(const fs::path& path, std::string_view content) {
 
 std::string why_not_writable(const fs::path& folder) {
   fs::path existing = fs::absolute(folder);
-  std::error_code ignored;  // what cannot be looked at is no folder either
+  std::error_code ignored;  // a path that cannot be inspected is not a folder either
   while (!fs::exists(existing, ignored) && existing.has_relative_path())
     existing = existing.parent_path();
   if (!fs::is_directory(existing, ignored)) return existing.string() + " is not a folder";
@@ -148,7 +150,7 @@ void require_writable_file(const fs::path& path) {
 }
 
 void remove_unfinished_files(const fs::path& folder) {
-  static const std::regex temporary(R"(\..+\.[0-9]+\.[0-9]+(\.[^.]*)?)");  // temporary_beside
+  static const std::regex temporary(R"(\..+\.[0-9]+\.[0-9]+(\.[^.]*)?)");  // temporary_path_for
   std::vector<fs::path> unfinished;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (std::regex_match(entry.path().filename().string(), temporary))

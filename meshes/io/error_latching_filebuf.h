@@ -9,25 +9,25 @@
 
 namespace smoothfem {
 
-/// A file that takes everything and remembers the first error: for writers that do not look at
-/// their stream, or crash where a write fails, as VTK's do. Check finish().
+/// A file that accepts all writes and remembers the first error. For writers that do not check
+/// their stream or crash at a failed write, like those of VTK. Call finish() to check.
 class ErrorLatchingFilebuf final : public std::filebuf {
  public:
-  /// Opens the file for writing, empty.
+  /// Opens an empty file for writing.
   explicit ErrorLatchingFilebuf(const std::filesystem::path& path) {
     errno = 0;
     if (!open(path, std::ios::out | std::ios::binary)) latch();
   }
 
-  /// Closes it. Throws std::runtime_error with the reason unless everything is in the file.
+  /// Closes the file. Throws std::runtime_error with the reason unless it is complete.
   void finish() {
     if (!close()) latch();
     if (error_ != 0) throw std::runtime_error(std::strerror(error_));
   }
 
  protected:
-  // After an error the base is never called again: libstdc++ leaves its buffer full, and the next
-  // overflow() would write behind it.
+  // After an error the base class is never called again: libstdc++ leaves its buffer full, and the
+  // next overflow() would write beyond it.
   int_type overflow(int_type c) override {
     if (error_ == 0 && traits_type::eq_int_type(std::filebuf::overflow(c), traits_type::eof()))
       latch();
@@ -45,7 +45,7 @@ class ErrorLatchingFilebuf final : public std::filebuf {
  private:
   void latch() {
     if (error_ == 0) error_ = errno != 0 ? errno : EIO;
-    setp(nullptr, nullptr);  // what could not be written is dropped
+    setp(nullptr, nullptr);  // data that could not be written are dropped
   }
 
   int error_ = 0;

@@ -12,8 +12,8 @@ struct LabelRange {
   std::size_t first, last, step;
 };
 
-/// use(i) for those of some ascending labels that are in a range. Whatever the file says, that
-/// takes no more steps than there are labels, or than the range has.
+/// Calls use(i) for those of some ascending labels that are in a range. Takes no more steps than
+/// there are labels or numbers in the range, so that no file can make it slow.
 template <class Use>
 void for_each_in_range(const std::vector<std::size_t>& labels, const LabelRange& range,
                        const Use& use) {

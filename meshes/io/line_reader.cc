@@ -123,7 +123,7 @@ double LineReader::number(std::string_view what) {
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error == std::errc::invalid_argument || end != found.data() + found.size())
     fail(std::string(what) + " is " + in_quotes(as_written) + ", which is not a number");
-  // Numbers too small for a double are zero for every purpose here.
+  // Numbers too small for a double count as zero.
   if (error == std::errc::result_out_of_range)
     value = std::strtod(std::string(found).c_str(), nullptr);
   if (!std::isfinite(value))
@@ -137,7 +137,7 @@ std::uint64_t LineReader::integer(std::string_view what, std::uint64_t limit) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error != std::errc() || end != found.data() + found.size())
-    fail(std::string(what) + " is " + in_quotes(found) + ", which is not an integer from 0 on");
+    fail(std::string(what) + " is " + in_quotes(found) + ", which is not an integer of at least 0");
   if (value >= limit)
     fail(std::string(what) + " is " + std::to_string(value) + ", but must be below " +
          std::to_string(limit));

@@ -10,60 +10,60 @@
 
 namespace smoothfem {
 
-/// The whole file as bytes. Throws InputError for a missing file, a folder, a device, a file that
-/// cannot be read, and an empty one.
+/// Returns the whole file as bytes. Throws InputError for a missing file, a folder, a device, a
+/// file that cannot be read, and an empty file.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// A word in quotation marks for error messages: its first 40 bytes, "..." if there are more, and
-/// '?' for control characters, which could garble the terminal.
+/// Returns a word in quotation marks for error messages: its first 40 bytes, followed by "..." if
+/// there are more. Control characters, which could garble the terminal, become '?'.
 std::string in_quotes(std::string_view word);
 
-/// Capital letters of the Latin alphabet become small ones.
+/// Changes Latin capital letters to small ones.
 std::string lower_case(std::string_view text);
 
-/// Reads a text line by line and each line word by word, and knows where it is for error messages.
-/// The content must outlive the reader.
+/// Reads a text line by line and each line word by word. Keeps the position for error messages. The
+/// content must outlive the reader.
 class LineReader {
  public:
-  static constexpr char no_comment = '\n';  ///< stands in no line
+  static constexpr char no_comment = '\n';  ///< occurs in no line
 
-  /// separators: what stands between words.
+  /// separators: characters between words.
   LineReader(const std::filesystem::path& path, std::string_view content,
              std::string_view separators = " \t\r\v\f")
       : path_(path.string()), separators_(separators), rest_(content) {}
 
   /// Goes to the next line that is not blank; false at the end of the text.
   bool next_line();
-  /// The same where another line has to come; `what` says which ("node 5 of 11").
+  /// Goes to the next line and throws InputError at the end of the text. `what` names the line
+  /// ("node 5 of 11").
   void require_line(std::string_view what);
 
-  /// Goes on to the next line that has a word where none is left on this one, for formats that do
-  /// not care for line ends; false at the end of the text. `comment` begins a comment up to the end
-  /// of its line.
+  /// Goes to the next line with a word if this one has none left, for formats that ignore line
+  /// ends; false at the end of the text. `comment` begins a comment up to the end of its line.
   bool find_word(char comment = no_comment);
-  /// The same where another word has to come.
+  /// Finds a word and throws InputError at the end of the text.
   void require_word(std::string_view what, char comment = no_comment);
 
-  /// The next line as it stands, blank or not, of which no words are read; nothing at the end.
+  /// Returns the next line unchanged, blank or not, without reading its words; nothing at the end.
   std::optional<std::string_view> whole_line();
-  /// Goes past n bytes behind the current line, of which there are so many.
+  /// Skips n bytes after the current line. Requires that they exist.
   void skip_bytes(std::size_t n);
 
   /// Number of the current line, from 1.
   std::size_t line() const { return line_; }
   std::string_view text() const { return text_; }
-  /// Bytes that follow the current line.
+  /// Bytes after the current line.
   std::string_view rest() const { return rest_; }
 
   /// True if the line has another word.
   bool has_word() const { return unread_.find_first_not_of(separators_) != unread_.npos; }
-  /// The next word of the line; empty at its end.
+  /// Returns the next word of the line; empty at its end.
   std::string_view word();
-  /// The next word as a finite number; `what` is its name in the error message.
+  /// Returns the next word as a finite number; `what` is its name in the error message.
   double number(std::string_view what);
-  /// The next word as an integer in [0, limit).
+  /// Returns the next word as an integer in [0, limit).
   std::uint64_t integer(std::string_view what, std::uint64_t limit = UINT64_MAX);
-  /// The line must have no further word.
+  /// Throws InputError if the line has another word.
   void require_end_of_line();
 
   /// Throws InputError "path:line: message", for the current line or another one.

@@ -16,7 +16,7 @@ namespace smoothfem {
 
 namespace {
 
-/// The file's numbers where they say more than the order does; otherwise nothing.
+/// Returns the file's numbers if they differ from the order; otherwise nothing.
 std::vector<std::size_t> worth_keeping(std::vector<std::size_t> ids) {
   bool plain = true, ascending = true;
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -68,7 +68,7 @@ std::shared_ptr<const Topology> make_topology(MeshParts& parts, int dim) {
   const std::size_t n_nodes = parts.coordinates.size();
   MeshLabels labels = labels_of(parts, dim);
   auto& cells = parts.elements[dim].nodes;
-  if (parts.fixed && parts.boundary_is_fixed_too) {
+  if (parts.fixed && parts.fixes_boundary_as_well) {
     const Topology alone(dim, n_nodes, cells);
     for (std::size_t i = 0; i < n_nodes; ++i)
       if (alone.on_boundary()[i]) (*parts.fixed)[i] = true;
@@ -90,7 +90,7 @@ AnyMesh make_mesh(MeshParts& parts, int dim) {
   return PlanarMesh(std::move(topology), without_z(parts.coordinates));
 }
 
-/// Of a coordinate: sixth powers, squares of volumes, are still numbers.
+/// Largest coordinate: its sixth powers (squares of volumes) do not overflow.
 constexpr double largest_coordinate = 1e50;
 
 void require_usable_coordinates(const MeshParts& parts) {
@@ -101,10 +101,9 @@ void require_usable_coordinates(const MeshParts& parts) {
       std::string text =
           "node " + std::to_string(has_id ? parts.node_ids[i] : i) + " has the coordinate ";
       append_number(text, x);
-      throw InputError(text + (std::isfinite(x)
-                                   ? ", so large that sizes of cells would be no numbers; "
-                                     "choose a larger unit of length"
-                                   : ", which is not a finite number"));
+      throw InputError(text + (std::isfinite(x) ? ", so large that sizes of cells overflow; "
+                                                  "choose a larger unit of length"
+                                                : ", which is not a finite number"));
     }
   }
 }

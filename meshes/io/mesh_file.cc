@@ -30,7 +30,7 @@ const std::vector<MeshFormat>& mesh_formats() {
 
 namespace {
 
-/// Formats of the path's extension: one or more.
+/// Returns the formats of the path's extension: one or more.
 std::vector<const MeshFormat*> formats_of(const std::filesystem::path& path,
                                           const std::string& prefix) {
   const std::string extension = lower_case(path.extension().string());
@@ -58,8 +58,8 @@ void require_sizes(const std::string& path, const std::string& kind,
                        std::to_string(n));
 }
 
-/// Of formats that share an extension the one that knows its own content, otherwise the one that
-/// does not say.
+/// Returns the format that recognizes the content, if several share an extension; otherwise the
+/// fallback.
 const MeshFormat& format_of_content(const std::filesystem::path& path) {
   const auto formats = formats_of(path, path.string());
   if (formats.size() == 1) return *formats.front();
@@ -104,7 +104,7 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const M
                                          : &MeshFormat::holds_volume_meshes;
   for (const MeshFormat* format : formats_of(path, prefix))
     if (format->*holds) return format->write(path, mesh, fields, options);
-  throw InputError(prefix + ": the format holds no " +
+  throw InputError(prefix + ": the format cannot hold " +
                    mesh_kind_name(mesh.dimension(), mesh.planar() ? 2 : 3) +
                    " meshes; use .vtu or another extension");
 }

@@ -7,8 +7,8 @@
 
 namespace smoothfem {
 
-/// A mesh of any kind as writers see it: in space, planar ones with z = 0. Refers to the mesh,
-/// which has to outlive it.
+/// A mesh of any kind, in the form that writers need: in space, planar ones with z = 0. Refers to
+/// the mesh, which must outlive it.
 class MeshView {
  public:
   MeshView(const PlanarMesh& mesh) : topology_(mesh.topology()), planar_(&mesh) {}
@@ -17,7 +17,7 @@ class MeshView {
   MeshView(const AnyMesh& mesh)
       : MeshView(std::visit([](const auto& m) { return MeshView(m); }, mesh)) {}
 
-  /// Of the cells: 2 or 3.
+  /// Returns the dimension of the cells: 2 or 3.
   int dimension() const { return topology_.dimension(); }
   const Topology& topology() const { return topology_; }
   std::size_t n_nodes() const { return topology_.n_nodes(); }
@@ -30,13 +30,13 @@ class MeshView {
     return {p.x(), p.y(), 0.0};
   }
 
-  /// The mesh itself; null if it is not planar.
+  /// Returns the mesh itself; null if it is not planar.
   const PlanarMesh* planar() const { return planar_; }
 
  private:
   const Topology& topology_;
   const PlanarMesh* planar_ = nullptr;
-  std::span<const Point<3>> in_space_;  ///< of all but planar meshes
+  std::span<const Point<3>> in_space_;  ///< coordinates of all but planar meshes
 };
 
 }  // namespace smoothfem

@@ -31,12 +31,13 @@
 
 namespace smoothfem {
 
-/// Position in a VTK row of each node inside, and (all are their own inverses) the other way round.
+/// Maps positions in a VTK row to nodes of volume_elements.h, and back: each map is its own
+/// inverse.
 inline constexpr std::array<LocalIndex, 6> vtk_wedge{0, 2, 1, 3, 5, 4};
 inline constexpr std::array<LocalIndex, 4> vtk_pixel{0, 1, 3, 2};
 inline constexpr std::array<LocalIndex, 8> vtk_voxel{0, 1, 3, 2, 4, 5, 7, 6};
 
-/// row: as many indices as the order has.
+/// Reorders a row that has as many indices as the order.
 template <class Row, std::size_t n>
 void permute(Row&& row, const std::array<LocalIndex, n>& order) {
   std::array<typename std::remove_reference_t<Row>::value_type, n> copy;

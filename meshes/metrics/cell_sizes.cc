@@ -25,7 +25,7 @@ std::vector<double> signed_sizes(const Mesh<dim, spacedim>& mesh) {
   return sizes;
 }
 
-/// A facet as one of its cells has it.
+/// A facet of one of its cells.
 struct CellFacet {
   std::array<NodeIndex, 4> nodes;  ///< ascending, so that both cells have the same
   CellIndex cell;
@@ -42,7 +42,7 @@ CellFacet cell_facet(CellIndex cell, std::span<const NodeIndex> nodes, const aut
   return facet;
 }
 
-/// Those of all cells, so that the two of a facet follow each other.
+/// Returns the facets of all cells, sorted so that the two of a facet are adjacent.
 std::vector<CellFacet> sorted_facets(const Topology& topology) {
   std::vector<CellFacet> facets;
   facets.reserve(2 * topology.n_facets());

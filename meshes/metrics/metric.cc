@@ -19,7 +19,7 @@ const std::vector<ElementType> all_types{ElementType::triangle,  ElementType::qu
                                          ElementType::pyramid,   ElementType::prism,
                                          ElementType::hexahedron};
 
-/// The values of a function that takes meshes of all dimensions.
+/// Wraps a function that supports meshes of all dimensions.
 template <class Values>
 std::function<std::vector<double>(const MeshReference&)> of_any_mesh(Values values) {
   return [values](const MeshReference& reference) {
@@ -28,7 +28,7 @@ std::function<std::vector<double>(const MeshReference&)> of_any_mesh(Values valu
   };
 }
 
-/// One end of the range of each cell's angles.
+/// Returns one end of the range of each cell's angles.
 auto angles(double AngleRange::*end) {
   return of_any_mesh([end](const auto& mesh) {
     std::vector<double> values;
@@ -83,10 +83,6 @@ std::vector<Metric> make_catalogue() {
 }
 
 }  // namespace
-
-bool Metric::is_defined_for(ElementType type) const {
-  return std::find(types.begin(), types.end(), type) != types.end();
-}
 
 const std::vector<Metric>& metric_catalogue() {
   static const std::vector<Metric> metrics = make_catalogue();

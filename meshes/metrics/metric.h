@@ -11,32 +11,31 @@
 
 namespace smoothfem {
 
-/// A mesh of any dimensions, which is not copied.
+/// Reference to a mesh of any dimensions.
 using MeshReference = std::variant<const PlanarMesh*, const VolumeMesh*, const SurfaceMesh*>;
 
-/// What metrics have where they would be infinite, as Verdict has it.
+/// Value of infinite metrics, as in Verdict.
 inline constexpr double infinite_metric = 1e30;
 
-/// A number that says how good, large or regular a cell is.
+/// A number that measures the quality, size or regularity of a cell.
 struct Metric {
   std::string name;     ///< "scaled_jacobian"
   std::string meaning;  ///< a phrase
   bool larger_is_better = true;
-  std::optional<double> ideal{};  ///< of a regular cell; none where types of cells differ in it
-  /// Of cells, all others have none.
+  /// Value of a regular cell; nothing if types of cells differ in it.
+  std::optional<double> ideal{};
+  /// Supported types of cells.
   std::vector<ElementType> types{};
-  /// Of each cell, at most infinite_metric; NaN where it has none. The same for every number of
-  /// threads.
+  /// Returns the value of each cell, at most infinite_metric; NaN for unsupported cells. Results
+  /// are the same for every number of threads.
   std::function<std::vector<double>(const MeshReference&)> values{};
-
-  bool is_defined_for(ElementType type) const;
 };
 
-/// All metrics: first those of this program, then Verdict's.
+/// Returns all metrics: first those of this program, then Verdict's.
 const std::vector<Metric>& metric_catalogue();
 
-/// Metrics of a list, in its order: names separated by commas, or "all". Throws InputError for
-/// unknown names, with those there are, and for a name that comes twice.
+/// Returns the metrics of a list, in its order: names separated by commas, or "all". Throws
+/// InputError for unknown names, with the available ones, and for duplicate names.
 std::vector<const Metric*> metrics_named(const std::string& list);
 
 }  // namespace smoothfem

@@ -24,11 +24,11 @@ namespace {
 using Quality = vtkMeshQuality;
 using TurnedOver = VerdictMetric::TurnedOver;
 
-/// VTK's cells, one of each type: every thread needs its own.
+/// VTK's cells, one of each type; every thread needs its own.
 class VtkCellOfEachType {
  public:
-  /// The cell with these nodes, moved to the origin and scaled by a power of two to an extent of 1
-  /// to 2: Verdict takes areas and volumes below 1e-30 for none.
+  /// Sets the cell with these nodes, moved to the origin and scaled by a power of two to an extent
+  /// of 1 to 2: Verdict treats areas and volumes below 1e-30 as zero.
   template <int spacedim>
   vtkCell* set(ElementType type, std::span<const NodeIndex> nodes,
                std::span<const Point<spacedim>> coordinates) {

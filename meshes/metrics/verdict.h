@@ -15,8 +15,8 @@ namespace smoothfem {
 /// 2007), which is part of VTK as vtkMeshQuality.
 struct VerdictMetric {
   using Function = double (*)(vtkCell*);
-  /// What it is for a planar cell that is turned over as a whole, which Verdict does not see: it
-  /// takes the plane from the cell.
+  /// Value for a planar cell that is turned over. Verdict does not detect this case, as it takes
+  /// the plane from the cell.
   enum class TurnedOver { same, negative, zero, infinite };
 
   std::string name, meaning;
@@ -24,18 +24,18 @@ struct VerdictMetric {
   std::optional<double> ideal{};
   TurnedOver turned_over = TurnedOver::same;
   Function triangle = nullptr, quadrilateral = nullptr, tetrahedron = nullptr,
-           hexahedron = nullptr;  ///< null: VTK 9.1 has none
+           hexahedron = nullptr;  ///< null: not in VTK 9.1
 
-  /// Null for other types, too.
+  /// Returns null also for other types.
   Function of(ElementType type) const;
   std::vector<ElementType> types() const;
 };
 
-/// Those that depend on a cell's shape alone, not on its size or place.
+/// Returns the metrics that depend on a cell's shape alone, not on its size or position.
 const std::vector<VerdictMetric>& verdict_metrics();
 
-/// Of each cell, at most infinite_metric; NaN where the metric does not know its type, and the
-/// worst value, 0 or infinite_metric, where Verdict makes nothing of it.
+/// Returns the value of each cell, at most infinite_metric. NaN if the metric does not support its
+/// type. The worst value, 0 or infinite_metric, if Verdict returns no finite number.
 template <int dim, int spacedim>
 std::vector<double> verdict_values(const VerdictMetric& metric, const Mesh<dim, spacedim>& mesh);
 

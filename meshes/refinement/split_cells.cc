@@ -9,7 +9,7 @@ namespace smoothfem {
 
 namespace {
 
-/// A set of a cell's nodes, node i as bit i: the mean of them is a node of a part.
+/// A set of a cell's nodes, node i as bit i. Their mean is a node of a part.
 using Corners = unsigned int;
 /// The nodes of a part, in the order of its element.
 using Part = std::vector<Corners>;
@@ -21,12 +21,12 @@ constexpr Corners at(std::initializer_list<unsigned int> nodes) {
   return corners;
 }
 
-/// Of a square or a cube with edges of length one.
+/// Corners of a square or a cube with edges of length one.
 constexpr std::array<std::array<unsigned int, 3>, 8> corner_of{
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-/// Which corners of a square or cube, of n nodes, a point of the lattice {0, 1, 2}^n is the mean
-/// of.
+/// Returns the corners of a square or cube, of n nodes, whose mean is a point of the lattice {0, 1,
+/// 2}^n.
 Corners at_lattice(std::size_t n_nodes, const std::array<unsigned int, 3>& point) {
   Corners corners = 0;
   for (std::size_t i = 0; i < n_nodes; ++i) {
@@ -199,7 +199,7 @@ class Splitting {
     return tetrahedron;
   }
 
-  /// The node in the middle of these corners: cells that share them share it.
+  /// Returns the node in the middle of these corners. Cells with the same corners share it.
   NodeIndex node(Nodes nodes, Corners corners) {
     constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
     std::array<NodeIndex, 8> key;

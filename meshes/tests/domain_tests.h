@@ -12,7 +12,7 @@
 
 namespace smoothfem {
 
-/// Valid, and exactly the boundary nodes fixed.
+/// Expects a valid mesh in which exactly the boundary nodes are fixed.
 template <int dim>
 void expect_valid(const Mesh<dim>& mesh) {
   EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
@@ -20,7 +20,7 @@ void expect_valid(const Mesh<dim>& mesh) {
     ASSERT_EQ(mesh.topology().is_fixed(i), mesh.topology().on_boundary()[i]) << i;
 }
 
-/// Nodes less edges plus facets, less volume cells.
+/// Returns the numbers of nodes - edges + facets - volume cells.
 template <int dim, int spacedim>
 long euler_characteristic(const Mesh<dim, spacedim>& mesh) {
   const Topology& topology = mesh.topology();
@@ -29,8 +29,8 @@ long euler_characteristic(const Mesh<dim, spacedim>& mesh) {
   return n + static_cast<long>(topology.n_facets()) - static_cast<long>(mesh.n_cells());
 }
 
-/// By the divergence theorem from the boundary facets: another way than from the cells, and another
-/// number if cells overlap or leave gaps.
+/// Returns the volume by the divergence theorem from the boundary facets. It is independent of the
+/// cells and differs from their sum if cells overlap or leave gaps.
 inline double volume_inside(const VolumeMesh& mesh) {
   double six_times = 0.0;
   const auto& facets = mesh.topology().boundary_facets();
@@ -42,8 +42,8 @@ inline double volume_inside(const VolumeMesh& mesh) {
   return six_times / 6.0;
 }
 
-/// How many cells use a node: extremes and mean over all nodes, fraction of inner nodes with
-/// another number than `regular`.
+/// Numbers of cells that use a node: extremes and mean over all nodes, and the fraction of inner
+/// nodes whose number is not `regular`.
 struct Adjacency {
   std::size_t least = 1000, most = 0;
   double mean = 0.0, irregular_fraction = 0.0;
@@ -66,7 +66,7 @@ Adjacency adjacency(const Mesh<dim, spacedim>& mesh, std::size_t regular) {
   return result;
 }
 
-/// Edge scales beside the range are refused with the range.
+/// Expects that edge scales outside of the range are refused, with the range in the message.
 inline void expect_edge_scales(const std::string& domain, int most) {
   for (const double scale : {0.99, most + 0.01, std::nan("")})
     EXPECT_THAT(input_error_of([&] { find_domain(domain).generate({.edge_scale = scale}); }),

@@ -95,8 +95,8 @@ inline double analytic_volume() {
          (ring * Shape::disc_height + hub * (Shape::height - Shape::disc_height));
 }
 
-/// Everything that holds for every mesh of the flange. n_cells: within the fraction `tolerance`.
-/// volume_error: of flat facets in place of round ones, as a fraction.
+/// Checks properties of every mesh of the flange. n_cells: met within the fraction `tolerance`.
+/// volume_error: effect of flat facets instead of round ones, as a fraction.
 inline void expect_flange(const VolumeMesh& mesh, ElementType type, double n_cells,
                           double tolerance, double volume_error) {
   EXPECT_NEAR(static_cast<double>(mesh.n_cells()), n_cells, tolerance * n_cells);

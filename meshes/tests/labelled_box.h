@@ -10,7 +10,7 @@
 
 namespace smoothfem {
 
-/// A box with everything that labels can hold, and coordinates that need all digits.
+/// A box with all kinds of labels, and coordinates that need all digits.
 inline VolumeMesh labelled_box(test::BoxCells kind) {
   VolumeMesh mesh = test::box_mesh(2, 2, 4, kind);
   for (auto& point : mesh.coordinates())

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -20,20 +21,27 @@
 
 namespace smoothfem {
 
-/// Everything in a file; empty if there is none.
+inline void PrintTo(const MeshFormat& format, std::ostream* out) {
+  *out << format.name;
+}
+inline void PrintTo(ElementType type, std::ostream* out) {
+  *out << name_of(type);
+}
+
+/// Returns the content of a file; empty if it does not exist.
 inline std::string content_of(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A folder of its own for each test, removed afterwards.
+/// A separate folder for each test, removed afterwards.
 class FileTest : public ::testing::Test {
  protected:
   FileTest() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string("smoothfem-") + std::to_string(::getpid()) + "-" +
                        test->test_suite_name() + "-" + test->name();
-    // Those of tests with parameters have slashes, and removing a folder leaves the one it is in.
+    // Names of tests with parameters have slashes; removing a folder would leave its parent.
     std::replace(name.begin(), name.end(), '/', '-');
     folder_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::create_directories(folder_);
@@ -42,7 +50,7 @@ class FileTest : public ::testing::Test {
 
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
-  /// Number of the files and folders directly in a folder of it.
+  /// Number of files and subfolders in a folder of the test.
   std::size_t n_entries(const std::string& folder = "") const {
     return static_cast<std::size_t>(
         std::distance(std::filesystem::directory_iterator(file(folder)), {}));
@@ -57,7 +65,7 @@ class FileTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// A disk that is full after some bytes of each file: a limit on the size of files.
+/// Simulates a full disk: each file can have only so many bytes, by a limit on the size of files.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t n_bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -77,7 +85,8 @@ class FullDisk {
   rlimit former_;
 };
 
-/// A machine with so much memory beyond what this process has now: a limit on its addresses.
+/// Simulates a machine with so much memory more than this process has now, by a limit on its
+/// address space.
 class LittleMemory {
  public:
   explicit LittleMemory(rlim_t n_bytes) {
@@ -96,7 +105,7 @@ class LittleMemory {
   rlimit former_;
 };
 
-/// The message of the InputError that a call throws; empty if it throws none.
+/// Returns the message of the InputError that a call throws; empty if it throws none.
 template <class Call>
 std::string input_error_of(const Call& call) {
   try {
@@ -151,7 +160,7 @@ void expect_same_mesh(const Mesh<dim>& a, const Mesh<dim>& b) {
   EXPECT_EQ(a.topology().free_nodes(), b.topology().free_nodes());
 }
 
-/// Tags of all cells and two facets of mixed_mesh, and names of some.
+/// Tags of all cells and two facets of mixed_mesh, and some names.
 inline MeshLabels labels_of_mixed_mesh() {
   MeshLabels labels;
   labels.cell_tags = {7, 7, 3, 3, 7, 3};

@@ -16,7 +16,7 @@ TEST_F(AtomicFile, CreatesFoldersAndReplacesTheFile) {
   EXPECT_EQ(n_entries("a/b"), 1u);
 }
 
-TEST_F(AtomicFile, TheTemporaryIsBesideTheTargetWithItsExtension) {
+TEST_F(AtomicFile, TheTemporaryIsNextToTheTargetWithItsExtension) {
   const auto path = file("mesh.vtu");
   std::filesystem::path temporary;
   write_atomically(path, [&](const std::filesystem::path& given) {
@@ -29,7 +29,7 @@ TEST_F(AtomicFile, TheTemporaryIsBesideTheTargetWithItsExtension) {
   EXPECT_FALSE(std::filesystem::exists(temporary));
 }
 
-TEST_F(AtomicFile, AFailedWriteLeavesTheOldFileAndNoTemporary) {
+TEST_F(AtomicFile, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
   const auto path = file_with("kept.txt", "old");
   const std::string message = input_error_of([&] {
     write_atomically(path, [](const std::filesystem::path& temporary) {
@@ -47,7 +47,7 @@ TEST_F(AtomicFile, AWriterThatWritesNothingIsAnError) {
               HasSubstr("No such file"));
 }
 
-TEST_F(AtomicFile, NamesTargetAndReasonWhenTheFolderCannotBe) {
+TEST_F(AtomicFile, NamesTargetAndReasonIfTheFolderCannotBeCreated) {
   EXPECT_EQ(input_error_of([] { write_atomically("/dev/null/x/y.csv", "text"); }),
             "cannot write /dev/null/x/y.csv: the folder /dev/null/x cannot be created (Not a "
             "directory)");
@@ -58,7 +58,7 @@ TEST_F(AtomicFile, NamesTargetAndReasonWhenTheFolderCannotBe) {
 
 TEST_F(AtomicFile, RefusesFoldersAndDevices) {
   EXPECT_THAT(input_error_of([&] { write_atomically(file(""), "text"); }),
-              HasSubstr("names no file"));
+              HasSubstr("it is not a file name"));
   EXPECT_THAT(input_error_of([&] { write_atomically(file("").parent_path(), "text"); }),
               HasSubstr("is a folder"));
   EXPECT_THAT(input_error_of([] { write_atomically("/dev/full", "text"); }),

@@ -4,7 +4,7 @@
 namespace smoothfem {
 namespace {
 
-/// Metres: the section's corners by the shoelace formula, less round ducts.
+/// In metres: the section's corners by the shoelace formula, less round ducts.
 constexpr double box_area =
     0.5 * ((2.25 + 2.75) * 2 * 1.9 + (2.75 + 5.5) * 2 * 0.2 + 11.0 * 2 * 0.3);
 constexpr double cell_area = 0.5 * ((1.85 + 2.25) * 2 * 1.45 + (2.25 + 1.85) * 2 * 0.2);

@@ -5,11 +5,12 @@
 namespace smoothfem {
 namespace {
 
-/// Of a block (1) with two passages around it: each wheel joins the body, which the plane of
-/// symmetry cuts, to the road, and air flows around the wheel on its inner side.
+/// Euler characteristic of a block (1) with two passages around it. Each wheel joins the body,
+/// which the plane of symmetry cuts, to the road; air flows around the wheel on its inner side.
 constexpr long characteristic = 1 - 2;
 
-/// Cells fill the air without overlapping: their volumes, summed, are what the boundary encloses.
+/// Cells fill the air without overlapping: the sum of their volumes is the volume inside the
+/// boundary.
 void expect_filled(const VolumeMesh& mesh) {
   double sum = 0.0;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) sum += signed_cell_size(mesh, c);
@@ -31,8 +32,8 @@ TEST(Car, HasTheSizeAndTheQualityOfTheThesis) {
   expect_filled(mesh);
 }
 
-/// A windscreen that slopes, a roof narrower than the body: the boundary has nodes where two boxes
-/// have none, and none where they have corners.
+/// The windscreen slopes, and the roof is narrower than the body. So the boundary has nodes where
+/// two boxes have none, and none at their corners.
 TEST(Car, HasTheShapeOfACar) {
   const VolumeMesh mesh = mesh_of_domain<3>("car", {.edge_scale = 4.0});
   const auto x = mesh.copied_coordinates();

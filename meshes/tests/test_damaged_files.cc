@@ -13,6 +13,7 @@ using ::testing::StartsWith;
 
 struct Damaged {
   std::string name, extension, content, message;
+  friend void PrintTo(const Damaged& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 class DamagedFile : public FileTest, public ::testing::WithParamInterface<Damaged> {};
@@ -185,8 +186,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "the attribute 'type' is not in quotes"}),
     [](const auto& info) { return info.param.name; });
 
-/// As many sets as nodes, of every second, third, ... node.
-TEST_F(FileTest, ManySetsOfManyNodesTakeLittleTime) {
+/// Sets of every second, third, ... node; as many sets as nodes.
+TEST_F(FileTest, ReadsManySetsOfManyNodesQuickly) {
   constexpr int n = 20000;
   std::string nodes = "*NODE\n", elements = "*ELEMENT, TYPE=S4\n",
               fixed = "*NSET, NSET=SMOOTHFEM_FIXED, GENERATE\n",
@@ -291,7 +292,7 @@ const std::vector<std::string> square = {"0 0 0", "1 0 0", "1 1 0", "0 1 0"},
                                roof = {"0 0 0", "1 0 .5", "1 1 0", "0 1 .5"},
                                corner = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
 
-TEST_P(EveryTextFormat, RefusesACellThatIsGivenTwice) {
+TEST_P(EveryTextFormat, RefusesDuplicateCells) {
   for (const auto& points : {square, roof}) {
     EXPECT_EQ(message(points, {{0, 1, 2}, {0, 2, 3}}), "");
     EXPECT_THAT(message(points, {{0, 1, 2}, {0, 1, 2}}),
@@ -304,7 +305,7 @@ TEST_P(EveryTextFormat, RefusesACellThatIsGivenTwice) {
               HasSubstr("cell 2 has the same nodes as cell 0"));
 }
 
-TEST_P(EveryTextFormat, RefusesCoordinatesWhoseSizesAreNoNumbers) {
+TEST_P(EveryTextFormat, RefusesCoordinatesWhoseSizesOverflow) {
   for (const std::string large : {"1e51", "-1e100", "1e308"})
     for (const std::string& point : {large + " 0 0", "0 " + large + " 0", "0 0 " + large}) {
       auto points = corner;
@@ -323,7 +324,7 @@ INSTANTIATE_TEST_SUITE_P(Files, EveryTextFormat,
                          ::testing::Values(".msh", ".vtk", ".vtu", ".inp", ".mesh"),
                          [](const auto& info) { return info.param.substr(1); });
 
-TEST_F(FileTest, CoordinatesThatAreNoNumbersAreRefusedInBinaryFiles) {
+TEST_F(FileTest, RefusesNonFiniteCoordinatesInBinaryFiles) {
   for (const std::string extension : {".vtk", ".msh"}) {
     write_mesh(file("a" + extension), mixed_mesh(false));
     std::string content = content_of(file("a" + extension));

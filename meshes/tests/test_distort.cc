@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "meshes/distortion/counter_random.h"
-#include "meshes/tests/distortion_again.h"
 #include "meshes/tests/mesh_tests.h"
+#include "meshes/tests/reference_distortion.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// n x n squares, each cut in two triangles if wanted.
+/// n x n squares, each cut into two triangles if requested.
 PlanarMesh grid(NodeIndex n, bool triangles) {
   std::vector<Point<2>> x;
   for (NodeIndex j = 0; j <= n; ++j)
@@ -46,7 +46,7 @@ std::uint64_t hash(const PlanarMesh& mesh) {
   return value;
 }
 
-TEST(SplitMix64, GivesTheNumbersOfTheReferenceImplementation) {
+TEST(SplitMix64, MatchesTheReferenceImplementation) {
   SplitMix64 random(1234567);
   for (const std::uint64_t expected :
        {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u,
@@ -68,7 +68,8 @@ TEST(SplitMix64, UniformNumbersFillTheirRangeEvenly) {
   for (const int count : dice) EXPECT_NEAR(count, n / 7, 600);
 }
 
-/// The high half of a product of 64-bit numbers, as at school: by halves of 32 bits with carries.
+/// Returns the high half of a product of 64-bit numbers, computed by halves of 32 bits with
+/// carries.
 std::uint64_t high_half(std::uint64_t x, std::uint64_t y) {
   const std::uint64_t mask = 0xffffffff;
   const std::uint64_t low = (x & mask) * (y & mask);
@@ -128,7 +129,7 @@ TEST_P(Distort, KeepsToTheBallOfItsRadius) {
   EXPECT_GE(farthest, 0.9 * radius * edge_length);
 }
 
-TEST_P(Distort, TheSameParametersGiveTheSameBitsAndOtherSeedsOtherMeshes) {
+TEST_P(Distort, IsBitwiseReproducibleAndDependsOnTheSeed) {
   const auto hash_for = [](std::uint64_t seed, double target) {
     PlanarMesh mesh = grid(20, GetParam());
     distort(mesh, {.target_q_mean = target, .seed = seed});
@@ -143,35 +144,35 @@ INSTANTIATE_TEST_SUITE_P(Grids, Distort, ::testing::Bool(), [](const auto& info)
   return info.param ? "triangles" : "quadrilaterals";
 });
 
-TEST(DistortOnAnyMachine, GivesTheBitsOfASecondImplementation) {
+TEST(DistortOnAnyMachine, IsBitwiseIdenticalToASecondImplementation) {
   const PlanarMesh original = grid(12, true);
   for (const std::uint64_t seed : {1, 42})
     for (const int n_sweeps : {1, 3}) {
       PlanarMesh mesh = original;
       distort_within(mesh, 0.8, {.seed = seed, .n_candidates = 7, .n_sweeps = n_sweeps});
-      EXPECT_EQ(mesh.copied_coordinates(), distorted_again(original, 0.8, seed, 7, n_sweeps));
+      EXPECT_EQ(mesh.copied_coordinates(), reference_distortion(original, 0.8, seed, 7, n_sweeps));
     }
 }
 
-TEST(DistortOnAnyMachine, GivesTheBitsOfASecondImplementationOfRandomSteps) {
+TEST(DistortOnAnyMachine, RandomStepsAreBitwiseIdenticalToASecondImplementation) {
   const PlanarMesh original = grid(12, true);
   for (const std::uint64_t seed : {1, 42})
     for (const int n_sweeps : {1, 3}) {
       PlanarMesh mesh = original;
       distort_within(mesh, 0.8,
                      {.seed = seed, .kind = DistortionKind::random_steps, .n_sweeps = n_sweeps});
-      const auto again = stepped_again(original, 0.8, seed, n_sweeps);
+      const auto again = reference_random_steps(original, 0.8, seed, n_sweeps);
       for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
         ASSERT_EQ(mesh.copied_coordinates()[i], again[i]) << i;
     }
 }
 
-/// Four free nodes, whose bits are those of the machine that this was written on.
-TEST(DistortOnAnyMachine, GivesTheseBits) {
+/// Checks four free nodes, bit by bit, against values from another machine.
+TEST(DistortOnAnyMachine, IsBitwiseIdenticalToRecordedCoordinates) {
   const PlanarMesh original = grid(3, true);
   PlanarMesh mesh = original;
   distort_within(mesh, 0.5, {.seed = 42, .n_candidates = 4});
-  EXPECT_EQ(mesh.copied_coordinates(), distorted_again(original, 0.5, 42, 4, 1));
+  EXPECT_EQ(mesh.copied_coordinates(), reference_distortion(original, 0.5, 42, 4, 1));
   std::vector<Point<2>> free;
   for (const NodeIndex node : mesh.topology().free_nodes())
     free.push_back(mesh.copied_coordinates()[node]);
@@ -181,21 +182,21 @@ TEST(DistortOnAnyMachine, GivesTheseBits) {
                                          {0x1.8f6036546969ep+0, 0x1.04fde787d60a9p+1}}));
 }
 
-/// The radius is found by bisection of a sixteenth of the largest one, 4, in twelve steps. From the
-/// first node on, nodes move once more until the mean quality is the target; all behind them are
-/// where the radius puts them.
+/// Repeats the documented steps. The radius is found by bisection of a sixteenth of the largest
+/// one, 4, in twelve steps. Nodes, from the first one on, move once more until the mean quality is
+/// the target. All later nodes stay at the positions of that radius.
 TEST(DistortOnAnyMachine, FindsThisRadius) {
   const PlanarMesh original = grid(12, true);
   PlanarMesh mesh = original;
   const DistortionResult result = distort(mesh, {.target_q_mean = 0.45, .seed = 42});
   EXPECT_EQ(result.radius, 12804 * 0x1p-14);
-  const auto expected = distorted_again(original, result.radius, 42, default_candidates(2), 1);
+  const auto expected = reference_distortion(original, result.radius, 42, default_candidates(2), 1);
   const auto& free = mesh.topology().free_nodes();
-  std::size_t n_moved_again = free.size();
-  while (n_moved_again > 0 &&
-         mesh.coordinates()[free[n_moved_again - 1]] == expected[free[n_moved_again - 1]])
-    --n_moved_again;
-  EXPECT_EQ(n_moved_again, 3u);
+  std::size_t n_nodes_moved_again = free.size();
+  while (n_nodes_moved_again > 0 && mesh.coordinates()[free[n_nodes_moved_again - 1]] ==
+                                        expected[free[n_nodes_moved_again - 1]])
+    --n_nodes_moved_again;
+  EXPECT_EQ(n_nodes_moved_again, 3u);
   EXPECT_NEAR(result.q_mean, 0.45, 1e-12);
 }
 
@@ -214,7 +215,7 @@ TEST(RandomSteps, MeetTheTargetWithAValidMeshAndFixedBoundary) {
   }
 }
 
-/// Neighbours of a node that walked far have to follow it; with one step each they do not.
+/// Neighbours of a node that has moved far must follow it; with one step each they do not.
 TEST(RandomSteps, MoveNeighboursTogether) {
   const auto correlation = [](const DistortionParameters& parameters) {
     const PlanarMesh original = grid(40, true);
@@ -242,12 +243,12 @@ TEST(RandomSteps, MoveNeighboursTogether) {
   EXPECT_LT(correlation({.target_q_mean = 0.45}), 0.05);
 }
 
-TEST(Distort, LeavesNoCellBelowTheLeastQuality) {
+TEST(Distort, LeavesNoCellBelowTheSmallestQuality) {
   for (const DistortionKind kind :
        {DistortionKind::worst_candidate, DistortionKind::random_steps}) {
     PlanarMesh free = grid(20, true), bounded = grid(20, true);
     const DistortionParameters parameters{
-        .target_q_mean = 0.5, .kind = kind, .n_sweeps = 3, .least_quality = 0.1};
+        .target_q_mean = 0.5, .kind = kind, .n_sweeps = 3, .min_quality = 0.1};
     distort(bounded, parameters);
     EXPECT_GE(mesh_quality(bounded).q_min, 0.1);
     EXPECT_NEAR(mesh_quality(bounded).q_mean, 0.5, 1e-4);
@@ -256,15 +257,16 @@ TEST(Distort, LeavesNoCellBelowTheLeastQuality) {
   }
 }
 
-/// Cells of the grid have a mean ratio of .866: below .9 from the beginning, they may not fall.
-TEST(Distort, DoesNotMakeCellsWorseThatAreBelowTheLeastQuality) {
+/// Cells of the grid have a mean ratio of .866. This is below .9 from the beginning, so that they
+/// must not become worse.
+TEST(Distort, DoesNotWorsenCellsBelowTheSmallestQuality) {
   PlanarMesh mesh = grid(6, true);
   const double before = mesh_quality(mesh).q_min;
-  distort_within(mesh, 0.8, {.kind = DistortionKind::random_steps, .least_quality = 0.9});
+  distort_within(mesh, 0.8, {.kind = DistortionKind::random_steps, .min_quality = 0.9});
   EXPECT_GE(mesh_quality(mesh).q_min, before);
 }
 
-TEST(DistortErrors, SayWhatCanBeReached) {
+TEST(DistortErrors, ReportTheRangeThatCanBeReached) {
   const PlanarMesh original = grid(6, false);
   PlanarMesh mesh = original;
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.target_q_mean = 0.01}); }),
@@ -277,12 +279,12 @@ TEST(DistortErrors, SayWhatCanBeReached) {
               HasSubstr("1.500000 is not between 0 and 1"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_candidates = 0}); }), HasSubstr("not 0"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.n_sweeps = 0}); }), HasSubstr("not 0"));
-  EXPECT_THAT(input_error_of([&] { distort(mesh, {.least_quality = 1.0}); }),
+  EXPECT_THAT(input_error_of([&] { distort(mesh, {.min_quality = 1.0}); }),
               HasSubstr("least quality 1.000000 is not between 0 and 1"));
   EXPECT_THAT(input_error_of([&] { distort(mesh, {.tolerance = 0.0}); }), HasSubstr("positive"));
 }
 
-TEST(DistortErrors, InvalidMeshesAreRefused) {
+TEST(DistortErrors, RefusesInvalidMeshes) {
   PlanarMesh mesh = grid(6, false);
   mesh.coordinates()[24] = {10, 10};
   EXPECT_THAT(input_error_of([&] { distort(mesh, {}); }), HasSubstr("cells are invalid"));

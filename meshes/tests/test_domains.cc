@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(Domains, AllThatComeWithTheProgramAreRegisteredAndSortedByName) {
+TEST(Domains, AllAreRegisteredAndSortedByName) {
   std::vector<std::string> names;
   for (const Domain& domain : domains()) names.push_back(domain.name);
   EXPECT_THAT(names, ::testing::ElementsAre("aorta", "axle", "bridge", "car", "cube", "fichera",
@@ -21,7 +21,7 @@ TEST(Domains, AllThatComeWithTheProgramAreRegisteredAndSortedByName) {
                                             "roof", "sphere", "square", "subdivision", "sweep"));
 }
 
-TEST(Domains, SayWhatTheyAre) {
+TEST(Domains, HaveDescriptions) {
   for (const Domain& domain : domains()) {
     SCOPED_TRACE(domain.name);
     EXPECT_FALSE(domain.description.empty());
@@ -50,8 +50,8 @@ std::vector<NodeIndex> cells_of_any(const AnyMesh& mesh) {
   return std::visit([](const auto& any) { return any.topology().cells().entries(); }, mesh);
 }
 
-/// Those that take long to mesh are not random, and are left out.
-TEST(Domains, SayWhichElementsTheSeedChanges) {
+/// Domains that take long to mesh are not random; they are left out.
+TEST(Domains, KnowWhichElementsTheSeedChanges) {
   for (const std::string name : {"gear", "random-planar", "sphere", "prosthesis", "subdivision",
                                  "nonuniform-grid", "sweep", "ring"}) {
     const Domain& domain = find_domain(name);
@@ -65,7 +65,7 @@ TEST(Domains, SayWhichElementsTheSeedChanges) {
   }
 }
 
-TEST(Domains, ThatAreNotThereAreRefusedWithTheNearestName) {
+TEST(Domains, UnknownNamesAreRefusedWithTheNearestName) {
   EXPECT_THAT(
       input_error_of([] { find_domain("gaer"); }),
       HasSubstr("there is no domain 'gaer'; did you mean 'gear'? choose one of aorta, axle"));

@@ -22,7 +22,7 @@ void expect_counts(const VolumeMesh& mesh,
     EXPECT_NEAR(static_cast<double>(count(mesh, type)), n, tolerance * n) << name_of(type);
 }
 
-/// q_min within a factor of 2 of the printed one, q_mean within 0.01.
+/// Expects q_min within a factor of 2 of the printed value, and q_mean within 0.01.
 void expect_qualities(const VolumeMesh& mesh, double q_min, double q_mean) {
   const MeshQuality quality = mesh_quality(mesh);
   EXPECT_GE(quality.q_min, 0.5 * q_min);
@@ -73,8 +73,8 @@ TEST(Aorta, HasTheCountsAndTheQualityOfTheThesis) {
   expect_edge_scales("aorta", 1);
 }
 
-/// Largest angle between the normals of neighbouring boundary triangles, in degrees, of those whose
-/// common edge has its middle between two heights.
+/// Returns the largest angle in degrees between the normals of neighbouring boundary triangles.
+/// Takes those whose common edge has its middle between two heights.
 double sharpest_bend(const VolumeMesh& mesh, double from, double to) {
   const auto& facets = mesh.topology().boundary_facets();
   const auto x = mesh.copied_coordinates();

@@ -18,9 +18,9 @@ std::string reason_of_finish(ErrorLatchingFilebuf& file) {
   return {};
 }
 
-constexpr int many = 100'000;  // bytes: the buffer of a file has some thousand
+constexpr int many = 100'000;  // bytes; the buffer of a file has a few thousand
 
-TEST_F(ErrorLatching, WritesWhatItGets) {
+TEST_F(ErrorLatching, WritesAllData) {
   ErrorLatchingFilebuf file(ErrorLatching::file("a"));
   std::ostream stream(&file);
   std::string expected;
@@ -33,9 +33,9 @@ TEST_F(ErrorLatching, WritesWhatItGets) {
   EXPECT_EQ(content_of(ErrorLatching::file("a")), expected);
 }
 
-/// Every write fails, that of single characters, of blocks larger than the buffer, and of what is
-/// left at the end; the stream looks sound, so that nobody stops early.
-TEST_F(ErrorLatching, TakesManyMoreBytesThanItsBufferHasOnAFullDevice) {
+/// All writes fail: single characters, blocks larger than the buffer, and the rest at the end. The
+/// stream reports no error, so that no writer stops early.
+TEST_F(ErrorLatching, AcceptsMoreBytesThanItsBufferHoldsOnAFullDevice) {
   for (const std::streamsize block : {0, 10, 5000, 20'000}) {
     SCOPED_TRACE(block);
     ErrorLatchingFilebuf file("/dev/full");
@@ -50,7 +50,7 @@ TEST_F(ErrorLatching, TakesManyMoreBytesThanItsBufferHasOnAFullDevice) {
   }
 }
 
-TEST_F(ErrorLatching, DropsWhatDoesNotFitOnTheDisk) {
+TEST_F(ErrorLatching, DropsDataThatDoNotFitOnTheDisk) {
   const auto path = file("a");
   {
     ErrorLatchingFilebuf file(path);
@@ -61,7 +61,7 @@ TEST_F(ErrorLatching, DropsWhatDoesNotFitOnTheDisk) {
       stream.flush();
     }
     for (int i = 0; i < many; ++i)
-      stream.put('d');  // there is room again, but something is missing
+      stream.put('d');  // there is room again, but some data are missing
     EXPECT_TRUE(stream.good());
     EXPECT_EQ(reason_of_finish(file), "File too large");
   }
@@ -73,7 +73,7 @@ TEST_F(ErrorLatching, NeedsNoFinish) {
   std::ostream(&file) << std::string(many, 'x') << "and some left";
 }
 
-TEST_F(ErrorLatching, SaysWhyAFileCannotBeOpened) {
+TEST_F(ErrorLatching, ReportsWhyAFileCannotBeOpened) {
   ErrorLatchingFilebuf file("/dev/null/x");
   std::ostream(&file) << "text";
   EXPECT_EQ(reason_of_finish(file), "Not a directory");

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 using ExternalProgram = FileTest;
 
-TEST(CommandText, PlaceholdersStandWhereTheyAreNamed) {
+TEST(CommandText, ReplacesPlaceholders) {
   EXPECT_EQ(with_placeholder("a {in} b {in}{out}", "in", "x{in}"), "a x{in} b x{in}{out}");
   EXPECT_TRUE(has_placeholder("a {iterations}", "iterations"));
   EXPECT_FALSE(has_placeholder("a {iterations}", "iteration"));
@@ -38,7 +38,7 @@ TEST(CommandText, FirstWordEndsAtABlankOutsideOfQuotes) {
   EXPECT_EQ(after_first_word("alone"), "");
 }
 
-TEST(CommandText, TimesAreThoseOfTheLinesThatMatch) {
+TEST(CommandText, ReadsTimesFromMatchingLines) {
   const std::string text = "start\nstep 1 time: 0.25 s\nstep 2 time: 1e-1 s\ntime: none\n\n";
   EXPECT_THAT(matched_numbers(text, "time: ([0-9.e+-]+) s"), ElementsAre(0.25, 0.1));
   EXPECT_THAT(matched_numbers(text, "seconds: (.*)"), ElementsAre());
@@ -46,13 +46,13 @@ TEST(CommandText, TimesAreThoseOfTheLinesThatMatch) {
   EXPECT_EQ(last_line(""), "");
 }
 
-TEST(CommandText, QuotedWordsComeThroughTheShell) {
+TEST(CommandText, QuotedWordsPassTheShellUnchanged) {
   const ScratchFolder folder;
   const std::string word = "it's \"all\" $HOME `one` \\ word";
   EXPECT_EQ(run_command("printf %s " + shell_quoted(word), folder.path(), 10.0).output, word);
 }
 
-TEST_F(ExternalProgram, EndIsTold) {
+TEST_F(ExternalProgram, ReportsHowAProgramEnded) {
   const auto end = run_command("pwd; echo loud >&2; exit 3", file(""), 10.0);
   EXPECT_EQ(end.exit_code, 3);
   EXPECT_EQ(end.signal, 0);
@@ -63,7 +63,7 @@ TEST_F(ExternalProgram, EndIsTold) {
   EXPECT_EQ(run_command("no-such-program-here", file(""), 10.0).exit_code, 127);
 }
 
-TEST_F(ExternalProgram, IsNoRankOfOurs) {
+TEST_F(ExternalProgram, IsNotAnMpiRank) {
   ::setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
   ::setenv("SMOOTHFEM_TEST", "here", 1);
   const auto end = run_command("echo \"$OMPI_COMM_WORLD_SIZE,$SMOOTHFEM_TEST\"", file(""), 10.0);
@@ -72,12 +72,12 @@ TEST_F(ExternalProgram, IsNoRankOfOurs) {
   EXPECT_EQ(end.output, ",here\n");
 }
 
-TEST_F(ExternalProgram, TimeIsThatOfTheClock) {
+TEST_F(ExternalProgram, MeasuresWallClockTime) {
   const auto end = run_command("sleep 0.3", file(""), 10.0);
   EXPECT_GE(end.wall_seconds, 0.3);
 }
 
-TEST_F(ExternalProgram, WhatHangsIsEndedWithAllThatItStarted) {
+TEST_F(ExternalProgram, EndsHangingProgramsWithAllTheirChildren) {
   const auto start = std::chrono::steady_clock::now();
   const auto end =
       run_command("(sleep 2; touch " + shell_quoted(file("late")) + ") & sleep 100", file(""), 0.2);
@@ -87,7 +87,7 @@ TEST_F(ExternalProgram, WhatHangsIsEndedWithAllThatItStarted) {
   EXPECT_FALSE(std::filesystem::exists(file("late")));
 }
 
-TEST_F(ExternalProgram, ScratchFolderGoesWithItsContent) {
+TEST_F(ExternalProgram, RemovesTheScratchFolderWithItsContent) {
   std::filesystem::path path;
   {
     const ScratchFolder folder;
@@ -98,14 +98,14 @@ TEST_F(ExternalProgram, ScratchFolderGoesWithItsContent) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST(FindProgram, LooksWhereTheShellDoes) {
+TEST(FindProgram, SearchesThePathOfTheShell) {
   EXPECT_EQ(find_program("sh").filename(), "sh");
   EXPECT_EQ(find_program("no-such-program-here"), "");
   EXPECT_EQ(find_program("/bin/sh"), "/bin/sh");
   EXPECT_EQ(find_program("/bin"), "");
 }
 
-/// The reason why a mesh that came back is refused; empty if it is taken.
+/// Returns the reason why a returned mesh is refused; empty if it is accepted.
 template <int dim>
 std::string refusal(const std::filesystem::path& path, const Mesh<dim>& given) {
   try {
@@ -116,7 +116,7 @@ std::string refusal(const std::filesystem::path& path, const Mesh<dim>& given) {
   return "";
 }
 
-TEST_F(ExternalProgram, TextOfVtkIsReadBackWithAllBits) {
+TEST_F(ExternalProgram, VtkTextIsReadBackBitwiseIdentical) {
   const PlanarMesh planar = mixed_mesh(true);
   write_text_vtk(file("planar.vtk"), planar);
   EXPECT_EQ(read_planar(file("planar.vtk")).mesh.copied_coordinates(), planar.copied_coordinates());
@@ -132,7 +132,7 @@ TEST_F(ExternalProgram, TextOfVtkIsReadBackWithAllBits) {
   }
 }
 
-/// Entries of a section of a Medit file.
+/// Returns the entries of a section of a Medit file.
 std::size_t section_size(const std::filesystem::path& path, const std::string& section) {
   const std::string text = content_of(path);
   const auto at = text.find("\n" + section + "\n");
@@ -155,7 +155,7 @@ TEST_F(ExternalProgram, MeditForProgramsHasTheWholeBoundary) {
   write_medit_with_boundary(file("bare.mesh"), bare);
   EXPECT_EQ(section_size(file("bare.mesh"), "Quadrilaterals"), 40u);
 
-  // Facets that have a label keep it; every tenth has two.
+  // Labelled facets keep their label; every tenth has two.
   const VolumeMesh box = labelled_box(test::BoxCells::hexahedra);
   write_medit_with_boundary(file("box.mesh"), box);
   EXPECT_EQ(section_size(file("box.mesh"), "Quadrilaterals"), 40u + 4u);
@@ -168,7 +168,7 @@ PlanarMesh with_cells(const PlanarMesh& mesh, CompressedRows<NodeIndex> cells) {
           mesh.copied_coordinates()};
 }
 
-TEST_F(ExternalProgram, MovedNodesComeBackWhateverTheOrderOfCells) {
+TEST_F(ExternalProgram, ReadsMovedNodesInAnyOrderOfCells) {
   const PlanarMesh given = mixed_mesh(false);
   CompressedRows<NodeIndex> cells;
   for (std::size_t c = given.n_cells(); c-- > 0;) {
@@ -184,7 +184,7 @@ TEST_F(ExternalProgram, MovedNodesComeBackWhateverTheOrderOfCells) {
   for (NodeIndex i = 0; i < given.n_nodes(); ++i) EXPECT_EQ(points[i], moved.coordinates()[i]) << i;
 }
 
-TEST_F(ExternalProgram, NumbersOfTheFileSayWhichNodeIsWhich) {
+TEST_F(ExternalProgram, MatchesNodesByTheNumbersOfTheFile) {
   const VolumeMesh given = labelled_box(test::BoxCells::tetrahedra);  // numbers 2, 5, 8, ...
   write_mesh(file("out.msh"), given);
   const auto points = returned_coordinates<3>(file("out.msh"), given);
@@ -198,7 +198,7 @@ TEST_F(ExternalProgram, NumbersOfTheFileSayWhichNodeIsWhich) {
   EXPECT_THAT(refusal(file("other.msh"), given), HasSubstr("a node with the number 1000"));
 }
 
-TEST_F(ExternalProgram, FixedNodesKeepTheirBitsThoughFilesHaveFewDigits) {
+TEST_F(ExternalProgram, FixedNodesStayBitwiseIdenticalWithFewDigits) {
   const PlanarMesh given = mixed_mesh(false);
   PlanarMesh rounded = given;
   for (auto& p : rounded.coordinates()) p = (p * 1e7).array().round() / 1e7;
@@ -209,7 +209,7 @@ TEST_F(ExternalProgram, FixedNodesKeepTheirBitsThoughFilesHaveFewDigits) {
               given.topology().is_fixed(i) ? given.coordinates()[i] : rounded.coordinates()[i]);
 }
 
-TEST_F(ExternalProgram, FixedNodesThatMoveAreRefused) {
+TEST_F(ExternalProgram, RefusesMovedFixedNodes) {
   const PlanarMesh given = mixed_mesh(false);
   PlanarMesh moved = given;
   moved.coordinates()[0] += Point<2>(1e-3, 0.0);
@@ -218,7 +218,7 @@ TEST_F(ExternalProgram, FixedNodesThatMoveAreRefused) {
               HasSubstr("it has moved 1 fixed node, by up to 0.001"));
 }
 
-TEST_F(ExternalProgram, OtherCellsAreRefused) {
+TEST_F(ExternalProgram, RefusesOtherCells) {
   const PlanarMesh given = mixed_mesh(false);
   CompressedRows<NodeIndex> fewer, swapped;
   for (std::size_t c = 0; c < given.n_cells(); ++c) {
@@ -239,7 +239,7 @@ TEST_F(ExternalProgram, OtherCellsAreRefused) {
               HasSubstr("other cells (2 cells changed)"));
 }
 
-TEST_F(ExternalProgram, OtherNodesAreRefused) {
+TEST_F(ExternalProgram, RefusesOtherNodes) {
   const PlanarMesh given = mixed_mesh(false);
   auto points = given.copied_coordinates();
   points.emplace_back(7.0, 7.0);
@@ -249,7 +249,7 @@ TEST_F(ExternalProgram, OtherNodesAreRefused) {
   EXPECT_THAT(refusal(file("out.mesh"), given), HasSubstr("nodes in place of"));
 }
 
-TEST_F(ExternalProgram, NonsenseIsRefusedWithoutTheFolderOfAMoment) {
+TEST_F(ExternalProgram, RefusesNonsenseWithoutNamingTheTemporaryFolder) {
   const PlanarMesh given = mixed_mesh(false);
   write_mesh(file("out.mesh"), given);
   std::string text = content_of(file("out.mesh"));

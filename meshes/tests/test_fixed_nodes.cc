@@ -43,7 +43,7 @@ TEST(FixedNodes, FollowTheRule) {
   EXPECT_EQ(fixed_by("group=inlet,2"), (Nodes{0, 1, 2, 3, 4, 5, 18, 19, 21, 22}));
 }
 
-TEST(FixedNodes, UnknownGroupsAndRulesAreNamedWithThoseThereAre) {
+TEST(FixedNodes, RefusesUnknownGroupsAndRulesAndListsTheAvailableOnes) {
   EXPECT_EQ(input_error_of([] { fixed_by("group=outlet"); }),
             "no boundary group is called 'outlet'; the mesh has the groups 2, 5 (inlet)");
   EXPECT_THAT(input_error_of([] { fixed_by("group="); }), HasSubstr("use boundary, file, free"));
@@ -53,7 +53,7 @@ TEST(FixedNodes, UnknownGroupsAndRulesAreNamedWithThoseThereAre) {
               HasSubstr("the mesh has no labelled boundary groups"));
 }
 
-TEST(FixedNodes, NodesOfNoCellStayFixedAndLabelsStay) {
+TEST(FixedNodes, KeepsUnusedNodesFixedAndLabels) {
   const VolumeMesh mesh = test::make_volume_mesh(
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {9, 9, 9}}, test::rows_of({{0, 1, 2, 3}}));
   const auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule("free"));

@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Types, FlangeOfType,
                          ::testing::Values(ElementType::tetrahedron, ElementType::hexahedron),
                          [](const auto& info) { return std::string(name_of(info.param)); });
 
-TEST(FlangeErrors, NameWhatIsNotPossible) {
+TEST(FlangeErrors, NameImpossibleParameters) {
   EXPECT_THAT(input_error_of([] {
                 generate_flange({ElementType::prism, 1.0});
               }),

@@ -20,7 +20,7 @@ long euler_characteristic(const PlanarMesh& mesh) {
          static_cast<long>(mesh.n_cells());
 }
 
-/// Twice the area inside the boundary edges, by Green's theorem: a second way to the cells' area.
+/// Twice the area inside the boundary edges, by Green's theorem: independent of the cells.
 double area_inside(const PlanarMesh& mesh) {
   double twice = 0.0;
   const auto& sides = mesh.topology().boundary_facets();
@@ -91,7 +91,8 @@ TEST(GearOutline, CurvesJoinAndMoveWithConstantSpeed) {
 TEST(GearOutline, ToothAndGapAreEquallyWideAtThePitchCircle) {
   const GearParameters p;
   const double pitch_radius = 0.5 * p.module * p.n_teeth;
-  const Curve flank = gear_outlines(p).front()[1];  // the first tooth's involute, from the base out
+  // The first tooth's involute, from the base outwards.
+  const Curve flank = gear_outlines(p).front()[1];
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
@@ -99,13 +100,13 @@ TEST(GearOutline, ToothAndGapAreEquallyWideAtThePitchCircle) {
   }
   const Point<2> crossing = flank.point(low);
   EXPECT_NEAR(std::atan2(crossing.y(), crossing.x()), -0.5 * std::numbers::pi / p.n_teeth, 1e-12);
-  // The tangent of an involute leans against the radius by the pressure angle there.
+  // At each point, the tangent of an involute and the radius make the pressure angle there.
   const Point<2> tangent = (flank.point(low + 1e-6) - flank.point(low - 1e-6)).normalized();
   EXPECT_NEAR(std::acos(tangent.dot(crossing.normalized())) * 180.0 / std::numbers::pi,
               p.pressure_angle_degrees, 1e-4);
 }
 
-TEST(GearErrors, NameWhatIsNotPossible) {
+TEST(GearErrors, NameImpossibleParameters) {
   const auto error_with = [](auto change) {
     GearParameters p = gear_of_the_thesis(ElementType::quadrilateral, 3.0);
     change(p);
@@ -183,7 +184,7 @@ TEST(QuadSplit, TrianglesQuadrilateralsAndNonConvexOnes) {
   EXPECT_EQ(mesh_quality(result).n_invalid, 0u);
 }
 
-TEST(QuadSplit, BoundaryMidpointsAreWhereTheyAreWanted) {
+TEST(QuadSplit, PutsBoundaryMidpointsAtTheGivenPositions) {
   const PlanarCells split = split_to_quadrilaterals(
       two_triangles({0, 1}), [](NodeIndex a, NodeIndex b) { return Point<2>(100.0 + a, b); });
   std::size_t n_moved = 0;

@@ -10,7 +10,7 @@
 namespace smoothfem {
 namespace {
 
-TEST(GmshSession, LeavesTheNumberOfThreadsAlone) {
+TEST(GmshSession, KeepsTheNumberOfThreads) {
   for (const int threads : {3, 2}) {
     set_n_threads(threads);
     { const GmshSession session; }
@@ -18,8 +18,8 @@ TEST(GmshSession, LeavesTheNumberOfThreadsAlone) {
   }
 }
 
-/// Studies end in good order when they are interrupted.
-TEST(GmshSession, LeavesSignalHandlersAlone) {
+/// Gmsh must not replace them: interrupted studies finish cleanly.
+TEST(GmshSession, KeepsSignalHandlers) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const auto handler = [](int) {};
     const auto former = std::signal(signal, handler);
@@ -28,7 +28,7 @@ TEST(GmshSession, LeavesSignalHandlersAlone) {
   }
 }
 
-TEST(GmshSession, MayBeNestedAndKeepsOptionsAndModelsApart) {
+TEST(GmshSession, NestsAndSeparatesOptionsAndModels) {
   const auto option = [] {
     double value = 0.0;
     gmsh::option::getNumber("Mesh.SaveAll", value);
@@ -51,7 +51,7 @@ TEST(GmshSession, MayBeNestedAndKeepsOptionsAndModelsApart) {
   EXPECT_EQ(option(), 1.0);
 }
 
-TEST(GmshSession, PassesOnTheWordsOfErrors) {
+TEST(GmshSession, PassesOnErrorMessages) {
   const GmshSession session;
   EXPECT_EQ(input_error_of([&] { session.run("here", [] { throw std::string("words"); }); }),
             "here: Gmsh: words");

@@ -9,7 +9,7 @@ namespace {
 using ::testing::HasSubstr;
 using MeshFiles = FileTest;
 
-TEST_F(MeshFiles, PathsThatCannotBeReadAreNamed) {
+TEST_F(MeshFiles, ReportsPathsThatCannotBeRead) {
   const std::string missing = file("missing.vtu").string();
   EXPECT_EQ(input_error_of([&] { read_planar(missing); }),
             missing + ": there is no such file; check the path");
@@ -36,7 +36,7 @@ class EveryFormat : public FileTest, public ::testing::WithParamInterface<MeshFo
   }
 };
 
-TEST_P(EveryFormat, RefusesEmptyAndBlankFilesAndJunk) {
+TEST_P(EveryFormat, RefusesEmptyBlankAndRandomFiles) {
   EXPECT_THAT(input_error_of([&] { read_planar(file_with(target("a").filename(), "")); }),
               HasSubstr("the file is empty"));
   for (const std::string content : {"\n\n\n", "junk", "\xff\xfe\x01\x02\n\n"})
@@ -67,7 +67,7 @@ TEST_P(EveryFormat, RoundTripKeepsLabels) {
   EXPECT_EQ(read_planar(target("a")).mesh.topology().labels(), labels);
 }
 
-TEST_P(EveryFormat, PolygonsAreHeldOrRefused) {
+TEST_P(EveryFormat, KeepsOrRefusesPolygons) {
   const std::string message = input_error_of([&] { write_mesh(target("a"), mixed_mesh(true)); });
   if (GetParam().holds_polygons)
     EXPECT_EQ(message, "");
@@ -77,15 +77,15 @@ TEST_P(EveryFormat, PolygonsAreHeldOrRefused) {
                                    ".mesh, .vtk, .vtu"));
 }
 
-TEST_P(EveryFormat, TargetsThatCannotBeWrittenAreNamed) {
+TEST_P(EveryFormat, ReportsTargetsThatCannotBeWritten) {
   const auto path = std::filesystem::path("/dev/null") / target("a").filename();
   EXPECT_THAT(input_error_of([&] { write_mesh(path, mixed_mesh(false)); }),
               HasSubstr("cannot write " + path.string()));
 }
 
-TEST_P(EveryFormat, AFullDiskIsNamedAndKeepsTheOldFile) {
+TEST_P(EveryFormat, ReportsAFullDiskAndKeepsTheOldFile) {
   const auto path = file_with(target("a").filename(), "old");
-  const PlanarMesh mesh = mixed_mesh(false);  // clang's OpenMP begins with a file of its own
+  const PlanarMesh mesh = mixed_mesh(false);  // clang's OpenMP creates a file at its start
   const std::string message = [&] {
     const FullDisk disk(200);
     return input_error_of([&] { write_mesh(path, mesh); });
@@ -106,9 +106,9 @@ TEST_P(EveryFormat, FieldsMustFitTheMesh) {
               HasSubstr("the point field 'u' has 1 values, but the mesh needs 10"));
 }
 
-/// The first n bytes of a file are an error, or (where only blanks or optional parts are missing)
-/// the whole mesh: never a mesh with something missing, and never a crash.
-TEST_P(EveryFormat, TruncatedFilesAreNoticed) {
+/// The first n bytes of a file are an error or the whole mesh (if only blanks or optional parts are
+/// missing). They never give an incomplete mesh, and never a crash.
+TEST_P(EveryFormat, DetectsTruncatedFiles) {
   const PlanarMesh mesh = mixed_mesh(false);
   write_mesh(target("whole"), mesh);
   const std::string whole = content_of(target("whole"));
@@ -129,7 +129,7 @@ TEST_P(EveryFormat, TruncatedFilesAreNoticed) {
 }
 
 /// A changed byte gives another mesh or an InputError: no other exception, crash or endless loop.
-TEST_P(EveryFormat, DamagedFilesAreSurvived) {
+TEST_P(EveryFormat, SurvivesDamagedFiles) {
   write_mesh(target("whole"), mixed_mesh(false));
   const std::string whole = content_of(target("whole"));
   std::size_t n_refused = 0;

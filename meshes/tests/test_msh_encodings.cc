@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The bytes of a binary file in one of the two orders.
+/// Writes the bytes of a binary file in one of the two byte orders.
 class Bytes {
  public:
   explicit Bytes(bool is_swapped) : is_swapped_(is_swapped) {}
@@ -43,7 +43,8 @@ class Bytes {
 
 const std::string names = "$PhysicalNames\n1\n2 6 \"sheet\"\n$EndPhysicalNames\n";
 
-/// A unit square of two triangles with nodes 7, 8, 9, 4. counts: what replaces the right ones.
+/// A unit square of two triangles with nodes 7, 8, 9, 4. counts: values that replace the right
+/// ones.
 struct Counts {
   std::uint64_t blocks = 1, nodes = 4, nodes_in_block = 4, elements = 2, elements_in_block = 2,
                 entities = 1, groups = 1;
@@ -90,11 +91,15 @@ TEST_F(MshEncodings, BinaryFilesOfBothByteOrdersAreRead) {
     }
 }
 
-class GreedyMsh : public FileTest,
-                  public ::testing::WithParamInterface<std::pair<std::string, std::string>> {};
+struct Greedy {
+  std::string name, content;
+  friend void PrintTo(const Greedy& parameter, std::ostream* out) { *out << parameter.name; }
+};
 
-TEST_P(GreedyMsh, IsRefusedWithoutTheMemoryThatItAnnounces) {
-  const auto path = file_with("a.msh", GetParam().second);
+class GreedyMsh : public FileTest, public ::testing::WithParamInterface<Greedy> {};
+
+TEST_P(GreedyMsh, IsRefusedWithoutAllocatingTheAnnouncedMemory) {
+  const auto path = file_with("a.msh", GetParam().content);
   const std::string message = [&] {
     const LittleMemory memory(32 << 20);
     return input_error_of([&] { read_mesh(path); });
@@ -130,7 +135,7 @@ std::string text_2(const std::string& right, const std::string& wrong) {
 
 INSTANTIATE_TEST_SUITE_P(
     Msh, GreedyMsh,
-    ::testing::ValuesIn(std::vector<std::pair<std::string, std::string>>{
+    ::testing::ValuesIn(std::vector<Greedy>{
         {"nodes_2b", binary_2(false, {.nodes = billion})},
         {"elements_2b", binary_2(false, {.elements = billion})},
         {"elements_in_block_2b",
@@ -157,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"nodes_2t", text_2("Nodes\n3", "Nodes\n1000000000")},
         {"elements_2t", text_2("Elements\n1", "Elements\n1000000000")},
         {"tags_2t", text_2("1 2 2 6", "1 2 1000000000 6")}}),
-    [](const auto& info) { return info.param.first; });
+    [](const auto& info) { return info.param.name; });
 
 TEST_F(MshEncodings, RightCountsAreNotRefused) {
   EXPECT_EQ(read_planar(file_with("a.msh", text_4("0 1 0\n", "0 1 0\n"))).mesh.n_cells(), 1u);
@@ -165,8 +170,8 @@ TEST_F(MshEncodings, RightCountsAreNotRefused) {
   EXPECT_EQ(read_planar(file_with("a.msh", text_2("3 0 1 0", "3 0 1 0"))).mesh.n_cells(), 1u);
 }
 
-/// Memory is a small multiple of the file's size, also where the file is made of nothing but the
-/// smallest records.
+/// Memory is a small multiple of the file's size, even if the file consists of the smallest records
+/// only.
 TEST_F(MshEncodings, MemoryIsASmallMultipleOfTheFile) {
   constexpr std::size_t n = 200'000;
   std::string content =

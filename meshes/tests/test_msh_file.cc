@@ -12,6 +12,7 @@ using ::testing::StartsWith;
 struct MshVariant {
   std::string name;
   MeshWriteOptions options;
+  friend void PrintTo(const MshVariant& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 class MshVariants : public FileTest, public ::testing::WithParamInterface<MshVariant> {};
@@ -60,9 +61,10 @@ const std::string head_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
 const std::string head_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
 const std::string nodes_4 = "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
 
-/// Version 4.0: a block is of an entity's number and dimension, a node has its tag and its
-/// coordinates in one line, and points have a box. Nodes 7 and 9 are of a curve, with a parametric
-/// coordinate; two triangles are of a surface in the group "sheet", one is of a surface in none.
+/// Version 4.0: a block starts with its entity's number and dimension, a node has its tag and its
+/// coordinates in one line, and points have a box. Nodes 7 and 9 belong to a curve, with a
+/// parametric coordinate. Two triangles belong to a surface in the group "sheet", one to a surface
+/// in no group.
 const std::string head_4_0 = "$MeshFormat\n4 0 8\n$EndMeshFormat\n";
 std::string sheet_4_0(const std::string& last_node = "9 1 1 0 .75",
                       const std::string& last_element = "12 7 9 4") {
@@ -76,7 +78,7 @@ std::string sheet_4_0(const std::string& last_node = "9 1 1 0 .75",
          last_element + "\n$EndElements\n";
 }
 
-/// Two triangles, the second in line 16, on nodes with gaps in their tags and one node of no cell.
+/// Two triangles, the second in line 16, with gaps in the nodes' tags and one node of no cell.
 std::string square(const std::string& last_node = "9 0 1 0",
                    const std::string& last_element = "12 2 2 1 1 2 7 9") {
   return head_2 + "$Nodes\n5\n2 0 0 0\n3 1 0 0\n5 5 5 0\n7 1 1 0\n" + last_node +
@@ -93,7 +95,7 @@ TEST_F(Msh, NodesAreNumberedFromZeroWithoutUnusedOnes) {
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{15, 16}));
 }
 
-TEST_F(Msh, NodesThatNothingUsesAreAllowed) {
+TEST_F(Msh, AllowsUnusedNodes) {
   std::string content = square();
   content.replace(content.find("15 2 0 1 5"), 10, "15 2 0 1 3");
   EXPECT_EQ(read_planar(file_with("a.msh", content)).mesh.n_nodes(), 4u);
@@ -116,7 +118,7 @@ TEST_F(Msh, ElementsNeedNoTags) {
   EXPECT_EQ(read.mesh.topology().labels().cell_tags, (std::vector<int>{1, 0}));
 }
 
-/// Their entity is in two groups; the first is the cells' tag, and the names of both are kept.
+/// Their entity is in two groups. The first one is the cells' tag, and the names of both are kept.
 TEST_F(Msh, EntitiesOfVersion4MayBeInSeveralGroupsAndOnSeveralLines) {
   const std::string names =
       "$PhysicalNames\n4\n2 3 \"three\"\n2 7 \"seven\"\n2 9 \"nine\"\n2 3 \"drei\"\n"
@@ -177,8 +179,8 @@ TEST_F(Msh, PartitionsOfVersion4_0AreReadWithTheGroupsOfTheirEntities) {
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
 }
 
-/// Wherever the file is cut off, in the middle of a line or not.
-TEST_F(Msh, Version4_0IsRefusedWhereverItIsCutOff) {
+/// The file is cut off at every position, in the middle of a line or not.
+TEST_F(Msh, RefusesVersion4_0CutOffAnywhere) {
   const std::string content = sheet_4_0();
   for (std::size_t size = 0; size + 1 < content.size(); ++size) {
     const auto path = file_with("a.msh", content.substr(0, size));
@@ -187,7 +189,7 @@ TEST_F(Msh, Version4_0IsRefusedWhereverItIsCutOff) {
   }
 }
 
-TEST_F(Msh, OtherSectionsAreSkippedWhateverTheyAnnounce) {
+TEST_F(Msh, SkipsOtherSectionsWithAnyCounts) {
   const std::string others =
       "$Comments\n$Nodes are below\n$EndComments\n$NodeData\n1\n\"x\"\n1\n0\n3\n0\n1\n1000000000\n"
       "1 2\n$EndNodeData\n$Periodic\n1000000000\n$EndPeriodic\n$Whatever\n$EndWhatever\n";
@@ -222,7 +224,7 @@ TEST_P(MshVariants, NumbersAreKeptIfTheVersionHasThem) {
   EXPECT_EQ(read_planar(file("b.msh")).mesh.topology().labels().cell_ids.back(), 5'000'000'000u);
 }
 
-TEST_F(Msh, ClockwiseCellsAreReadAndNamedByRequireValid) {
+TEST_F(Msh, ReadsClockwiseCellsThatRequireValidNames) {
   const auto path = file_with("a.msh", square("9 0 1 0", "12 2 2 1 1 2 9 7"));
   const PlanarFile read = read_planar(path);
   EXPECT_THAT(input_error_of([&] { require_valid(read.mesh, path.string(), read.cell_lines); }),
@@ -231,6 +233,7 @@ TEST_F(Msh, ClockwiseCellsAreReadAndNamedByRequireValid) {
 
 struct BadMsh {
   std::string name, content, message;
+  friend void PrintTo(const BadMsh& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 class BadMshFile : public FileTest, public ::testing::WithParamInterface<BadMsh> {};

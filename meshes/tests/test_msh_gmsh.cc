@@ -31,8 +31,7 @@ struct Element {
 using Elements = std::map<std::size_t, Element>;
 using Names = std::map<std::pair<int, int>, std::string>;
 
-// --- What the current model has
-// --------------------------------------------------------------------
+// --- Contents of the current model ---------------------------------------------------------------
 
 std::map<std::size_t, Point<3>> nodes_of_model() {
   std::vector<std::size_t> tags;
@@ -44,7 +43,7 @@ std::map<std::size_t, Point<3>> nodes_of_model() {
   return nodes;
 }
 
-/// Those without a group have the tag 0.
+/// Elements without a group have the tag 0.
 Elements elements_of_model(int dimension) {
   const auto points = nodes_of_model();
   Elements elements;
@@ -79,8 +78,7 @@ Names names_of_model(int least_dimension) {
   return names;
 }
 
-// --- What our mesh has
-// -----------------------------------------------------------------------------
+// --- Contents of the mesh ------------------------------------------------------------------------
 
 Point<3> in_space(const Point<2>& p) {
   return {p.x(), p.y(), 0.0};
@@ -102,7 +100,7 @@ Elements cells_of(const Mesh<dim>& mesh) {
   return cells;
 }
 
-/// Those of one dimension less with a tag; their numbers are not kept.
+/// Facets with a tag; their numbers are not kept.
 template <int dim>
 std::vector<Element> facets_of(const Mesh<dim>& mesh) {
   const MeshLabels& labels = mesh.topology().labels();
@@ -122,7 +120,7 @@ std::vector<Element> tagged(const Elements& elements) {
   return result;
 }
 
-/// Gmsh prints one digit too few for every bit.
+/// Gmsh prints one digit too few to keep every bit.
 void expect_near(const Element& a, const Element& b, double tolerance) {
   EXPECT_EQ(a.tag, b.tag);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
@@ -130,10 +128,9 @@ void expect_near(const Element& a, const Element& b, double tolerance) {
     EXPECT_LE((a.nodes[k] - b.nodes[k]).lpNorm<Eigen::Infinity>(), tolerance);
 }
 
-// --- Files of Gmsh
-// ---------------------------------------------------------------------------------
+// --- Files that Gmsh writes ----------------------------------------------------------------------
 
-/// A square around a disc: two groups, a side in a third one, a point that no element needs.
+/// A square around a disc: two groups, a side in a third one, and a point that no element uses.
 void build_disc_in_square() {
   namespace occ = gmsh::model::occ;
   const int square = occ::addRectangle(0, 0, 0, 1, 1), disc = occ::addDisk(0.5, 0.5, 0, 0.2, 0.2);
@@ -164,11 +161,12 @@ void build_layers_and_tetrahedra() {
   gmsh::model::mesh::generate(3);
 }
 
-/// What Gmsh writes; it has no binary files of version 4.0.
+/// Files that Gmsh writes; it has no binary files of version 4.0.
 struct GmshVariant {
   std::string name;
   double version;
   bool is_binary;
+  friend void PrintTo(const GmshVariant& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 class MshOfGmsh : public FileTest, public ::testing::WithParamInterface<GmshVariant> {
@@ -180,7 +178,7 @@ class MshOfGmsh : public FileTest, public ::testing::WithParamInterface<GmshVari
     session.set_option("Mesh.MeshSizeMax", 0.3);
     session.set_option("Mesh.MshFileVersion", GetParam().version);
     session.set_option("Mesh.Binary", is_binary);
-    session.set_option("Mesh.SaveAll", !is_2);  // version 2.2 loses the tags with it
+    session.set_option("Mesh.SaveAll", !is_2);  // version 2.2 would lose the tags
     session.set_option("Mesh.PreserveNumberingMsh2", 1);
     session.set_option("Mesh.SaveParametric", !is_2);
     session.run("model", [&] {
@@ -217,8 +215,7 @@ INSTANTIATE_TEST_SUITE_P(Msh, MshOfGmsh,
                                            GmshVariant{"v22_text", 2.2, false}),
                          [](const auto& info) { return info.param.name; });
 
-// --- Our files
-// -------------------------------------------------------------------------------------
+// --- Files that smoothfem writes -----------------------------------------------------------------
 
 class MshForGmsh : public FileTest, public ::testing::WithParamInterface<Variant> {
  protected:
@@ -236,7 +233,7 @@ class MshForGmsh : public FileTest, public ::testing::WithParamInterface<Variant
     EXPECT_EQ(elements_of_model(dim), cells_of(mesh));
     EXPECT_EQ(tagged(elements_of_model(dim - 1)), facets_of(mesh));
     EXPECT_EQ(names_of_model(0), labels.names);
-    gmsh::model::remove();  // open() makes a model of its own
+    gmsh::model::remove();  // open() makes another model
   }
 };
 
@@ -245,7 +242,7 @@ TEST_P(MshForGmsh, PlanarMeshes) {
   expect_read_by_gmsh(mixed_mesh(false));
 }
 
-TEST_P(MshForGmsh, VolumeMeshesWithNumbersOfTheirOwn) {
+TEST_P(MshForGmsh, VolumeMeshesWithNodeNumbers) {
   for (const auto kind : {test::BoxCells::tetrahedra, test::BoxCells::hexahedra,
                           test::BoxCells::prisms, test::BoxCells::mixed})
     expect_read_by_gmsh(labelled_box(kind));

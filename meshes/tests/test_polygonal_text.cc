@@ -43,7 +43,7 @@ TEST_F(PolygonalText, WritesTheLayoutOfThePublishedFiles) {
                               "polygon_mean_ratio_quality_numbers 2\n+8.6602540378443"));
 }
 
-TEST_F(PolygonalText, InvalidCellsAreReadAndNamedWithTheirLine) {
+TEST_F(PolygonalText, ReadsInvalidCellsAndNamesTheirLine) {
   const auto path = file_with("a.mesh", title + nodes + "polygons 2\n3 0 1 2\n3 0 3 2\n" + fixed);
   const PlanarFile read = read_planar(path);
   EXPECT_THAT(input_error_of([&] { require_valid(read.mesh, path.string(), read.cell_lines); }),
@@ -54,6 +54,7 @@ struct BadText {
   std::string name, content;
   std::size_t line;
   std::string message;
+  friend void PrintTo(const BadText& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 class BadPolygonalText : public FileTest, public ::testing::WithParamInterface<BadText> {};
@@ -69,10 +70,10 @@ INSTANTIATE_TEST_SUITE_P(
     PolygonalText, BadPolygonalText,
     ::testing::Values(
         BadText{"medit", "MeshVersionFormatted 1\nVertices\n", 2,
-                "the section Vertices stands before the dimension"},
+                "the section Vertices comes before the dimension"},
         BadText{"medit_required", "MeshVersionFormatted 2\nDimension 2\nRequiredVertices 1\n1\n", 3,
-                "the section RequiredVertices stands before Vertices"},
-        BadText{"binary", std::string("\x7f\0ELF\1\n", 7), 1, "no mesh file of a known kind"},
+                "the section RequiredVertices comes before Vertices"},
+        BadText{"binary", std::string("\x7f\0ELF\1\n", 7), 1, "the format of this file is unknown"},
         BadText{"title_only", title, 1, "ends before the section 'nodes'"},
         BadText{"junk_after_title", "planar_polygonal_mesh 2\n", 1, "unexpected '2'"},
         BadText{"cut_in_nodes", title + "nodes 4\n0 0\n1 0\n", 4, "before node 3 of 4"},
@@ -119,14 +120,14 @@ INSTANTIATE_TEST_SUITE_P(
             15, "unexpected text"}),
     [](const auto& info) { return info.param.name; });
 
-TEST_F(PolygonalText, EveryTruncationOfAWholeFileIsNoticedOrAtALineEnd) {
+TEST_F(PolygonalText, DetectsEveryTruncationExceptAtALineEnd) {
   const std::string whole = title + nodes + polygons + "fixed_node_indices 2\n1\n2\n";
   for (std::size_t n = 1; n + 2 < whole.size(); ++n)
     EXPECT_NE(input_error_of([&] { read_planar(file_with("cut.mesh", whole.substr(0, n))); }), "")
         << n << " bytes";
 }
 
-TEST_F(PolygonalText, AMeshWithoutCellsIsRefused) {
+TEST_F(PolygonalText, RefusesAMeshWithoutCells) {
   EXPECT_THAT(
       input_error_of([&] {
         read_planar(file_with("a.mesh", title + nodes + "polygons 0\nfixed_node_indices 0"));

@@ -73,7 +73,7 @@ const Polygons square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 TEST(GridRegion, RemovesSquaresWithoutChangingTheTopology) {
   GridRegion region(square, 1.0 / 12.3);
   const std::size_t n = region.n_cells(), edges = region.n_boundary_edges();
-  EXPECT_EQ(n, 11u * 11u);  // twelve lines, half a spacing from the side on
+  EXPECT_EQ(n, 11u * 11u);  // twelve lines, the first one half a spacing from the side
   EXPECT_EQ(edges, 44u);
   EXPECT_EQ(region.remove(5, 3, 1), 5u);
   EXPECT_EQ(region.n_boundary_edges(), edges + 10u);
@@ -82,7 +82,7 @@ TEST(GridRegion, RemovesSquaresWithoutChangingTheTopology) {
   EXPECT_EQ(mesh.n_cells(), n - 9u);
   EXPECT_EQ(mesh.topology().boundary_facets().size(), edges + 10u);
   EXPECT_EQ(euler_characteristic(mesh), 1);
-  // No square touches another at a corner only: there four boundary edges would meet.
+  // No square touches another at a corner only: otherwise four boundary edges would meet there.
   std::vector<int> n_boundary_edges(mesh.n_nodes(), 0);
   for (const NodeIndex node : mesh.topology().boundary_facets().entries()) ++n_boundary_edges[node];
   EXPECT_EQ(*std::max_element(n_boundary_edges.begin(), n_boundary_edges.end()), 2);
@@ -104,7 +104,7 @@ TEST(QuadrilateralRegion, MeetsTheCountOrIsOneShort) {
   }
 }
 
-TEST(QuadSplit, CutsTheWorst) {
+TEST(QuadSplit, CutsTheWorstQuadrilaterals) {
   PlanarCells mesh;
   mesh.coordinates = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 3}};
   mesh.cells.append(std::vector<NodeIndex>{0, 1, 4, 3});

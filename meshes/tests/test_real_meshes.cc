@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Every method on meshes of other people, with its defaults and with the parameters of the thesis.
+/// Tests every method on third-party meshes, with its defaults and with the parameters of the
+/// thesis.
 #include "meshes/io/mesh_file.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/loop/preset.h"
@@ -12,7 +13,7 @@ namespace {
 
 struct RealMesh {
   std::string file;
-  std::vector<std::string> presets;  ///< those for such meshes, and none
+  std::vector<std::string> presets;  ///< presets for such meshes, and none
 };
 
 const std::vector<RealMesh> real_meshes = {
@@ -47,10 +48,10 @@ class RealMeshes : public testing::TestWithParam<Run> {
   template <int dim, int spacedim>
   static void check(const Mesh<dim, spacedim>& mesh) {
     const auto& [file, preset, name] = GetParam();
-    if (!takes_meshes<dim, spacedim>(name)) GTEST_SKIP() << "not for meshes of this kind";
+    if (!supports_mesh_kind<dim, spacedim>(name)) GTEST_SKIP() << "not for meshes of this kind";
     auto method = make_method<dim, spacedim>(name);
     if (preset != "defaults") {
-      // Named in the capture: clang 14 does not take structured bindings by [&].
+      // Captures are named because clang 14 does not support capturing structured bindings by [&].
       const auto refusal =
           input_error_of([&, &preset = preset] { apply_preset(find_preset(preset), method); });
       if (!refusal.empty()) GTEST_SKIP() << refusal;
@@ -68,7 +69,7 @@ class RealMeshes : public testing::TestWithParam<Run> {
     const MeshQuality after = mesh_quality(result);
     EXPECT_EQ(test::n_moved_fixed_nodes(mesh, result), 0u);
     const bool for_q_mean =
-        stays_valid && name != "getme-sequential";  // which keeps the best q_min
+        stays_valid && name != "getme-sequential";  // getme-sequential keeps the best q_min instead
     if (for_q_mean) {
       EXPECT_GT(after.q_mean, before.q_mean);
     }
@@ -78,7 +79,7 @@ class RealMeshes : public testing::TestWithParam<Run> {
   }
 };
 
-TEST_P(RealMeshes, GetBetterAndStayValid) {
+TEST_P(RealMeshes, ImproveAndStayValid) {
   std::visit([](const auto& mesh) { check(mesh); }, read_mesh(path()).mesh);
 }
 

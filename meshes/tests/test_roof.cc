@@ -64,8 +64,8 @@ TEST(Roof, IsHighestAtItsRingsAndLowestAtItsAnchors) {
   EXPECT_GT(height(highest), anchors + 5.0) << "metres, of a roof 36 metres wide";
 }
 
-/// As in the thesis, whose q_mean differ by 0.0001.
-TEST(Roof, SmoothsToABetterMeanQualityTheSameWhetherDistortedOrNot) {
+/// As in the thesis, where the q_mean differ by 0.0001.
+TEST(Roof, SmoothsToEqualBetterMeanQualityDistortedOrNot) {
   SurfaceMesh mesh = roof(2.0), distorted = mesh;
   const double initial = mesh_quality(mesh).q_mean;
   distort(distorted, {.target_q_mean = 0.4983});
@@ -79,10 +79,10 @@ TEST(Roof, SmoothsToABetterMeanQualityTheSameWhetherDistortedOrNot) {
   EXPECT_GT(q_mean[0], initial + 0.001);
 }
 
-TEST(Roof, DistortedIsASurfaceByItself) {
+TEST(Roof, DistortedMeshDefinesItsOwnSurface) {
   SurfaceMesh mesh = roof();
   distort(mesh, {.target_q_mean = 0.7});
-  // As after reading a file: the distorted mesh is the surface.
+  // As after reading a file: the distorted mesh becomes the surface.
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
     with_corners<2>(mesh.topology().cell_nodes(c), mesh.coordinates().data(), [&](auto corners) {
       EXPECT_GT(mean_ratio(unit_normal(corners), corners), 0.0) << c;

@@ -11,7 +11,7 @@
 namespace smoothfem {
 namespace {
 
-/// Meshes of other people lie beside the repository, if at all.
+/// Third-party meshes, if available, are next to the repository.
 class SharedMeshes : public FileTest {
  protected:
   static std::filesystem::path shared(const std::string& name) { return test::shared_mesh(name); }
@@ -25,7 +25,7 @@ class SharedMeshes : public FileTest {
   }
 };
 
-TEST_F(SharedMeshes, PrintedMeanRatiosComeOut) {
+TEST_F(SharedMeshes, ReproducesThePrintedMeanRatios) {
   for (const std::string name :
        {"simple_mixed_planar_polygonal.mesh", "gear_tri_initial.mesh", "gear_quad_initial.mesh"}) {
     const PlanarMesh mesh = read_planar(shared(name)).mesh;
@@ -35,7 +35,8 @@ TEST_F(SharedMeshes, PrintedMeanRatiosComeOut) {
     std::size_t n = 0;
     printed >> keyword >> n;
     ASSERT_EQ(n, mesh.n_cells());
-    // Nearly flat cells lose digits in the differences of their coordinates, in print as here.
+    // Nearly flat cells lose digits in the differences of their coordinates, in the thesis and
+    // here.
     const double tolerance = name.starts_with("simple") ? 1e-15 : 1e-13;
     for (CellIndex c = 0; c < n; ++c) {
       double expected = 0.0;
@@ -56,14 +57,14 @@ TEST_F(SharedMeshes, ThePublishedGearsHaveTheirCountsAndQuality) {
   EXPECT_NO_THROW(require_valid(quads.mesh));
 }
 
-TEST_F(SharedMeshes, CoordinatesAreWrittenDigitByDigit) {
+TEST_F(SharedMeshes, WritesCoordinatesDigitByDigit) {
   write_mesh(file("again.mesh"), read_planar(shared("gear_tri_initial.mesh")).mesh);
   const std::string published = content_of(shared("gear_tri_initial.mesh"));
   const std::size_t end = published.find("polygon_mean_ratio_quality_numbers");
   EXPECT_EQ(content_of(file("again.mesh")).substr(0, end), published.substr(0, end));
 }
 
-TEST_F(SharedMeshes, EveryFormatGivesTheGearBack) {
+TEST_F(SharedMeshes, EveryFormatKeepsTheGear) {
   for (const std::string name : {"gear_tri_initial.mesh", "gear_quad_initial.mesh",
                                  "mixed2d_overture_tri382_quad4831.vtk"}) {
     const PlanarMesh mesh = read_planar(shared(name)).mesh;

@@ -12,7 +12,8 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Parts are valid and fill the mesh, fit together, and the boundary's facets have four each.
+/// Expects that parts are valid, fill the mesh and fit together, and that each boundary facet has
+/// four parts.
 template <int dim>
 void expect_split(const Mesh<dim>& mesh, std::size_t n_parts, double size) {
   const Mesh<dim> split = with_split_cells(mesh);
@@ -27,7 +28,7 @@ void expect_split(const Mesh<dim>& mesh, std::size_t n_parts, double size) {
     EXPECT_EQ(split.coordinates()[i], mesh.coordinates()[i]);
 }
 
-TEST(SplitCells, OfATriangleByHand) {
+TEST(SplitCells, OfATriangleMatchHandComputation) {
   const PlanarMesh mesh = test::make_mesh({{0, 0}, {2, 0}, {0, 4}}, {{0, 1, 2}});
   const PlanarMesh split = with_split_cells(mesh);
   std::vector<std::pair<double, double>> points;
@@ -73,7 +74,7 @@ TEST(SplitCells, FillTheMeshInSpace) {
   expect_split(of_all, n_parts, 32.0);
 }
 
-/// A flat one: the middles of 0-1 and 2-3 are 1 apart, those of the other opposite edges 2.
+/// A flat tetrahedron: the middles of 0-1 and 2-3 are 1 apart, those of the other opposite edges 2.
 TEST(SplitCells, OfATetrahedronAreCutAlongTheShortestDiagonal) {
   const VolumeMesh mesh = test::make_volume_mesh({{-2, 0, 0}, {2, 0, 0}, {0, 2, 1}, {0, -2, 1}},
                                                  test::rows_of({{0, 1, 2, 3}}));
@@ -87,7 +88,7 @@ TEST(SplitCells, OfATetrahedronAreCutAlongTheShortestDiagonal) {
   }
 }
 
-TEST(SplitCells, TagsGoOnToTheParts) {
+TEST(SplitCells, PartsInheritTags) {
   MeshLabels labels;
   labels.cell_tags = {7, 8};
   labels.facets.append(std::vector<NodeIndex>{0, 1});
@@ -104,7 +105,7 @@ TEST(SplitCells, TagsGoOnToTheParts) {
   EXPECT_EQ(found.names, labels.names);
 }
 
-TEST(SplitCells, PolygonsAreRefused) {
+TEST(SplitCells, RefusesPolygons) {
   EXPECT_THROW((void)with_split_cells(test::pentagon_mesh()), InputError);
 }
 

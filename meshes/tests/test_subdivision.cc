@@ -24,7 +24,7 @@ TEST(Subdivision, FillsTheCubeWithoutGaps) {
     EXPECT_EQ(mesh.n_cells() % 8, 0u);
     EXPECT_EQ(euler_characteristic(mesh), 1);
     EXPECT_NEAR(volume_inside(mesh), 8e9, 1e-3);
-    // Nodes merge where they should: what is left outside is the surface of the cube.
+    // Coinciding nodes are merged: the remaining boundary is the surface of the cube.
     EXPECT_EQ(mesh.topology().boundary_facets().size(), 96u);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Surface meshes from and to files, and their distortion.
+/// Tests reading, writing and distortion of surface meshes.
 #include "meshes/distortion/distort.h"
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -55,13 +55,13 @@ TEST_F(SurfaceFiles, KeepEveryBitAndTheFeatures) {
   }
 }
 
-TEST_F(SurfaceFiles, AreRefusedWhereTheFormatHoldsNone) {
+TEST_F(SurfaceFiles, AreRefusedByFormatsWithoutSurfaces) {
   for (const std::string name : {"s.mesh", "s.inp"})
     EXPECT_THAT(input_error_of([&] { write_mesh(file(name), saddle(3)); }),
-                HasSubstr("the format holds no surface meshes; use .vtu"));
+                HasSubstr("the format cannot hold surface meshes; use .vtu"));
 }
 
-TEST_F(SurfaceFiles, WithCellsThatRunAgainstEachOtherAreRefusedWithTheirName) {
+TEST_F(SurfaceFiles, WithInconsistentOrientationAreRefusedWithTheirName) {
   const auto path = file_with("m.vtk",
                               "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
                               "POINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n1 1 1\n"
@@ -71,7 +71,7 @@ TEST_F(SurfaceFiles, WithCellsThatRunAgainstEachOtherAreRefusedWithTheirName) {
   EXPECT_THAT(error, HasSubstr("orient all facets alike"));
 }
 
-TEST(DistortedSurface, HasTheMeanQualityAskedForAndNeverLeavesTheSurface) {
+TEST(DistortedSurface, HasTheRequestedMeanQualityAndStaysOnTheSurface) {
   const SurfaceMesh mesh = saddle(16);
   SurfaceMesh distorted = mesh, again = mesh;
   DistortionParameters parameters;

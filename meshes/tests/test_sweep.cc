@@ -28,7 +28,8 @@ TEST(SweepMesh, IsTurnedAboutTheAxisY) {
       ASSERT_GT(angle, -1e-12);
       ASSERT_LT(angle, 70.0 / 180.0 * 3.14159266);
     }
-    // Guldin: area times the way of the centroid; flat facets in place of round ones take little.
+    // Guldin: area times the path of the centroid; flat facets instead of round ones change it
+    // little.
     const double hub = 1.5 * 3.0, web = 2.0 * 1.8, rim = 1.2 * 4.0;
     const double moment = hub * 1.25 + web * 3.0 + rim * 4.6;
     const double whole = moment * 70.0 / 180.0 * 3.14159265;

@@ -9,7 +9,7 @@ namespace {
 
 using test::BoxCells;
 
-/// (nodes, tag) of cells or facets, in an order that does not depend on the file.
+/// Returns (nodes, tag) of cells or facets, in an order that does not depend on the file.
 std::vector<std::pair<std::vector<NodeIndex>, int>> sorted_rows(
     const CompressedRows<NodeIndex>& rows, const std::vector<int>& tags) {
   std::vector<std::pair<std::vector<NodeIndex>, int>> result;
@@ -25,8 +25,6 @@ std::vector<MeshFormat> volume_formats() {
   return formats;
 }
 
-const char* const kind_names[] = {"tetrahedra", "pyramids", "prisms", "hexahedra", "mixed"};
-
 class VolumeFormats : public FileTest,
                       public ::testing::WithParamInterface<std::tuple<MeshFormat, BoxCells>> {
  protected:
@@ -40,7 +38,7 @@ TEST_P(VolumeFormats, RoundTripKeepsEverything) {
   write_mesh(target(), mesh);
   const VolumeMesh read = read_volume(target());
   EXPECT_EQ(read.copied_coordinates(), mesh.copied_coordinates());
-  if (format().name != "gmsh") {  // the only one that keeps no fixed nodes
+  if (format().name != "gmsh") {  // the only format that does not keep fixed nodes
     EXPECT_EQ(read.topology().free_nodes(), mesh.topology().free_nodes());
   }
   const MeshLabels &found = read.topology().labels(), &expected = mesh.topology().labels();
@@ -74,13 +72,12 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Values(BoxCells::tetrahedra, BoxCells::pyramids, BoxCells::prisms,
                                          BoxCells::hexahedra, BoxCells::mixed)),
     [](const auto& info) {
-      return std::get<0>(info.param).name + "_" +
-             kind_names[static_cast<int>(std::get<1>(info.param))];
+      return std::get<0>(info.param).name + "_" + name_of(std::get<1>(info.param));
     });
 
 class DamagedVolumes : public FileTest, public ::testing::WithParamInterface<MeshFormat> {
  protected:
-  /// Calls look(n, path) for files made of the bytes of a whole one.
+  /// Calls look(n, path) for files made from the bytes of a complete one.
   template <class Damage, class Look>
   void for_damaged_files(const VolumeMesh& mesh, const Damage& damage, const Look& look) {
     const std::string extension = GetParam().extension;
@@ -91,7 +88,7 @@ class DamagedVolumes : public FileTest, public ::testing::WithParamInterface<Mes
   }
 };
 
-TEST_P(DamagedVolumes, TruncatedFilesAreNoticed) {
+TEST_P(DamagedVolumes, DetectsTruncatedFiles) {
   const VolumeMesh mesh = labelled_box(BoxCells::prisms);
   for_damaged_files(
       mesh, [](const std::string& whole, std::size_t n) { return whole.substr(0, n); },
@@ -107,7 +104,7 @@ TEST_P(DamagedVolumes, TruncatedFilesAreNoticed) {
       });
 }
 
-/// What every mesh is, also one that a damaged file happens to give.
+/// Checks properties of every mesh, also of one that a damaged file happens to give.
 template <int dim, int spacedim>
 void expect_sound(const Mesh<dim, spacedim>& mesh) {
   const Topology& topology = mesh.topology();
@@ -125,8 +122,8 @@ void expect_sound(const Mesh<dim, spacedim>& mesh) {
 }
 
 /// A changed byte gives an InputError that names the file, or another mesh; both happen. One kind
-/// of change makes letters of digits, the other one other digits.
-TEST_P(DamagedVolumes, ChangedBytesAreRefusedOrGiveASoundMesh) {
+/// of change turns digits into letters, the other one into other digits.
+TEST_P(DamagedVolumes, ChangedBytesAreRefusedOrGiveAConsistentMesh) {
   std::size_t n_refused = 0, n_read = 0;
   for (const char change : {0x41, 0x01})
     for_damaged_files(

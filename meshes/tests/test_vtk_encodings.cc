@@ -42,7 +42,7 @@ vtkNew<Array> numbers(const std::string& name, int n_components, vtkIdType n) {
   return array;
 }
 
-/// One of everything that VTK's attributes can be, which readers have to find their way through.
+/// One example of each of VTK's attributes, which readers have to skip.
 void add_attributes(vtkDataSetAttributes& attributes, vtkIdType n) {
   attributes.SetScalars(numbers<vtkFloatArray>("scalars of it", 1, n));
   attributes.SetVectors(numbers<vtkDoubleArray>("vectors", 3, n));
@@ -64,7 +64,7 @@ void add_attributes(vtkDataSetAttributes& attributes, vtkIdType n) {
 
 class VtkEncodings : public FileTest {
  protected:
-  /// The mesh as VTK has it, with attributes that are not read.
+  /// The mesh in VTK's form, with attributes that are not read.
   vtkSmartPointer<vtkUnstructuredGrid> grid_of(const VolumeMesh& mesh) {
     write_mesh(file("ours.vtu"), mesh);
     vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Values(vtkXMLWriter::UInt32, vtkXMLWriter::UInt64),
                        ::testing::Values(vtkXMLWriter::LittleEndian, vtkXMLWriter::BigEndian)));
 
-/// As parallel programs write them.
+/// Pieces as parallel programs write them.
 TEST_F(VtkEncodings, PiecesAreOneMesh) {
   const auto piece = [](int first, const std::string& fixed) {
     const std::string x[] = {std::to_string(first), std::to_string(first + 1)};

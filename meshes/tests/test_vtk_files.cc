@@ -93,6 +93,7 @@ TEST_F(Vtk, VtuIsInlineBase64OfDoublesWithoutCompression) {
 
 struct BadVtk {
   std::string name, extension, content, message;
+  friend void PrintTo(const BadVtk& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 class BadVtkFile : public FileTest, public ::testing::WithParamInterface<BadVtk> {};
@@ -143,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVtk{"quadratic", ".vtk",
                head + "POINTS 6 double\n0 0 0\n1 0 0\n0 1 0\n.5 0 0\n.5 .5 0\n0 .5 0\n"
                       "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n",
-               "vtkQuadraticTriangle); cells with nodes besides their corners"},
+               "vtkQuadraticTriangle); cells with nodes other than their corners"},
         BadVtk{"image", ".vtk",
                "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\n"
                "ORIGIN 0 0 0\nSPACING 1 1 1\n",

@@ -21,7 +21,7 @@ VolumeCells delaunay_mesh(
   const GmshSession session;
   session.run(name + " cannot be meshed", [&] { gmsh::model::mesh::tetrahedralize(xyz, corners); });
   VolumeCells mesh{std::move(nodes), {}};
-  // Gmsh's order of the cells and of their nodes changes from run to run.
+  // The order of Gmsh's cells and of their nodes changes from run to run.
   std::vector<std::array<NodeIndex, 4>> rows(corners.size() / 4);
   for (std::size_t k = 0; k < corners.size(); ++k)
     rows[k / 4][k % 4] = static_cast<NodeIndex>(corners[k] - 1);

@@ -9,8 +9,9 @@
 
 namespace smoothfem {
 
-/// The Delaunay tetrahedra of some nodes, by Gmsh, as far as `keeps` says so of their centroid and
-/// mean ratio. name: "the ball". Throws InputError with Gmsh's words if it cannot.
+/// Returns the Delaunay tetrahedra of some nodes, by Gmsh, for which `keeps` accepts centroid and
+/// mean ratio. name: for messages, for example "the ball". Throws InputError with Gmsh's message if
+/// it fails.
 VolumeCells delaunay_mesh(std::vector<Point<3>> nodes, const std::string& name,
                           const std::function<bool(const Point<3>& centre, double quality)>& keeps);
 

@@ -6,8 +6,8 @@
 
 namespace smoothfem {
 
-/// Search for the edge length that gives a count of cells. The count falls with the length, by no
-/// known law near the boundary, and scatters.
+/// Searches for the edge length that gives a number of cells. The number falls with the length,
+/// follows no known law near the boundary, and scatters.
 class EdgeLengthSearch {
  public:
   EdgeLengthSearch(double first, double aim) : length_(first), aim_(aim) {}
@@ -21,7 +21,7 @@ class EdgeLengthSearch {
       length_ *= n_cells / aim_;
       return;
     }
-    // Between the two by a straight line in logarithms, but away from its ends.
+    // Interpolates linearly in logarithms, but stays away from the ends.
     const double fraction = finer_.excess / (finer_.excess - coarser_.excess);
     length_ =
         std::exp(std::lerp(finer_.log_length, coarser_.log_length, std::clamp(fraction, 0.1, 0.9)));

@@ -33,7 +33,7 @@ CompressedRows<NodeIndex> append_pyramids(VolumeCells& mesh, const CompressedRow
 
 void append_tetrahedra(VolumeCells& mesh, const std::vector<CompressedRows<NodeIndex>>& surfaces,
                        double edge_length, const std::string& name, double optimization_threshold) {
-  // Only the nodes of the surfaces take part: in their own numbers, and back.
+  // Only the nodes of the surfaces take part; their numbers are mapped there and back.
   constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
   std::vector<NodeIndex> own(mesh.coordinates.size(), none), back;
   std::vector<Point<3>> points;

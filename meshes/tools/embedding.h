@@ -9,7 +9,7 @@
 
 namespace smoothfem {
 
-/// Puts a pyramid on each of some quadrilaterals, on the side to which their normals point; the
+/// Adds a pyramid on each of some quadrilaterals, on the side to which their normals point. The
 /// apex is `height` times the mean edge length above the centre. Returns the pyramids' triangles,
 /// directed to the outside of the pyramids.
 CompressedRows<NodeIndex> append_pyramids(VolumeCells& mesh, const CompressedRows<NodeIndex>& bases,

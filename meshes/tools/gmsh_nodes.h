@@ -9,13 +9,14 @@
 
 namespace smoothfem {
 
-/// The nodes of Gmsh's current model in the order of their tags, which is that of their creation.
+/// The nodes of Gmsh's current model in the order of their tags, which is the order of their
+/// creation.
 struct GmshNodes {
   std::vector<Point<3>> points;
   std::unordered_map<std::size_t, NodeIndex> numbers;  ///< by tag
 };
 
-/// Reads them. Inside a GmshSession's run().
+/// Reads the nodes. Call it inside a GmshSession's run().
 GmshNodes nodes_of_model();
 
 }  // namespace smoothfem

@@ -32,7 +32,7 @@ double distance(const Polygons& polygons, const Point<2>& p) {
   return least;
 }
 
-/// Not too near to the boundary for good cells between them and it.
+/// Returns grid points that are far enough from the boundary for good cells in between.
 std::vector<Point<2>> grid_points(const Polygons& polygons, double spacing) {
   constexpr double clearance = 0.7;
   std::vector<Point<2>> points = GridRegion(polygons, spacing).cells().coordinates;
@@ -41,8 +41,8 @@ std::vector<Point<2>> grid_points(const Polygons& polygons, double spacing) {
   return points;
 }
 
-/// One point per corner, one undivided line per edge, one plane surface with the inner points in
-/// it.
+/// Makes one point for each corner, one undivided line for each edge, and one plane surface with
+/// the inner points in it.
 void build_geometry(const Polygons& polygons, const std::vector<Point<2>>& inner_points) {
   std::vector<int> loops;
   int point = 0;

@@ -8,14 +8,14 @@
 
 namespace smoothfem {
 
-/// Triangles, or triangles paired to quadrilaterals; some remain. In rows: squares of a grid, but
-/// near the boundary; with fewer irregular nodes. (Gmsh's own packing of parallelograms depends on
-/// addresses in memory.)
+/// Triangles, or triangles paired to quadrilaterals; some triangles remain. In rows: squares of a
+/// grid except near the boundary, with fewer irregular nodes. (Gmsh's own packing of parallelograms
+/// depends on memory addresses.)
 enum class PlanarPattern { triangles, quadrilaterals, quadrilaterals_in_rows };
 
 /// Meshes the region inside the first polygon and outside the others with Gmsh. The polygons'
 /// corners are the first nodes, in their order, and their edges the only boundary edges.
-/// edge_length: size of the inner cells. Throws InputError with Gmsh's words if it cannot.
+/// edge_length: size of the inner cells. Throws InputError with Gmsh's message if it fails.
 PlanarCells mesh_region(const Polygons& polygons, double edge_length, PlanarPattern pattern);
 
 }  // namespace smoothfem

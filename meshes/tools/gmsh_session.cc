@@ -16,7 +16,7 @@ namespace {
 
 int n_sessions = 0;
 
-/// Gmsh's error lines without their label, joined to one sentence.
+/// Returns Gmsh's error lines without their label, joined to one sentence.
 std::string logged_errors() {
   constexpr std::string_view label = "Error: ";
   std::vector<std::string> lines;
@@ -52,7 +52,7 @@ GmshSession::~GmshSession() {
       gmsh::finalize();
     else
       gmsh::model::setCurrent(outer_model_);
-  } catch (...) {  // Gmsh throws strings; nothing to save here, and a destructor must not throw
+  } catch (...) {  // Gmsh throws strings; a destructor must not throw
   }
   set_n_threads(former_threads_);
 }

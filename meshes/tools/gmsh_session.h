@@ -8,9 +8,9 @@
 
 namespace smoothfem {
 
-/// The Gmsh library for the length of a scope, with an empty model of its own. Prints nothing,
-/// reads no configuration files and no command line, leaves signal handlers alone, uses one thread
-/// and a fixed random seed. Sessions may be nested; Gmsh itself is a global, so not used from two
+/// The Gmsh library for the length of a scope, with a new empty model. Prints nothing, reads no
+/// configuration files and no command line, does not change signal handlers, uses one thread and a
+/// fixed random seed. Sessions may be nested. Gmsh itself is global: do not use it from two
 /// threads.
 class GmshSession {
  public:
@@ -22,8 +22,8 @@ class GmshSession {
   /// Sets a numerical option until the session ends.
   void set_option(const std::string& name, double value);
 
-  /// Runs Gmsh calls; whatever Gmsh throws or logs as an error becomes
-  /// InputError "context: Gmsh: its own words". Not to be called from inside `calls`.
+  /// Runs Gmsh calls. Exceptions and errors of Gmsh become InputError "context: Gmsh: message". Do
+  /// not call it from inside `calls`.
   void run(const std::string& context, const std::function<void()>& calls) const;
 
  private:

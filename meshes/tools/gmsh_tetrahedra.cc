@@ -28,7 +28,7 @@ VolumeCells tetrahedra_of_model() {
   return mesh;
 }
 
-/// A surface of given triangles, with the points that it uses and no surface before it.
+/// Adds a surface of given triangles, with the points that it uses and no underlying surface.
 int add_surface(const std::vector<Point<3>>& points, const CompressedRows<NodeIndex>& triangles,
                 std::vector<bool>& known) {
   const int surface = gmsh::model::addDiscreteEntity(2);

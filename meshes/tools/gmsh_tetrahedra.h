@@ -11,12 +11,12 @@
 namespace smoothfem {
 
 /// Meshes the volumes of a model with tetrahedra by Gmsh (Delaunay, one thread). build: Gmsh calls
-/// that make the model and say how long edges shall be; edge lengths come from nowhere else. name:
-/// "the piston". Throws InputError with Gmsh's words if it cannot.
+/// that make the model and set all edge lengths; there is no other source of edge lengths. name:
+/// for messages, for example "the piston". Throws InputError with Gmsh's message if it fails.
 VolumeCells mesh_with_tetrahedra(const std::string& name,
                                  const std::function<void(GmshSession&)>& build);
 
-/// A length for all edges that nothing else says the length of.
+/// Sets the length of all edges without another rule.
 void set_edge_length(GmshSession& session, double length);
 
 /// Gmsh swaps faces of tetrahedra whose radius ratio is below this; lower thresholds leave flatter
@@ -25,7 +25,7 @@ constexpr double usual_optimization_threshold = 0.3;
 
 /// Fills the space between closed surfaces, the first of them around the others, with tetrahedra.
 /// surfaces: rows of three nodes, in either direction. edge_length: of the longest edges inside;
-/// from the surfaces' own edges it grows to this. The result's first nodes are `points`, in their
+/// lengths grow to it from the surfaces' edges. The result's first nodes are `points`, in their
 /// order. name, errors: as above.
 VolumeCells fill_with_tetrahedra(const std::string& name, const std::vector<Point<3>>& points,
                                  const std::vector<CompressedRows<NodeIndex>>& surfaces,

@@ -10,7 +10,7 @@ namespace smoothfem {
 
 namespace {
 
-/// By the number of sides that a ray to the right crosses.
+/// Counts the sides that a ray to the right crosses.
 bool is_inside(const Polygons& polygons, const Point<2>& p) {
   bool inside = false;
   for (const auto& polygon : polygons)
@@ -74,8 +74,9 @@ int GridRegion::n_neighbours(std::size_t cell) const {
   return is_in_[cell - 1] + is_in_[cell + 1] + is_in_[cell - n_x_] + is_in_[cell + n_x_];
 }
 
-/// The neighbours, those at corners included, that are in follow each other around the cell.
-bool GridRegion::can_go(std::size_t cell) const {
+/// True if the neighbours inside the region, including those at corners, form one chain around the
+/// cell.
+bool GridRegion::can_be_removed(std::size_t cell) const {
   const std::array ring{cell + 1, cell + 1 + n_x_, cell + n_x_, cell - 1 + n_x_,
                         cell - 1, cell - 1 - n_x_, cell - n_x_, cell + 1 - n_x_};
   int n_ends = 0;
@@ -86,11 +87,12 @@ bool GridRegion::can_go(std::size_t cell) const {
 
 std::size_t GridRegion::remove(std::size_t n, int n_neighbours_wanted, std::uint64_t seed) {
   SplitMix64 random(seed);
-  const std::size_t most_tries = 1000 * is_in_.size();
+  const std::size_t max_tries = 1000 * is_in_.size();
   std::size_t n_removed = 0;
-  for (std::size_t i = 0; i < most_tries && n_removed < n; ++i) {
+  for (std::size_t i = 0; i < max_tries && n_removed < n; ++i) {
     const auto cell = static_cast<std::size_t>(random.below(is_in_.size()));
-    if (is_in_[cell] == 0 || n_neighbours(cell) != n_neighbours_wanted || !can_go(cell)) continue;
+    if (is_in_[cell] == 0 || n_neighbours(cell) != n_neighbours_wanted || !can_be_removed(cell))
+      continue;
     is_in_[cell] = 0;
     ++n_removed;
     --n_cells_;

@@ -10,15 +10,16 @@ namespace {
 /// The digits of each number are a point's x, y and z.
 using Row = std::array<int, 8>;
 
-/// For the edge from 0 to 300: round its middle third, at its ends, and behind in y and in z.
+/// For the edge from 0 to 300: cells around its middle third, at its ends, and behind in y and in
+/// z.
 constexpr std::array<Row, 5> edge_rows{{{100, 200, 220, 120, 102, 202, 222, 122},
                                         {0, 100, 120, 30, 3, 102, 122, 33},
                                         {200, 300, 330, 220, 202, 303, 333, 222},
                                         {120, 220, 330, 30, 122, 222, 333, 33},
                                         {102, 202, 222, 122, 3, 303, 333, 33}}};
 
-/// For the face z = 0: divided along x as an edge is, then each of the three cells at the face
-/// along y. A layer of nine, three behind it, one at the opposite face.
+/// For the face z = 0: divided along x like an edge; each of the three cells at the face is then
+/// divided along y. The result is a layer of nine, three behind it, and one at the opposite face.
 constexpr std::array<Row, 13> face_rows{{{0, 100, 110, 10, 3, 102, 111, 12},
                                          {100, 200, 210, 110, 102, 202, 211, 111},
                                          {200, 300, 310, 210, 202, 303, 312, 211},
@@ -33,7 +34,7 @@ constexpr std::array<Row, 13> face_rows{{{0, 100, 110, 10, 3, 102, 111, 12},
                                          {211, 312, 322, 221, 202, 303, 333, 232},
                                          {102, 202, 232, 132, 3, 303, 333, 33}}};
 
-/// Turned so that x becomes the given axis.
+/// Returns the cells, turned so that x becomes the given axis.
 template <std::size_t n>
 std::vector<LatticeCell> turned(const std::array<Row, n>& rows, int x_becomes) {
   const auto axis = [&](int k) { return static_cast<std::size_t>((x_becomes + k) % 3); };

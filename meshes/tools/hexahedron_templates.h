@@ -11,18 +11,19 @@ using LatticePoint = std::array<int, 3>;
 /// Nodes of a hexahedron in the order of volume_elements.h.
 using LatticeCell = std::array<LatticePoint, 8>;
 
-/// Refinement templates of a hexahedron, the unit cube, that divide what they are named after into
-/// thirds and leave the faces that do not touch it as they are (Schneiders, Refining quadrilateral
-/// and hexahedral element meshes, 1996; the templates T2, T4 and T8 of the thesis, Section 5.3.2).
-/// axis: 0, 1 or 2 for x, y, z. Cells are valid.
+/// Refinement templates of a hexahedron, the unit cube. They divide their edge, face or volume into
+/// thirds and keep the faces that do not touch it (Schneiders, Refining quadrilateral and
+/// hexahedral element meshes, 1996; templates T2, T4 and T8 of the thesis, Section 5.3.2). axis: 0,
+/// 1 or 2 for x, y, z. Cells are valid.
 
-/// 5 hexahedra for the edge through the origin along an axis. Mean ratios .6357, .7048, .8399.
+/// Returns 5 hexahedra for the edge through the origin along an axis. Mean ratios .6357, .7048,
+/// .8399.
 std::vector<LatticeCell> edge_template(int axis);
-/// 13 hexahedra for the face through the origin normal to an axis. Mean ratios .5400 to 1.
+/// Returns 13 hexahedra for the face through the origin normal to an axis. Mean ratios .5400 to 1.
 std::vector<LatticeCell> face_template(int axis);
-/// 27 cubes.
+/// Returns 27 cubes.
 std::vector<LatticeCell> volume_template();
-/// The cube itself.
+/// Returns the cube itself.
 std::vector<LatticeCell> whole_template();
 
 }  // namespace smoothfem

@@ -8,8 +8,8 @@
 
 namespace smoothfem {
 
-/// Nodes and cells while a mesh is being made; the cells' rows are in the order that Topology
-/// wants.
+/// Nodes and cells of a mesh under construction; the rows of cells have the order that Topology
+/// requires.
 template <int dim>
 struct MeshCells {
   std::vector<Point<dim>> coordinates;
@@ -18,12 +18,12 @@ struct MeshCells {
 using PlanarCells = MeshCells<2>;
 using VolumeCells = MeshCells<3>;
 
-/// The mesh of them, whose boundary nodes are fixed. name: "generated flange". Throws InputError
-/// with that name if a cell is invalid.
+/// Makes the mesh, with fixed boundary nodes. name: for messages, for example "generated flange".
+/// Throws InputError with that name if a cell is invalid.
 template <int dim>
 Mesh<dim> mesh_of(MeshCells<dim> cells, const std::string& name);
 
-/// The other way round, without labels and fixed nodes.
+/// Returns the nodes and cells of a mesh, without labels and fixed nodes.
 template <int dim>
 MeshCells<dim> cells_of(const Mesh<dim>& mesh) {
   return {{mesh.coordinates().begin(), mesh.coordinates().end()}, mesh.topology().cells()};

@@ -50,8 +50,8 @@ Outline circle(const Point<2>& centre, double radius) {
 
 namespace {
 
-/// Each further portion goes to the curve with the longest edges. Equal lengths differ by rounding
-/// only; there the first curve wins, on every machine.
+/// Gives each further portion to the curve with the longest edges. Equal lengths differ by rounding
+/// only; then the first curve wins, on every machine.
 std::vector<std::size_t> portions(const std::vector<double>& lengths, std::size_t n_portions) {
   std::vector<std::size_t> counts(lengths.size(), 1);
   constexpr double clearly = 1.0 + 1e-9;

@@ -14,29 +14,29 @@ struct Curve {
   std::function<Point<2>(double)> point;
 };
 
-/// Closed: each curve ends where the next begins, the last where the first begins.
+/// A closed outline: each curve ends where the next one begins, the last where the first begins.
 using Outline = std::vector<Curve>;
 
-/// The outer one first, then the holes'; all counterclockwise.
+/// The outer polygon first, followed by the holes; all counterclockwise.
 using Polygons = std::vector<std::vector<Point<2>>>;
 
 Point<2> on_circle(const Point<2>& centre, double radius, double angle);
 
 Curve segment(const Point<2>& from, const Point<2>& to);
-/// From angle `from` to angle `to`, clockwise if `to` is smaller.
+/// Arc from angle `from` to angle `to`, clockwise if `to` is smaller.
 Curve arc(const Point<2>& centre, double radius, double from, double to);
-/// Through two and more different points.
+/// Polyline through two or more different points.
 Curve polyline(std::vector<Point<2>> points);
 
-/// A polygon with these corners.
+/// Polygon with these corners.
 Outline closed(const std::vector<Point<2>>& corners);
 Outline circle(const Point<2>& centre, double radius);
 
-/// Closed polygons with n_edges edges altogether, of nearly equal length and a multiple of
-/// `multiple_of` on each curve. Throws InputError if that is not possible.
+/// Returns closed polygons with n_edges edges altogether, of nearly equal length, with a multiple
+/// of `multiple_of` on each curve. Throws InputError if that is not possible.
 Polygons divide(const std::vector<Outline>& outlines, std::size_t n_edges, std::size_t multiple_of);
 
-/// Inside the first polygon and outside the others.
+/// Area inside the first polygon and outside the others.
 double area(const Polygons& polygons);
 
 }  // namespace smoothfem

@@ -9,20 +9,20 @@
 
 namespace smoothfem {
 
-/// The corner of a quadrilateral, 0 or more, that a diagonal to cut it at starts from; or none.
+/// The corner of a quadrilateral, 0 or higher, at which the cutting diagonal starts; or nothing.
 using Diagonal = std::optional<std::size_t>;
 
-/// Cuts cells, all of them quadrilaterals, into two triangles. diagonals: one per cell.
+/// Cuts cells, all of them quadrilaterals, into two triangles. diagonals: one for each cell.
 void cut_quadrilaterals(PlanarCells& mesh, const std::vector<Diagonal>& diagonals);
 /// Cuts the quadrilaterals that are not convex, so that both triangles are valid.
 void cut_invalid_quadrilaterals(PlanarCells& mesh);
-/// Cuts the n quadrilaterals, or all if there are fewer, with the lowest mean ratio at their
+/// Cuts the n quadrilaterals with the lowest mean ratio, or all if there are fewer, at their
 /// shorter diagonal. All must be convex.
 void cut_worst_quadrilaterals(PlanarCells& mesh, std::size_t n);
 
 /// Splits every cell into quadrilaterals by its edges' midpoints and its centre: a triangle gives
-/// three, a quadrilateral four (one that is not convex six). boundary_midpoint(a, b), if given,
-/// says where the midpoint of the boundary edge between nodes a and b lies (a before b in its
+/// three, a quadrilateral four (six if it is not convex). boundary_midpoint(a, b), if not empty,
+/// returns the midpoint's position on the boundary edge between nodes a and b (a before b in its
 /// cell).
 PlanarCells split_to_quadrilaterals(
     const PlanarCells& mesh,

@@ -15,7 +15,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Every stride-th corner: Gmsh meshes these, and halving all edges puts the others back.
+/// Takes every stride-th corner: Gmsh meshes these, and halving all edges restores the others.
 Polygons every_nth(const Polygons& polygons, std::size_t stride) {
   Polygons coarse;
   for (const auto& polygon : polygons) {
@@ -25,7 +25,7 @@ Polygons every_nth(const Polygons& polygons, std::size_t stride) {
   return coarse;
 }
 
-/// Between the ends of a coarse boundary edge: the corner in the middle of those left out.
+/// Finds the corner in the middle of those left out between the ends of a coarse boundary edge.
 class SkippedCorners {
  public:
   explicit SkippedCorners(const Polygons& polygons) : polygons_(polygons) {
@@ -53,8 +53,8 @@ PlanarCells coarse_mesh(const Polygons& polygons, double edge_length, std::size_
                      pattern);
 }
 
-/// Halved until all corners are in. Arcs reach into the cells at their chords: such cells are made
-/// valid, and smoothed before they are halved again.
+/// Halves the mesh until all corners are in. Arcs reach into the cells at their chords: such cells
+/// are made valid, and smoothed before they are halved again.
 PlanarCells halved(PlanarCells mesh, const Polygons& polygons, std::size_t stride) {
   const SkippedCorners skipped(polygons);
   for (; stride > 1; stride /= 2) {
@@ -86,7 +86,7 @@ PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length) {
 
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
                                        const QuadrilateralMeshing& meshing) {
-  constexpr int most_tries = 24;
+  constexpr int max_tries = 24;
   constexpr double few = 0.03, fixable = 0.25;  // fractions of the cells
   const std::size_t stride = std::size_t{1} << meshing.n_halvings;
   const std::size_t n_cells_halved_once = n_cells / (stride * stride / 4);
@@ -97,7 +97,7 @@ PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_c
     double deviation;
     PlanarCells mesh;
   } below{fixable, {}}, above{std::numeric_limits<double>::infinity(), {}};
-  for (int i = 0; i < most_tries && below.deviation > few; ++i) {
+  for (int i = 0; i < max_tries && below.deviation > few; ++i) {
     PlanarCells coarse = coarse_mesh(polygons, search.length(), stride, meshing.pattern);
     cut_invalid_quadrilaterals(coarse);
     // Halving makes as many cells of each as it has corners.

@@ -5,28 +5,29 @@
 
 namespace smoothfem {
 
-/// Quadrilaterals of about an edge length between polygons whose numbers of corners are even: Gmsh
-/// meshes the region of every second corner, and all its cells' edges are halved. The polygons'
-/// edges are the only boundary edges. Throws InputError with Gmsh's words if it cannot.
+/// Makes quadrilaterals with edges of about edge_length between polygons whose numbers of corners
+/// are even. Gmsh meshes the region of every second corner, and all its cells' edges are halved.
+/// The polygons' edges are the only boundary edges. Throws InputError with Gmsh's message if it
+/// fails.
 PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length);
 
-/// How a mesh of quadrilaterals comes from Gmsh's.
+/// Parameters for making a mesh of quadrilaterals from Gmsh's mesh.
 struct QuadrilateralMeshing {
-  /// More than one leave fewer irregular nodes; numbers of corners are then multiples of
+  /// More halvings leave fewer irregular nodes. Numbers of corners must then be multiples of
   /// 2^n_halvings, and the number of cells is met up to 4^(n_halvings - 1).
   int n_halvings = 1;
   PlanarPattern pattern = PlanarPattern::quadrilaterals;
 };
 
-/// The same with a given number of cells. It is met exactly (one less where the number of boundary
-/// edges allows no even, or no odd, number of cells) by cutting some of Gmsh's cells before the
-/// halving, except on boundaries too coarse for so few cells: there it is larger. Throws InputError
-/// with Gmsh's words if it cannot mesh the region.
+/// Makes a mesh with a given number of cells, by cutting some of Gmsh's cells before the halving.
+/// The number is met exactly; it is one less if the number of boundary edges excludes its parity.
+/// It is larger on boundaries too coarse for so few cells. Throws InputError with Gmsh's message if
+/// it cannot mesh the region.
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,
                                        const QuadrilateralMeshing& meshing = {});
 
-/// The same for a region with so many boundary edges, a multiple of 2^n_halvings; edge_scale, from
-/// 1 on, times longer edges give fewer of them, and fewer cells.
+/// Makes the mesh for a region with n_boundary_edges, a multiple of 2^n_halvings. edge_scale, at
+/// least 1, multiplies the edge lengths and gives fewer edges and cells.
 PlanarCells mesh_with_n_quadrilaterals(const std::vector<Outline>& outlines, std::size_t n_cells,
                                        std::size_t n_boundary_edges, double edge_scale,
                                        const QuadrilateralMeshing& meshing = {});

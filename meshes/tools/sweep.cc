@@ -11,7 +11,7 @@ namespace smoothfem {
 VolumeCells sweep(const PlanarCells& base, const std::vector<double>& heights,
                   const std::function<std::size_t(CellIndex)>& n_layers) {
   const auto n_cells = static_cast<CellIndex>(base.cells.size());
-  // A node is there up to the top of its highest column.
+  // A node exists up to the top of its highest column.
   std::vector<std::size_t> top(base.coordinates.size(), 0);
   for (CellIndex c = 0; c < n_cells; ++c) {
     assert(base.cells[c].size() == 4 && n_layers(c) >= 1 && n_layers(c) < heights.size());

@@ -9,9 +9,9 @@
 
 namespace smoothfem {
 
-/// Hexahedra between the planes x, y and z through given coordinates, at least two per direction,
-/// ascending; x runs fastest. keep(i, j, k): whether the cell from the i-th, j-th and k-th plane on
-/// is there; without it all are. Nodes of no cell are left out.
+/// Makes hexahedra between the planes x, y and z through given coordinates, at least two in each
+/// direction, ascending; x runs fastest. keep(i, j, k): true if the cell that starts at the i-th,
+/// j-th and k-th plane is kept; default: all. Nodes of no cell are left out.
 VolumeCells tensor_grid(
     const std::array<std::vector<double>, 3>& planes,
     const std::function<bool(std::size_t, std::size_t, std::size_t)>& keep = {});

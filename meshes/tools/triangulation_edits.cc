@@ -34,7 +34,7 @@ class Triangulation {
 
   std::size_t size() const { return triangles_.size(); }
 
-  /// Splits the longest inner edges, at most one per triangle, n_splits at most.
+  /// Splits the longest inner edges, at most one per triangle and at most n_splits.
   void split_longest(std::size_t n_splits) {
     struct InnerEdge {
       double squared_length;
@@ -131,15 +131,15 @@ class Triangulation {
     return n_edges_[c] < most && n_edges_[d] < most;
   }
 
-  /// By a margin, so that no flip makes a triangle that rounding could turn over.
+  /// Requires a margin, so that no flip makes a triangle that rounding could turn over.
   bool is_counterclockwise(NodeIndex a, NodeIndex b, NodeIndex c) const {
-    constexpr double least_quality = 1e-3;
+    constexpr double min_quality = 1e-3;
     const std::array corners{vector_of(coordinates_[a]), vector_of(coordinates_[b]),
                              vector_of(coordinates_[c])};
-    return mean_ratio(std::span<const Vector2<double>, 3>(corners)) > least_quality;
+    return mean_ratio(std::span<const Vector2<double>, 3>(corners)) > min_quality;
   }
 
-  /// Leaves neighbours_ behind: connect() must follow.
+  /// Leaves neighbours_ outdated: call connect() afterwards.
   void split(std::uint32_t t, std::uint32_t k) {
     const std::uint32_t u = neighbours_[t][k], m = opposite_corner(u, t);
     const NodeIndex c = triangles_[t][k], a = triangles_[t][(k + 1) % 3];

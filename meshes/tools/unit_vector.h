@@ -5,8 +5,8 @@
 
 namespace smoothfem {
 
-/// A vector that is not zero, divided by its length. The squares are summed from x to z: Eigen's
-/// order depends on how it is compiled, and generated meshes have the same bits everywhere.
+/// Returns a nonzero vector divided by its length. The squares are summed from x to z: Eigen's
+/// order depends on compiler flags, and generated meshes must be bitwise identical everywhere.
 inline Point<3> unit_vector(const Point<3>& vector) {
   return vector / length(vector_of(vector));
 }

@@ -40,7 +40,7 @@ double distort_mesh(PythonMesh& mesh, std::optional<double> q_mean, std::optiona
   parameters.kind = distortion_kind(kind);
   parameters.seed = seed;
   parameters.n_sweeps = sweeps;
-  parameters.least_quality = least_quality;
+  parameters.min_quality = least_quality;
   if (q_mean) parameters.target_q_mean = *q_mean;
   return mesh.visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& m) {
     parameters.n_candidates = candidates.value_or(default_candidates(dim));

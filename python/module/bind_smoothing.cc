@@ -36,7 +36,7 @@ Method<dim, spacedim> configured_method(const py::object& method, const std::str
     else if constexpr (dim == 3)
       return {entry.info, entry.factories.volume()};
     else
-      throw InputError("method " + entry.name + " does not take surface meshes");
+      throw InputError("method " + entry.name + " does not support surface meshes");
   };
   Method<dim, spacedim> configured = made();
   if (!preset.empty()) apply_preset(find_preset(preset), configured);

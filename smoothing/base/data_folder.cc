@@ -15,7 +15,7 @@ fs::path data_folder() {
   if (const char* chosen = std::getenv("SMOOTHFEM_DATA"); chosen && *chosen) {
     if (fs::is_directory(fs::path(chosen) / "studies")) return chosen;
     throw InputError("SMOOTHFEM_DATA is " + std::string(chosen) +
-                     ", where there is no folder studies; unset it, or set it to the folder "
+                     ", which has no folder studies; unset it, or set it to the folder "
                      "share/smoothfem of an installation");
   }
   Dl_info library{};
@@ -23,8 +23,8 @@ fs::path data_folder() {
   const fs::path path = fs::weakly_canonical(library.dli_fname ? library.dli_fname : "");
   for (fs::path above = path.parent_path(); above.has_relative_path(); above = above.parent_path())
     if (fs::is_directory(above / "share/smoothfem/studies")) return above / "share/smoothfem";
-  throw InputError("the program's data are missing: no folder above " + path.string() +
-                   " has share/smoothfem/studies; install it anew, or set SMOOTHFEM_DATA");
+  throw InputError("the data of the program are missing: no folder above " + path.string() +
+                   " has share/smoothfem/studies; reinstall the program, or set SMOOTHFEM_DATA");
 }
 
 }  // namespace smoothfem

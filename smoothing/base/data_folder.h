@@ -5,9 +5,10 @@
 
 namespace smoothfem {
 
-/// The folder of the data that come with the program: studies, presets, printed values. The
-/// environment variable SMOOTHFEM_DATA, otherwise share/smoothfem in the first folder above this
-/// library that has one, be it installed or built. Throws InputError if there is none.
+/// Returns the folder of the data that come with the program: studies, presets, printed values. It
+/// is the environment variable SMOOTHFEM_DATA, if set. Otherwise it is share/smoothfem in the first
+/// folder above this library that has one, installed or built. Throws InputError if there is no
+/// such folder.
 std::filesystem::path data_folder();
 
 }  // namespace smoothfem

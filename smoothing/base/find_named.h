@@ -13,12 +13,12 @@
 
 namespace smoothfem {
 
-/// The number of letters to insert, delete, change or swap with their neighbour that make one word
-/// from the other: the Damerau-Levenshtein distance, in its common form in which swapped letters
-/// are not edited again ("optimal string alignment").
+/// Returns the Damerau-Levenshtein distance of two words: the number of letters to insert, delete,
+/// change or swap with their neighbour to make one word from the other. Swapped letters are not
+/// edited again ("optimal string alignment").
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // Distances of the first i and i - 1 (and, for swapped letters, i - 2) letters of a from the
-  // first j of b.
+  // Distances of the first i and i - 1 letters of a from the first j letters of b; swapped letters
+  // also need those of i - 2.
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -34,8 +34,8 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// Which of the names was probably meant: the first one of least edit distance, or, if that is more
-/// than a third of the letters of `wanted` (at least one), an empty string.
+/// Returns the name that was probably meant: the first one with the smallest edit distance. Returns
+/// an empty string if that distance exceeds a third of the letters of `wanted` (at least one).
 inline std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names) {
   const std::size_t most = std::max<std::size_t>(1, wanted.size() / 3);
   std::size_t least = std::numeric_limits<std::size_t>::max();
@@ -52,22 +52,22 @@ inline std::string nearest_name(const std::string& wanted, const std::vector<std
   return nearest;
 }
 
-/// "did you mean 'gear'? choose one of axle, gear", the end of a sentence that refuses a name; the
-/// question only if there is a nearest_name.
+/// Returns "did you mean 'gear'? choose one of axle, gear", the end of an error message about an
+/// unknown name. The question appears only if there is a nearest_name.
 inline std::string choose_one_of(const std::vector<std::string>& names, const std::string& wanted) {
-  if (names.empty()) return "there is none to choose";
+  if (names.empty()) return "none is available";
   const std::string nearest = nearest_name(wanted, names);
   return (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") + choose_one_of(names);
 }
 
-/// "there is no domain 'gaer'; did you mean 'gear'? choose one of axle, gear".
+/// Returns "there is no domain 'gaer'; did you mean 'gear'? choose one of axle, gear".
 inline std::string no_such_name(const std::string& what, const std::string& wanted,
                                 const std::vector<std::string>& names) {
   return "there is no " + what + " '" + wanted + "'; " + choose_one_of(names, wanted);
 }
 
-/// The first element of `all` whose name_of(element) is the wanted one. Throws InputError that
-/// says what there is none of, and lists the names in the order of `all`.
+/// Returns the first element of `all` whose name_of(element) is the wanted one. Otherwise throws
+/// InputError; its message has the kind of thing (`what`) and the names in the order of `all`.
 template <class Range, class NameOf>
 auto& find_named(const std::string& what, const std::string& wanted, Range& all, NameOf name_of) {
   for (auto& candidate : all)
@@ -78,7 +78,7 @@ auto& find_named(const std::string& what, const std::string& wanted, Range& all,
   throw InputError(no_such_name(what, wanted, names));
 }
 
-/// The same for the names themselves.
+/// Returns the wanted name if `names` has it. Otherwise throws InputError, as above.
 inline const std::string& find_named(const std::string& what, const std::string& wanted,
                                      const std::vector<std::string>& names) {
   return find_named(what, wanted, names, [](const std::string& name) { return name; });

@@ -8,26 +8,26 @@
 
 namespace smoothfem {
 
-/// "a, b, c", for sentences that list what there is.
+/// Returns "a, b, c", for sentences that list names.
 inline std::string joined(const std::vector<std::string>& names) {
   std::string list;
   for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
   return list;
 }
-/// "choose one of a, b, c", the end of a sentence that refuses a name.
+/// Returns "choose one of a, b, c", the end of an error message about an unknown name.
 inline std::string choose_one_of(const std::vector<std::string>& names) {
   return "choose one of " + joined(names);
 }
 
-/// Something the user gave (a file, a parameter, a mesh) cannot be used. The message is one
-/// sentence that says what is wrong, where, and what to do; the command line prints it and exits
-/// with code 2.
+/// Error about user input (a file, a parameter, a mesh) that cannot be used. The message is one
+/// sentence: what is wrong, where, and what to do. The command line prints it and exits with code
+/// 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// An InputError about one cell, so that a reader can add where in its file the cell stands.
+/// InputError about one cell. A reader of files can add the cell's position in the file.
 class CellError : public InputError {
  public:
   CellError(std::size_t cell, const std::string& what_is_wrong)

@@ -5,14 +5,14 @@
 
 namespace smoothfem {
 
-/// Set, for good, when the user asks the process to end (Ctrl-C). Who waits for something that may
-/// take long looks at it.
+/// Set when the user asks the process to end (Ctrl-C); never cleared. Long loops and waits check
+/// it.
 inline std::atomic<bool>& interruption() {
   static std::atomic<bool> asked{false};
   return asked;
 }
 
-/// Thrown by who has seen it: no error, and nothing of the work at hand counts.
+/// Thrown after an interruption was seen. It is not an error: the work in progress is discarded.
 struct Interrupted {};
 
 }  // namespace smoothfem

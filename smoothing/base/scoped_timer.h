@@ -5,7 +5,7 @@
 
 namespace smoothfem {
 
-/// Adds the time it lives, in seconds, to a sum.
+/// Adds its lifetime in seconds to a sum.
 class ScopedTimer {
  public:
   explicit ScopedTimer(double& seconds) : seconds_(seconds) {}

@@ -8,7 +8,8 @@
 
 namespace smoothfem {
 
-/// Appends a number with as many digits (at most 17) as give back the same bits when read.
+/// Appends a number with the fewest digits (at most 17) that read back as the same value, bit for
+/// bit.
 template <class Number>
 void append_number(std::string& text, Number value) {
   char digits[32];
@@ -22,11 +23,10 @@ std::string number_text(Number value) {
   return text;
 }
 
-/// The items of a list that are separated by commas, without spaces around them; empty ones are
-/// left out.
+/// Returns the items of a comma-separated list, without surrounding spaces and without empty items.
 std::vector<std::string> split_list(const std::string& text);
 
-/// What is in a file, byte by byte; empty if it cannot be read.
+/// Returns the content of a file, byte by byte; empty if it cannot be read.
 std::string file_content(const std::filesystem::path& path);
 
 }  // namespace smoothfem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Global optimization of large, heavily distorted volume meshes: whole runs with and without its
-/// start phase, and the phases of one Newton step.
+/// Benchmarks of global optimization on large, heavily distorted volume meshes: whole runs with and
+/// without the start phase, and the phases of one Newton step.
 #include <benchmark/benchmark.h>
 
 #include "smoothing/bench/strong_distortion.h"
@@ -69,8 +69,8 @@ void pattern(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(objective.make_hessian());
 }
 
-/// Conjugate gradients with the scaled matrix: products with it take nearly all of their time.
-/// bytes_per_second is what those must read and write at least.
+/// Conjugate gradients with the scaled matrix; products with it take nearly all of their time.
+/// bytes_per_second counts the smallest number of bytes that these products must read and write.
 void conjugate_gradients(benchmark::State& state) {
   constexpr int n_iterations = 20;
   const VolumeMesh& mesh = distorted_mesh(state.range(0));

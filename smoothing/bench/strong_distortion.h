@@ -6,8 +6,8 @@
 namespace smoothfem::bench {
 
 /// Moves each free node to the worst of `n_candidates` random positions in the ball of radius
-/// `radius` around its original position: the one with the lowest mean quality of its cells among
-/// those that keep them valid.
+/// `radius` around its original position. The worst one has the lowest mean quality of the node's
+/// cells among those positions that keep them valid.
 inline void distort_strongly(VolumeMesh& mesh, double radius, int n_sweeps, std::uint64_t seed,
                              int n_candidates = 15) {
   const auto original = mesh.copied_coordinates();

@@ -9,8 +9,8 @@
 
 namespace smoothfem {
 
-/// Which edge of the volume element with n nodes runs between two of its nodes, and whether the
-/// other way round. Throws at compile time if there is none.
+/// Edge of the volume element with n nodes between two of its nodes, and whether it runs the other
+/// way round. Fails at compile time if there is no such edge.
 struct DirectedEdge {
   std::size_t index;
   bool reversed;
@@ -25,8 +25,8 @@ consteval DirectedEdge edge_between(LocalIndex from, LocalIndex to) {
   throw "no edge between these nodes";
 }
 
-/// The edge vectors of a volume cell and their squared lengths, which the quality of a cell and its
-/// size have in common: computed once.
+/// The edge vectors of a volume cell and their squared lengths. Computed once, as the quality and
+/// the size of a cell both need them.
 template <class Real, std::size_t n>
 struct CellEdges {
   static constexpr std::size_t n_edges = VolumeElement<n>::edges.size();

@@ -10,8 +10,8 @@
 
 namespace smoothfem {
 
-/// Area of a polygon; negative if its corners run clockwise. From the first corner, as products of
-/// the coordinates themselves would cancel far from the origin.
+/// Area of a polygon; negative if its corners run clockwise. Coordinates are taken relative to the
+/// first corner: products of large coordinates would cancel far from the origin.
 template <class Real, std::size_t extent>
 inline Real signed_cell_size(std::span<const Vector2<Real>, extent> corners) {
   Real twice_area{};
@@ -20,9 +20,9 @@ inline Real signed_cell_size(std::span<const Vector2<Real>, extent> corners) {
   return 0.5 * twice_area;
 }
 
-/// Volume of a cell whose quadrilateral faces are bilinear (each holds as much as the mean of its
-/// two divisions into triangles); negative for cells turned inside out. By the tetrahedra that the
-/// faces' triangles make with the first node.
+/// Volume of a cell with bilinear quadrilateral faces; negative for inverted cells. Each such face
+/// bounds the mean of the volumes of its two divisions into triangles. The volume is the sum of the
+/// tetrahedra that the faces' triangles form with the first node.
 template <class Real, std::size_t n>
 inline Real signed_cell_size(std::span<const Vector3<Real>, n> nodes) {
   Real six_volumes{};
@@ -51,7 +51,7 @@ inline Real signed_cell_size(std::span<const Vector3<Real>, n> nodes) {
   return six_volumes / 6.0;
 }
 
-/// The same of a cell of a mesh.
+/// Area or volume of a cell of a mesh, with the same sign.
 template <int dim>
 inline double signed_cell_size(const Mesh<dim>& mesh, CellIndex cell) {
   double size = 0.0;
@@ -70,8 +70,8 @@ inline Point<3> area_vector(std::span<const NodeIndex> nodes,
   return sum;
 }
 
-/// Unit vector along the mean normal of a polygon in space, also where the squares of its area
-/// leave the range of numbers. Zero for a polygon without area.
+/// Unit vector along the mean normal of a polygon in space; zero for a polygon without area. Works
+/// also where the square of its area overflows or underflows.
 inline Point<3> facet_normal(std::span<const NodeIndex> nodes,
                              std::span<const Point<3>> coordinates) {
   constexpr double least = 0x1p-500, largest = 0x1p500;

@@ -10,9 +10,9 @@
 
 namespace smoothfem {
 
-/// The binary exponent of the points' extent where it is so large or small, beyond 2^100 or below
-/// 2^-100, that products of several lengths leave the range of numbers; 0 for all others. Scaled by
-/// the power of two with the negative exponent, the points have an extent near 1 and the same bits.
+/// Returns the binary exponent of the points' extent if it is above 2^100 or below 2^-100,
+/// otherwise 0. At such sizes products of several lengths overflow or underflow. Scaling by the
+/// power of two with the negative exponent gives an extent near 1 without rounding.
 template <class PointType>
 int extreme_exponent(std::span<const PointType> points) {
   constexpr int ordinary = 100;
@@ -30,7 +30,8 @@ void scale_by_power_of_two(std::span<PointType> points, int exponent) {
     for (double& coordinate : p) coordinate = std::ldexp(coordinate, exponent);
 }
 
-/// The points themselves, or where their extent is extreme, copies in `storage` with one near 1.
+/// Returns the points themselves. If their extent is extreme, returns copies in `storage` that are
+/// scaled to an extent near 1.
 template <class PointType>
 std::span<const PointType> at_ordinary_size(std::span<const PointType> points,
                                             std::vector<PointType>& storage) {

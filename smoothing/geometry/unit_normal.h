@@ -7,8 +7,8 @@
 
 namespace smoothfem {
 
-/// Unit vector along a polygon's area vector, its mean normal: the polygon runs counterclockwise
-/// when it points to the viewer. Zero for a polygon without area. Three or more corners.
+/// Unit vector along a polygon's area vector, its mean normal; zero for a polygon without area. The
+/// polygon runs counterclockwise when the vector points to the viewer. Three or more corners.
 template <std::size_t extent>
 inline Vector3<double> unit_normal(std::span<const Vector3<double>, extent> corners) {
   Vector3<double> area{};

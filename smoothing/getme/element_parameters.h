@@ -7,8 +7,8 @@
 
 namespace smoothfem {
 
-/// What the element step of GETMe (transform, keep centroid and size, relax) has for parameters.
-/// Cells of surface meshes take those of the plane.
+/// Parameters of the element step of GETMe: transform, keep centroid and size, relax. Cells of
+/// surface meshes take those of the plane.
 template <int dim>
 struct ElementParameters;
 
@@ -29,14 +29,14 @@ struct ElementParameters<2> {
             {"rho", "relaxation; 1 takes the transformed element as it is (Eq. 3.12)", &rho, 0.0,
              1.0, true},
             {"scaling",
-             "what size a transformed element has: that of before (Eq. 3.11), or the mean of the "
+             "size of a transformed element: its original size (Eq. 3.11), or the mean of the "
              "elements around its nodes",
              Choice{&scaling, {"mean-edge-length", "neighbour-mean-size"}}}};
   }
 };
 
-/// The scaling factor sigma of the normals, from `low` for regular elements to `high` for those of
-/// quality zero (thesis, Section 4.2).
+/// The scaling factor sigma of the normals, from `low` for regular elements to `high` for elements
+/// of quality zero (thesis, Section 4.2).
 struct SigmaRange {
   double low, high;
 };
@@ -62,7 +62,7 @@ struct ElementParameters<3> {
       all.push_back({"sigma_" + type + "_min",
                      "scaling factor of the normals for a " + type + " of quality 1 (Section 4.2)",
                      &sigma.low, 0.0, largest});
-      all.push_back({"sigma_" + type + "_max", "the same for quality 0, linear between them",
+      all.push_back({"sigma_" + type + "_max", "scaling factor for quality 0; linear in between",
                      &sigma.high, 0.0, largest});
     };
     add_sigma("tetrahedron", tetrahedron);
@@ -71,12 +71,11 @@ struct ElementParameters<3> {
     add_sigma("hexahedron", hexahedron);
     all.push_back({"rho", "relaxation; 1 takes the transformed element as it is (Eq. 3.12)", &rho,
                    0.0, 1.0, true});
-    all.push_back({"tetrahedron_transformation",
-                   "how tetrahedra are transformed (Sections 3.2, 3.3)",
+    all.push_back({"tetrahedron_transformation", "transformation of tetrahedra (Sections 3.2, 3.3)",
                    Choice{&tetrahedron_transformation, {"opposite-face-normals", "dual-element"}}});
     all.push_back(
         {"scaling",
-         "what size a transformed element has: that of before (Section 3.3), or the mean of the "
+         "size of a transformed element: its original size (Section 3.3), or the mean of the "
          "elements around its nodes",
          Choice{&scaling, {"mean-edge-length", "mean-volume", "neighbour-mean-size"}}});
     return all;

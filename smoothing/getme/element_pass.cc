@@ -15,8 +15,8 @@ namespace smoothfem {
 
 namespace {
 
-/// (1 - q)^eta. The exponents of the thesis by square roots, which have the same bits on every
-/// machine; others as the mathematical library has them.
+/// Returns (1 - q)^eta. The exponents of the thesis are computed by square roots, which are bitwise
+/// identical on every machine. Other exponents use std::pow.
 double quality_weight(double quality, double eta) {
   const double base = std::max(1.0 - quality, 0.0);
   if (eta == 0.0) return 1.0;
@@ -46,7 +46,7 @@ struct QualityWeighting {
   }
 };
 
-/// Elements of at most this quality are transformed; weights by element.
+/// Transforms elements of at most this quality; weights are given for each element.
 struct ThresholdWeighting {
   const double* weights;
   double threshold;
@@ -68,14 +68,14 @@ struct ThresholdWeighting {
   }
 };
 
-/// w p' and w, as NodeSums adds them, of n_lanes elements.
+/// Returns w p' and w of n_lanes elements, in the layout that NodeSums adds.
 std::array<Lanes, n_lanes> weighted(Vector2<Lanes> position, Lanes weight) {
   return transposed(weight * position.x, weight * position.y, weight, Lanes{});
 }
 std::array<Lanes, n_lanes> weighted(Vector3<Lanes> position, Lanes weight) {
   return transposed(weight * position.x, weight * position.y, weight * position.z, weight);
 }
-/// Of one.
+/// Returns w p' and w of one element.
 Lanes weighted(Vector2<double> position, double weight) {
   return Lanes{weight * position.x, weight * position.y, weight, 0.0};
 }
@@ -83,19 +83,19 @@ Lanes weighted(Vector3<double> position, double weight) {
   return Lanes{weight * position.x, weight * position.y, weight * position.z, weight};
 }
 
-/// Fits: std::true_type or std::false_type in the plane, whether elements' steps are told sizes.
+/// Fits: std::true_type or std::false_type in the plane: whether element steps take a target size.
 template <int dim, int spacedim, class Weighting, class Fits = bool>
 struct Pass {
   const Mesh<dim, spacedim>& mesh;
   const ElementRegularization<dim, spacedim>& element;
-  const NeighbourSizes<dim, spacedim>& sizes;  ///< up to date if the element's step needs them
-  const double* prescribed;                    ///< of each cell, instead of them; or null
+  const NeighbourSizes<dim, spacedim>& sizes;  ///< up to date if the element step needs them
+  const double* prescribed;  ///< prescribed size of each cell, used in their place; or null
   Weighting weighting;
   Fits fits;
 
-  /// sums[i] += w_j p'_i for the elements of a batch and their nodes where wanted(i). Returns their
-  /// quality. The nodes of one kind of all elements, one element after the other, then the next
-  /// ones: that is the order of the sums.
+  /// Adds w_j p'_i to sums[i] for the elements of a batch and their nodes where wanted(i) holds.
+  /// Returns the quality of the elements. The order of the sums: first node 0 of all elements, one
+  /// element after the other, then node 1, and so on.
   template <std::size_t n, class Wanted>
   Lanes add(const CellBatch<n>& batch, const Wanted& wanted, double* sums) const {
     const auto corners = batch.template corners<dim>(mesh.coordinates().data());
@@ -130,7 +130,7 @@ struct Pass {
       return element.regularize(from, to, size);
   }
 
-  /// The same for one polygon or cell of a surface.
+  /// Does the same for one polygon or one cell of a surface.
   template <class Wanted>
   double add_cell(CellIndex cell, const Wanted& wanted, double* sums) const {
     const auto nodes = mesh.topology().cell_nodes(cell);
@@ -150,7 +150,7 @@ struct Pass {
   }
 };
 
-/// Calls visit(fits): in the plane with a type of that value.
+/// Calls visit(fits); in the plane `fits` is a type, std::true_type or std::false_type.
 template <int dim, int spacedim, class Visit>
 void with_scaling(bool fits, const Visit& visit) {
   if constexpr (dim == 2 && spacedim == 2) {
@@ -163,7 +163,7 @@ void with_scaling(bool fits, const Visit& visit) {
   }
 }
 
-/// All cells of a block in their order; writes their quality.
+/// Adds all cells of a block in their order; writes their quality.
 template <int dim, int spacedim, class Weighting, class Fits>
 void add_block(const Pass<dim, spacedim, Weighting, Fits>& pass, const CellBlock& block,
                double* cell_quality, double* sums) {
@@ -174,7 +174,8 @@ void add_block(const Pass<dim, spacedim, Weighting, Fits>& pass, const CellBlock
       [&](CellIndex c) { cell_quality[c] = pass.add_cell(c, every_node, sums); });
 }
 
-/// Some cells, ascending, to the sums of marked nodes only. Their qualities are known.
+/// Adds some cells (ascending) to the sums of marked nodes only. The qualities of these cells are
+/// known.
 template <int dim, int spacedim, class Weighting, class Fits>
 void add_to_marked(const Pass<dim, spacedim, Weighting, Fits>& pass,
                    std::span<const CellIndex> cells, const std::vector<std::uint8_t>& marked,
@@ -201,13 +202,14 @@ struct ElementPass<dim, spacedim>::Tables {
   const double* prescribed = nullptr;
   NodeSums sums;
   std::vector<PartialQuality> qualities;   ///< of each block of cells
-  std::vector<std::uint8_t> marked_nodes;  ///< whose sums have to be added again
-  std::vector<std::uint8_t> marked_cells;  ///< that add to them
+  std::vector<std::uint8_t> marked_nodes;  ///< nodes whose sums have to be added again
+  std::vector<std::uint8_t> marked_cells;  ///< cells that add to these sums
 
-  /// Elements' steps have to be told sizes that the mesh has.
+  /// True if element steps take target sizes that are measured on the mesh.
   bool measures() const { return element->fits_neighbours() && prescribed == nullptr; }
 
-  /// The nodes of all cells around some nodes that are not marked yet; marks them.
+  /// Returns the nodes of all cells around some nodes, without nodes that are already marked; marks
+  /// them.
   std::vector<NodeIndex> nodes_around(const Topology& topology, std::span<const NodeIndex> nodes) {
     std::vector<NodeIndex> around;
     for (const NodeIndex i : nodes)
@@ -216,7 +218,7 @@ struct ElementPass<dim, spacedim>::Tables {
           if (!std::exchange(marked_nodes[j], 1)) around.push_back(j);
     return around;
   }
-  /// The nodes of some cells.
+  /// Returns the nodes of some cells.
   std::vector<NodeIndex> nodes_of(const Topology& topology, std::span<const CellIndex> cells) {
     marked_nodes.assign(topology.n_nodes(), 0);
     std::vector<NodeIndex> nodes;

@@ -10,41 +10,56 @@
 
 namespace smoothfem {
 
-/// The weighted means behind GETMe's averaging (thesis, Eq. 4.2): elements E_j are transformed to
-/// E'_j, and a node gets the sums of w_j p' and of w_j over the elements it belongs to, p' being
-/// its position in E'_j. Several elements at a time; the same bits for every number of threads.
+/// Weighted sums for GETMe's averaging (thesis, Eq. 4.2). Each element E_j is transformed to E'_j.
+/// A node gets the sums of w_j p' and of w_j over its elements, where p' is its position in E'_j.
+/// One node in scalar code:
+///
+///   Point sum = zero; double weight = 0;
+///   for (E_j : elements of node i) {
+///     w = pow(1 - mean_ratio(E_j), eta);
+///     T = transform(E_j);  // Section 2.3 (polygons), 3.2 or 3.3 (volume elements)
+///     T = keep_centroid_and_size(E_j, T);  // Eq. 3.11
+///     T = (1 - rho) * E_j + rho * T;  // Eq. 3.12
+///     sum += w * T[i];
+///     weight += w;
+///   }
+///   p_i = weight > 0 ? sum / weight : p_i;  // Eq. 4.2
+///
+/// This class computes several elements at a time. Results are bitwise identical for every number
+/// of threads.
 template <int dim, int spacedim = dim>
 class ElementPass {
  public:
   ElementPass();
   ~ElementPass();
 
-  /// Call before a run; parameters: how elements are transformed.
+  /// Prepares a run; call it first. parameters: how elements are transformed.
   void prepare(const Topology& topology, const ElementParameters<dim>& parameters);
 
-  /// Sizes that transformed elements get from now on, by their mean node simplices as in
-  /// NeighbourSizes, for elements whose scaling fits the neighbours: each its own size in place of
-  /// that. One for each element, positive; they have to last.
+  /// Prescribes the size of each transformed element, measured by its mean node simplex as in
+  /// NeighbourSizes. Applies to elements whose scaling fits the neighbours. of_cells: one positive
+  /// size for each element; must outlive its use here.
   void prescribe_sizes(std::span<const double> of_cells);
 
   /// Transforms all elements, with weights w_j = (1 - q(E_j))^eta. Writes the quality of each to
-  /// state.cell_quality, and returns that of the mesh.
+  /// state.cell_quality. Returns the quality of the mesh.
   MeshQuality transform_all(SmoothingState<dim, spacedim>& state, double eta);
 
-  /// The same sums, for a mesh that differs from the one before in these nodes, whose cells'
-  /// qualities are up to date: transforms the elements around them only, unless they are many.
+  /// Updates the sums for a mesh that differs from the previous one in these nodes only. The
+  /// qualities of their cells must be up to date. Transforms the elements around these nodes only,
+  /// unless they are many.
   MeshQuality transform_around(SmoothingState<dim, spacedim>& state,
                                std::span<const NodeIndex> nodes, double eta);
 
-  /// The sums of some nodes only, ascending, from `cells`, all cells around them, ascending. w_j =
-  /// weights[j]; elements with a quality above the threshold count as they are, not transformed.
+  /// Computes the sums of some nodes only. nodes: ascending; cells: all cells around them,
+  /// ascending; w_j = weights[j]. Elements with a quality above the threshold count untransformed.
   void transform_some(const SmoothingState<dim, spacedim>& state, std::span<const NodeIndex> nodes,
                       std::span<const CellIndex> cells, std::span<const double> weights,
                       double threshold);
 
-  /// False where all weights are zero, as those of regular elements are.
+  /// False if all weights of the node are zero, which happens if its elements are regular.
   bool has_mean(NodeIndex node) const { return sums(node)[spacedim] > 0.0; }
-  /// The weighted mean of a node's positions in its transformed elements.
+  /// Returns the weighted mean of a node's positions in its transformed elements.
   Point<spacedim> mean(NodeIndex node) const {
     Point<spacedim> mean;
     for (int d = 0; d < spacedim; ++d) mean[d] = sums(node)[d] / sums(node)[spacedim];
@@ -52,11 +67,11 @@ class ElementPass {
   }
 
  private:
-  struct Tables;  ///< sums by blocks of cells, and which elements add to them
+  struct Tables;  ///< sums by blocks of cells, and the elements that add to them
   const double* sums(NodeIndex node) const { return sums_ + 4 * std::size_t{node}; }
 
   std::unique_ptr<Tables> tables_;
-  const double* sums_ = nullptr;  ///< four of each node: weighted coordinates and weight
+  const double* sums_ = nullptr;  ///< four for each node: weighted coordinates and weight
 };
 
 }  // namespace smoothfem

@@ -10,12 +10,12 @@
 
 namespace smoothfem {
 
-/// The lowest of many keys that change: a tournament among the numbers 0 .. n-1, lowest key first,
-/// ties by number. Changing a key costs the rounds that its number plays, and ends where it neither
-/// won nor wins: few for keys that are not among the lowest.
+/// Finds the lowest of many changing keys, by a tournament among the numbers 0 .. n-1. The lowest
+/// key wins; ties go to the lower number. A changed key replays the rounds of its number and stops
+/// where it neither won nor wins. Keys that are not among the lowest need few rounds.
 class MinTree {
  public:
-  /// Numbers whose key is infinite never win against others.
+  /// Infinite key: it never wins against a finite one.
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   void build(std::vector<double> keys) {
@@ -31,9 +31,9 @@ class MinTree {
   }
 
   std::size_t size() const { return keys_.size(); }
-  /// True if there is no number with a finite key.
+  /// True if no number has a finite key.
   bool empty() const { return keys_.empty() || keys_[top()] == never; }
-  /// size() > 0.
+  /// Returns the number with the lowest key. Requires size() > 0.
   std::uint32_t top() const {
     assert(!keys_.empty());
     return levels_.empty() ? 0 : levels_.back()[0];
@@ -58,12 +58,13 @@ class MinTree {
   }
 
  private:
-  static constexpr std::size_t width = 8;  ///< that compete in one round
+  static constexpr std::size_t width = 8;  ///< players in one round
 
   bool before(std::uint32_t a, std::uint32_t b) const {
     return keys_[a] < keys_[b] || (keys_[a] == keys_[b] && a < b);
   }
-  /// The winner of a group; players are in the order of their numbers, so ties need no look.
+  /// Returns the winner of a group. Players come in the order of their numbers, so that ties
+  /// resolve themselves.
   std::uint32_t play(std::size_t level, std::size_t group) const {
     const std::size_t n = level == 0 ? keys_.size() : levels_[level - 1].size();
     const std::size_t last = std::min(n, (group + 1) * width);

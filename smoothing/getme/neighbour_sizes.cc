@@ -24,7 +24,7 @@ double size_of(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
   return size;
 }
 
-/// The mean over the cells around a node. size(cell): of each.
+/// Returns the mean over the cells around a node. size(cell): the size of each.
 template <class Size>
 double mean_around(const Topology& topology, NodeIndex node, const Size& size) {
   const auto cells = topology.node_cells(node);
@@ -51,7 +51,7 @@ void NeighbourSizes<dim, spacedim>::update(const Mesh<dim, spacedim>& mesh) {
         },
         [&](CellIndex c) { of_cell_[c] = size_of(mesh, c); });
   });
-  topology.node_cells(0);  // the table is there before several threads ask for it
+  topology.build_node_cells();  // before several threads ask for it
   parallel_for_ranges(topology.n_nodes(), grain, [&](std::size_t first, std::size_t last) {
     for (auto i = static_cast<NodeIndex>(first); i < last; ++i)
       at_node_[i] = mean_around(topology, i, [&](CellIndex c) { return of_cell_[c]; });

@@ -9,28 +9,28 @@
 
 namespace smoothfem {
 
-/// The size that fits a cell's neighbourhood: the mean over its nodes of the mean size of the cells
-/// around each of them. A cell's size is that of its mean node simplex (node_simplex_size), which
-/// is much the same for all types of cells with edges of one length, so that they may be mixed.
-/// Sizes of cells that are turned inside out count without their sign.
+/// Sizes that fit the neighbourhoods of cells: the mean over a cell's nodes of the mean size of the
+/// cells around each node. The size of a cell is that of its mean node simplex (node_simplex_size).
+/// Cell types with edges of equal length have similar sizes, so that they may be mixed. Sizes of
+/// inverted cells count without their sign.
 ///
-/// The thesis' scaling "preserving the mean volume of all node tetrahedra" (Section 3.3) read with
-/// "all" meant: all those around a cell's nodes, not its own only.
+/// Source: the thesis' scaling "preserving the mean volume of all node tetrahedra" (Section 3.3).
+/// Here "all" means all tetrahedra around the cell's nodes, not only its own.
 template <int dim, int spacedim = dim>
 class NeighbourSizes {
  public:
-  /// Looks at all cells of a mesh.
+  /// Updates the sizes around all nodes of a mesh.
   void update(const Mesh<dim, spacedim>& mesh);
-  /// The same for some nodes only, of a mesh of the same topology.
+  /// Updates the sizes around some nodes only, of a mesh of the same topology.
   void update(const Mesh<dim, spacedim>& mesh, std::span<const NodeIndex> nodes);
 
-  /// Of a cell, whose nodes have to be up to date.
+  /// Returns the size of a cell. Its nodes have to be up to date.
   double of(std::span<const NodeIndex> nodes) const {
     double sum = 0.0;
     for (const NodeIndex i : nodes) sum += at_node_[i];
     return sum / static_cast<double>(nodes.size());
   }
-  /// Of several cells; the same bits.
+  /// Returns the sizes of several cells, bitwise identical to those of single cells.
   template <std::size_t n>
   Lanes of(const CellBatch<n>& batch) const {
     Lanes sum{};

@@ -12,17 +12,17 @@ namespace smoothfem {
 
 namespace {
 
-/// Rows of cells with small numbers, ascending, in two bytes each: the cells that share several
-/// nodes with a cell are close to it and to each other in an order of cells that is good for
-/// anything. Each is the step from the one before, times four, and the surplus less one; the first
-/// step is from the row's own cell, either way. Longer steps are made of several.
+/// Compresses rows of ascending cell numbers with small counts to two bytes an entry. Cells that
+/// share several nodes are close together in any good order of cells. An entry is four times the
+/// step from the previous cell, plus the surplus less one. The first step starts at the row's own
+/// cell and may go either way. Longer steps take several entries.
 class SharedCellCode {
  public:
   static constexpr std::uint32_t largest_surplus = 4;
 
   explicit SharedCellCode(CellIndex cell) : before_(cell) {}
 
-  /// Surplus: 1 to largest_surplus.
+  /// Appends an entry. surplus: 1 to largest_surplus.
   void append(CellIndex other, std::uint32_t surplus, std::vector<std::uint16_t>& row) {
     const bool back = other < before_;
     std::uint64_t step = back ? before_ - other : other - before_;
@@ -32,7 +32,7 @@ class SharedCellCode {
     row.push_back(static_cast<std::uint16_t>(step * largest_surplus + surplus - 1));
   }
 
-  /// Calls use(other, surplus) for all that were appended to the row of a cell.
+  /// Calls use(other, surplus) for all entries of the row of a cell.
   template <class Use>
   static void read(CellIndex cell, std::span<const std::uint16_t> row, const Use& use) {
     if (row.empty()) return;
@@ -52,16 +52,16 @@ class SharedCellCode {
   }
 
  private:
-  static constexpr std::uint16_t longest = 0x3fff;  ///< and as a step: another one follows
+  static constexpr std::uint16_t longest = 0x3fff;  ///< as a step: another step follows
 
   CellIndex before_;
 };
 
-/// Some of the numbers 0 .. n-1, taken out in ascending order: bits, and bits of the words that
-/// have some.
+/// Set of numbers from 0 .. n-1 that are taken out in ascending order. Keeps a bit for each number,
+/// and a bit for each word that has some.
 class AscendingNumbers {
  public:
-  /// Only once all were taken out.
+  /// Changes n. Requires that all numbers were taken out.
   void resize(std::size_t n) {
     words_.resize(n / n_bits + 1, 0);
     used_words_.resize(words_.size() / n_bits + 1, 0);
@@ -90,11 +90,12 @@ class AscendingNumbers {
   std::vector<std::uint64_t> words_, used_words_;
 };
 
-/// Finds the cells that share several nodes with a cell, by counting: the numbers of the cells
-/// around a cell lie close together in meshes that are large enough for it to matter.
+/// Finds the cells that share several nodes with a cell, by counting. In large meshes the numbers
+/// of the cells around a cell lie close together.
 class SharedCells {
  public:
-  /// Appends them to an empty row, ascending; returns how many cells share a node or more.
+  /// Appends them to an empty row, ascending. Returns the number of cells that share a node or
+  /// more.
   std::size_t find(const Topology& topology, CellIndex cell, std::vector<std::uint16_t>& row) {
     CellIndex first = cell, last = cell;
     for (const NodeIndex node : topology.cell_nodes(cell)) {
@@ -129,8 +130,8 @@ class SharedCells {
   }
 
  private:
-  std::vector<std::uint32_t> counts_;  ///< of the nodes that cells share; zero between two calls
-  AscendingNumbers several_;           ///< of counts_ that are 2 or more; none between two calls
+  std::vector<std::uint32_t> counts_;  ///< numbers of shared nodes by cell; zero between two calls
+  AscendingNumbers several_;  ///< positions where counts_ is 2 or more; empty between two calls
 };
 
 }  // namespace

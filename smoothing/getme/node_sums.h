@@ -13,27 +13,27 @@
 namespace smoothfem {
 
 /// Four sums for each node of a mesh (weighted coordinates and the weight), added up cell by cell
-/// by several threads with the same bits however many they are: each block of cells has sums of its
-/// own over the nodes it uses, and these are added in the order of the blocks.
+/// by several threads. Results are bitwise identical for every number of threads: each block of
+/// cells has separate sums over its nodes, and these are added in the order of the blocks.
 class NodeSums {
  public:
-  /// All sums are zero afterwards.
+  /// Sets all sums to zero.
   void prepare(const Topology& topology) {
     topology_ = &topology;
     totals_.assign(n_lanes * topology.n_nodes(), 0.0);
   }
 
-  /// The four sums of a node.
+  /// Returns the four sums of a node.
   const double* operator[](NodeIndex node) const { return totals_.data() + n_lanes * node; }
 
-  /// Adds to the sums of a node, in a block's sums.
+  /// Adds to the sums of a node among the sums of a block.
   static void add(double* block_sums, NodeIndex node, Lanes values) {
     double* const sums = block_sums + offset_of(node);
     store_lanes(load_lanes(sums) + values, sums);
   }
 
-  /// Sets the sums of all nodes: add_block(b, sums) adds those of the cells of block b to `sums`,
-  /// with add(). Several blocks at a time.
+  /// Computes the sums of all nodes. add_block(b, sums) adds those of the cells of block b to
+  /// `sums` by add(). Several blocks run at a time.
   template <class AddBlock>
   void compute(const AddBlock& add_block) {
     std::vector<std::size_t> blocks(topology_->blocks().size());
@@ -44,9 +44,8 @@ class NodeSums {
     add_up(blocks, each_node, add_block);
   }
 
-  /// Sets the sums of some nodes, ascending, from the cells that use them, ascending:
-  /// add_cells(b, cells, sums) adds those of some of the cells, which are in block b, to these
-  /// nodes only.
+  /// Computes the sums of some nodes (ascending) from the cells that use them (ascending).
+  /// add_cells(b, cells, sums) adds those of the given cells of block b, to these nodes only.
   template <class AddCells>
   void compute_some(std::span<const NodeIndex> nodes, std::span<const CellIndex> cells,
                     const AddCells& add_cells) {
@@ -74,23 +73,23 @@ class NodeSums {
   std::size_t n_sums(std::size_t b) const {
     return n_lanes * (block(b).last_node - block(b).first_node);
   }
-  /// Those of some ascending numbers that are in first .. last - 1.
+  /// Returns the part of some ascending numbers that lies in first .. last - 1.
   static std::span<const std::uint32_t> between(std::span<const std::uint32_t> numbers,
                                                 std::size_t first, std::size_t last) {
     if (first >= last) return {};
     const auto begin = std::lower_bound(numbers.begin(), numbers.end(), first);
     return {begin, std::lower_bound(begin, numbers.end(), last)};
   }
-  /// Where the sums of node 0 would be among a block's own sums, which begin at an offset in
-  /// parts_.
+  /// Returns the address of the sums of node 0 among a block's separate sums, which begin at an
+  /// offset in parts_.
   double* sums_of(std::size_t b, std::size_t offset) {
     return parts_.data() + (static_cast<std::ptrdiff_t>(offset) - offset_of(block(b).first_node));
   }
 
-  /// Sets the sums of the nodes that each_node has: each_node(from, to, use) calls use(i) for those
-  /// among from .. to - 1. Some blocks at a time: their own sums take at most a quarter of the
-  /// memory of all nodes' sums, unless that is little or a single block needs more. How many they
-  /// are has no influence on the sums.
+  /// Computes the sums of the nodes of each_node: each_node(from, to, use) calls use(i) for its
+  /// nodes in from .. to - 1. Some blocks run at a time. Their separate sums take at most a quarter
+  /// of the memory of all nodes' sums, unless that is little or a single block needs more. The
+  /// number of blocks at a time does not change the sums.
   template <class EachNode, class AddBlock>
   void add_up(std::span<const std::size_t> blocks, const EachNode& each_node,
               const AddBlock& add_block) {
@@ -140,7 +139,7 @@ class NodeSums {
 
   const Topology* topology_ = nullptr;
   std::vector<double> totals_;
-  std::vector<double> parts_;  ///< own sums of the blocks that are being added
+  std::vector<double> parts_;  ///< separate sums of the blocks that are being added
 };
 
 }  // namespace smoothfem

@@ -12,8 +12,8 @@
 
 namespace smoothfem {
 
-/// The element step of GETMe: transform, keep centroid and size, relax. Where the size is to be
-/// that of the neighbours, each step is told it (NeighbourSizes).
+/// The element step of GETMe: transform, keep centroid and size, relax. A target size is passed to
+/// each step if the scaling fits the neighbours (NeighbourSizes).
 template <int dim, int spacedim = dim>
 class ElementRegularization;
 
@@ -25,17 +25,17 @@ class ElementRegularization<2> {
         rho_(parameters.rho),
         fits_neighbours_(parameters.scaling == ElementParameters<2>::neighbour_mean_size) {}
 
-  /// Whether steps need to be told a size.
+  /// True if steps take a target size.
   bool fits_neighbours() const { return fits_neighbours_; }
 
-  /// Returns the mean ratio of the polygon, which planar transformations do not depend on.
+  /// Transforms a polygon. Returns its mean ratio, which planar transformations do not depend on.
   template <class Real, std::size_t extent>
   inline Real regularize(std::span<const Vector2<Real>, extent> polygon,
                          std::span<Vector2<Real>, extent> result, Real size = Real{}) const {
     return regularize(polygon, result, size, fits_neighbours_);
   }
-  /// The same for loops that know at compile time whether sizes are told: a polygon's step is so
-  /// short that asking each time would show. Fits: std::true_type or std::false_type.
+  /// Does the same in loops that know at compile time whether steps take a target size. A polygon's
+  /// step is so short that a run-time check would show. Fits: std::true_type or std::false_type.
   template <class Real, std::size_t extent, class Fits>
   inline Real regularize(std::span<const Vector2<Real>, extent> polygon,
                          std::span<Vector2<Real>, extent> result, Real size, Fits fits) const {
@@ -54,13 +54,13 @@ class ElementRegularization<2> {
   bool fits_neighbours_;
 };
 
-/// Polygons of a surface in space: the planar step in the plane across each one's mean normal.
+/// Polygons of a surface in space: the planar step in the plane across the mean normal of each.
 template <>
 class ElementRegularization<2, 3> : public ElementRegularization<2> {
  public:
   using ElementRegularization<2>::ElementRegularization;
 
-  /// upper: see mean_ratio, which is returned.
+  /// Transforms a polygon. Returns its mean ratio; upper: see mean_ratio.
   template <std::size_t extent>
   double regularize(Vector3<double> upper, std::span<const Vector3<double>, extent> polygon,
                     std::span<Vector3<double>, extent> result, double size = 0.0) const {
@@ -84,7 +84,7 @@ class ElementRegularization<3> {
     return parameters_.scaling == ElementParameters<3>::neighbour_mean_size;
   }
 
-  /// Returns the mean ratio of the cell, which the normals' factor depends on.
+  /// Transforms a cell. Returns its mean ratio, which the normals' factor depends on.
   template <class Real, std::size_t n>
   inline Real regularize(std::span<const Vector3<Real>, n> nodes,
                          std::span<Vector3<Real>, n> result, Real size = Real{}) const {
@@ -115,7 +115,7 @@ class ElementRegularization<3> {
   ElementParameters<3> parameters_;
 };
 
-/// One line for cells of every kind of mesh.
+/// Calls the step of a cell of any kind of mesh.
 template <int dim, int spacedim, class Upper, class Corners, class Result>
 inline double regularize(const ElementRegularization<dim, spacedim>& element, Upper upper,
                          Corners corners, Result result, double size) {

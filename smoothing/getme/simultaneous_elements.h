@@ -5,13 +5,13 @@
 
 namespace smoothfem {
 
-/// How GETMe simultaneous transforms elements, unless told otherwise.
+/// Default element parameters of GETMe simultaneous.
 template <int dim>
 ElementParameters<dim> simultaneous_elements() {
   if constexpr (dim == 2)
     return {.lambda = 7.0 / 20.0, .theta_degrees = 15.0, .rho = 1.0};
-  else  // tetrahedra and hexahedra as in Section 6.3; pyramids and prisms, which do not settle for
-        // large sigma, as in Section 5.4
+  else  // Tetrahedra and hexahedra: Section 6.3. Pyramids and prisms do not converge for large
+        // sigma: Section 5.4.
     return {.tetrahedron = {0.7, 50.7},
             .pyramid = {1.86, 1.86},
             .prism = {1.59, 1.59},

@@ -10,21 +10,22 @@
 namespace smoothfem {
 
 /// The nodes of the cells around each free node, in the order in which a sweep over the free nodes
-/// reads them. The topology has them in two tables, the second of which such a sweep reads here and
-/// there: the weighted Laplacian took three times as long in a mesh generator's order, half as long
-/// again in a good one.
+/// reads them. The topology has them in two tables; a sweep reads the second one in scattered
+/// order. With those tables the weighted Laplacian took three times as long in a mesh generator's
+/// order, and 1.5 times as long in a good order.
 class CellsAroundNodes {
  public:
-  /// Larger meshes (of 16 million tetrahedra) take the topology's tables, and no memory besides.
-  static constexpr std::size_t most_entries = std::size_t{1} << 28;
+  /// Larger meshes (of 16 million tetrahedra) use the topology's tables and no additional memory.
+  static constexpr std::size_t default_max_entries = std::size_t{1} << 28;
 
-  explicit CellsAroundNodes(std::size_t max_entries = most_entries) : max_entries_(max_entries) {}
+  explicit CellsAroundNodes(std::size_t max_entries = default_max_entries)
+      : max_entries_(max_entries) {}
 
-  /// Makes the table, unless it is that of this topology already.
+  /// Builds the table, unless it belongs to this topology already.
   void prepare(std::shared_ptr<const Topology> topology);
 
-  /// Calls use(cells) with what for_each_batch takes: the cells around a free node. position: the
-  /// node's among the free ones. Returns what it returns.
+  /// Calls use(cells) with the cells around a free node, in the form that for_each_batch takes.
+  /// position: the node's among the free ones. Returns the result of `use`.
   template <class Use>
   auto with_cells(std::size_t position, const Use& use) const {
     const ListedCells cells(*topology_, topology_->node_cells(topology_->free_nodes()[position]));
@@ -32,7 +33,7 @@ class CellsAroundNodes {
   }
 
  private:
-  /// Cells whose nodes are rows of the table that follow each other.
+  /// Cells whose nodes are consecutive rows of the table.
   struct TabledCells {
     ListedCells cells;
     const CompressedRows<NodeIndex>* rows;
@@ -47,8 +48,8 @@ class CellsAroundNodes {
 
   std::size_t max_entries_;
   std::shared_ptr<const Topology> topology_;
-  std::vector<RowOffset> first_rows_;  ///< of each free node
-  CompressedRows<NodeIndex> rows_;     ///< empty: the topology's are taken
+  std::vector<RowOffset> first_rows_;  ///< first row of each free node
+  CompressedRows<NodeIndex> rows_;     ///< empty: the topology's tables are used
 };
 
 }  // namespace smoothfem

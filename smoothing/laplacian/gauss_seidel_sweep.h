@@ -17,9 +17,9 @@ Point<spacedim> mean_of_neighbours(const Mesh<dim, spacedim>& mesh, NodeIndex no
   return sum / static_cast<double>(neighbours.size());
 }
 
-/// One sweep over the free nodes in node order, each moved at once by movement(node), as far as the
-/// mesh's constraints and the bound of its facets let it, so that later nodes see the new positions
-/// of earlier ones. Reports the longest movement.
+/// Moves each free node in node order by movement(node), as far as the mesh's constraints and the
+/// bound of its facets allow. Later nodes see the new positions of earlier ones. Reports the
+/// longest movement.
 template <int dim, int spacedim, class Movement>
 StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movement) {
   double longest = 0.0;
@@ -37,7 +37,7 @@ StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movemen
   return {.max_displacement = std::sqrt(longest)};
 }
 
-/// What Laplacian methods without quality control are.
+/// Traits of Laplacian methods without quality control.
 inline constexpr SmootherTraits uncontrolled_sweeps{.quality_use = QualityUse::none,
                                                     .result = ResultMesh::last,
                                                     .needs_valid_mesh = false,

@@ -9,7 +9,7 @@
 
 namespace smoothfem {
 
-/// Remembers the best mesh a stage has met, by the number its traits name.
+/// Remembers the best mesh of a stage, by the number that its traits name.
 template <int spacedim>
 class BestMesh {
  public:
@@ -21,7 +21,7 @@ class BestMesh {
     coordinates_.assign(coordinates.begin(), coordinates.end());
   }
 
-  /// True if this mesh, which the step has just reached, is the new best.
+  /// Offers the mesh that the step has just reached. Returns true if it is the new best.
   bool offer(std::span<const Point<spacedim>> coordinates, const MeshQuality& quality,
              const StepReport& report) {
     if (rule_ == ResultMesh::last) return false;
@@ -40,7 +40,7 @@ class BestMesh {
     return true;
   }
 
-  /// Puts the best mesh in place of the last one.
+  /// Replaces the last mesh by the best one.
   template <class AnyMesh>
   void restore(AnyMesh& mesh) {
     if (rule_ != ResultMesh::last) mesh.swap_coordinates(coordinates_);

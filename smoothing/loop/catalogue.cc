@@ -32,11 +32,11 @@ std::filesystem::path& present_library() {
 
 }  // namespace
 
-LibraryOfMethods::LibraryOfMethods(const std::filesystem::path& library) {
+PluginScope::PluginScope(const std::filesystem::path& library) {
   present_library() = library;
 }
 
-LibraryOfMethods::~LibraryOfMethods() {
+PluginScope::~PluginScope() {
   present_library().clear();
 }
 
@@ -46,10 +46,10 @@ RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
   registry().add({std::move(name), std::move(info), std::move(factories)});
 }
 
-std::vector<MethodInfo> method_catalogue(bool also_those_with_needs) {
+std::vector<MethodInfo> method_catalogue(bool include_special) {
   std::vector<MethodInfo> infos;
   for (const auto& entry : registry().all())
-    if (also_those_with_needs || !(entry.info.needs_parameters || entry.info.needs_problem))
+    if (include_special || !(entry.info.needs_parameters || entry.info.needs_problem))
       infos.push_back(entry.info);
   return infos;
 }
@@ -75,7 +75,7 @@ bool keeps_constraints(const Method<dim, spacedim>& method) {
 }
 
 template <int dim, int spacedim>
-bool takes_meshes(const std::string& method, bool with_constraints) {
+bool supports_mesh_kind(const std::string& method, bool with_constraints) {
   const MethodEntry found = entry(method);
   const auto& make_stages = factory_of<dim, spacedim>(found.factories);
   return make_stages && (!with_constraints || keeps_constraints(Method<dim, spacedim>{
@@ -83,28 +83,29 @@ bool takes_meshes(const std::string& method, bool with_constraints) {
 }
 
 template <int dim, int spacedim>
-std::vector<std::string> methods_that_take(bool with_constraints) {
+std::vector<std::string> methods_supporting(bool with_constraints) {
   std::vector<std::string> names;
   for (const auto& entry : registry().all())
-    if (takes_meshes<dim, spacedim>(entry.name, with_constraints)) names.push_back(entry.name);
+    if (supports_mesh_kind<dim, spacedim>(entry.name, with_constraints))
+      names.push_back(entry.name);
   return names;
 }
 
 std::vector<std::string> mesh_kinds(const std::string& method) {
   std::vector<std::string> kinds;
-  if (takes_meshes<2>(method)) kinds.emplace_back(mesh_kind_name(2, 2));
-  if (takes_meshes<3>(method)) kinds.emplace_back(mesh_kind_name(3, 3));
-  if (takes_meshes<3>(method, true))
+  if (supports_mesh_kind<2>(method)) kinds.emplace_back(mesh_kind_name(2, 2));
+  if (supports_mesh_kind<3>(method)) kinds.emplace_back(mesh_kind_name(3, 3));
+  if (supports_mesh_kind<3>(method, true))
     kinds.push_back(mesh_kind_name(3, 3) + std::string(" with sliding boundary"));
-  if (takes_meshes<2, 3>(method)) kinds.emplace_back(mesh_kind_name(2, 3));
+  if (supports_mesh_kind<2, 3>(method)) kinds.emplace_back(mesh_kind_name(2, 3));
   return kinds;
 }
 
 template <int dim, int spacedim>
 Stages<dim, spacedim> stages_of(const std::string& name) {
-  if (!takes_meshes<dim, spacedim>(name))
-    throw InputError("method " + name + " does not take " + mesh_kind_name(dim, spacedim) +
-                     " meshes; " + choose_one_of(methods_that_take<dim, spacedim>()));
+  if (!supports_mesh_kind<dim, spacedim>(name))
+    throw InputError("method " + name + " does not support " + mesh_kind_name(dim, spacedim) +
+                     " meshes; " + choose_one_of(methods_supporting<dim, spacedim>()));
   return factory_of<dim, spacedim>(entry(name).factories)();
 }
 
@@ -130,12 +131,12 @@ void Method<dim, spacedim>::set(const std::string& name, const std::string& valu
   set_value(find_parameter(parameters(), name, owner), value, owner);
 }
 
-#define SMOOTHFEM_INSTANTIATE(...)                                        \
-  template bool keeps_constraints(const Method<__VA_ARGS__>&);            \
-  template bool takes_meshes<__VA_ARGS__>(const std::string&, bool);      \
-  template std::vector<std::string> methods_that_take<__VA_ARGS__>(bool); \
-  template Stages<__VA_ARGS__> stages_of(const std::string&);             \
-  template Method<__VA_ARGS__> make_method(const std::string&);           \
+#define SMOOTHFEM_INSTANTIATE(...)                                         \
+  template bool keeps_constraints(const Method<__VA_ARGS__>&);             \
+  template bool supports_mesh_kind<__VA_ARGS__>(const std::string&, bool); \
+  template std::vector<std::string> methods_supporting<__VA_ARGS__>(bool); \
+  template Stages<__VA_ARGS__> stages_of(const std::string&);              \
+  template Method<__VA_ARGS__> make_method(const std::string&);            \
   template struct Method<__VA_ARGS__>;
 SMOOTHFEM_INSTANTIATE(2, 2)
 SMOOTHFEM_INSTANTIATE(3, 3)

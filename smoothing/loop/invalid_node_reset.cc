@@ -8,7 +8,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Facets beyond the bound that the mesh has for them: all, or those around some nodes.
+/// Returns the facets beyond the bound of the mesh: all, or those around some nodes.
 template <int dim, int spacedim, class... Around>
 std::vector<std::uint32_t> facets_out_of_bound(const Mesh<dim, spacedim>& mesh,
                                                const Around&... around) {
@@ -18,22 +18,22 @@ std::vector<std::uint32_t> facets_out_of_bound(const Mesh<dim, spacedim>& mesh,
   return {};
 }
 
-/// Moves back the nodes of these cells and facets that are not back yet.
+/// Resets those nodes of these cells and facets that are not reset yet.
 template <int dim, int spacedim>
-std::vector<NodeIndex> put_back(Mesh<dim, spacedim>& mesh,
-                                std::type_identity_t<std::span<const Point<spacedim>>> previous,
-                                const std::vector<CellIndex>& cells,
-                                const std::vector<std::uint32_t>& facets) {
+std::vector<NodeIndex> reset_nodes(Mesh<dim, spacedim>& mesh,
+                                   std::type_identity_t<std::span<const Point<spacedim>>> previous,
+                                   const std::vector<CellIndex>& cells,
+                                   const std::vector<std::uint32_t>& facets) {
   std::vector<NodeIndex> moved;
-  const auto put_back_nodes = [&](std::span<const NodeIndex> nodes) {
+  const auto reset = [&](std::span<const NodeIndex> nodes) {
     for (const NodeIndex i : nodes)
       if (mesh.coordinates()[i] != previous[i]) {
         mesh.coordinates()[i] = previous[i];
         moved.push_back(i);
       }
   };
-  for (const CellIndex c : cells) put_back_nodes(mesh.topology().cell_nodes(c));
-  for (const std::uint32_t f : facets) put_back_nodes(mesh.constraints()->facet_nodes(f));
+  for (const CellIndex c : cells) reset(mesh.topology().cell_nodes(c));
+  for (const std::uint32_t f : facets) reset(mesh.constraints()->facet_nodes(f));
   return moved;
 }
 
@@ -42,16 +42,16 @@ std::vector<NodeIndex> put_back(Mesh<dim, spacedim>& mesh,
 template <int dim, int spacedim>
 std::vector<NodeIndex> reset_nodes_of_invalid_cells(
     Mesh<dim, spacedim>& mesh, std::type_identity_t<std::span<const Point<spacedim>>> previous,
-    std::vector<double>& cell_quality, double least_quality) {
-  const auto is_bad = [&](double q) { return !(q > 0.0) || q < least_quality; };
+    std::vector<double>& cell_quality, double min_quality) {
+  const auto is_bad = [&](double q) { return !(q > 0.0) || q < min_quality; };
   std::vector<CellIndex> bad;
   for (CellIndex c = 0; c < cell_quality.size(); ++c)
     if (is_bad(cell_quality[c])) bad.push_back(c);
   std::vector<std::uint32_t> facets = facets_out_of_bound(mesh);
   std::vector<NodeIndex> all_moved;
   while (true) {
-    const auto moved = put_back(mesh, previous, bad, facets);
-    if (moved.empty()) return all_moved;  // what is left was so before
+    const auto moved = reset_nodes(mesh, previous, bad, facets);
+    if (moved.empty()) return all_moved;  // the remaining cells were invalid before
     all_moved.insert(all_moved.end(), moved.begin(), moved.end());
     bad.clear();
     for (const CellIndex c : mesh.topology().cells_around(moved)) {

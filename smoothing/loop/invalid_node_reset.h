@@ -9,14 +9,13 @@
 
 namespace smoothfem {
 
-/// Puts the nodes of invalid cells, and of facets beyond the bound that the mesh has for them, back
-/// to where they were, again and again until there is none (thesis, Fig. 4.2,
-/// IterativeInvalidElementResetting). cell_quality: of mesh, kept up to date. Ends with a valid
-/// mesh that keeps the bound if `previous` is one. least_quality: cells below it are put back, too.
-/// Returns the nodes that were put back.
+/// Resets the nodes of invalid cells, and of facets beyond the bound of the mesh, to their previous
+/// positions until none is left (thesis, Fig. 4.2, IterativeInvalidElementResetting). cell_quality:
+/// of `mesh`, kept up to date. Ends with a valid mesh within the bound if `previous` is one.
+/// min_quality: nodes of cells below it are reset, too. Returns the nodes that were reset.
 template <int dim, int spacedim>
 std::vector<NodeIndex> reset_nodes_of_invalid_cells(
     Mesh<dim, spacedim>& mesh, std::type_identity_t<std::span<const Point<spacedim>>> previous,
-    std::vector<double>& cell_quality, double least_quality = 0.0);
+    std::vector<double>& cell_quality, double min_quality = 0.0);
 
 }  // namespace smoothfem

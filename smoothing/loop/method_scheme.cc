@@ -29,7 +29,8 @@ std::optional<MethodInFile> method_in_file(const std::string& name) {
                    [&](const auto& s) { return s.name == name.substr(0, first); }))
     return std::nullopt;
   if (last <= first + 1 || last + 1 == name.size())
-    throw InputError("method '" + name + "' names no file or nothing in it; write " +
+    throw InputError("method '" + name +
+                     "' has no file, or no name of a method in the file; write " +
                      name.substr(0, first) + ":FILE:NAME");
   return MethodInFile{.scheme = name.substr(0, first),
                       .file = name.substr(first + 1, last - first - 1),
@@ -39,7 +40,7 @@ std::optional<MethodInFile> method_in_file(const std::string& name) {
 std::string method_name_in(const std::filesystem::path& folder, const std::string& name) {
   auto method = method_in_file(name);
   if (!method) return name;
-  method->file = folder / method->file;  // an absolute one stays
+  method->file = folder / method->file;  // an absolute path stays
   return method->name();
 }
 

@@ -8,39 +8,40 @@
 
 namespace smoothfem {
 
-/// One of several names; the field holds its position.
+/// A choice among several names; the field holds the position of the chosen one.
 struct Choice {
   int* index;
   std::vector<std::string> names;
 };
 
-/// A named parameter of a method: bound to the field that holds it, whose present value is the
-/// default until it is set. Read from the command line and study files, written to the results.
+/// A named parameter of a method, bound to the field that holds its value. The field's initial
+/// value is the default. Parameters are read from the command line and study files and are written
+/// to the results.
 struct Parameter {
   std::string name;         ///< as users write it, e.g. "lambda"
   std::string description;  ///< meaning, unit and source in one sentence
-  /// Lists are written with commas: "1, 0.25, 0". Text is taken as it is.
+  /// Lists are written with commas: "1, 0.25, 0". Text is used unchanged.
   std::variant<double*, int*, Choice, std::vector<double>*, std::string*> value;
   double lower = -std::numeric_limits<double>::infinity();  ///< smallest number allowed
   double upper = std::numeric_limits<double>::infinity();   ///< largest number allowed
-  bool excludes_lower = false;  ///< only larger numbers than `lower` are allowed
+  bool excludes_lower = false;  ///< true: only numbers above `lower` are allowed
   bool excludes_upper = false;
 };
 
 using Parameters = std::vector<Parameter>;
 
-/// Shortest text that reads back as the same value.
+/// Returns the shortest text that reads back as the same value.
 std::string value_text(const Parameter& parameter);
 
-/// What a parameter may be set to: "a, b or c" of names; "(0, 1]" of numbers, or nothing where all
-/// are allowed.
+/// Returns the allowed values: "a, b or c" for names, "(0, 1]" for numbers, or nothing if all
+/// numbers are allowed.
 std::string range_text(const Parameter& parameter);
 
-/// Sets a parameter from text. Throws InputError with `owner` in its sentence if the text is no
-/// number (or no integer where one is needed, or none of the names) or outside the range.
+/// Sets a parameter from text. The text must be a number, an integer where one is needed, or one of
+/// the names, within the range. Otherwise throws InputError with `owner` in its message.
 void set_value(const Parameter& parameter, const std::string& text, const std::string& owner);
 
-/// The parameter of this name; throws InputError listing the names there are.
+/// Returns the parameter of this name. Otherwise throws InputError that lists the available names.
 const Parameter& find_parameter(const Parameters& parameters, const std::string& name,
                                 const std::string& owner);
 

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The headers of a shared library's sections are its end. The loader may crash where they are cut
-/// off.
+/// Checks that a shared library is complete: it ends with its section headers. The loader may crash
+/// if they are cut off.
 bool is_whole(const std::string& content) {
   Elf64_Ehdr header;
   if (content.size() < sizeof(header)) return false;
@@ -29,7 +29,8 @@ bool is_whole(const std::string& content) {
          size - header.e_shoff >= std::uint64_t{header.e_shnum} * header.e_shentsize;
 }
 
-/// Throws InputError unless the library's methods see the program's types as the program does.
+/// Checks that the library's methods and the program have the same layout of shared types;
+/// otherwise throws InputError.
 void require_same_types(const fs::path& library) {
   const std::string content = file_content(library);
   const std::string elf =
@@ -40,7 +41,7 @@ void require_same_types(const fs::path& library) {
                      " is not a shared library; build one from the source, as "
                      "'smoothfem new-smoother' shows");
   if (!is_whole(content))
-    throw InputError(library.string() + " is not whole; copy it again, or build it anew");
+    throw InputError(library.string() + " is incomplete; copy it again, or rebuild it");
   const std::string_view mark(plugin_abi.mark.data(), plugin_abi.mark.size());
   bool is_plugin = false;
   for (auto at = content.find(mark); at != std::string::npos; at = content.find(mark, at + 1)) {
@@ -52,9 +53,9 @@ void require_same_types(const fs::path& library) {
   }
   throw InputError(library.string() +
                    (is_plugin
-                        ? " was built against another smoothfem, whose types differ; build it anew "
-                          "against the one that is installed"
-                        : " is no plugin of smoothfem: no method is registered in it by "
+                        ? " was built against another smoothfem, whose types differ; rebuild it "
+                          "against the installed one"
+                        : " is not a plugin of smoothfem: no method is registered in it by "
                           "RegisteredMethod"));
 }
 
@@ -70,7 +71,7 @@ void load_plugin(const fs::path& library) {
   require_same_types(path);
   const std::size_t n_before = method_catalogue(true).size();
   {
-    const LibraryOfMethods of_library(path);
+    const PluginScope of_library(path);
     if (dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr)
       throw InputError("the plugin " + library.string() + " cannot be loaded: " + dlerror());
   }

@@ -10,15 +10,15 @@
 
 namespace smoothfem {
 
-/// How the types that a plugin shares with the program lie in memory. It stands in every library
-/// with a method, where load_plugin looks for it in the file, before any code of it runs.
+/// Memory layout of the types that a plugin shares with the program. Every library with a method
+/// contains it. load_plugin looks for it in the file before any of its code runs.
 struct PluginAbi {
   std::array<char, 24> mark;
   std::array<std::uint32_t, 14> numbers;
   bool operator==(const PluginAbi&) const = default;
 };
 
-/// Raised when functions that plugins call or provide change and no type's size tells so.
+/// Increase it when functions that plugins call or provide change but no type's size does.
 inline constexpr std::uint32_t plugin_interface = 1;
 
 [[gnu::used]] inline constexpr PluginAbi plugin_abi{

@@ -39,9 +39,10 @@ Preset read_preset(const fs::path& file) {
             choose_one_of({"description", "source", "extends", "planar", "volume", "why"}));
     return preset;
   } catch (const Json::exception&) {
-    throw InputError(file.string() +
-                     " is not a preset: JSON with description, source, planar and volume; mend it, "
-                     "or install the program anew");
+    throw InputError(
+        file.string() +
+        " is not a preset: JSON with description, source, planar and volume; correct it, "
+        "or reinstall the program");
   }
 }
 

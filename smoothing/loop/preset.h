@@ -8,9 +8,9 @@
 
 namespace smoothfem {
 
-/// A named set of parameters: those of an experiment in the literature.
+/// A named set of parameters, those of an experiment in the literature.
 struct Preset {
-  /// One parameter of the stage with this name, in methods for meshes of cells of dimension dim.
+  /// One parameter of the stage with this name, in methods for meshes with cells of dimension dim.
   struct Setting {
     int dim;
     std::string stage, parameter, value;
@@ -22,21 +22,21 @@ struct Preset {
   std::vector<Setting> settings;
 };
 
-/// The presets that come with the program, the files studies/presets/NAME.json of its data folder,
-/// sorted by name. A file has `description`, `source`, and objects `planar` and `volume` with, for
-/// each stage, parameters and their values; `extends` names a preset whose settings come first, and
-/// `why` is for readers. Throws InputError for a file that has something else.
+/// Returns the presets of the program, sorted by name: the files studies/presets/NAME.json of its
+/// data folder. A file has `description`, `source`, and objects `planar` and `volume` with
+/// parameters and their values for each stage. `extends` names a preset whose settings come first;
+/// `why` is a comment. Throws InputError for a file with any other key.
 const std::vector<Preset>& presets();
 
-/// Throws InputError listing the names there are.
+/// Returns the preset of this name. Otherwise throws InputError that lists the available names.
 const Preset& find_preset(const std::string& name);
 
-/// True if the preset has parameters for one of the method's stages.
+/// True if the preset has parameters for at least one of the method's stages.
 template <int dim, int spacedim>
 bool has_parameters_for(const Preset& preset, const Method<dim, spacedim>& method);
 
 /// Sets the parameters of the method's stages that the preset names. Throws InputError if it names
-/// none of them; the sentence says which stages it has parameters for.
+/// none of them; the message lists the stages that it has parameters for.
 template <int dim, int spacedim>
 void apply_preset(const Preset& preset, Method<dim, spacedim>& method);
 

@@ -18,7 +18,7 @@ constexpr const char* start_name = "smoothfem_start_python";
 std::atomic<MethodEntry (*)(const MethodInFile&)> maker{nullptr};
 std::atomic<bool> started{false};
 
-/// Beside this library or above it: copies of it for other processors lie in folders of their own.
+/// Searches next to this library and above it: variants for other processors lie in subfolders.
 fs::path host_path() {
   Dl_info library{};
   dladdr(reinterpret_cast<const void*>(&set_python_methods), &library);
@@ -26,10 +26,10 @@ fs::path host_path() {
   for (fs::path above = own.parent_path(); above.has_relative_path(); above = above.parent_path())
     if (fs::exists(above / host_name)) return above / host_name;
   throw InputError("methods written in Python need " + std::string(host_name) +
-                   ", which is not beside " + own.string() + "; install smoothfem anew");
+                   ", which is not next to " + own.string() + "; reinstall smoothfem");
 }
 
-/// Global: modules such as numpy's take the interpreter's functions from whoever has them.
+/// Global symbols: modules such as numpy's use the interpreter's functions.
 void start_python() {
   const fs::path path = host_path();
   void* const host = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
@@ -38,8 +38,9 @@ void start_python() {
                      "; on Debian: apt install libpython3-dev python3-numpy");
   const auto start = reinterpret_cast<const char* (*)()>(dlsym(host, start_name));
   started = true;
-  const char* why_not = start ? start() : "the library has no function to start it";
-  if (why_not == nullptr && maker == nullptr) why_not = "the package smoothfem is another one";
+  const char* why_not = start ? start() : "the library has no start function";
+  if (why_not == nullptr && maker == nullptr)
+    why_not = "the Python package smoothfem belongs to another installation";
   if (why_not != nullptr) {
     started = false;
     throw InputError("Python cannot be started for methods written in it: " + std::string(why_not));

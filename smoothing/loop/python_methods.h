@@ -5,13 +5,13 @@
 
 namespace smoothfem {
 
-/// Smoothers written in Python are methods named "python:FILE:CLASS". This library knows no Python:
-/// what makes them is the Python module smoothfem (folder python/), which says so here as an
-/// interpreter loads it. In a program without an interpreter the first such name starts one, by
-/// libsmoothfem_python_host.so.
+/// Sets the function that makes the methods named "python:FILE:CLASS", which are smoothers written
+/// in Python. This library does not link Python: the Python module smoothfem (folder python/) calls
+/// this function when an interpreter loads it. In a program without an interpreter the first such
+/// name starts one, by libsmoothfem_python_host.so.
 void set_python_methods(MethodEntry (*make)(const MethodInFile& method));
 
-/// True if this program has started the interpreter, false if Python has started this library.
+/// True if this program has started the interpreter, false if Python has loaded this library.
 bool started_python();
 
 }  // namespace smoothfem

@@ -18,8 +18,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Over the edges of every cell: an inner edge counts once per cell, as in the thesis' stopping
-/// rule.
+/// Returns the mean over the edges of every cell. As in the thesis' stopping rule, an inner edge
+/// counts once for each of its cells.
 template <int dim, int spacedim>
 double mean_edge_length(const Mesh<dim, spacedim>& mesh) {
   double sum = 0.0;
@@ -40,35 +40,36 @@ bool any_stage(const Method<dim, spacedim>& method, const auto& condition) {
                      [&](const auto& stage) { return condition(*stage); });
 }
 
-/// The run of one method: what its stages share. The caller's mesh is in here as long as it lasts,
-/// large ones in an order that suits the memory.
+/// State that the stages of one method's run share. It holds the caller's mesh while it lives;
+/// large meshes are reordered for memory locality.
 template <int dim, int spacedim>
 class SmoothingRun {
  public:
   SmoothingRun(Mesh<dim, spacedim>& mesh, const Observer<dim, spacedim>& observer)
-      : users_mesh_(mesh), state_{std::move(mesh), {}}, observer_(observer) {}
-  /// Gives the caller's mesh back, as far as it came.
+      : caller_mesh_(mesh), state_{std::move(mesh), {}}, observer_(observer) {}
+  /// Returns the mesh to the caller, in the state of the last iteration.
   ~SmoothingRun() {
     if constexpr (dim == spacedim)
       if (reordering_) state_.mesh = std::move(*reordering_).undo(std::move(state_.mesh));
-    users_mesh_ = std::move(state_.mesh);
+    caller_mesh_ = std::move(state_.mesh);
   }
   SmoothingRun(const SmoothingRun&) = delete;
   SmoothingRun& operator=(const SmoothingRun&) = delete;
 
-  /// The initial quality costs a method time only if it looks at quality at all.
+  /// The initial quality counts as a method's time only if the method uses quality.
   void start(const Method<dim, spacedim>& method) {
     if (method.info.needs_problem) {
       solver_ = method.problem->make_solver();
       state_.solver = solver_.get();
     }
     reorder(method);
-    if (!reordering_) state_.mesh.topology().node_cells(0);  // of the mesh, and so no method's time
-    double others_seconds = 0.0;
+    // Built here so that its cost is not charged to a method.
+    if (!reordering_) state_.mesh.topology().build_node_cells();
+    double uncounted_seconds = 0.0;
     {
       const bool uses_quality = any_stage(
           method, [](const auto& stage) { return stage.traits().quality_use != QualityUse::none; });
-      const ScopedTimer timer(uses_quality ? preparation_seconds_ : others_seconds);
+      const ScopedTimer timer(uses_quality ? preparation_seconds_ : uncounted_seconds);
       evaluate_quality();
     }
     state_.initial_quality = quality_;
@@ -84,12 +85,12 @@ class SmoothingRun {
   StageResult run_stage(Smoother<dim, spacedim>& smoother) {
     const SmootherTraits traits = smoother.traits();
     const StoppingRule stopping = smoother.stopping();
-    if (traits.needs_valid_mesh && quality_.n_invalid > 0) require_valid(users_view());
+    if (traits.needs_valid_mesh && quality_.n_invalid > 0) require_valid(in_original_order());
     StageResult result{.name = std::string(smoother.name()),
-                       .why_stopped = "it reached its largest number of iterations"};
+                       .why_stopped = "reached max_iterations"};
     std::optional<BestMesh<spacedim>> best;
     {
-      // Where there is a problem, what comes before the first step is mostly a solve.
+      // With a problem, the work before the first step is mostly a solve.
       const ScopedTimer timer(solver_ ? seconds_ : preparation_seconds_);
       smoother.initialize(state_);
       best.emplace(traits.result, state_.mesh.coordinates(), quality_, smoother.initial_score());
@@ -130,12 +131,14 @@ class SmoothingRun {
   }
 
  private:
-  /// Small meshes stay in the cache in any order, and keep the sums of the published numbers.
-  /// Constraints know nodes by their numbers, and problems their boundary's parts by labels.
+  /// Reorders large meshes. Small meshes fit the cache in any order, and without reordering keep
+  /// the published numbers' order of sums. Constraints refer to node numbers, and problems refer to
+  /// boundary parts by labels; such meshes are not reordered.
   void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
-    // Sweeps in the mesh's own order want nodes to lie in it, too: with nodes of a neighbourhood
-    // together they took twice the time (Laplace, 580,000 tetrahedra as Gmsh numbers them).
+    // Sweeps in the mesh's own order also need nodes stored in that order. With the nodes of a
+    // neighbourhood stored together they took twice the time (Laplace, 580,000 tetrahedra as Gmsh
+    // numbers them).
     if (state_.mesh.constraints() || solver_ || state_.mesh.n_nodes() < min_nodes ||
         any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
       return;
@@ -146,8 +149,8 @@ class SmoothingRun {
     }
   }
 
-  /// The present mesh in the caller's order.
-  const Mesh<dim, spacedim>& users_view() {
+  /// Returns the present mesh in the caller's order.
+  const Mesh<dim, spacedim>& in_original_order() {
     if constexpr (dim == spacedim)
       if (reordering_) {
         if (view_)
@@ -161,7 +164,7 @@ class SmoothingRun {
 
   void evaluate_quality() { quality_ = compute_cell_mean_ratios(state_.mesh, state_.cell_quality); }
 
-  /// One step, and what has to follow it for the quality to be known and every cell valid.
+  /// Makes one step, resets nodes of invalid cells and updates the quality, as the traits require.
   StepReport guarded_step(Smoother<dim, spacedim>& smoother, const SmootherTraits& traits) {
     if (traits.quality_use == QualityUse::loop)
       previous_.assign(state_.mesh.coordinates().begin(), state_.mesh.coordinates().end());
@@ -186,8 +189,8 @@ class SmoothingRun {
     return report;
   }
 
-  /// What the method need not know, needed by stopping rules and observers only: not part of its
-  /// time.
+  /// Completes the quality for stopping rules and observers. The method does not need it, so that
+  /// it is not part of its time.
   void complete_quality(const SmootherTraits& traits, const StepReport& report) {
     if (traits.quality_use == QualityUse::none)
       evaluate_quality();
@@ -200,16 +203,16 @@ class SmoothingRun {
       observer_({n_records_, stage, iteration, seconds_, preparation_seconds_, report.wall_seconds,
                  quality_, report.n_made_invalid, report.n_reset,
                  solver_ ? std::optional(solver_->effort()) : std::nullopt},
-                users_view());
+                in_original_order());
     ++n_records_;
   }
 
-  Mesh<dim, spacedim>& users_mesh_;
+  Mesh<dim, spacedim>& caller_mesh_;
   SmoothingState<dim, spacedim> state_;
   const Observer<dim, spacedim>& observer_;
   std::unique_ptr<ProblemSolver<spacedim>> solver_;  ///< null: the method needs none
   std::optional<Reordering<spacedim>> reordering_;
-  std::optional<Mesh<dim, spacedim>> view_;  ///< the mesh in the caller's order, where reordered
+  std::optional<Mesh<dim, spacedim>> view_;  ///< the mesh in the caller's order, if reordered
   double seconds_ = 0.0;                     ///< of the main loops
   double preparation_seconds_ = 0.0;
   MeshQuality quality_;
@@ -223,21 +226,21 @@ void require_constraints_kept(const Mesh<dim, spacedim>& mesh,
                               const Method<dim, spacedim>& method) {
   if (mesh.constraints() && !keeps_constraints(method))
     throw InputError("method " + method.info.name +
-                     " cannot keep boundary nodes on the boundary; fix them, or take one of " +
-                     joined(methods_that_take<dim, spacedim>(true)));
+                     " cannot keep boundary nodes on the boundary; fix them, or use one of " +
+                     joined(methods_supporting<dim, spacedim>(true)));
 }
 
 template <int dim, int spacedim>
 void require_problem(const Method<dim, spacedim>& method) {
   if (method.info.needs_problem && !method.problem)
     throw InputError("method " + method.info.name +
-                     " moves nodes by the solution of a problem, and here is none; name it in a "
-                     "study that solves one");
+                     " moves nodes by the solution of a problem; it works only in a study "
+                     "with a solution");
 }
 
 template <int dim, int spacedim>
-SmoothingResult smooth_at_its_size(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
-                                   const Observer<dim, spacedim>& observer) {
+SmoothingResult smooth_unscaled(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                                const Observer<dim, spacedim>& observer) {
   SmoothingRun<dim, spacedim> run(mesh, observer);
   run.start(method);
   std::vector<StageResult> stages;
@@ -245,7 +248,7 @@ SmoothingResult smooth_at_its_size(Mesh<dim, spacedim>& mesh, Method<dim, spaced
   return run.result(std::move(stages));
 }
 
-/// A mesh that has another size as long as this lives.
+/// Scales a mesh during its lifetime.
 template <int dim, int spacedim>
 class ScaledMesh {
  public:
@@ -277,20 +280,20 @@ SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer) {
   require_constraints_kept(mesh, method);
   require_problem(method);
-  // Constraints and problems are those of a place.
+  // Scaling would move the mesh off its constraints and its problem.
   const int exponent = mesh.constraints() || method.info.needs_problem
                            ? 0
                            : extreme_exponent(std::as_const(mesh).coordinates());
-  if (exponent == 0) return smooth_at_its_size(mesh, method, observer);
+  if (exponent == 0) return smooth_unscaled(mesh, method, observer);
   const ScaledMesh scaled(mesh, -exponent);
-  Observer<dim, spacedim> sees_its_size;
+  Observer<dim, spacedim> rescaling_observer;
   if (observer)
-    sees_its_size = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
-      Mesh<dim, spacedim> at_its_size = now;
-      scale_by_power_of_two(at_its_size.coordinates(), exponent);
-      observer(record, at_its_size);
+    rescaling_observer = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
+      Mesh<dim, spacedim> unscaled = now;
+      scale_by_power_of_two(unscaled.coordinates(), exponent);
+      observer(record, unscaled);
     };
-  return smooth_at_its_size(mesh, method, sees_its_size);
+  return smooth_unscaled(mesh, method, rescaling_observer);
 }
 
 template SmoothingResult smooth(Mesh<2>&, Method<2>&, const Observer<2>&);

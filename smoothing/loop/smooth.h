@@ -13,7 +13,7 @@
 
 namespace smoothfem {
 
-/// One iteration as an observer sees it.
+/// One iteration, as passed to observers.
 struct IterationRecord {
   std::size_t record = 0;        ///< 0 for the initial mesh, then one more for each call
   std::string stage;             ///< smoother that ran; "initial" for record 0
@@ -22,15 +22,16 @@ struct IterationRecord {
   double preparation_seconds = 0;      ///< before them: reordering, tables, the initial quality
   std::optional<double> wall_seconds;  ///< see StepReport
   MeshQuality quality;
-  /// Cells that the step made invalid, before nodes were put back; of methods that do that.
+  /// Number of cells that the step made invalid, before nodes were reset; only from methods that
+  /// reset nodes.
   std::optional<std::size_t> n_made_invalid;
   std::size_t n_reset = 0;
-  /// So far, of methods that need a problem: its time is part of smoothing_seconds.
+  /// Cost of solves so far, for methods that need a problem. Its time is part of smoothing_seconds.
   std::optional<SolveEffort> solves = {};
 };
 
-/// Gets every iteration's numbers and mesh, the initial one included. Its time does not count as
-/// smoothing time. An exception it throws ends the run; the caller's mesh is then one of those the
+/// Receives the numbers and the mesh of every iteration and of the initial mesh. Its time does not
+/// count as smoothing time. If it throws, the run ends; the caller's mesh is then one of those the
 /// observer has seen.
 template <int dim, int spacedim = dim>
 using Observer = std::function<void(const IterationRecord&, const Mesh<dim, spacedim>&)>;
@@ -39,28 +40,32 @@ struct StageResult {
   std::string name;
   std::size_t iterations = 0;    ///< in the method's own count
   std::string why_stopped;       ///< a clause without a full stop
-  std::size_t n_last_reset = 0;  ///< nodes (or elements) put back in the last iteration
+  std::size_t n_last_reset = 0;  ///< nodes (or elements) that were reset in the last iteration
 };
 
 struct SmoothingResult {
   std::vector<StageResult> stages;
   double smoothing_seconds = 0.0;    ///< of the stages' main loops (thesis, Section 5.2.1)
-  double preparation_seconds = 0.0;  ///< of what comes before each: reordering, tables, qualities
+  double preparation_seconds = 0.0;  ///< before each main loop: reordering, tables, qualities
   MeshQuality quality;               ///< of the resulting mesh
   std::size_t result_record = 0;     ///< the record whose mesh is the result
 
-  /// As in the thesis' tables: "40/2800", one number a stage.
+  /// Returns the iterations as in the thesis' tables, one number for each stage: "40/2800".
   std::string iterations_text() const;
 };
 
-/// Smooths a mesh in place by the stages of a method, one after the other, each from the result of
-/// the one before. Owns what methods share: putting back the nodes of invalid cells, the best mesh,
-/// stopping, timing (thesis, Chapter 4), and an order of large meshes that suits the memory: the
-/// caller and the observer see their own. Deterministic: the same bits for every number of threads.
-/// Throws InputError if the method needs a valid mesh and `mesh` is not, and if it cannot keep the
-/// nodes of a mesh with constraints where they belong, or if it needs a problem and has none;
-/// whatever is thrown, `mesh` is then as far as it came. Planar, volume and surface meshes; nodes
-/// of the last stay on their initial surface (thesis, Section 5.1.2).
+/// Smooths a mesh in place by the stages of a method; each starts from the result of the previous
+/// one. Planar, volume and surface meshes; nodes of the last stay on their initial surface (thesis,
+/// Section 5.1.2).
+///
+/// This function does what all methods share (thesis, Chapter 4): it resets the nodes of invalid
+/// cells, keeps the best mesh, stops and measures times. It also reorders large meshes for memory
+/// locality; the caller and the observer see the original order. Results are bitwise identical for
+/// every number of threads.
+///
+/// Throws InputError if the method needs a valid mesh and `mesh` is invalid. Throws it also if the
+/// method cannot keep the constraints of the mesh, or if it needs a problem and has none. After any
+/// exception `mesh` is in the state of the last iteration.
 template <int dim, int spacedim>
 SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer = {});

@@ -16,120 +16,125 @@
 
 namespace smoothfem {
 
-/// What a smoother sees and changes.
+/// State that a smoother reads and changes.
 template <int dim, int spacedim = dim>
 struct SmoothingState {
   Mesh<dim, spacedim> mesh;
-  /// Quality of each cell of `mesh` at the beginning of a step. Up to date for every smoother but
-  /// those with QualityUse::none, which must not look at it.
+  /// Quality of each cell of `mesh` at the beginning of a step. Not up to date for smoothers with
+  /// QualityUse::none, which must not read it.
   std::vector<double> cell_quality;
-  /// Of the mesh that the method, not just this stage, began with.
+  /// Quality of the mesh at the start of the method, not only of this stage.
   MeshQuality initial_quality = {};
-  /// Of the problem whose solution the method needs (MethodInfo::needs_problem); otherwise null.
+  /// Solver of the problem whose solution the method needs (MethodInfo::needs_problem); otherwise
+  /// null.
   ProblemSolver<spacedim>* solver = nullptr;
 };
 
-/// Who evaluates the quality of the cells, and so whether its cost is part of the method's time.
+/// Defines who evaluates the quality of the cells, and so whether its cost is part of the method's
+/// time.
 enum class QualityUse {
-  none,  ///< the method knows no mean ratio, and nobody puts invalid cells back
-  loop,  ///< after each step the loop puts nodes of invalid cells back and evaluates the quality
-  smoother,  ///< the step keeps all cells valid and leaves cell_quality up to date
+  none,      ///< the method uses no mean ratio, and nodes of invalid cells are not reset
+  loop,      ///< after each step the loop resets nodes of invalid cells and evaluates the quality
+  smoother,  ///< the step keeps all cells valid and updates cell_quality
 };
 
-/// The mesh a method ends with.
+/// The resulting mesh of a method.
 enum class ResultMesh {
   last,
   best_q_mean,
   best_q_star_min,
-  best_score  ///< as the steps report it
+  best_score  ///< the score that the steps report
 };
 
-/// What a smoother is.
+/// Properties of a smoother.
 struct SmootherTraits {
   QualityUse quality_use = QualityUse::loop;
   ResultMesh result = ResultMesh::best_q_mean;
   bool needs_valid_mesh = true;
-  /// The step visits nodes one after the other, so that its result depends on their order: the mesh
-  /// keeps the order it has.
+  /// True if the step visits nodes one after the other, so that its result depends on their order:
+  /// the mesh keeps its order.
   bool needs_node_order = false;
-  /// The step puts nodes only where allowed_position (smoothing/mesh/node_constraints.h) has them,
-  /// and, unless the quality is evaluated by the loop, where keeps_facet_bound holds; other methods
-  /// do not take meshes with constraints.
+  /// True if the step moves nodes only to positions of allowed_position
+  /// (smoothing/mesh/node_constraints.h) and, unless the loop evaluates the quality, only where
+  /// keeps_facet_bound holds. Other methods do not support meshes with constraints.
   bool keeps_constraints = false;
 };
 
-/// What one step tells the loop.
+/// Report of one step to the loop.
 struct StepReport {
   std::size_t n_counted = 1;      ///< iterations in the method's own count (100 for a cycle of 100)
   double max_displacement = 0.0;  ///< longest movement of a node; needed by that criterion only
   bool converged = false;         ///< see StoppingRule::Criterion
-  /// Cells that were invalid before nodes were put back; of steps that put them back all at once.
+  /// Number of cells that were invalid before nodes were reset; only from steps that reset them all
+  /// at once.
   std::optional<std::size_t> n_made_invalid = {};
-  std::size_t n_reset = 0;  ///< nodes (or elements) put back because a cell became invalid
-  /// From steps that keep the quality up to date themselves: the quality of the mesh, or just its
-  /// q*_min where the rest would take a look at every cell.
+  std::size_t n_reset = 0;  ///< nodes (or elements) that were reset because a cell became invalid
+  /// Quality of the mesh, from steps that keep it up to date; or only its q*_min if the rest would
+  /// need a quality evaluation of every cell.
   std::optional<MeshQuality> quality = {};
   std::optional<double> q_star_min = {};
-  double score = 0.0;  ///< of the mesh, for ResultMesh::best_score
-  /// The nodes that the step has moved, where these are few; otherwise nothing. Valid until the
-  /// next step.
+  double score = 0.0;  ///< score of the mesh, for ResultMesh::best_score
+  /// The nodes that the step has moved, if they are few; otherwise nothing. Valid until the next
+  /// step.
   std::optional<std::span<const NodeIndex>> moved = {};
-  /// The stage's time up to here, of steps that know it better than a clock around them: of another
-  /// program, without its start and its files.
+  /// The stage's time so far, if the step knows it better than a clock around it. An external
+  /// program reports its time without its start and its files.
   std::optional<double> stage_seconds = {};
-  /// Of the program run that this mesh comes from, from its start to its end.
+  /// Wall time of the program run that this mesh comes from, from its start to its end.
   std::optional<double> wall_seconds = {};
 };
 
-/// A method has failed on a mesh, as programs may that are not this one: its row says why, and
-/// studies go on with the others.
+/// Failure of a method on a mesh, for example of an external program. The method's row of results
+/// has the reason, and studies continue with the other methods.
 class SmootherFailure : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// Where smoothers that use files find and leave them.
+/// Folders of the files that smoothers read and write.
 struct SmootherFolders {
-  std::filesystem::path given = ".";  ///< names of files that users give are relative to this one
-  std::filesystem::path log = {};     ///< file for what another program prints; empty: none
+  std::filesystem::path given = ".";  ///< base of relative file names that users give
+  std::filesystem::path log = {};     ///< file for the output of an external program; empty: none
 };
 
-/// Where a smoother comes from that is not part of this program: for the provenance.
+/// Origin of a smoother that is not part of this program, for the provenance.
 struct SmootherOrigin {
   std::vector<std::filesystem::path> files = {};  ///< programs, scripts, libraries
-  std::string version = {};                       ///< as it says itself; may be empty
+  std::string version = {};                       ///< as it reports itself; may be empty
 };
 
-/// One way to move the free nodes of a mesh. A new method is one file with a class template over
-/// the dimension that derives from this one and registers itself (catalogue.h); the loop (smooth.h)
+/// One way to move the free nodes of a mesh. A new method is one file: a class template over the
+/// dimension that derives from this class and registers itself (catalogue.h). The loop (smooth.h)
 /// does everything that methods share. Steps may use several threads (parallel.h).
 template <int dim, int spacedim = dim>
 class Smoother {
  public:
   virtual ~Smoother() = default;
 
-  /// Name of the stage in results, and the prefix of its parameters in methods of several stages.
+  /// Returns the name of the stage in results, also the prefix of its parameters in methods of
+  /// several stages.
   virtual std::string_view name() const = 0;
   virtual Parameters parameters() { return {}; }
   virtual SmootherTraits traits() const { return {}; }
   virtual StoppingRule stopping() const { return QualityGainStopping().rule(); }
 
-  /// Called once before the first step; what depends on the topology alone belongs here.
+  /// Called once before the first step. Compute here what depends on the topology only.
   virtual void initialize(const SmoothingState<dim, spacedim>& /*state*/) {}
 
-  /// Throws InputError where parameters do not go together; called when all are set.
+  /// Checks parameters that depend on each other; called when all are set. Throws InputError.
   virtual void check_parameters() const {}
 
-  /// Called before all others by whoever runs studies or commands.
+  /// Sets the folders of files; called before all other functions in studies and commands.
   virtual void use_folders(const SmootherFolders& /*folders*/) {}
 
-  /// Asked for when a study begins; may start a program to ask for its version.
+  /// Returns the origin; called when a study begins. May start a program to get its version.
   virtual SmootherOrigin origin() { return {}; }
 
-  /// Score of the mesh given to initialize, for ResultMesh::best_score.
+  /// Returns the score of the mesh that was passed to initialize, for ResultMesh::best_score.
   virtual double initial_score() const { return 0.0; }
 
-  /// Moves free nodes of state.mesh: one iteration. Fixed ones stay, unless users let them slide.
+  /// Moves free nodes of state.mesh: one iteration. Fixed nodes stay, except those that slide at
+  /// the user's request.
   virtual StepReport step(SmoothingState<dim, spacedim>& state) = 0;
 };
 

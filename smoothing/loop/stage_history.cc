@@ -51,17 +51,15 @@ std::optional<std::string> StageHistory::why_stop(const StoppingRule& rule,
       if (std::abs(q_mean_gain_) <= rule.tolerance)
         return "q_mean changed by no more than the tolerance " + short_text(rule.tolerance);
       if (n_without_gain_ < rule.patience) return std::nullopt;
-      return "neither q_min nor q_mean was better than ever before in " +
-             iterations_text(rule.patience);
+      return "no improvement of q_min or q_mean in " + iterations_text(rule.patience);
     case max_displacement:
       if (!(report.max_displacement < rule.tolerance * mean_edge_length)) return std::nullopt;
       return "no node moved farther than " + short_text(rule.tolerance) + " mean edge lengths";
     case result_stall: {
       const int patience = rule.patience_at(q_star_min_, initial_q_star_min);
       if (n_without_best_ >= patience)
-        return "there was no better mesh in " + iterations_text(patience) +
-               below_start_text(rule, patience);
-      has_gone_on_ = has_gone_on_ || n_without_best_ >= rule.patience;
+        return "no improvement in " + iterations_text(patience) + below_start_text(rule, patience);
+      exceeded_patience_ = exceeded_patience_ || n_without_best_ >= rule.patience;
       [[fallthrough]];
     }
     case step_says_so:
@@ -71,13 +69,14 @@ std::optional<std::string> StageHistory::why_stop(const StoppingRule& rule,
   return std::nullopt;
 }
 
-/// What patience_below_start, which is ours, has done.
+/// Describes the effect of patience_below_start, an addition to the thesis.
 std::string StageHistory::below_start_text(const StoppingRule& rule, int patience) const {
-  const std::string ours = " (patience_below_start, which the thesis does not have)";
+  const std::string origin = " (patience_below_start; not in the thesis)";
   if (patience > rule.patience)
     return ", " + std::to_string(rule.patience_below_start) +
-           " times its patience, as q*_min is below that of the start" + ours;
-  if (has_gone_on_) return ", after more of them while q*_min was below that of the start" + ours;
+           " times the patience, as q*_min is below that of the start" + origin;
+  if (exceeded_patience_)
+    return ", after an extended patience while q*_min was below that of the start" + origin;
   return "";
 }
 

@@ -7,8 +7,8 @@
 
 namespace smoothfem {
 
-/// Tags of the boundary's facets, in their order, 0 for those without label; empty if the mesh has
-/// no labelled facets.
+/// Returns the tags of the boundary facets in their order, 0 for those without a label; empty if
+/// the mesh has no labelled facets.
 std::vector<int> boundary_tags(const Topology& topology);
 
 }  // namespace smoothfem

@@ -14,7 +14,7 @@
 
 namespace smoothfem {
 
-/// Counts the entries of all rows: half the length of std::size_t, since large meshes have many
+/// Counts the entries of all rows. Half the length of std::size_t, since large meshes have many
 /// short rows.
 using RowOffset = std::uint32_t;
 
@@ -22,8 +22,9 @@ using RowOffset = std::uint32_t;
 inline void require_countable(std::size_t n_entries) {
   if (n_entries > std::numeric_limits<RowOffset>::max())
     throw InputError("a table of the mesh would have " + std::to_string(n_entries) +
-                     " entries; at most " + std::to_string(std::numeric_limits<RowOffset>::max()) +
-                     " are possible: take a smaller mesh");
+                     " entries, but at most " +
+                     std::to_string(std::numeric_limits<RowOffset>::max()) +
+                     " are possible; use a smaller mesh");
 }
 
 /// Rows of different lengths in two arrays (CSR): row i is entries[offsets[i]] to
@@ -33,7 +34,7 @@ class CompressedRows {
  public:
   CompressedRows() : offsets_{0} {}
 
-  /// offsets: n_rows + 1 ascending values starting at 0; the last one is entries.size().
+  /// offsets: n_rows + 1 ascending values that start at 0; the last one is entries.size().
   CompressedRows(std::vector<RowOffset> offsets, std::vector<T> entries)
       : offsets_(std::move(offsets)), entries_(std::move(entries)) {
     assert(!offsets_.empty() && offsets_.front() == 0 && offsets_.back() == entries_.size());
@@ -48,11 +49,11 @@ class CompressedRows {
     return {entries_.data() + offsets_[row], offsets_[row + 1] - offsets_[row]};
   }
 
-  /// Position of a row's first entry in entries().
+  /// Returns the position of a row's first entry in entries().
   std::size_t offset(std::size_t row) const { return offsets_[row]; }
   const std::vector<T>& entries() const { return entries_; }
 
-  /// Throws InputError if there are too many entries then.
+  /// Appends a row. Throws InputError if there are then too many entries.
   template <class Range>
   void append(const Range& row) {
     entries_.insert(entries_.end(), std::begin(row), std::end(row));
@@ -67,8 +68,8 @@ class CompressedRows {
   std::vector<T> entries_;
 };
 
-/// Offsets of rows whose lengths are lengths[1], lengths[2], ...; lengths[0] is 0. Throws
-/// InputError if there are too many entries.
+/// Returns the offsets of rows whose lengths are lengths[1], lengths[2], ...; lengths[0] is 0.
+/// Throws InputError if there are too many entries.
 inline std::vector<RowOffset> row_offsets(std::vector<RowOffset> lengths) {
   std::size_t sum = 0;
   for (RowOffset& length : lengths) {
@@ -79,7 +80,7 @@ inline std::vector<RowOffset> row_offsets(std::vector<RowOffset> lengths) {
   return lengths;
 }
 
-/// For each number below n_numbers, the rows that have it as an entry, ascending.
+/// Returns for each number below n_numbers the rows that have it as an entry, ascending.
 inline CompressedRows<std::uint32_t> rows_by_entry(const CompressedRows<std::uint32_t>& rows,
                                                    std::size_t n_numbers) {
   std::vector<RowOffset> lengths(n_numbers + 1, 0);

@@ -8,8 +8,8 @@
 namespace smoothfem {
 
 /// Shape of a cell. A polygon is any planar cell with five or more nodes. Dimension and number of
-/// nodes tell the types apart. Nodes of planar cells run counterclockwise; the order of those of
-/// volume cells is drawn in volume_elements.h.
+/// nodes determine the type. Nodes of planar cells run counterclockwise; volume_elements.h draws
+/// the node order of volume cells.
 enum class ElementType : std::uint8_t {
   triangle,
   quadrilateral,
@@ -40,7 +40,7 @@ constexpr std::string_view name_of(ElementType type) {
   return "unknown";
 }
 
-/// Of the cell: 2 or 3.
+/// Returns the dimension of the cell, 2 or 3.
 constexpr int dimension_of(ElementType type) {
   return type <= ElementType::polygon ? 2 : 3;
 }
@@ -50,7 +50,7 @@ constexpr bool is_cell_size(int dim, std::size_t n_nodes) {
   return dim == 2 ? n_nodes >= 3 : (n_nodes >= 4 && n_nodes <= 6) || n_nodes == 8;
 }
 
-/// Type of the cell with n_nodes nodes; is_cell_size(dim, n_nodes) must hold.
+/// Returns the type of the cell with n_nodes nodes. Requires is_cell_size(dim, n_nodes).
 constexpr ElementType element_type(int dim, std::size_t n_nodes) {
   if (dim == 2)
     return n_nodes == 3   ? ElementType::triangle

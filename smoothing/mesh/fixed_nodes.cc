@@ -33,8 +33,8 @@ std::string name_of_tag(const Topology& topology, int tag) {
   return found == names.end() ? std::string() : found->second;
 }
 
-/// "4, 5 (inlet)"
-std::string groups_there_are(const Topology& topology, const std::set<int>& tags) {
+/// Returns the list of groups for an error message, for example "4, 5 (inlet)".
+std::string available_groups(const Topology& topology, const std::set<int>& tags) {
   if (tags.empty()) return "the mesh has no labelled boundary groups";
   std::string text = "the mesh has the groups ";
   for (const int tag : tags) {
@@ -57,7 +57,7 @@ std::vector<bool> nodes_of_groups(const Topology& topology,
     const auto tag = std::find_if(tags.begin(), tags.end(), matches);
     if (tag == tags.end())
       throw InputError("no boundary group is called '" + group + "'; " +
-                       groups_there_are(topology, tags));
+                       available_groups(topology, tags));
     wanted.insert(*tag);
   }
   std::vector<bool> fixed(topology.n_nodes(), false);

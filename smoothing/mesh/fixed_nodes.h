@@ -9,11 +9,11 @@
 
 namespace smoothfem {
 
-/// Which nodes smoothing must not move. Nodes that no cell uses are fixed in any case.
+/// Rule for the nodes that smoothing must not move. Nodes that no cell uses are always fixed.
 struct FixedNodesRule {
   enum class Kind {
     boundary,  ///< nodes of boundary facets
-    file,      ///< as the topology says: the file's flags, or the boundary where it has none
+    file,      ///< as in the topology: the file's flags, or the boundary if the file has none
     groups,    ///< nodes of the labelled facets in `groups`
     none       ///< every node is free
   };
@@ -21,15 +21,16 @@ struct FixedNodesRule {
   std::vector<std::string> groups;  ///< physical tags or names of facets
 };
 
-/// The rule that a user writes: "boundary", "file", "free" or "group=NAME[,NAME...]". Throws
-/// InputError that lists these for anything else.
+/// Parses a user's rule: "boundary", "file", "free" or "group=NAME[,NAME...]". Throws InputError
+/// that lists these for any other text.
 FixedNodesRule parse_fixed_nodes_rule(const std::string& text);
 
-/// One flag a node. Throws InputError for a group that no facet has; it names those there are.
+/// Returns one flag for each node. Throws InputError for a group that no facet has; the message
+/// lists the available groups.
 std::vector<bool> fixed_nodes(const Topology& topology, const FixedNodesRule& rule);
 
-/// The same mesh with other fixed nodes. fixed: one flag a node. Corners of its surface are fixed
-/// in any case.
+/// Returns the mesh with other fixed nodes. fixed: one flag for each node. Corners of its surface
+/// are always fixed.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, std::vector<bool> fixed) {
   const Topology& old = mesh.topology();

@@ -17,7 +17,7 @@ namespace smoothfem {
 
 class NodeConstraints;  // smoothing/mesh/node_constraints.h
 
-/// Throws InputError that names the first node with a coordinate that is no finite number.
+/// Throws InputError that names the first node with a non-finite coordinate.
 template <class PointType>
 void require_finite(const std::vector<PointType>& coordinates) {
   for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -26,19 +26,18 @@ void require_finite(const std::vector<PointType>& coordinates) {
                        " has a coordinate that is not a finite number");
 }
 
-/// A mesh of dim-dimensional cells in spacedim-dimensional space: a topology that never changes,
-/// shared by all copies, and coordinates that do, one point per node as long as the mesh lives. A
-/// value: copies are independent, and one that was moved from is good for assignment only. Its
-/// nodes may belong to a surface in space that they must not leave, the same for all copies; those
-/// of surface meshes always do.
+/// A mesh of dim-dimensional cells in spacedim-dimensional space. All copies share a topology,
+/// which never changes. The coordinates may change; the number of points may not. A value type:
+/// copies are independent, and a moved-from mesh may only be assigned to. Constraints may keep its
+/// nodes on a surface in space, the same one for all copies; surface meshes always have them.
 template <int dim, int spacedim = dim>
 class Mesh {
  public:
   using PointType = Point<spacedim>;
 
-  /// topology: of dimension dim. coordinates: topology->n_nodes() finite points. Throws InputError
-  /// otherwise, naming the node. constraints: of these nodes; a surface mesh needs them, and a
-  /// planar one has none.
+  /// topology: of dimension dim. coordinates: topology->n_nodes() finite points. Otherwise throws
+  /// InputError that names the node. constraints: of these nodes; required for surface meshes, null
+  /// for planar ones.
   Mesh(std::shared_ptr<const Topology> topology, std::vector<PointType> coordinates,
        std::shared_ptr<const NodeConstraints> constraints = nullptr)
       : topology_(std::move(topology)),
@@ -54,10 +53,10 @@ class Mesh {
     require_finite(coordinates_);
   }
 
-  /// A mesh of points that are known to be finite, or have been taken from another mesh: nothing is
-  /// looked at.
-  static Mesh of_known_points(std::shared_ptr<const Topology> topology,
-                              std::vector<PointType> coordinates) noexcept {
+  /// Makes a mesh of points that are known to be finite, for example those of another mesh. Checks
+  /// nothing.
+  static Mesh from_finite_points(std::shared_ptr<const Topology> topology,
+                                 std::vector<PointType> coordinates) noexcept {
     return Mesh(std::move(topology), std::move(coordinates), nullptr, KnownPoints{});
   }
 
@@ -82,10 +81,11 @@ class Mesh {
     assert(points.size() == n_nodes());
     coordinates_.swap(points);
   }
-  /// The coordinates of a mesh that is not needed any more: std::move(mesh).take_coordinates().
+  /// Moves the coordinates out of a mesh that is not needed any more:
+  /// std::move(mesh).take_coordinates().
   std::vector<PointType> take_coordinates() && { return std::move(coordinates_); }
 
-  /// Null if nodes may go anywhere.
+  /// Returns the constraints; null if nodes may move anywhere.
   const NodeConstraints* constraints() const { return constraints_.get(); }
   const std::shared_ptr<const NodeConstraints>& shared_constraints() const { return constraints_; }
 
@@ -109,7 +109,7 @@ using VolumeMesh = Mesh<3>;
 using SurfaceMesh = Mesh<2, 3>;
 using AnyMesh = std::variant<PlanarMesh, VolumeMesh, SurfaceMesh>;
 
-/// What users call meshes of these dimensions.
+/// Returns the users' name for meshes of these dimensions.
 constexpr const char* mesh_kind_name(int dim, int spacedim) {
   return spacedim > dim ? "surface" : dim == 2 ? "planar" : "volume";
 }
@@ -120,13 +120,13 @@ inline const char* kind_name(const AnyMesh& mesh) {
                     mesh);
 }
 
-/// Dimensions of a mesh's cells and of the space it is in: planar, volume and surface meshes have
-/// (2, 2), (3, 3) and (2, 3).
+/// Dimensions of a mesh's cells and of its space: (2, 2) for planar, (3, 3) for volume and (2, 3)
+/// for surface meshes.
 struct MeshDimensions {
   int cells = 2, space = 2;
 };
 
-/// `visit.operator()<dim, spacedim>()` for dimensions that are known only now.
+/// Calls `visit.operator()<dim, spacedim>()` for dimensions that are known only at run time.
 template <class Visit>
 decltype(auto) with_dimensions(MeshDimensions dimensions, const Visit& visit) {
   if (dimensions.cells == 3) return visit.template operator()<3, 3>();
@@ -134,7 +134,7 @@ decltype(auto) with_dimensions(MeshDimensions dimensions, const Visit& visit) {
                                : visit.template operator()<2, 2>();
 }
 
-/// `visit.operator()<dim>()` for a dimension that is known only now: 2 or 3.
+/// Calls `visit.operator()<dim>()` for a dimension (2 or 3) that is known only at run time.
 template <class Visit>
 decltype(auto) with_dimension(int dim, const Visit& visit) {
   return dim == 2 ? visit.template operator()<2>() : visit.template operator()<3>();

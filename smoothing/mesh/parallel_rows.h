@@ -10,14 +10,14 @@
 
 namespace smoothfem {
 
-/// Rows made by several threads: make_row(i, row) fills an empty row. Batch after batch, so that
-/// tables larger than the mesh need hardly any memory besides the result. Throws InputError if
-/// there are too many entries.
+/// Makes rows by several threads: make_row(i, row) fills an empty row. Works in batches, so that
+/// tables larger than the mesh need hardly any additional memory. Throws InputError if there are
+/// too many entries.
 template <class T, class MakeRow>
 CompressedRows<T> make_rows(std::size_t n_rows, const MakeRow& make_row) {
   constexpr std::size_t grain = 4096;  // rows that one thread makes at a time
   constexpr std::size_t rows_a_batch = 64 * grain;
-  constexpr double spare = 1.25;  // costs addresses only, as long as nothing is written there
+  constexpr double spare = 1.25;  // costs only addresses, as long as nothing is written there
   std::vector<RowOffset> lengths(n_rows + 1, 0);
   std::vector<T> entries;
   std::vector<std::vector<T>> parts(std::min(n_rows, rows_a_batch) / grain + 1);

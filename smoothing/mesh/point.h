@@ -6,11 +6,12 @@
 
 namespace smoothfem {
 
-/// Coordinates of a point of the plane (spacedim = 2) or of space (3).
+/// Coordinates of a point in the plane (spacedim = 2) or in space (3).
 template <int spacedim>
 using Point = Eigen::Matrix<double, spacedim, 1>;
 
-/// a . b, added up in the order of the coordinates: that of Eigen's own sums depends on its flags.
+/// Returns a . b, added up in the order of the coordinates. The order of Eigen's sums depends on
+/// compiler flags.
 template <int spacedim>
 inline double dot(const Point<spacedim>& a, const Point<spacedim>& b) {
   double sum = a[0] * b[0];

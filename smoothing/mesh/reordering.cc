@@ -12,12 +12,12 @@ namespace smoothfem {
 
 namespace {
 
-/// Nodes in the order of breadth-first searches from cell to cell, each part of the mesh from one
-/// of its boundary nodes, so that levels are small; reversed. That is the algorithm of Cuthill and
-/// McKee without sorting the nodes of a level by their neighbours, for which smoothing is no
-/// faster.
+/// Returns the nodes in the order of breadth-first searches from cell to cell, reversed. Each part
+/// of the mesh starts from one of its boundary nodes, so that levels are small. This is the
+/// algorithm of Cuthill and McKee, but the nodes of a level are not sorted by their neighbours:
+/// that makes smoothing no faster.
 std::vector<NodeIndex> nodes_by_level(const Topology& topology) {
-  // The topology's own table would be kept, but these are large meshes.
+  // A local table: the topology would keep its own, and these are large meshes.
   const auto node_cells = rows_by_entry(topology.cells(), topology.n_nodes());
   std::vector<std::uint8_t> reached(topology.n_nodes(), 0), passed(topology.n_cells(), 0);
   std::vector<NodeIndex> order;
@@ -33,13 +33,13 @@ std::vector<NodeIndex> nodes_by_level(const Topology& topology) {
         if (!std::exchange(passed[c], 1))
           for (const NodeIndex j : topology.cell_nodes(c)) reach(j);
   }
-  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) reach(i);  // those that no cell uses
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) reach(i);  // nodes that no cell uses
   std::reverse(order.begin(), order.end());
   return order;
 }
 
-/// Cells by their first node in the new order, cells of one size together within some hundred
-/// nodes: whole vectors of cells of one type are cheaper than single ones.
+/// Orders cells by their first node in the new order. Cells of one type are kept together within a
+/// few hundred nodes: whole vectors of cells of one type are cheaper than single cells.
 std::vector<CellIndex> cells_by_first_node(const Topology& topology,
                                            const std::vector<NodeIndex>& node_order) {
   constexpr std::size_t group = 1024, grain = 4096;
@@ -83,13 +83,13 @@ Mesh<dim> Reordering<dim>::apply(Mesh<dim> mesh) const {
   const auto old = std::move(mesh).take_coordinates();
   std::vector<Point<dim>> coordinates(old.size());
   for (std::size_t i = 0; i < old.size(); ++i) coordinates[i] = old[node_order_[i]];
-  return Mesh<dim>::of_known_points(topology_, std::move(coordinates));
+  return Mesh<dim>::from_finite_points(topology_, std::move(coordinates));
 }
 
 template <int dim>
 Mesh<dim> Reordering<dim>::undo(Mesh<dim> reordered) && noexcept {
   auto x = std::move(reordered).take_coordinates();
-  // Along the cycles of the permutation; what has been visited is marked in the order itself.
+  // Follows the cycles of the permutation; visited entries are marked in the order itself.
   constexpr NodeIndex visited = std::numeric_limits<NodeIndex>::max();
   for (NodeIndex start = 0; start < x.size(); ++start) {
     Point<dim> carried = x[start];
@@ -99,14 +99,14 @@ Mesh<dim> Reordering<dim>::undo(Mesh<dim> reordered) && noexcept {
       i = to;
     }
   }
-  return Mesh<dim>::of_known_points(old_topology_, std::move(x));
+  return Mesh<dim>::from_finite_points(old_topology_, std::move(x));
 }
 
 template <int dim>
 Mesh<dim> Reordering<dim>::restored(const Mesh<dim>& reordered) const {
   std::vector<Point<dim>> coordinates(reordered.n_nodes());
   restore(reordered.coordinates(), coordinates);
-  return Mesh<dim>::of_known_points(old_topology_, std::move(coordinates));
+  return Mesh<dim>::from_finite_points(old_topology_, std::move(coordinates));
 }
 
 template <int dim>

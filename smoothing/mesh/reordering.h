@@ -8,23 +8,23 @@
 
 namespace smoothfem {
 
-/// The same mesh with nodes and cells in an order in which neighbours lie near each other in
-/// memory: nodes by levels, much as the reverse Cuthill-McKee algorithm has them (Proc. 24th ACM
-/// Nat. Conf., 1969), cells by their first node, those of one type together where that costs
-/// little. Smoothing large meshes takes half the time of that in a mesh generator's order.
+/// Order of nodes and cells in which neighbours lie near each other in memory. Nodes are ordered by
+/// levels, similar to the reverse Cuthill-McKee algorithm (Proc. 24th ACM Nat. Conf., 1969). Cells
+/// are ordered by their first node, and those of one type are kept together where that costs
+/// little. Smoothing large meshes takes half the time of a mesh generator's order.
 template <int dim>
 class Reordering {
  public:
   explicit Reordering(std::shared_ptr<const Topology> topology);
 
-  /// A mesh of the topology given, in the new order. Takes no memory besides.
+  /// Returns a mesh of the given topology in the new order. Takes no additional memory.
   Mesh<dim> apply(Mesh<dim> mesh) const;
-  /// The mesh in the old order again; takes none either, and fails never.
+  /// Returns the mesh in the old order. Takes no additional memory and never fails.
   Mesh<dim> undo(Mesh<dim> reordered) && noexcept;
 
-  /// A mesh in the old order with the coordinates of one in the new order.
+  /// Returns a mesh in the old order with the coordinates of a mesh in the new order.
   Mesh<dim> restored(const Mesh<dim>& reordered) const;
-  /// The same for coordinates of all nodes.
+  /// Writes the coordinates of all nodes in the old order.
   void restore(std::span<const Point<dim>> reordered, std::span<Point<dim>> result) const;
 
  private:

@@ -9,10 +9,10 @@
 
 namespace smoothfem {
 
-/// A table that is made when it is needed first: large meshes that need none save the memory.
+/// A table that is made at its first use, so that large meshes without this use save the memory.
 class TableOnDemand {
  public:
-  /// make() returns the table. May be called by several threads at a time.
+  /// Returns the table; make() builds it. May be called by several threads at a time.
   template <class Make>
   const CompressedRows<std::uint32_t>& get(const Make& make) {
     if (!is_known_) look_up(make);

@@ -17,7 +17,7 @@ namespace smoothfem {
 
 namespace {
 
-/// A cell's facet: its nodes, sorted, behind the smallest one (which tells where it is looked for).
+/// A cell's facet: its nodes, sorted, without the smallest one, by which it is searched for.
 struct FacetKey {
   std::array<NodeIndex, 3> others;
   CellIndex cell;
@@ -27,7 +27,8 @@ struct FacetKey {
   bool same_nodes(const FacetKey& other) const { return others == other.others; }
 };
 
-/// Facets whose smallest node is `node`, sorted so that those with the same nodes meet.
+/// Collects the facets whose smallest node is `node`, sorted so that those with the same nodes are
+/// adjacent.
 void facets_of(NodeIndex node, int dim, std::span<const CellIndex> cells,
                const CompressedRows<NodeIndex>& all_cells, std::vector<FacetKey>& facets) {
   constexpr NodeIndex none = std::numeric_limits<NodeIndex>::max();
@@ -62,7 +63,7 @@ void facets_of(NodeIndex node, int dim, std::span<const CellIndex> cells,
                                             : "; at most two volume cells share a face"));
 }
 
-/// The same for the same nodes, and hardly ever for others.
+/// Returns a hash of sorted nodes.
 std::uint64_t key_of(const std::vector<NodeIndex>& sorted_nodes) {
   std::uint64_t key = sorted_nodes.size();
   for (const NodeIndex node : sorted_nodes) {
@@ -72,7 +73,8 @@ std::uint64_t key_of(const std::vector<NodeIndex>& sorted_nodes) {
   return key;
 }
 
-/// A cell that is given twice, its nodes perhaps in another order, would count twice.
+/// Throws CellError for a cell that is given twice, its nodes perhaps in another order: it would
+/// count twice.
 void require_different_cells(const CompressedRows<NodeIndex>& cells,
                              std::vector<std::uint64_t> keys) {
   std::sort(keys.begin(), keys.end());
@@ -94,7 +96,7 @@ Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells
                    std::optional<std::vector<bool>> fixed, MeshLabels labels)
     : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
   check_cells(n_nodes);
-  // Not kept: large meshes are smoothed in another order, others need it no more.
+  // Not kept: large meshes are smoothed in another order, and other meshes do not need it any more.
   const auto node_cells = rows_by_entry(cells_, n_nodes);
   build_boundary(node_cells);
   if (fixed && fixed->size() != n_nodes)
@@ -140,7 +142,7 @@ void Topology::build_boundary(const CompressedRows<CellIndex>& node_cells) {
     std::size_t n_facets = 0;
     bool bad = false;
   };
-  // Each facet is looked at by the part of its smallest node.
+  // The thread that has a facet's smallest node handles the facet.
   std::vector<Part> parts((n_nodes + grain - 1) / grain);
   const auto visit = [&](Part& part, NodeIndex node, std::vector<FacetKey>& facets, bool refuse) {
     facets_of(node, dim_, node_cells[node], cells_, facets);
@@ -200,7 +202,7 @@ void Topology::build_fixed(const std::vector<bool>& fixed) {
 }
 
 void Topology::build_blocks() {
-  constexpr std::size_t nodes_a_block = 8192;  // their sums fit the cache of one core
+  constexpr std::size_t nodes_a_block = 8192;  // the sums of these nodes fit the cache of one core
   const std::size_t n_blocks =
       std::min(std::max<std::size_t>(1, n_nodes() / nodes_a_block), n_cells());
   for (std::size_t b = 0; b < n_blocks; ++b) {
@@ -270,36 +272,36 @@ std::shared_ptr<const Topology> Topology::reordered(
 CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
                                         const CompressedRows<CellIndex>& node_cells) {
   const auto simplex_size = static_cast<std::size_t>(topology.dimension() + 1);
-  return make_rows<NodeIndex>(
-      topology.n_nodes(), [&](std::size_t node, std::vector<NodeIndex>& row) {
-        thread_local std::vector<std::uint8_t> marks;  // of nodes in the row; none between two rows
-        auto& is_known = marks;
-        if (is_known.size() < topology.n_nodes()) is_known.resize(topology.n_nodes(), 0);
-        std::size_t n = 0, n_most = 0;
-        for (const CellIndex c : node_cells[node]) n_most += 2 * topology.cell_nodes(c).size();
-        row.resize(n_most + 1);
-        const auto add = [&](NodeIndex other) {  // no branch: nothing tells which way it would go
-          row[n] = other;
-          n += 1u - is_known[other];
-          is_known[other] = 1;
-        };
-        is_known[node] = 1;
-        for (const CellIndex c : node_cells[node]) {
-          const auto nodes = topology.cell_nodes(c);
-          if (nodes.size() == simplex_size) {
-            for (const NodeIndex other : nodes) add(other);
-          } else {
-            for_each_edge(topology.dimension(), nodes.size(), [&](std::size_t a, std::size_t b) {
-              if (nodes[a] == node) add(nodes[b]);
-              if (nodes[b] == node) add(nodes[a]);
-            });
-          }
-        }
-        is_known[node] = 0;
-        row.resize(n);
-        for (const NodeIndex other : row) is_known[other] = 0;
-        std::sort(row.begin(), row.end());
-      });
+  return make_rows<NodeIndex>(topology.n_nodes(), [&](std::size_t node,
+                                                      std::vector<NodeIndex>& row) {
+    thread_local std::vector<std::uint8_t> marks;  // nodes of the row; all zero between two rows
+    auto& is_known = marks;
+    if (is_known.size() < topology.n_nodes()) is_known.resize(topology.n_nodes(), 0);
+    std::size_t n = 0, n_most = 0;
+    for (const CellIndex c : node_cells[node]) n_most += 2 * topology.cell_nodes(c).size();
+    row.resize(n_most + 1);
+    const auto add = [&](NodeIndex other) {  // no branch: its direction could not be predicted
+      row[n] = other;
+      n += 1u - is_known[other];
+      is_known[other] = 1;
+    };
+    is_known[node] = 1;
+    for (const CellIndex c : node_cells[node]) {
+      const auto nodes = topology.cell_nodes(c);
+      if (nodes.size() == simplex_size) {
+        for (const NodeIndex other : nodes) add(other);
+      } else {
+        for_each_edge(topology.dimension(), nodes.size(), [&](std::size_t a, std::size_t b) {
+          if (nodes[a] == node) add(nodes[b]);
+          if (nodes[b] == node) add(nodes[a]);
+        });
+      }
+    }
+    is_known[node] = 0;
+    row.resize(n);
+    for (const NodeIndex other : row) is_known[other] = 0;
+    std::sort(row.begin(), row.end());
+  });
 }
 
 }  // namespace smoothfem

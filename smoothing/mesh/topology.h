@@ -17,8 +17,7 @@
 
 namespace smoothfem {
 
-/// What a file says about nodes and cells besides coordinates; carried from input to output
-/// unchanged.
+/// Labels of a file for nodes and cells, copied from input to output unchanged.
 struct MeshLabels {
   std::vector<int> cell_tags;        ///< physical tag of each cell; empty if the file has none
   CompressedRows<NodeIndex> facets;  ///< labelled edges of planar meshes, faces of volume meshes
@@ -30,23 +29,24 @@ struct MeshLabels {
   bool operator==(const MeshLabels&) const = default;
 };
 
-/// Cells that follow each other, and the nodes they use: parallel loops over cells take a block a
-/// time. How many there are depends on the mesh alone, never on the number of threads.
+/// Consecutive cells and the nodes they use; parallel loops over cells take one block at a time.
+/// The number of blocks depends on the mesh alone, never on the number of threads.
 struct CellBlock {
   CellIndex first, last;            ///< cells first .. last - 1
   NodeIndex first_node, last_node;  ///< all their nodes are in first_node .. last_node - 1
 };
 
-/// The connectivity of a planar or a volume mesh: which nodes make which cell, and everything that
-/// follows from it alone. Immutable. All adjacency rows are sorted ascending, so sums over them
-/// have one order.
+/// The connectivity of a planar or volume mesh: the nodes of each cell, and all tables that follow
+/// from them. Immutable. All adjacency rows are sorted ascending, which fixes the order of sums
+/// over them.
 class Topology {
  public:
-  /// dim: 2 (cells with three and more nodes, counterclockwise) or 3 (4, 5, 6 or 8 nodes in the
-  /// order of volume_elements.h). cells: one row of node indices a cell, all different and below
-  /// n_nodes, no two with the same nodes. fixed: n_nodes flags of nodes that smoothing must not
-  /// move; without it the boundary nodes are fixed. Nodes that no cell uses are always fixed.
-  /// Throws InputError naming the first cell that breaks this, or a facet with more than two cells.
+  /// dim: 2 (cells with three or more nodes, counterclockwise) or 3 (4, 5, 6 or 8 nodes in the
+  /// order of volume_elements.h). cells: one row of node indices for each cell, all different and
+  /// below n_nodes; no two cells have the same nodes. fixed: n_nodes flags of nodes that smoothing
+  /// must not move; default: the boundary nodes. Nodes that no cell uses are always fixed. Throws
+  /// InputError that names the first cell that breaks these rules, or a facet with more than two
+  /// cells.
   Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
            std::optional<std::vector<bool>> fixed = std::nullopt, MeshLabels labels = {});
 
@@ -59,31 +59,37 @@ class Topology {
   ElementType cell_type(CellIndex cell) const { return element_type(dim_, cells_[cell].size()); }
   const std::vector<CellBlock>& blocks() const { return blocks_; }
 
-  /// Cells that use a node.
+  /// Returns the cells that use a node.
   std::span<const CellIndex> node_cells(NodeIndex node) const { return cells_by_node()[node]; }
-  /// Cells that use at least one of these nodes, ascending.
+  /// Returns the cells that use at least one of these nodes, ascending.
   std::vector<CellIndex> cells_around(std::span<const NodeIndex> nodes) const;
-  /// Nodes joined to a node by an edge.
+  /// Returns the nodes joined to a node by an edge.
   std::span<const NodeIndex> node_neighbours(NodeIndex node) const { return neighbours()[node]; }
   std::size_t n_edges() const { return neighbours().n_entries() / 2; }
+  /// Builds the table of node_cells() now instead of at its first use.
+  void build_node_cells() const { cells_by_node(); }
+  /// Builds the table of node_neighbours(), and the one of node_cells(), now instead of at first
+  /// use.
+  void build_node_neighbours() const { neighbours(); }
 
-  /// Facets (sides of planar cells, faces of volume cells) with one cell, as that cell's nodes in
-  /// its direction, ordered by cell and position in it.
+  /// Returns the facets (sides of planar cells, faces of volume cells) that belong to one cell
+  /// only. Each has that cell's nodes in its direction. They are ordered by cell and position in
+  /// it.
   const CompressedRows<NodeIndex>& boundary_facets() const { return boundary_facets_; }
-  /// Number of facets, inner and boundary ones.
+  /// Returns the number of facets, inner and boundary ones.
   std::size_t n_facets() const { return n_facets_; }
-  /// True for nodes of boundary facets.
+  /// Returns flags of the nodes of boundary facets.
   const std::vector<bool>& on_boundary() const { return on_boundary_; }
 
   bool is_fixed(NodeIndex node) const { return fixed_[node] != 0; }
   const std::vector<NodeIndex>& free_nodes() const { return free_nodes_; }
-  /// True if at least one node of the cell is free: the cells that q*_min looks at.
+  /// True if at least one node of the cell is free. q*_min takes these cells only.
   bool has_free_node(CellIndex cell) const { return cell_has_free_node_[cell] != 0; }
 
   const MeshLabels& labels() const { return labels_; }
 
-  /// The same mesh in another order: node i and cell c of the result are the nodes node_order[i]
-  /// and the cell cell_order[c] of this one. Nodes keep their order in their cell. Without labels.
+  /// Returns the same mesh in another order, without labels. Node i and cell c of the result are
+  /// node node_order[i] and cell cell_order[c] of this one. Cells keep the order of their nodes.
   std::shared_ptr<const Topology> reordered(const std::vector<NodeIndex>& node_order,
                                             const std::vector<CellIndex>& cell_order) const;
 
@@ -111,7 +117,8 @@ class Topology {
   std::vector<CellBlock> blocks_;
 };
 
-/// For each node the nodes joined to it by an edge, ascending. node_cells: the cells of each node.
+/// Returns for each node the nodes joined to it by an edge, ascending. node_cells: the cells of
+/// each node.
 CompressedRows<NodeIndex> nodes_by_node(const Topology& topology,
                                         const CompressedRows<CellIndex>& node_cells);
 

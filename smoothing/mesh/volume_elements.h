@@ -23,15 +23,15 @@
 ///      \ | /                                 \ | /       |/      |/
 ///        1                                     1         0-------1
 ///
-/// Seen so that the node, its next ones and its last one in each row of `corners` span a positive
-/// volume: in the prism 0, 1, 2 run counterclockwise seen from 3, 4, 5 (as in Gmsh; VTK's wedge has
-/// them the other way round), in pyramid and hexahedron 0, 1, 2, 3 seen from the nodes above.
+/// Orientation: the nodes in each row of `corners` span a positive volume. In the prism 0, 1, 2 run
+/// counterclockwise seen from 3, 4, 5, as in Gmsh; VTK's wedge has the opposite order. In pyramid
+/// and hexahedron 0, 1, 2, 3 run counterclockwise seen from the nodes above.
 
 namespace smoothfem {
 
 using LocalIndex = std::uint8_t;
 
-/// Nodes of a face or a dual face; the fourth of a triangle is not used.
+/// Nodes of a face or a dual face; triangles do not use the fourth entry.
 struct LocalFace {
   std::array<LocalIndex, 4> nodes;
   LocalIndex size;
@@ -49,16 +49,16 @@ using LocalEdge = std::array<LocalIndex, 2>;
 /// A node and its three neighbours: a node simplex (thesis, Section 3.1, tuples N).
 using LocalSimplex = std::array<LocalIndex, 4>;
 
-/// What the mean ratio has to know of the simplex that W spans in the regular element with edges of
-/// length one: the inverse of W' W, and the determinant of W.
+/// Data of the simplex that W spans in the regular element with edges of length one, for the mean
+/// ratio: the inverse of W' W, and the determinant of W.
 struct RegularSimplex {
   double determinant;
   std::array<std::array<double, 3>, 3> inverse_gram;
 };
 
 /// Tables of the volume element with n nodes. `faces` (tuples F) are ordered so that their normals
-/// point outwards; `dual_faces[k]` (tuples F with a bar) are the faces whose means, as nodes of the
-/// dual element, make the dual face of node k.
+/// point outwards. `dual_faces[k]` (tuples F with a bar) lists the faces whose means form the dual
+/// face of node k.
 template <std::size_t n>
 struct VolumeElement;
 
@@ -146,7 +146,7 @@ struct VolumeElement<8> {
                                           {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}}};
 };
 
-/// The same tables for code that learns the type when it runs.
+/// Provides the same tables for element types that are known only at run time.
 struct VolumeElementTables {
   std::span<const LocalEdge> edges;
   std::span<const LocalFace> faces;
@@ -167,8 +167,8 @@ constexpr const VolumeElementTables& volume_element(std::size_t n_nodes) {
                         : detail::volume_tables<8>;
 }
 
-/// Visits the edges of a cell with n_nodes nodes in a mesh of dimension dim: visit(a, b) with the
-/// positions of their ends. Sides of planar cells run round the cell.
+/// Calls visit(a, b) for the edges of a cell with n_nodes nodes in a mesh of dimension dim, with
+/// the positions of their ends. Sides of planar cells run around the cell.
 template <class Visit>
 constexpr void for_each_edge(int dim, std::size_t n_nodes, const Visit& visit) {
   if (dim == 2) {
@@ -178,8 +178,8 @@ constexpr void for_each_edge(int dim, std::size_t n_nodes, const Visit& visit) {
   }
 }
 
-/// Visits the facets of a cell (sides of planar cells, faces of volume cells, the latter with
-/// outward normals): visit(positions), a range of positions in the cell.
+/// Calls visit(positions) for the facets of a cell, with a range of positions in the cell. Facets
+/// are the sides of planar cells or the faces of volume cells, the latter with outward normals.
 template <class Visit>
 constexpr void for_each_facet(int dim, std::size_t n_nodes, const Visit& visit) {
   if (dim == 2) {

@@ -8,8 +8,8 @@
 
 namespace smoothfem {
 
-/// A block of one cell, ready to be added: n_lanes entries at a time, and the last one of an odd
-/// number.
+/// A block of one cell, ready to be added: n_lanes entries at a time, and the last one alone if the
+/// number of entries is odd.
 template <int dim, class Number>
 struct AddedBlock {
   using NumberLanes = typename ArrayLanes<Number>::Values;
@@ -32,7 +32,7 @@ struct AddedBlock {
   }
 };
 
-/// The blocks of n_lanes cells, or of one, by cell.
+/// Returns the blocks of n_lanes cells, or of one cell, by cell.
 template <class Number, int dim>
 inline auto added_blocks(const Block<dim, Lanes>& block) {
   using Added = AddedBlock<dim, Number>;
@@ -66,7 +66,7 @@ inline auto added_blocks(const Block<dim, double>& block) {
   return std::array{result};
 }
 
-/// a b c' for lower triangular a and c.
+/// Returns a b c' for lower triangular a and c.
 template <int dim, class Real>
 inline Block<dim, Real> scaled(const Block<dim, Real>& a, const Block<dim, Real>& b,
                                const Block<dim, Real>& c) {

@@ -9,8 +9,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Adds a block times an entry to `sum`: in the plane its two halves are to be added up in the end,
-/// in space its last number means nothing.
+/// Adds a block times an entry to `sum`. In the plane the caller has to add its two halves at the
+/// end; in space its last number is meaningless.
 inline void add_product(const double* block, const Point<2>& x, Lanes& sum) {
   sum += load_lanes(block) * Lanes{x[0], x[0], x[1], x[1]};
 }
@@ -26,7 +26,7 @@ inline Point<3> total(Lanes sum, const float*) {
   return {sum[0], sum[1], sum[2]};
 }
 
-/// Rows first .. last-1 of y = A x; returns their part of x' y.
+/// Computes rows first .. last-1 of y = A x; returns their part of x' y.
 template <int dim, class Number>
 inline double multiply_range(const CompressedRows<std::uint32_t>& columns, const Number* blocks,
                              const BlockVector<dim>& x, BlockVector<dim>& y, std::size_t first,

@@ -9,10 +9,10 @@ namespace smoothfem {
 
 namespace {
 
-/// L^-1 of a block L L', by Cholesky's method.
+/// Returns L^-1 of a block L L', by Cholesky's method.
 template <int dim>
 Eigen::Matrix<double, dim, dim> inverse_cholesky_factor(Eigen::Matrix<double, dim, dim> block) {
-  // A block of elements that have almost collapsed is singular to rounding.
+  // A block of elements that have almost collapsed is singular up to rounding.
   constexpr double relative_shift = 1e-14;
   const double size = block.trace(), shift = relative_shift * size;
   Eigen::Matrix<double, dim, dim> factor = Eigen::Matrix<double, dim, dim>::Zero(),

@@ -17,11 +17,11 @@ namespace smoothfem {
 template <int dim>
 using BlockVector = std::vector<Point<dim>>;
 
-/// Rows that one thread takes at a time: what fixes the order of sums over them.
+/// Number of rows that one thread takes at a time; it fixes the order of sums over rows.
 inline constexpr std::size_t row_grain = 1024;
 
-/// Calls work(first, last) for ranges of rows, by several threads where there are enough rows: with
-/// fewer, waiting for each other at the end of every loop costs more than it gains.
+/// Calls work(first, last) for ranges of rows. Several threads run only if there are enough rows:
+/// otherwise waiting for each other at the end of every loop costs more than it gains.
 template <class Work>
 void for_row_ranges(std::size_t n_rows, const Work& work) {
   constexpr std::size_t min_rows = 16384;
@@ -30,7 +30,7 @@ void for_row_ranges(std::size_t n_rows, const Work& work) {
     work(first, std::min(first + row_grain, n_rows));
 }
 
-/// Sum of part(first, last) over ranges of rows, the same for every number of threads.
+/// Returns the sum of part(first, last) over ranges of rows, the same for every number of threads.
 template <class Part>
 double sum_over_ranges(std::size_t n_rows, const Part& part) {
   std::vector<double> parts((n_rows + row_grain - 1) / row_grain);
@@ -52,10 +52,10 @@ double dot(const BlockVector<dim>& a, const BlockVector<dim>& b) {
 }
 
 /// A symmetric sparse matrix A of dim x dim blocks, one for each pair of nodes, on a fixed pattern.
-/// It is kept scaled by its own diagonal blocks L L', as L^-1 A L'^-1: that needs no preconditioner
-/// and has blocks of one size whatever the size of the elements, so that in space, where reading
-/// them takes most of the time, numbers of half the length are enough. To fill it, add up the
-/// diagonal blocks, call factor_diagonal, and add the other blocks, scaled.
+/// It is stored scaled by its diagonal blocks L L', as L^-1 A L'^-1. The scaled matrix needs no
+/// preconditioner. Its blocks have the same magnitude for elements of all sizes, so that single
+/// precision is enough in space. There reading blocks takes most of the time. To fill it, add up
+/// the diagonal blocks, call factor_diagonal, and add the other blocks, scaled.
 template <int dim>
 class BlockMatrix {
  public:
@@ -63,31 +63,31 @@ class BlockMatrix {
   using Number = std::conditional_t<dim == 2, double, float>;
 
   BlockMatrix() = default;
-  /// columns: those of each row, sorted ascending, the diagonal among them; a symmetric pattern.
+  /// columns: those of each row, sorted ascending, with the diagonal; a symmetric pattern.
   explicit BlockMatrix(CompressedRows<std::uint32_t> columns);
 
   std::size_t n_rows() const { return columns_.size(); }
   BlockVector<dim> make_vector() const { return BlockVector<dim>(n_rows(), Point<dim>::Zero()); }
   const CompressedRows<std::uint32_t>& columns() const { return columns_; }
 
-  /// The first step: diagonal blocks of zeros, one per row, to be added to. The factors of the
-  /// matrix are gone from here on; the blocks have their memory.
+  /// First step: returns diagonal blocks of zeros, one for each row, to be added to. They take over
+  /// the memory of the matrix's factors.
   std::vector<Block> start_diagonal();
 
-  /// The second step: these blocks, which have to be positive semidefinite, give the factors; the
-  /// other blocks are zero.
+  /// Second step: computes the factors from these blocks, which must be positive semidefinite, and
+  /// sets the other blocks to zero.
   void factor_diagonal(std::vector<Block> diagonal);
-  /// L^-1 of a row; zero for row number n_rows().
+  /// Returns L^-1 of a row; zero for row number n_rows().
   const Block& inverse_factor(std::size_t row) const { return inverse_factors_[row]; }
 
-  /// Where the block of a row and a column of the pattern is: its number in columns().entries().
+  /// Returns the position of the block of a row and a column in columns().entries().
   std::uint32_t position(std::uint32_t row, std::uint32_t column) const {
     const auto all = columns_[row];
     const auto found = std::lower_bound(all.begin(), all.end(), column);
     assert(found != all.end() && *found == column);
     return static_cast<std::uint32_t>(columns_.offset(row) + (found - all.begin()));
   }
-  /// The dim x dim numbers of a scaled block, columns first.
+  /// Returns the dim x dim numbers of a scaled block, by columns.
   Number* scaled_block(std::size_t position) { return scaled_.data() + dim * dim * position; }
   const Number* scaled_block(std::size_t position) const {
     return scaled_.data() + dim * dim * position;

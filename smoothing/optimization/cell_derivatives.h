@@ -9,7 +9,7 @@
 
 namespace smoothfem {
 
-/// A dim x dim matrix, columns first: how two nodes of a cell act on each other.
+/// A dim x dim matrix, by columns: the coupling of two nodes of a cell.
 template <int dim, class Real>
 struct Block {
   std::array<Real, static_cast<std::size_t>(dim* dim)> entries{};
@@ -32,7 +32,8 @@ struct Block {
   }
 };
 
-/// Arrays for the n nodes (or pairs of nodes) of a cell: on the stack where n is known.
+/// Arrays for the n nodes (or pairs of nodes) of a cell; on the stack if n is known at compile
+/// time.
 template <class T, std::size_t extent>
 struct CellArray : std::array<T, extent> {
   explicit CellArray(std::size_t) { this->fill(T{}); }
@@ -42,7 +43,7 @@ struct CellArray<T, std::dynamic_extent> : std::vector<T> {
   explicit CellArray(std::size_t n) : std::vector<T>(n) {}
 };
 
-/// Pairs p <= q of the n nodes of a cell, and the number of one of them.
+/// Number of pairs p <= q of the n nodes of a cell, and the position of one pair.
 constexpr std::size_t n_node_pairs(std::size_t n) {
   return n == std::dynamic_extent ? n : n * (n + 1) / 2;
 }
@@ -50,24 +51,25 @@ constexpr std::size_t node_pair(std::size_t n, std::size_t p, std::size_t q) {
   return p * n - p * (p + 1) / 2 + q;
 }
 
-/// What stands for the Hessian of an element's h = m^2, m its mean inverse mean ratio.
+/// Model for the Hessian of an element's h = m^2, with m its mean inverse mean ratio.
 enum class HessianModel {
   exact,
-  /// Positive semidefinite; what it leaves out is said at the CellDerivatives of each dimension.
+  /// positive semidefinite; each CellDerivatives describes the parts that it leaves out
   convex
 };
 
-/// Which blocks of a cell's Hessian are wanted.
+/// Blocks of a cell's Hessian to compute.
 enum class HessianBlocks { diagonal, all };
 
-/// Gradient and Hessian of one cell's h: an entry for each node, and a block for each pair of nodes
-/// p <= q (the others are their transposes), or for each p = q only.
+/// Gradient and Hessian of one cell's h. The gradient has an entry for each node. The Hessian has a
+/// block for each pair of nodes p <= q (the others are their transposes), or for each p = q only.
 template <int dim, class Real, std::size_t extent>
 class CellDerivatives;
 
-/// The convex model of planar cells is h times the Hessian of log h without its concave part. It is
-/// the same as the exact one at a regular element. Where an element has almost collapsed h grows
-/// like 1 / det^2: a Newton step lets the determinant grow by a third there, this model doubles it.
+/// Derivatives of a planar cell. The convex model is h times the Hessian of log h without its
+/// concave part. It equals the exact Hessian at a regular element. Near a collapsed element h grows
+/// like 1 / det^2: there an exact Newton step increases the determinant by a third, and this model
+/// doubles it.
 template <class Real, std::size_t extent>
 class CellDerivatives<2, Real, extent> {
  public:
@@ -79,7 +81,7 @@ class CellDerivatives<2, Real, extent> {
                   HessianBlocks blocks = HessianBlocks::all)
       : gradient(x.size()), hessian(n_node_pairs(x.size())), n_(x.size()), blocks_(blocks) {
     const CornerWeights weights = corner_weights(n_);
-    const std::size_t n_corners = n_ == 3 ? 1 : n_;  // a triangle's corners are all alike
+    const std::size_t n_corners = n_ == 3 ? 1 : n_;  // all corners of a triangle are equal
     const double weight = 1.0 / static_cast<double>(n_corners);
     const double concave_part = model == HessianModel::exact ? 1.0 : 0.0;
     Real mean{};
@@ -87,7 +89,7 @@ class CellDerivatives<2, Real, extent> {
     mean = weight * mean;
     for (std::size_t k = 0; k < n_corners; ++k)
       add_corner(map_of(x, weights, k), weights, k, 2.0 * weight * mean, concave_part);
-    // 2 m Hess(m) stands there now; h adds 2 grad(m) grad(m)', h Hess(log h) subtracts it.
+    // So far the blocks hold 2 m Hess(m). h adds 2 grad(m) grad(m)', h Hess(log h) subtracts it.
     const Real factor = (model == HessianModel::exact ? 0.5 : -0.5) / (mean * mean);
     for (std::size_t p = 0; p < n_; ++p)
       for (std::size_t q = p; q < (blocks == HessianBlocks::all ? n_ : p + 1); ++q)
@@ -113,7 +115,8 @@ class CellDerivatives<2, Real, extent> {
     const Real aa = scale * f.aa, ab = scale * f.ab, bb = scale * f.bb;
     const Real gradient_a = scale * f.gradient_a, gradient_b = scale * f.gradient_b;
     const Real aa_one = concave_part * scale * f.aa_one, bb_one = scale * f.bb_one;
-    // A node's position moves a by its weight and b by the conjugate: rows of the chain rule.
+    // The position of a node changes a by its weight and b by the conjugate: rows of the chain
+    // rule.
     std::array<Vector2<Real>, 3> u, v, hu, hv;
     for (std::size_t i = 0; i < 3; ++i) {
       u[i] = conjugate_product(weights.weights[i], map.a);

@@ -7,9 +7,9 @@
 
 namespace smoothfem {
 
-/// Parts of a mesh, in groups of parts that several threads may take at a time: no part of a group
-/// writes to where another one of it reads or writes. Depends on the mesh alone, so that what the
-/// parts add to a node comes in one order for every number of threads.
+/// Parts of a mesh, in groups that several threads may process at a time: no part of a group writes
+/// where another part of it reads or writes. The groups depend on the mesh alone. So the order in
+/// which parts add to a node is the same for every number of threads.
 using DisjointGroups = std::vector<std::vector<std::size_t>>;
 
 /// The indices first .. last-1.
@@ -19,8 +19,8 @@ struct IndexRange {
   bool overlaps(const IndexRange& other) const { return first < other.last && other.first < last; }
 };
 
-/// Groups parts 0 .. n-1, each into the first group where it fits. written(p) and read(p), the
-/// latter comprising the former: the ranges of nodes that part p writes to and reads.
+/// Assigns parts 0 .. n-1 to groups, each to the first group where it fits. written(p) and read(p):
+/// the ranges of nodes that part p writes and reads; the latter includes the former.
 template <class Written, class Read>
 DisjointGroups disjoint_groups(std::size_t n, const Written& written, const Read& read) {
   DisjointGroups groups;

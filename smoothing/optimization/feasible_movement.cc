@@ -13,11 +13,12 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The smallest t in (0, 1] where constant + linear t + quadratic t^2 + cubic t^3 is zero, constant
-/// > 0, or a lower bound of it; something larger if there is none. Each step goes to the root of
-/// the quadratic that has the polynomial's value and slope at t and the least curvature it has
-/// between t and 1: no more than the polynomial itself. The first one ends at the root if that is
-/// quadratic, the others converge to it quadratically from below.
+/// Returns the smallest t in (0, 1] where constant + linear t + quadratic t^2 + cubic t^3 is zero
+/// (constant > 0), or a lower bound of it. Returns a larger number if there is none. Each step
+/// takes the quadratic with the polynomial's value and slope at t and the polynomial's lowest
+/// curvature between t and 1. It is nowhere above the polynomial, and its root is the next t. If
+/// the polynomial is quadratic, the first step finds the root. Otherwise steps converge to it
+/// quadratically from below.
 template <int n_steps, class Real>
 inline Real smallest_root(Real constant, Real linear, Real quadratic, Real cubic) {
   const Real infinite = Real{} + unlimited;
@@ -29,19 +30,20 @@ inline Real smallest_root(Real constant, Real linear, Real quadratic, Real cubic
     const Real half_curvature = here < there ? here : there;
     const Real discriminant = slope * slope - 4.0 * half_curvature * value;
     const Real root = square_root(discriminant > 0.0 ? discriminant : Real{});
-    // Without cancellation where the polynomial falls.
+    // This form avoids cancellation where the polynomial falls.
     const Real denominator = root - slope;
     const Real length = 2.0 * value / denominator;
     const Real falls = denominator > 0.0 ? length : infinite;
     const Real ahead = discriminant >= 0.0 ? falls : infinite;
-    // Rounding may have taken t to the root already.
+    // Rounding may have moved t to the root already.
     t += value > 0.0 ? ahead : Real{};
   }
   return t;
 }
 
-/// The smallest t > 0 where a corner's determinant is down to 1 - fraction of that at 0; more than
-/// 1 if there is none up to 1. Edges from the corner, and what is added to them at t = 1.
+/// Returns the smallest t > 0 where a corner's determinant has fallen to 1 - fraction of its value
+/// at 0; more than 1 if there is none up to 1. Takes the edges from the corner and their changes up
+/// to t = 1.
 template <class Real>
 inline Real corner_limit(const std::array<Vector2<Real>, 2>& edges,
                          const std::array<Vector2<Real>, 2>& changes, double fraction) {
@@ -65,7 +67,7 @@ inline Real smaller(Real a, Real b) {
   return b < a ? b : a;
 }
 
-/// The smallest limit of a cell's corners; x, y: its nodes at the start and at the end.
+/// Returns the smallest limit of a cell's corners; x, y: its nodes at the start and at the end.
 template <class Real, std::size_t extent>
 inline Real cell_limit(std::span<const Vector2<Real>, extent> x,
                        std::span<const Vector2<Real>, extent> y, double fraction) {

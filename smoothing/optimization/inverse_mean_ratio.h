@@ -8,24 +8,25 @@
 
 namespace smoothfem {
 
-/// The linear map that takes the regular corner to a given one, as z -> a z + b conj(z) of the
-/// complex plane: a turns and scales, b distorts. Singular values |a| + |b| and |a| - |b|.
+/// The linear map from the regular corner to a given one, as z -> a z + b conj(z) in the complex
+/// plane: a turns and scales, b distorts. Singular values: |a| + |b| and |a| - |b|.
 template <class Real>
 struct CornerMap {
   Vector2<Real> a, b;
 
-  /// Of S = D W^-1; same sign as that of det D.
+  /// Determinant of S = D W^-1; it has the sign of det D.
   Real determinant() const { return squared_length(a) - squared_length(b); }
 };
 
-/// How a corner's map depends on its nodes (corner, next, previous): a = sum_k weights[k] x_k and b
-/// = sum_k conj(weights[k]) x_k as complex numbers. products[i][j] = conj(weights[i]) weights[j].
+/// Dependence of a corner's map on its nodes (corner, next, previous), as complex numbers: a =
+/// sum_k weights[k] x_k and b = sum_k conj(weights[k]) x_k. products[i][j] = conj(weights[i])
+/// weights[j].
 struct CornerWeights {
   std::array<Vector2<double>, 3> weights;
   std::array<std::array<Vector2<double>, 3>, 3> products;
 };
 
-/// a times b, and conj(a) times b, as complex numbers.
+/// Returns a times b, and conj(a) times b, as complex numbers.
 template <class A, class B>
 inline Vector2<B> complex_product(Vector2<A> a, Vector2<B> b) {
   return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
@@ -35,8 +36,8 @@ inline Vector2<B> conjugate_product(Vector2<A> a, Vector2<B> b) {
   return {a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x};
 }
 
-/// For a corner of a polygon with n >= 3 nodes: S = D W^-1 with D = (next - corner, previous -
-/// corner) and W of the regular n-gon.
+/// Returns the weights for a corner of a polygon with n >= 3 nodes. S = D W^-1 with D = (next -
+/// corner, previous - corner), and W of the regular n-gon.
 inline CornerWeights corner_weights(std::size_t n) {
   const RegularAngle angle = regular_interior_angle(n);
   const double slope = angle.cosine / angle.sine, scale = 1.0 / angle.sine;
@@ -58,9 +59,9 @@ inline CornerMap<Real> corner_map(const CornerWeights& corner, Vector2<Real> her
           conjugate_product(w[2], previous)};
 }
 
-/// Inverse mean ratio f = (A + B) / (A - B) with A = |a|^2 and B = |b|^2, and what its derivatives
-/// are made of: gradient (gradient_a a, gradient_b b); Hessian blocks aa_one I + aa a a', ab a b',
-/// bb_one I + bb b b'. Of these only aa_one is negative: without it the Hessian is positive
+/// Inverse mean ratio f = (A + B) / (A - B) with A = |a|^2 and B = |b|^2, and the parts of its
+/// derivatives. Gradient: (gradient_a a, gradient_b b). Hessian blocks: aa_one I + aa a a', ab a
+/// b', bb_one I + bb b b'. Only aa_one is negative; without it the Hessian is positive
 /// semidefinite. Requires a positive determinant.
 template <class Real>
 struct InverseMeanRatio {
@@ -103,8 +104,8 @@ inline Real mean_inverse_mean_ratio(std::span<const Vector2<Real>, extent> x) {
   return sum / static_cast<double>(n_corners);
 }
 
-/// The same of a volume cell: |S|^2 / (3 det(S)^(2/3)), S = D W^-1, of the corners that the mean
-/// ratio counts.
+/// Mean inverse mean ratio of a volume cell: |S|^2 / (3 det(S)^(2/3)), S = D W^-1, over the corners
+/// that the mean ratio counts.
 template <class Real, std::size_t n>
 inline Real mean_inverse_mean_ratio(std::span<const Vector3<Real>, n> x) {
   constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
@@ -119,8 +120,9 @@ inline Real mean_inverse_mean_ratio(std::span<const Vector3<Real>, n> x) {
   return sum * (1.0 / (3.0 * static_cast<double>(n_corners)));
 }
 
-/// |S|^2 = sum_ij corner_gram[i][j] x_i x_j with the four nodes of a corner, itself first: from the
-/// inverse Gram matrix of W, as moving all nodes changes nothing.
+/// Coefficients of |S|^2 = sum_ij corner_gram[i][j] x_i x_j with the four nodes of a corner, itself
+/// first. They follow from the inverse Gram matrix of W, since |S|^2 does not change when all nodes
+/// move alike.
 template <std::size_t n>
 inline constexpr auto corner_gram = [] {
   std::array<std::array<double, 4>, 4> gram{};
@@ -135,7 +137,7 @@ inline constexpr auto corner_gram = [] {
   return gram;
 }();
 
-/// Inverse mean ratio f of a volume corner, and what its derivatives are made of: the gradients of
+/// Inverse mean ratio f of a volume corner, and the parts of its derivatives: the gradients of
 /// |S|^2 / 2 and of log det(S) with respect to its four nodes. grad(f) = f (2 / |S|^2 times the
 /// first - 2/3 of the second). Requires a positive determinant.
 template <class Real>

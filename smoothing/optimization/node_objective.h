@@ -7,13 +7,13 @@
 #include "smoothing/optimization/node_terms.h"
 #include "smoothing/simd/cells.h"
 
-/// The shape objective of the cells of one node, as a function of its position, several cells of
+/// The shape objective of the cells of one node, as a function of its position; several cells of
 /// one kind at a time.
 
 namespace smoothfem {
 
-/// The nodes of a cell in an order that turns the cell so that the node at `position` comes first;
-/// the top of a pyramid stays where it is.
+/// Returns the nodes of a cell, reordered so that the node at `position` comes first. The cell is
+/// turned; the top of a pyramid keeps its place.
 template <int dim, std::size_t n>
 constexpr std::array<LocalIndex, n> turned(std::size_t position) {
   std::array<LocalIndex, n> order{};
@@ -49,9 +49,8 @@ inline std::size_t position_of(NodeIndex node, std::span<const NodeIndex> nodes)
   return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
 }
 
-/// Calls visit(nodes, slot, lanes) for the cells of a node, several of one kind at a time: the
-/// corners with the node itself at `slot` (a std::integral_constant), and how many of the
-/// lanes count.
+/// Calls visit(nodes, slot, lanes) for the cells of a node, several of one kind at a time. The node
+/// itself is at `slot` (a std::integral_constant); `lanes` counts the lanes in use.
 template <int dim, class Visit>
 inline void for_each_cell_of_node(const Topology& topology, std::span<const Point<dim>> x,
                                   NodeIndex node, const Point<dim>& position, const Visit& visit) {
@@ -73,7 +72,7 @@ inline void for_each_cell_of_node(const Topology& topology, std::span<const Poin
     }
     with_cell_size<dim>(nodes.size(), [&](auto size) {
       constexpr std::size_t n = decltype(size)::value;
-      if constexpr (dim == 2) {  // clang looks at what follows for every n
+      if constexpr (dim == 2) {  // clang compiles the following lines for every n
         if constexpr (n == 0) {
           count = 1;
           std::vector<Vector<dim, double>> corners;
@@ -116,7 +115,7 @@ struct LocalObjective {
   Eigen::Matrix<double, dim, dim> hessian = Eigen::Matrix<double, dim, dim>::Zero();
 };
 
-/// Of the cells of a node, with that at `position`.
+/// Objective of the cells of a node that is moved to `position`.
 template <bool with_derivatives, int dim>
 inline LocalObjective<dim> local_objective(const Topology& topology, std::span<const Point<dim>> x,
                                            NodeIndex node, const Point<dim>& position,
@@ -136,11 +135,11 @@ inline LocalObjective<dim> local_objective(const Topology& topology, std::span<c
   return sum;
 }
 
-/// Mean |det(S)| of the corners of a node's cells; where they are all flat, a little of what it
-/// would be in regular corners with their |S|^2.
+/// Mean |det(S)| of the corners of a node's cells. If all are flat: a small fraction of the value
+/// for regular corners with their |S|^2.
 template <int dim>
 inline double mean_size(const Topology& topology, std::span<const Point<dim>> x, NodeIndex node) {
-  constexpr double least_fraction = 1e-3;
+  constexpr double min_fraction = 1e-3;
   double size = 0.0, squared_length = 0.0, n = 0.0;
   for_each_cell_of_node<dim>(
       topology, x, node, x[node], [&](auto nodes, auto slot, std::size_t count) {
@@ -154,8 +153,7 @@ inline double mean_size(const Topology& topology, std::span<const Point<dim>> x,
         });
       });
   const double length = std::sqrt(squared_length / (dim * n));
-  return std::max(size / n,
-                  least_fraction * (dim == 2 ? length * length : length * length * length));
+  return std::max(size / n, min_fraction * (dim == 2 ? length * length : length * length * length));
 }
 
 }  // namespace smoothfem

@@ -5,8 +5,8 @@
 
 namespace smoothfem {
 
-/// A corner of a cell in any dimension: dim edges from it, |S|^2 as a form of them (the inverse
-/// Gram matrix of W) and the determinant of W.
+/// A corner of a cell in any dimension: the dim edges from it, |S|^2 as a quadratic form of them
+/// (the inverse Gram matrix of W) and the determinant of W.
 template <int dim, class Real>
 struct CornerFrame {
   std::array<Vector<dim, Real>, dim> edges;
@@ -21,9 +21,9 @@ struct CornerFrame {
   }
 };
 
-/// Calls visit(frame, position) for the corners that the mean ratio counts; position: that of node
-/// `slot` in the corner (0: itself, then its neighbours), -1 if it is none of them. Planar cells
-/// have it as their first node.
+/// Calls visit(frame, position) for the corners that the mean ratio counts. position: that of node
+/// `slot` in the corner (0: the corner itself, then its neighbours), or -1 if it is not in the
+/// corner. Planar cells have it as their first node.
 template <std::size_t slot, class Real, std::size_t extent, class Visit>
 inline void for_each_corner(std::span<const Vector2<Real>, extent> x, const Visit& visit) {
   static_assert(slot == 0);
@@ -75,12 +75,12 @@ inline Vector3<Real> cofactor(const std::array<Vector3<Real>, 3>& e, std::size_t
   return cross(e[(i + 1) % 3], e[(i + 2) % 3]);
 }
 
-/// h = m^2 of a cell as a function of the position of one of its nodes, m the mean over the corners
-/// of |S|^2 / (dim r^(2/dim)), where r is det(S) if `softness` is zero (h is infinite for an
-/// invalid cell), otherwise (det(S) + sqrt(det(S)^2 + 4 softness^2)) / 2, positive for inverted
-/// corners too (Escobar et al., Comput. Methods Appl. Mech. Engrg. 192 (2003)). With softness zero
-/// h is convex in the position of one node, since determinants are linear in it, and the Hessian is
-/// exact; otherwise it is raised to be positive semidefinite.
+/// h = m^2 of a cell as a function of the position of one of its nodes. m is the mean over the
+/// corners of |S|^2 / (dim r^(2/dim)). If `softness` is zero, r is det(S), and h is infinite for an
+/// invalid cell. Otherwise r = (det(S) + sqrt(det(S)^2 + 4 softness^2)) / 2, which is positive for
+/// inverted corners, too (Escobar et al., Comput. Methods Appl. Mech. Engrg. 192 (2003)). With
+/// softness zero h is convex in the position of one node, since determinants are linear in it, and
+/// the Hessian is exact. Otherwise the Hessian is raised to be positive semidefinite.
 template <int dim, class Real>
 struct NodeTerms {
   Real value{};
@@ -88,7 +88,7 @@ struct NodeTerms {
   Block<dim, Real> hessian{};
 };
 
-/// r^(-2/dim).
+/// Returns r^(-2/dim).
 template <int dim, class Real>
 inline Real shape_power(Real r) {
   if constexpr (dim == 2) {

@@ -12,10 +12,10 @@ namespace smoothfem {
 
 namespace {
 
-/// Where the block of a pair with a fixed node goes.
+/// Marks the block of a pair with a fixed node.
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
-/// Cells as the sums below take them: several of a fixed type, or one polygon.
+/// Cells in the form that the sums below take: several of a fixed type, or one polygon.
 template <std::size_t n>
 const NodeIndex* nodes_of(const CellBatch<n>& batch, std::size_t l) {
   return batch.nodes[l];
@@ -32,8 +32,8 @@ const NodeIndex* nodes_of(const SinglePolygon& polygon, std::size_t) {
   return polygon.nodes.data();
 }
 
-/// Adds the gradients of cells and the diagonal blocks of their Hessians where they belong. The
-/// order of the cells, and so of these sums, is always the same.
+/// Adds the gradients of cells and the diagonal blocks of their Hessians. The order of the cells,
+/// and so of these sums, is always the same.
 template <int dim>
 struct DiagonalSums {
   static constexpr HessianBlocks blocks = HessianBlocks::diagonal;
@@ -56,7 +56,7 @@ struct DiagonalSums {
   }
 };
 
-/// Adds the other blocks, scaled, likewise.
+/// Adds the other blocks, scaled, in the same order.
 template <int dim>
 struct OtherBlockSums {
   static constexpr HessianBlocks blocks = HessianBlocks::all;

@@ -7,7 +7,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Mean distance of a node from the others of its cells.
+/// Mean distance of a node from the other nodes of its cells.
 template <int dim>
 double mean_distance(const Topology& topology, NodeIndex node, std::span<const Point<dim>> x) {
   double sum = 0.0, n = 0.0;

@@ -13,7 +13,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Flags the nodes of these cells and of n_layers layers of cells round them.
+/// Flags the nodes of these cells and of n_layers layers of cells around them.
 std::vector<std::uint8_t> nodes_round(const Topology& topology, const std::vector<CellIndex>& cells,
                                       int n_layers) {
   std::vector<std::uint8_t> flags(topology.n_nodes(), 0);
@@ -101,7 +101,7 @@ class Untangling {
       descent_.soft_sweep(mesh_.coordinates(), softness, active);
       ++n_sweeps_;
       invalid = invalid_cells(cell_mean_ratios(mesh_));
-      // Softness above the determinants themselves says nothing of the shape.
+      // With a softness above the determinants themselves the objective does not measure shape.
       if (invalid.empty() && softness < 1.0) break;
     }
     if (invalid.empty())

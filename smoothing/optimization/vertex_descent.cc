@@ -9,7 +9,7 @@ namespace smoothfem {
 
 namespace {
 
-/// One Newton step of one node, halved until the objective of its cells falls enough.
+/// Makes one Newton step of one node, halved until the objective of its cells falls enough.
 template <int dim>
 [[gnu::flatten]] void descend_node(const Topology& topology, NodeIndex node, double softness,
                                    std::span<Point<dim>> x) {

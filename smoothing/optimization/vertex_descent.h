@@ -9,28 +9,28 @@
 
 namespace smoothfem {
 
-/// Minimizes the shape objective (shape_objective.h) node after node: each free node in turn takes
-/// a Newton step for the cells it belongs to, in which its position is the minimum of a convex
-/// function as long as they are valid, shortened until that falls; nodes that slide take it in the
-/// directions in which they may go, and from there to the nearest point of their part of the
-/// boundary. Several threads take parts of
-/// the mesh at a time that do not touch each other; the result is the same for every number of
-/// them.
+/// Minimizes the shape objective (shape_objective.h) node after node. Each free node in turn makes
+/// a Newton step for its cells, shortened until their objective falls. As long as these cells are
+/// valid, the objective is a convex function of the node's position. Sliding nodes step in the
+/// directions in which they may move, and then go to the nearest point of their part of the
+/// boundary. Several threads process parts of the mesh that do not touch each other. The result is
+/// the same for every number of threads.
 template <int dim>
 class VertexDescent {
  public:
-  /// sliding: of the free nodes; null if all move freely. Both must outlive this.
+  /// sliding: constraints of free nodes; null if all move freely. topology and sliding must outlive
+  /// this.
   explicit VertexDescent(const Topology& topology, const SlidingNodes<dim>* sliding = nullptr);
 
-  /// One sweep over the free nodes. x: of all nodes.
+  /// Makes one sweep over the free nodes. x: coordinates of all nodes.
   void sweep(std::span<Point<dim>> x) const { sweep(x, 0.0, nullptr); }
-  /// One sweep over the free nodes with a flag in `active` (one for each node).
+  /// Makes one sweep over the free nodes with a flag in `active` (one for each node).
   void sweep(std::span<Point<dim>> x, const std::vector<std::uint8_t>& active) const {
     sweep(x, 0.0, active.data());
   }
 
-  /// The same for the objective that invalid cells have too
-  /// (node_terms.h); softness: in terms of the mean |det(S)| of the node's corners.
+  /// Makes one sweep for the softened objective, which is finite for invalid cells, too
+  /// (node_terms.h). softness: relative to the mean |det(S)| of the node's corners.
   void soft_sweep(std::span<Point<dim>> x, double softness,
                   const std::vector<std::uint8_t>& active) const {
     sweep(x, softness, active.data());
@@ -41,7 +41,7 @@ class VertexDescent {
 
   const Topology& topology_;
   const SlidingNodes<dim>* sliding_;
-  std::vector<IndexRange> parts_;  ///< of topology.free_nodes()
+  std::vector<IndexRange> parts_;  ///< parts of topology.free_nodes()
   DisjointGroups groups_;
 };
 

@@ -6,15 +6,17 @@
 namespace smoothfem {
 
 /// Gradient and Hessian of one volume cell. With S = D W^-1 of a corner, its inverse mean ratio is
-/// f = |S|^2 / (3 det(S)^(2/3)): a convex function of S and det(S), so that all of f's Hessian is
-/// convex but the part with the second derivative of det(S). That part couples different nodes only
-/// (a determinant is linear in the coordinates of each node) and says little of the shape: added up
-/// over equally large elements it vanishes. The convex model leaves it out, but for a bound: f / 6
-/// times |dS S^-1|^2, the strain of the element as it is, which keeps steps to lengths where
-/// determinants behave as their first derivatives say. Without it Newton steps are all but lost
-/// where elements have almost collapsed. It also leaves out 5/9 of grad(m) grad(m)', m the mean of
-/// the f's, to be bolder there: what all of this can spare and stay positive semidefinite (as 5/18
-/// of grad(f) grad(f)' / f at each corner can).
+/// f = |S|^2 / (3 det(S)^(2/3)), a convex function of S and det(S). So f's Hessian is convex but
+/// for the part with the second derivative of det(S). That part couples different nodes only (a
+/// determinant is linear in the coordinates of each node) and depends little on shape: its sum over
+/// equally large elements vanishes.
+///
+/// The convex model leaves that part out, but for a bound: f / 6 times |dS S^-1|^2, the strain of
+/// the current element. The bound limits steps to lengths where first derivatives describe the
+/// determinants. Without it Newton steps almost vanish near collapsed elements. The model also
+/// leaves out 5/9 of grad(m) grad(m)', with m the mean of the f's, for longer steps there. This is
+/// the largest part that keeps the sum positive semidefinite (as 5/18 of grad(f) grad(f)' / f does
+/// at each corner).
 template <class Real, std::size_t n>
 class CellDerivatives<3, Real, n> {
  public:
@@ -28,7 +30,7 @@ class CellDerivatives<3, Real, n> {
     const Real mean = mean_inverse_mean_ratio(x);
     const Real scale = (2.0 / static_cast<double>(n_corners)) * mean;
     unrolled<n_corners>([&](auto k) { add_corner<k>(x, scale, model, blocks); });
-    // 2 m Hess(m) stands there now; grad(h) = 2 m grad(m), and h adds 2 grad(m) grad(m)'.
+    // So far the blocks hold 2 m Hess(m). grad(h) = 2 m grad(m), and h adds 2 grad(m) grad(m)'.
     const Real factor = (model == HessianModel::exact ? 0.5 : -5.0 / 36.0) / (mean * mean);
     for (std::size_t p = 0; p < n; ++p)
       for (std::size_t q = p; q < (blocks == HessianBlocks::all ? n : p + 1); ++q)

@@ -27,10 +27,10 @@ void require_range(double lambda, double theta, std::size_t n) {
                      "; choose an angle between 0 and pi/2");
   if (n < 3)
     throw InputError("a polygon of " + std::to_string(n) +
-                     " nodes cannot be transformed; it takes three at least");
+                     " nodes cannot be transformed; it needs at least three");
 }
 
-/// n phi / (2 pi), in (0, n/2): eigenvalue k is the larger the nearer k is to it.
+/// Returns n phi / (2 pi), in (0, n/2). The nearer k is to it, the larger is eigenvalue k.
 double dominant_index(double lambda, double theta, std::size_t n) {
   const double sine = std::sin(theta);
   return static_cast<double>(n) * std::atan2(sine * std::cos(theta), lambda - sine * sine) /

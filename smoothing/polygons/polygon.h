@@ -9,29 +9,30 @@ namespace smoothfem {
 
 using Complex = std::complex<double>;
 
-/// A planar polygon: n >= 3 nodes as complex numbers, sides between neighbours and between the last
-/// node and the first. It may intersect itself, and nodes may coincide.
+/// A planar polygon: n >= 3 nodes as complex numbers. Sides join neighbours, and the last node with
+/// the first. It may intersect itself, and nodes may coincide.
 using Polygon = std::vector<Complex>;
 
-/// The mean of the nodes.
+/// Returns the mean of the nodes.
 Complex centroid(const Polygon& polygon);
 
-/// Positive for counterclockwise triangles and convex polygons.
+/// Returns the signed area: positive for counterclockwise triangles and convex polygons.
 double signed_area(const Polygon& polygon);
 
-/// Root mean square distance of the nodes from their centroid.
+/// Returns the root mean square distance of the nodes from their centroid.
 double radius(const Polygon& polygon);
 
-/// Largest distance between nodes of the same number; both polygons have the same number of nodes.
+/// Returns the largest distance between nodes of the same number. Both polygons have the same
+/// number of nodes.
 double distance(const Polygon& a, const Polygon& b);
 
-/// The polygon enlarged by a factor about a point.
+/// Returns the polygon, enlarged by a factor about a point.
 Polygon scaled_about(Complex centre, Polygon polygon, double factor);
 
-/// The same about its own centroid.
+/// Returns the polygon, enlarged by a factor about its centroid.
 Polygon scaled_about_centroid(Polygon polygon, double factor);
 
-/// One step of the combined transformation of Section 2.3 (PolygonTransformation). lambda in
+/// Makes one step of the combined transformation of Section 2.3 (PolygonTransformation). lambda in
 /// (0, 1), theta in (0, pi/2).
 Polygon transformed(const Polygon& polygon, double lambda, double theta);
 

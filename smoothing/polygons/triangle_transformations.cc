@@ -18,12 +18,12 @@ Polygon apices_over_opposite_sides(const Polygon& triangle, const std::array<dou
   return result;
 }
 
-/// At a, between the ways to b and c.
+/// Returns the angle at a between the directions to b and c.
 double angle_at(Complex a, Complex b, Complex c) {
   return std::abs(std::arg((c - a) * std::conj(b - a)));
 }
 
-/// Both factors, of s = 3 tan(theta)^2 and of s = tan(theta)^2.
+/// Returns either convergence factor, for s = 3 tan(theta)^2 or s = tan(theta)^2.
 double convergence_factor(double s) {
   return (1.0 - s) * (1.0 - s) / (1.0 + s * s);
 }

@@ -20,23 +20,24 @@ struct TriangleAngles {
 };
 TriangleAngles angles_of(const Polygon& triangle);
 
-/// 2.1.2: every node becomes the apex over the opposite side. Triangles become equilateral.
+/// Moves every node to the apex over the opposite side (Section 2.1.2). Triangles become
+/// equilateral.
 Polygon equilateral_step(const Polygon& triangle, double theta);
 
-/// 2.1.3: B and C become the apices over the opposite sides, A the midpoint of its one. Triangles
-/// become right and isosceles, the right angle at A.
+/// Moves B and C to the apices over their opposite sides, and A to the midpoint of its own (Section
+/// 2.1.3). Triangles become right-angled and isosceles, with the right angle at A.
 Polygon right_isosceles_step(const Polygon& triangle, double theta);
 
-/// Proposition 2.1: in two steps 1 - y/x shrinks at least by (1 - 3 t^2)^2 / (1 + 9 t^4) where
-/// x >= y, t = tan(theta). Below 1; 0 exactly for theta = pi/6.
+/// Returns the factor by which 1 - y/x shrinks at least in two steps where x >= y (Proposition
+/// 2.1): (1 - 3 t^2)^2 / (1 + 9 t^4), t = tan(theta). Below 1; exactly 0 for theta = pi/6.
 double equilateral_convergence_factor(double theta);
 
-/// Propositions 2.3 and 2.4: the same for 1 - z/y where y >= z, and for |1 - (y^2 + z^2) / x^2|:
-/// (1 - t^2)^2 / (1 + t^4). 0 exactly for theta = pi/4.
+/// Returns the factor (1 - t^2)^2 / (1 + t^4) for 1 - z/y where y >= z, and for |1 - (y^2 + z^2) /
+/// x^2| (Propositions 2.3 and 2.4). Exactly 0 for theta = pi/4.
 double right_isosceles_convergence_factor(double theta);
 
-/// By what sides grow in one step, in the long run: (1 + sqrt(3) t) / 2, 1 for theta = pi/6
-/// (Theorem 2.2), and (1 + t) / 2, 1 for theta = pi/4 (Theorem 2.8).
+/// Return the asymptotic growth of sides in one step. Equilateral: (1 + sqrt(3) t) / 2, 1 for theta
+/// = pi/6 (Theorem 2.2). Right and isosceles: (1 + t) / 2, 1 for theta = pi/4 (Theorem 2.8).
 double equilateral_growth(double theta);
 double right_isosceles_growth(double theta);
 

@@ -8,10 +8,10 @@
 
 namespace smoothfem {
 
-/// One flag a node: fixed are those that the topology says, and those that no cell near a bad one
-/// has. Bad is a mean ratio below q; near are the bad cells themselves and as many rings of cells
-/// around them (cells that share a node) as asked for. Throws InputError if no free node is left,
-/// saying which it is: no bad cells, or none that a free node could mend.
+/// Returns one flag for each node. Fixed are the fixed nodes of the topology, and all nodes that do
+/// not belong to cells near a bad one. A bad cell has a mean ratio below q. Near it are the cell
+/// itself and `rings` rings of cells around it (cells that share a node). Throws InputError if no
+/// free node is left; the message says whether there are no bad cells or no free nodes near them.
 template <int dim, int spacedim>
 std::vector<bool> fixed_away_from_bad_cells(const Mesh<dim, spacedim>& mesh, double q, int rings) {
   const auto text = [](double number) {
@@ -26,7 +26,7 @@ std::vector<bool> fixed_away_from_bad_cells(const Mesh<dim, spacedim>& mesh, dou
     if (ratios[c] < q) cells.push_back(c);
   if (cells.empty())
     throw InputError("no cell has a mean ratio below " + text(q) +
-                     ", so nothing is to be smoothed; raise --only-below");
+                     ", so there is nothing to smooth; raise --only-below");
   std::vector<bool> fixed(mesh.n_nodes(), true);
   bool any_free = false;
   for (int ring = 0; ring <= rings; ++ring) {
@@ -43,7 +43,7 @@ std::vector<bool> fixed_away_from_bad_cells(const Mesh<dim, spacedim>& mesh, dou
   }
   if (!any_free)
     throw InputError("no node near the cells with a mean ratio below " + text(q) +
-                     " is free; free some by --fix, or take more --rings");
+                     " is free; free nodes by --fix, or use more --rings");
   return fixed;
 }
 

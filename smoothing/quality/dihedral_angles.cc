@@ -21,7 +21,7 @@ namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-/// Of no angles; add() makes it grow.
+/// Range of no angles; add() extends it.
 constexpr AngleRange no_angles{std::numeric_limits<double>::infinity(),
                                -std::numeric_limits<double>::infinity()};
 
@@ -33,7 +33,7 @@ void add(AngleRange& range, double angle) {
   add(range, AngleRange{angle, angle});
 }
 
-/// add_angles(nodes, range) for every cell.
+/// Calls add_angles(nodes, range) for every cell.
 template <class AddAngles>
 std::vector<AngleRange> ranges_of_cells(const Topology& topology, const AddAngles& add_angles) {
   std::vector<AngleRange> ranges(topology.n_cells(), no_angles);
@@ -45,8 +45,8 @@ std::vector<AngleRange> ranges_of_cells(const Topology& topology, const AddAngle
   return ranges;
 }
 
-/// Angles from each side of a polygon, around its corner, to the side before: turn(next, previous)
-/// is the sine and next . previous the cosine, both times their lengths.
+/// Adds the angles from each side of a polygon, around its corner, to the side before it.
+/// turn(next, previous) is the sine and next . previous the cosine, both times their lengths.
 template <int spacedim, class Turn>
 void add_corners(std::span<const Point<spacedim>> x, std::span<const NodeIndex> nodes,
                  const Turn& turn, AngleRange& range) {
@@ -59,7 +59,7 @@ void add_corners(std::span<const Point<spacedim>> x, std::span<const NodeIndex> 
   }
 }
 
-/// An edge of an element with its two faces; the first one runs from `from` to `to`.
+/// An edge of an element with its two faces; the first face runs from `from` to `to`.
 struct EdgeFaces {
   LocalIndex from, to;
   std::size_t first, second;
@@ -132,7 +132,7 @@ std::vector<AngleRange> cell_angle_ranges(const VolumeMesh& mesh) {
     std::array<Point<3>, 6> normals;
     for (std::size_t f = 0; f < faces.size(); ++f) normals[f] = area_vector(x, nodes, faces[f]);
     for (const auto& [from, to, first, second] : edge_faces(nodes.size())) {
-      // Between the outward normals; positive where the cell is convex.
+      // Angle between the outward normals; positive where the cell is convex.
       const Point<3> edge = (x[nodes[to]] - x[nodes[from]]).stableNormalized();
       const Point<3>&a = normals[first], &b = normals[second];
       add(range, 180.0 - degrees * std::atan2(a.cross(b).dot(edge), a.dot(b)));
@@ -164,7 +164,8 @@ MeshWarpage mesh_warpage(const VolumeMesh& mesh) {
     sum += warpage;
     ++n;
   };
-  // Every inner face comes twice, from its two cells; so boundary faces are added once more.
+  // Every inner face appears twice, once for each of its cells; so boundary faces are added once
+  // more.
   const Topology& topology = mesh.topology();
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
     const auto nodes = topology.cell_nodes(c);

@@ -11,8 +11,8 @@ namespace {
 /// The corner at i, j, k, each 0 or 1, in reference coordinates.
 constexpr int corner_at[2][2][2] = {{{0, 4}, {3, 7}}, {{1, 5}, {2, 6}}};
 
-/// The derivative by one reference coordinate at 0, 1/2, 1 of the two others, on which alone it
-/// depends, bilinearly: from the four edges in its direction.
+/// The derivative by one reference coordinate. It depends bilinearly on the two others only and is
+/// given at their values 0, 1/2, 1; it follows from the four edges in its direction.
 using Slopes = std::array<std::array<Point<3>, 3>, 3>;
 
 template <class Edge>

@@ -8,9 +8,9 @@
 
 namespace smoothfem {
 
-/// Mean ratios of some cells, in their order: visit(position, quality) for each, false to stop.
-/// Takes cells of one type several at a time where they follow each other. coordinates_of(node): by
-/// reference. Returns whether all were visited.
+/// Computes the mean ratios of some cells in their order. Calls visit(position, quality) for each;
+/// it returns false to stop. Takes consecutive cells of one type several at a time.
+/// coordinates_of(node): by reference. Returns true if all cells were visited.
 template <int dim, int spacedim, class CoordinatesOf, class Visit>
 bool for_each_mean_ratio_at(const Mesh<dim, spacedim>& mesh, std::span<const CellIndex> cells,
                             const CoordinatesOf& coordinates_of, const Visit& visit) {
@@ -34,7 +34,7 @@ bool for_each_mean_ratio_at(const Mesh<dim, spacedim>& mesh, std::span<const Cel
       });
 }
 
-/// The same with the nodes where they are.
+/// Does the same with the nodes at the mesh's coordinates.
 template <int dim, int spacedim, class Visit>
 bool for_each_mean_ratio(const Mesh<dim, spacedim>& mesh, std::span<const CellIndex> cells,
                          const Visit& visit) {

@@ -12,14 +12,14 @@
 
 namespace smoothfem {
 
-/// sin and cos of the interior angle of the regular n-gon: all that the mean ratio of a planar
-/// corner needs to know of the ideal shape.
+/// Sine and cosine of the interior angle of the regular n-gon: they determine the ideal shape of a
+/// planar corner.
 struct RegularAngle {
   double sine;
   double cosine;
 };
 
-/// n >= 3. Exact for n = 4, where the interior angle is right.
+/// Returns the interior angle of the regular n-gon, n >= 3. Exact for n = 4, a right angle.
 inline RegularAngle regular_interior_angle(std::size_t n) {
   if (n == 4) return {1.0, 0.0};
   if (n == 3) return {0.5 * std::numbers::sqrt3, 0.5};
@@ -27,10 +27,10 @@ inline RegularAngle regular_interior_angle(std::size_t n) {
   return {std::sin(angle), std::cos(angle)};
 }
 
-/// Mean ratio 2 det(S) / |S|^2 of one corner, S = D W^-1, written out: D has the columns `next` and
-/// `previous` (edges from the corner to its neighbours), W the same of the regular polygon. In
-/// [-1, 1]; positive exactly where det(D) is. Not a number for two edges of length zero.
-/// determinant: det(D), the edges' signed area.
+/// Mean ratio 2 det(S) / |S|^2 of one corner, S = D W^-1, written out. D has the columns `next` and
+/// `previous` (edges from the corner to its neighbours), W those of the regular polygon. In [-1,
+/// 1]; positive if and only if det(D) is. Not a number for two edges of length zero. determinant:
+/// det(D), the signed area of the edges.
 template <class Edge, class Real>
 inline Real corner_mean_ratio(Edge next, Edge previous, Real determinant, RegularAngle regular) {
   return 2.0 * regular.sine * determinant /
@@ -38,13 +38,14 @@ inline Real corner_mean_ratio(Edge next, Edge previous, Real determinant, Regula
           2.0 * regular.cosine * dot(next, previous));
 }
 
-/// A quality that is none, as sizes near the limits of numbers give, is that of an invalid cell.
+/// Returns 0, the quality of an invalid cell, for a quality that is not a number. Sizes near the
+/// limits of floating point give such values.
 template <class Real>
 inline Real zero_unless_finite(Real quality) {
   return ((quality > 0.0) & (quality < 2.0)) ? quality : Real{};
 }
 
-/// Mean of the corner mean ratios of a polygon, 0 if one of them is not positive. determinant(next,
+/// Mean of the corner mean ratios of a polygon; 0 if one of them is not positive. determinant(next,
 /// previous): the signed area of two edges.
 template <class Corner, std::size_t extent, class Determinant>
 inline auto polygon_mean_ratio(std::span<const Corner, extent> corners,
@@ -69,19 +70,18 @@ inline auto polygon_mean_ratio(std::span<const Corner, extent> corners,
   return all_positive > 0.0 ? zero_unless_finite(sum / static_cast<double>(n)) : Real{};
 }
 
-/// Mean ratio quality number of a planar polygon with counterclockwise corners (thesis,
-/// Section 3.1; for five and more corners the mean over the corner triangles against those of the
-/// regular n-gon, as in Vartziotis and Wipper, The GETMe Mesh Smoothing Framework, 2018). In (0,
-/// 1], 1 exactly for regular polygons, invariant under similarity. 0 for an invalid cell: one where
-/// a corner has det(D) <= 0 (or is not a number). Cells with three or more corners.
+/// Mean ratio quality number of a planar polygon with three or more counterclockwise corners
+/// (thesis, Section 3.1). For five and more corners it is the mean over the corner triangles,
+/// relative to those of the regular n-gon. In (0, 1], 1 exactly for regular polygons, invariant
+/// under similarity. 0 for an invalid cell, which has a corner with det(D) <= 0 (or not a number).
 template <class Real, std::size_t extent>
 inline Real mean_ratio(std::span<const Vector2<Real>, extent> corners) {
   return polygon_mean_ratio(
       corners, [](Vector2<Real> next, Vector2<Real> previous) { return cross(next, previous); });
 }
 
-/// The side of the surface that a cell of a surface mesh shows: the normal of its initial cell.
-/// Planar and volume cells are oriented by space itself.
+/// Orientation of planar and volume cells, given by space itself. For cells of a surface mesh, the
+/// normal of the initial cell shows the upper side.
 struct OrientedBySpace {};
 template <int dim, int spacedim>
 inline auto upper_side(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
@@ -91,11 +91,10 @@ inline auto upper_side(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
     return vector_of(mesh.constraints()->facet_normals()[cell]);
 }
 
-/// The same of a polygon in space: lengths and areas of its corners' triangles as they are, so that
-/// the mean ratio is 1 exactly for regular and flat polygons. A corner is invalid where it does not
-/// show the upper side of the surface (`upper`, a vector along the normal that the surface has
-/// there), even if the polygon's mean normal does: that of a thin polygon on a curved surface says
-/// nothing.
+/// Mean ratio of a polygon in space, from the lengths and areas of its corners' triangles in space:
+/// 1 exactly for regular, flat polygons. A corner is invalid if it does not show the upper side of
+/// the surface, even if the polygon's mean normal does. `upper` is a vector along the surface's
+/// normal there. The mean normal of a thin polygon on a curved surface is unreliable.
 template <std::size_t extent>
 inline double mean_ratio(Vector3<double> upper, std::span<const Vector3<double>, extent> corners) {
   return polygon_mean_ratio(corners, [&](Vector3<double> next, Vector3<double> previous) {
@@ -104,14 +103,14 @@ inline double mean_ratio(Vector3<double> upper, std::span<const Vector3<double>,
   });
 }
 
-/// det(S) and |S|^2 of one corner of a volume cell, S = D W^-1: D has the edges from the corner to
+/// det(S) and |S|^2 of one corner of a volume cell, S = D W^-1. D has the edges from the corner to
 /// its neighbours as columns, W those of the regular element (thesis, Definition 3.2).
 template <class Real>
 struct CornerShape {
   Real determinant, squared_norm;
 };
 
-/// The shape of corner k of the volume cell with these edges.
+/// Returns the shape of corner k of the volume cell with these edges.
 template <std::size_t k, class Real, std::size_t n>
 inline CornerShape<Real> corner_shape(const CellEdges<Real, n>& edges) {
   using Element = VolumeElement<n>;
@@ -141,10 +140,11 @@ inline CornerShape<Real> corner_shape(const CellEdges<Real, n>& edges) {
   return shape;
 }
 
-/// Mean ratio quality number of a volume cell (thesis, Definition 3.2): the mean of 3 det(S)^(2/3)
-/// / |S|^2 over its corners, of which a tetrahedron counts as one and a pyramid has the four of its
-/// base. In (0, 1], 1 exactly (to rounding) for regular cells, invariant under similarity. 0 for an
-/// invalid cell: one where a corner has det(D) <= 0 (or is not a number). n = 4, 5, 6 or 8 nodes.
+/// Mean ratio quality number of a volume cell with n = 4, 5, 6 or 8 nodes (thesis, Definition 3.2).
+/// It is the mean of 3 det(S)^(2/3) / |S|^2 over its corners; a tetrahedron counts one corner, and
+/// a pyramid the four of its base. In (0, 1], 1 exactly (up to rounding) for regular cells,
+/// invariant under similarity. 0 for an invalid cell, which has a corner with det(D) <= 0 (or not a
+/// number).
 template <class Real, std::size_t n>
 inline Real mean_ratio(const CellEdges<Real, n>& edges) {
   constexpr std::size_t n_corners = VolumeElement<n>::corners.size();
@@ -162,13 +162,13 @@ inline Real mean_ratio(std::span<const Vector3<Real>, n> nodes) {
   return mean_ratio(CellEdges<Real, n>(nodes));
 }
 
-/// That of a planar or volume cell, for lines that serve every kind of mesh.
+/// Mean ratio of a planar or volume cell, for code that handles both.
 template <class Corners>
 inline auto mean_ratio(OrientedBySpace, Corners corners) {
   return mean_ratio(corners);
 }
 
-/// The same for a cell of a mesh.
+/// Mean ratio of a cell of a mesh.
 double cell_mean_ratio(const PlanarMesh& mesh, CellIndex cell);
 double cell_mean_ratio(const VolumeMesh& mesh, CellIndex cell);
 double cell_mean_ratio(const SurfaceMesh& mesh, CellIndex cell);

@@ -134,7 +134,7 @@ std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
 
 namespace {
 
-/// What users call a cell that is turned inside out, and what makes up for it.
+/// Words for inverted cells and their repair in error messages.
 template <int dim, int spacedim = dim>
 struct Words;
 template <>
@@ -162,7 +162,7 @@ struct Words<2, 3> {
   static constexpr const char* invalid = Words<2>::invalid;
 };
 
-/// A whole mesh seen from behind is one mistake, not n_cells of them.
+/// A mesh that is seen from behind is one mistake, not n_cells mistakes.
 template <class W>
 std::string advice(std::size_t n_inverted, std::size_t n_cells) {
   if (n_inverted == n_cells) return std::string(W::all) + "; " + W::fix;

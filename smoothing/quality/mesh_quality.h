@@ -11,7 +11,7 @@
 
 namespace smoothfem {
 
-/// Quality numbers of a whole mesh (thesis, Section 4.1), from the quality of its cells.
+/// Quality numbers of a mesh (thesis, Section 4.1), from the quality of its cells.
 struct MeshQuality {
   double q_min = 0.0;         ///< lowest quality of all cells
   double q_star_min = 0.0;    ///< lowest quality of the cells with at least one free node
@@ -19,22 +19,22 @@ struct MeshQuality {
   std::size_t n_invalid = 0;  ///< cells with quality <= 0
 };
 
-/// Mean ratio of every cell, in the order of the cells; 0 for invalid ones. Planar, volume and
-/// surface meshes.
+/// Returns the mean ratio of every cell, in the order of the cells; 0 for invalid ones. Planar,
+/// volume and surface meshes.
 template <int dim, int spacedim>
 std::vector<double> cell_mean_ratios(const Mesh<dim, spacedim>& mesh);
-/// The same into a vector of n_cells numbers; returns the quality of the mesh.
+/// Writes the mean ratios to a vector of n_cells numbers; returns the quality of the mesh.
 template <int dim, int spacedim>
 MeshQuality compute_cell_mean_ratios(const Mesh<dim, spacedim>& mesh,
                                      std::vector<double>& cell_quality);
 
-/// cell_quality: one number per cell of the topology. Where no cell has a free node, q_star_min =
-/// q_min.
+/// Returns the quality of a mesh. cell_quality: one number for each cell of the topology. If no
+/// cell has a free node, q_star_min = q_min.
 MeshQuality mesh_quality(const Topology& topology, const std::vector<double>& cell_quality);
 template <int dim, int spacedim>
 MeshQuality mesh_quality(const Mesh<dim, spacedim>& mesh);
 
-/// What one block of cells (topology.blocks()) adds to the quality of a mesh.
+/// Contribution of one block of cells (topology.blocks()) to the quality of a mesh.
 struct PartialQuality {
   double q_min = 0.0, q_star_min = 0.0, sum = 0.0;
   std::size_t n_invalid = 0;
@@ -43,30 +43,31 @@ struct PartialQuality {
   PartialQuality(const Topology& topology, const std::vector<double>& cell_quality,
                  const CellBlock& block);
 };
-/// From all blocks, added in their order.
+/// Returns the quality of a mesh from all blocks, added in their order.
 MeshQuality mesh_quality(const std::vector<PartialQuality>& blocks, std::size_t n_cells);
 
-/// The cells with quality <= 0, ascending.
+/// Returns the cells with quality <= 0, ascending.
 std::vector<CellIndex> invalid_cells(std::span<const double> cell_quality);
 
-/// How many cells have a quality below a threshold, and how many of those with a free node.
+/// Number of cells with a quality below a threshold, and of those with a free node.
 struct CellsBelow {
   double threshold = 0.0;
   std::size_t n = 0, n_star = 0;
 };
-/// For each of some thresholds.
+/// Returns these numbers for each threshold.
 template <int dim, int spacedim>
 std::vector<CellsBelow> count_cells_below(const Mesh<dim, spacedim>& mesh,
                                           std::span<const double> thresholds);
 
-/// Number of cells in each of the n_bins equal parts of [0, 1]; quality 1 counts in the last.
+/// Returns the number of cells in each of the n_bins equal parts of [0, 1]. Quality 1 counts in the
+/// last part.
 std::vector<std::size_t> quality_histogram(std::span<const double> cell_quality,
                                            std::size_t n_bins);
 
-/// Throws InputError if the mesh has invalid cells; the sentence counts them and names the first
-/// ones with their coordinates, and says when all cells are turned inside out (clockwise in the
-/// plane). cell_lines, if not empty: the line of each cell in the file at `path`. Cells go by the
-/// file's numbers where the mesh has them.
+/// Throws InputError if the mesh has invalid cells. The message counts them and names the first
+/// ones with their coordinates. It also says if all cells are inverted (clockwise in the plane).
+/// cell_lines, if not empty: the line of each cell in the file at `path`. Cells have the file's
+/// numbers if the mesh has them.
 template <int dim, int spacedim>
 void require_valid(const Mesh<dim, spacedim>& mesh, const std::string& path = {},
                    std::span<const std::size_t> cell_lines = {});

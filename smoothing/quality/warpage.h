@@ -20,10 +20,10 @@ inline Real cosine_between(Vector3<Real> a, Vector3<Real> b) {
 }
 
 /// Warpage of the quadrilateral face with nodes p_0 .. p_3 (thesis, Section 4.7; Lo et al.,
-/// Generation of hexahedral meshes): w = 1 - min((n_0 . n_2)^3, (n_1 . n_3)^3) with the unit
-/// normals n_k of its corners, along (p_k - p_{k+3}) x (p_{k+1} - p_k). In [0, 2]: 0 for flat
-/// convex faces, 1 from a right angle between opposite normals on; 1 also where a normal has length
-/// zero. Does not depend on the first node nor, but for rounding, on the direction.
+/// Generation of hexahedral meshes): w = 1 - min((n_0 . n_2)^3, (n_1 . n_3)^3). n_k is the unit
+/// normal of corner k, along (p_k - p_{k+3}) x (p_{k+1} - p_k). In [0, 2]: 0 for flat convex faces,
+/// 1 or more if opposite normals make at least a right angle. 1 also if a normal has length zero.
+/// Independent of the first node and, up to rounding, of the direction.
 template <class Real>
 inline Real face_warpage(std::span<const Vector3<Real>, 4> p) {
   std::array<Vector3<Real>, 4> normals;
@@ -50,7 +50,8 @@ inline Real element_warpage(std::span<const Vector3<Real>, n> nodes) {
   return largest;
 }
 
-/// Warpage of the quadrilateral faces of a mesh, each counted once. All 0 where there are none.
+/// Warpage of the quadrilateral faces of a mesh, each counted once. All 0 if there are no such
+/// faces.
 struct MeshWarpage {
   double max = 0.0, mean = 0.0;
   std::size_t n_faces = 0;

@@ -11,12 +11,13 @@
 #include "smoothing/mesh/topology.h"
 #include "smoothing/simd/vectors.h"
 
-/// Cells of a mesh several at a time: what a loop over cells has to see of vector registers. The
-/// loops are compiled with everything they call inlined (flatten), or formulas would not profit.
+/// Groups cells of a mesh, so that loops process several cells at a time in vector registers.
+/// Compile these loops with all calls inlined (flatten); otherwise formulas do not profit.
 
 namespace smoothfem {
 
-/// The k-th corners of n_lanes cells, given by their nodes. coordinates_of(node): by reference.
+/// Returns the k-th corners of n_lanes cells, given by their nodes. coordinates_of(node): by
+/// reference.
 template <int dim, class CoordinatesOf>
 inline Vector<dim, Lanes> gather_corner(const CoordinatesOf& coordinates_of,
                                         const std::array<const NodeIndex*, n_lanes>& nodes,
@@ -30,8 +31,8 @@ inline Vector<dim, Lanes> gather_corner(const CoordinatesOf& coordinates_of,
             Lanes{a.z(), b.z(), c.z(), d.z()}};
 }
 
-/// Up to n_lanes cells of one type with n nodes each, side by side: one a lane. Where there are
-/// fewer, the last one stands in for the lanes behind `count`.
+/// Up to n_lanes cells of one type with n nodes each, one in each lane. If there are fewer, the
+/// last cell fills the lanes from `count` on.
 template <std::size_t n>
 struct CellBatch {
   std::size_t first;                            ///< position of the first one in its list
@@ -39,7 +40,7 @@ struct CellBatch {
   std::array<CellIndex, n_lanes> cells;         ///< their numbers
   std::array<const NodeIndex*, n_lanes> nodes;  ///< the n nodes of each
 
-  /// Their corners. coordinates_of(node): a node's, by reference.
+  /// Returns their corners. coordinates_of(node): a node's coordinates, by reference.
   template <int dim, class CoordinatesOf>
   std::array<Vector<dim, Lanes>, n> corners_at(const CoordinatesOf& coordinates_of) const {
     return [&]<std::size_t... k>(std::index_sequence<k...>) {
@@ -47,13 +48,13 @@ struct CellBatch {
     }
     (std::make_index_sequence<n>{});
   }
-  /// The same from the coordinates of all nodes.
+  /// Returns their corners from the coordinates of all nodes.
   template <int dim>
   std::array<Vector<dim, Lanes>, n> corners(const Point<dim>* x) const {
     return corners_at<dim>([x](NodeIndex node) -> const Point<dim>& { return x[node]; });
   }
 
-  /// Calls visit(l) for the lanes that count, in their order.
+  /// Calls visit(l) for the lanes in use, in their order.
   template <class Visit>
   void for_each_lane(const Visit& visit) const {
     if (count == n_lanes)
@@ -62,7 +63,7 @@ struct CellBatch {
       for (std::size_t l = 0; l < count; ++l) visit(l);
   }
 
-  /// Writes a number of each cell to its position in `numbers`.
+  /// Writes a number for each cell to its position in `numbers`.
   void store(Lanes values, double* numbers) const {
     if (count == n_lanes)
       store_lanes(values, numbers + first);
@@ -71,9 +72,9 @@ struct CellBatch {
   }
 };
 
-/// Begins to fetch the corners of some cells, all at once. Where they lie far apart in memory,
-/// formulas that go from cell to cell would wait for each. x: coordinates of all nodes. (GCC leaves
-/// out calls of a function that does nothing but this, unless it is inlined before it looks.)
+/// Prefetches the corners of some cells, all at once. If they lie far apart in memory, formulas
+/// that go from cell to cell would wait for each of them. x: coordinates of all nodes. (GCC removes
+/// calls of a function that only prefetches, unless it is inlined early.)
 template <int spacedim>
 [[gnu::always_inline]] inline void prefetch_corners(const Topology& topology,
                                                     std::span<const CellIndex> cells,
@@ -85,8 +86,8 @@ template <int spacedim>
     for (const NodeIndex node : topology.cell_nodes(c)) __builtin_prefetch(&x[node]);
 }
 
-/// Calls visit with std::integral_constant<std::size_t, n> for the number of nodes of a cell where
-/// it is one of a fixed type, so that loops over them unroll; with 0 for polygons.
+/// Calls visit with std::integral_constant<std::size_t, n> for the number n of nodes of a cell of a
+/// fixed type, so that loops over them unroll. Calls it with 0 for polygons.
 template <int dim, class Visit>
 inline void with_cell_size(std::size_t n_nodes, const Visit& visit) {
   if constexpr (dim == 2) {
@@ -108,16 +109,16 @@ inline void with_cell_size(std::size_t n_nodes, const Visit& visit) {
   }
 }
 
-/// The corners of one cell: visit(corners) with a span of fixed extent for cells of a fixed type,
-/// of dynamic extent for polygons. coordinates_of(node): by reference; in space for cells of
-/// surface meshes.
+/// Calls visit(corners) with the corners of one cell: a span of fixed extent for cells of a fixed
+/// type, of dynamic extent for polygons. Points are in space for cells of surface meshes.
+/// coordinates_of(node): by reference.
 template <int dim, class CoordinatesOf, class Visit>
 inline void with_corners_at(std::span<const NodeIndex> nodes, const CoordinatesOf& coordinates_of,
                             const Visit& visit) {
   using Corner = decltype(vector_of(coordinates_of(NodeIndex{})));
   with_cell_size<dim>(nodes.size(), [&](auto size) {
     constexpr std::size_t n = decltype(size)::value;
-    if constexpr (dim == 2) {  // clang looks at what follows for every n
+    if constexpr (dim == 2) {  // clang compiles the following lines for every n
       if constexpr (n == 0) {
         std::vector<Corner> corners;
         corners.reserve(nodes.size());
@@ -133,7 +134,7 @@ inline void with_corners_at(std::span<const NodeIndex> nodes, const CoordinatesO
   });
 }
 
-/// The same from the coordinates of all nodes.
+/// Calls visit(corners) with corners from the coordinates of all nodes.
 template <int dim, int spacedim, class Visit>
 inline void with_corners(std::span<const NodeIndex> nodes, const Point<spacedim>* x,
                          const Visit& visit) {
@@ -141,7 +142,7 @@ inline void with_corners(std::span<const NodeIndex> nodes, const Point<spacedim>
       nodes, [x](NodeIndex node) -> const Point<spacedim>& { return x[node]; }, visit);
 }
 
-/// The corners of a planar polygon of any number of nodes: visit(corners).
+/// Calls visit(corners) with the corners of a planar polygon of any number of nodes.
 template <class Visit>
 inline void with_polygon(std::span<const NodeIndex> nodes, const Point<2>* x, const Visit& visit) {
   std::vector<Vector2<double>> corners;
@@ -150,7 +151,7 @@ inline void with_polygon(std::span<const NodeIndex> nodes, const Point<2>* x, co
   visit(std::span<const Vector2<double>>(corners));
 }
 
-/// As many points as `corners` has, to be set: visit(result).
+/// Calls visit(result) with as many points as `corners` has, to be set.
 template <class Point, std::size_t extent, class Visit>
 inline void with_result(std::span<const Point, extent> corners, const Visit& visit) {
   if constexpr (extent == std::dynamic_extent) {
@@ -162,14 +163,14 @@ inline void with_result(std::span<const Point, extent> corners, const Visit& vis
   }
 }
 
-/// Whether cells of meshes of these dimensions come in batches: those of surface meshes, whose time
-/// goes into projections, come one by one.
+/// True if cells of meshes of these dimensions come in batches. Cells of surface meshes come one by
+/// one, as most of their time goes into projections.
 template <int dim, int spacedim>
 inline constexpr bool comes_in_batches = dim == spacedim;
 
-/// Visits the cells first .. last-1 in order: visit_batch(batch) for n_lanes cells of one fixed
-/// type that follow each other, or a single one; visit_cell(cell) for polygons and cells of surface
-/// meshes. Fast for meshes whose types come in long runs.
+/// Visits the cells first .. last-1 in order. Calls visit_batch(batch) for n_lanes consecutive
+/// cells of one fixed type, or for a single one. Calls visit_cell(cell) for polygons and cells of
+/// surface meshes. Fast for meshes whose types come in long runs.
 template <int dim, int spacedim = dim, class VisitBatch, class VisitCell>
 [[gnu::flatten]] void for_each_batch(const Topology& topology, CellIndex first, CellIndex last,
                                      const VisitBatch& visit_batch, const VisitCell& visit_cell) {
@@ -202,7 +203,7 @@ template <int dim, int spacedim = dim, class VisitBatch, class VisitCell>
   }
 }
 
-/// Cells of a list: their numbers, and their nodes.
+/// Cells of a list: their numbers and their nodes.
 class ListedCells {
  public:
   ListedCells(const Topology& topology, std::span<const CellIndex> cells)
@@ -219,9 +220,10 @@ class ListedCells {
   std::span<const CellIndex> cells_;
 };
 
-/// Visits some cells (ListedCells or what has its functions) in order: visit_batch(batch) for up to
-/// n_lanes cells of one fixed type that follow each other, visit_cell(position) for polygons and
-/// cells of surface meshes. Visitors return false to stop; returns whether all were visited.
+/// Visits some cells (ListedCells or a class with its functions) in order. Calls visit_batch(batch)
+/// for up to n_lanes consecutive cells of one fixed type. Calls visit_cell(position) for polygons
+/// and cells of surface meshes. Visitors return false to stop. Returns true if all cells were
+/// visited.
 template <int dim, int spacedim = dim, class Cells, class VisitBatch, class VisitCell>
 [[gnu::flatten]] bool for_each_batch(const Cells& cells, const VisitBatch& visit_batch,
                                      const VisitCell& visit_cell) {

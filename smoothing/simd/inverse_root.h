@@ -9,16 +9,17 @@
 namespace smoothfem {
 
 /// Inverse p-th root x^(-1/p), p = 2, 3 or 4, for positive normal numbers; relative error below
-/// 4e-16. Additions and multiplications only: the same bits on every machine. Zero and negative
-/// numbers give anything.
+/// 4e-16. Uses additions and multiplications only, so that results are bitwise identical on every
+/// machine. The result for zero and negative numbers is undefined.
 ///
-/// The logarithm of a number is nearly linear in the integer that its bits make: dividing that by
-/// -p gives a start with four percent of error, which each of the two steps takes to its fourth
-/// power: with e = 1 - x y^p, x^(-1/p) = y (1 - e)^(-1/p), the series of which ends here after e^3.
+/// The bits of a number, read as an integer, are nearly linear in its logarithm. Dividing that
+/// integer by -p gives a start with an error of four percent. Each of the two steps raises the
+/// error to its fourth power. With e = 1 - x y^p, x^(-1/p) = y (1 - e)^(-1/p); the series stops
+/// after e^3.
 template <int p, class Real>
 inline Real inverse_root(Real x) {
   static_assert(p >= 2 && p <= 4);
-  // The upper 52 of the 63 bits behind the sign, as a number: they are made the mantissa of 2^52.
+  // The upper 52 of the 63 bits after the sign, as a number: they become the mantissa of 2^52.
   constexpr double two_52 = 0x1p52;
   constexpr std::uint64_t bits_of_two_52 = std::bit_cast<std::uint64_t>(two_52);
   constexpr double one = static_cast<double>(std::bit_cast<std::uint64_t>(1.0) >> 12);

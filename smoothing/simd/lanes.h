@@ -9,24 +9,24 @@
 #include <utility>
 
 /// Geometry formulas are written once, as templates over the number type Real: double for one cell,
-/// Lanes for several cells of one type at a time. Both give the same bits for each cell, because
-/// they are the same operations in the same order, none of them contracted. Which registers hold
-/// the lanes is up to the compiler and its flags.
+/// Lanes for several cells of one type at a time. Results for each cell are bitwise identical: both
+/// have the same operations in the same order, none of them contracted. The compiler and its flags
+/// choose the registers of the lanes.
 
 namespace smoothfem {
 
 constexpr std::size_t n_lanes = 4;
-/// For local variables only: code for wider registers expects more alignment of it than
-/// std::vector<Lanes> has. Arrays are kept as double (load_lanes).
+/// For local variables only: code for wider registers expects a stronger alignment than that of
+/// std::vector<Lanes>. Store arrays as double (load_lanes).
 using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double))));
 using LaneBits = std::uint64_t __attribute__((vector_size(n_lanes * sizeof(std::uint64_t))));
-/// The outcome of comparing Lanes.
+/// Result of comparing Lanes.
 using LaneMask = std::int64_t __attribute__((vector_size(n_lanes * sizeof(std::int64_t))));
-/// As many numbers of single precision.
+/// Lanes of single precision, as many as in Lanes.
 using FloatLanes = float __attribute__((vector_size(n_lanes * sizeof(float))));
 
-/// Calls visit(std::integral_constant<std::size_t, i>{}) for i = 0 .. n-1: a loop that is unrolled
-/// in any case, in which i can choose from constant tables at compile time.
+/// Calls visit(std::integral_constant<std::size_t, i>{}) for i = 0 .. n-1. The loop is always
+/// unrolled, and i can select from constant tables at compile time.
 template <std::size_t n, class Visit>
 inline void unrolled(const Visit& visit) {
   [&]<std::size_t... i>(std::index_sequence<i...>) {
@@ -35,14 +35,14 @@ inline void unrolled(const Visit& visit) {
   (std::make_index_sequence<n>{});
 }
 
-/// n_lanes numbers of an array of double or float, and the same at any address. (With std::memcpy
-/// GCC goes by way of the stack.)
+/// Loads n_lanes numbers of an array of double or float, at any address. (With std::memcpy GCC goes
+/// through the stack.)
 template <class Number>
 struct ArrayLanes;
 template <>
 struct ArrayLanes<double> {
   using Values = Lanes;
-  using Unaligned  // clang forgets the alignment where the attributes stand behind the type
+  using Unaligned  // clang forgets the alignment if the attributes follow the type
       __attribute__((vector_size(sizeof(Lanes)), aligned(sizeof(double)), may_alias)) = double;
 };
 template <>
@@ -68,7 +68,7 @@ inline Lanes square_root(Lanes value) {
   return Lanes{std::sqrt(value[0]), std::sqrt(value[1]), std::sqrt(value[2]), std::sqrt(value[3])};
 }
 
-/// The number in one lane; a double is its own only lane.
+/// Returns the number in one lane; a double is its own only lane.
 inline double lane(Lanes lanes, std::size_t l) {
   return lanes[l];
 }
@@ -82,7 +82,7 @@ inline void set_lane(double& number, std::size_t, double value) {
   number = value;
 }
 
-/// Sum of the first `count` lanes, in their order.
+/// Returns the sum of the first `count` lanes, in their order.
 inline double sum_of_lanes(double value, std::size_t) {
   return value;
 }
@@ -92,7 +92,7 @@ inline double sum_of_lanes(Lanes value, std::size_t count) {
   return sum;
 }
 
-/// Four vectors of lanes, entry by entry, as one vector of four entries for each lane.
+/// Transposes four vectors of lanes to one vector of four entries for each lane.
 template <class AnyLanes>
 inline std::array<AnyLanes, n_lanes> transposed(AnyLanes a, AnyLanes b, AnyLanes c, AnyLanes d) {
   const AnyLanes even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);

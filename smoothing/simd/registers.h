@@ -5,7 +5,7 @@
 
 namespace smoothfem {
 
-/// The widest vector registers that this library is compiled for: "AVX2", "AVX", "SSE2", or
+/// Returns the widest vector registers that this library is compiled for: "AVX2", "AVX", "SSE2", or
 /// "scalar". Results do not depend on them.
 std::string_view registers();
 

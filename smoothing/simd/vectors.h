@@ -6,7 +6,7 @@
 
 namespace smoothfem {
 
-/// A point or vector of the plane, of one cell or of several at a time (Real: double or Lanes).
+/// A point or vector in the plane, of one cell or of several at a time (Real: double or Lanes).
 template <class Real>
 struct Vector2 {
   Real x, y;
@@ -18,14 +18,14 @@ struct Vector2 {
     return {s * a.x, s * a.y};
   }
   friend inline Vector2 operator/(Vector2 a, double s) { return {a.x / s, a.y / s}; }
-  /// The same point of the plane from each lane.
+  /// Broadcasts the subtracted point of the plane to each lane.
   friend inline Vector2 operator-(Vector2 a,
                                   Vector2<double> b) requires(!std::is_same_v<Real, double>) {
     return {a.x - b.x, a.y - b.y};
   }
 };
 
-/// The same of space.
+/// A point or vector in space, of one cell or of several at a time.
 template <class Real>
 struct Vector3 {
   Real x, y, z;
@@ -79,7 +79,7 @@ inline Real length(V<Real> a) {
   return square_root(squared_length(a));
 }
 
-/// The same where the square may leave the range of numbers.
+/// Length of a vector whose squared length may overflow or underflow.
 inline double length_of_any_size(Vector3<double> a) {
   constexpr double least = 0x1p-1000, largest = 0x1p1000;
   const double square = squared_length(a);
@@ -103,7 +103,7 @@ inline double cross(const Point<2>& a, const Point<2>& b) {
   return cross(vector_of(a), vector_of(b));
 }
 
-/// The point in one lane.
+/// Returns the point in one lane.
 template <class Real>
 inline Point<2> lane(Vector2<Real> v, std::size_t l) {
   return {lane(v.x, l), lane(v.y, l)};
@@ -113,7 +113,7 @@ inline Point<3> lane(Vector3<Real> v, std::size_t l) {
   return {lane(v.x, l), lane(v.y, l), lane(v.z, l)};
 }
 
-/// Sum of the first `count` lanes.
+/// Returns the sum of the first `count` lanes.
 template <class Real>
 inline Point<2> sum_of_lanes(Vector2<Real> v, std::size_t count) {
   return {sum_of_lanes(v.x, count), sum_of_lanes(v.y, count)};

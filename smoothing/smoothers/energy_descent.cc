@@ -10,10 +10,10 @@
 namespace smoothfem {
 namespace {
 
-/// Moves nodes down the energy J of the solution u_h: with fixed boundary nodes |grad(u - u_h)|^2 =
-/// J + const, so that the true error falls without u being known. Each iteration solves once, on a
-/// mesh that is kept if J is lower there. Nodes of the boundary stay, also where a stage before has
-/// let them slide.
+/// Moves nodes to lower the energy J of the solution u_h. With fixed boundary nodes |grad(u -
+/// u_h)|^2 = J + const, so that the true error falls although u is unknown. Each iteration solves
+/// once, on a mesh that is kept if J is lower there. Boundary nodes stay, even if an earlier stage
+/// has let them slide.
 template <int dim>
 class EnergyDescent final : public Smoother<dim> {
  public:
@@ -22,19 +22,19 @@ class EnergyDescent final : public Smoother<dim> {
   std::string_view name() const override { return "descent"; }
   Parameters parameters() override {
     return {
-        {"degree", "of the finite elements whose error is to fall", &degree_, 1.0, 2.0},
-        {"solves", "of the problem at most, the one on the mesh it begins with included",
+        {"degree", "degree of the finite elements whose error is reduced", &degree_, 1.0, 2.0},
+        {"solves", "largest number of solves of the problem, including the one on the initial mesh",
          &n_solves_, 1.0, 1e6},
         {"memory", "pairs of steps and changes of the gradient for L-BFGS; 0: descent along L^-1 g",
          &n_pairs_, 0.0, 1e3},
         {"quality_floor",
-         "mean ratio below which nodes of cells are put back; the lowest of the mesh at hand "
-         "where that is lower",
+         "mean ratio below which nodes of cells are reset; the lowest of the present mesh "
+         "if that is lower",
          &quality_floor_, 0.0, 1.0},
         {"gain",
-         "stop when a solve lowers the energy by less than this fraction of what all before "
-         "did; 0: go on until 'solves'",
-         &least_gain_, 0.0, 1.0}};
+         "stop when a solve lowers the energy by less than this fraction of all earlier "
+         "reductions together; 0: continue until 'solves'",
+         &min_gain_, 0.0, 1.0}};
   }
   SmootherTraits traits() const override {
     return {.quality_use = QualityUse::smoother, .result = ResultMesh::last};
@@ -58,7 +58,7 @@ class EnergyDescent final : public Smoother<dim> {
 
   StepReport step(SmoothingState<dim>& state) override {
     StepReport report;
-    // Without an earlier solve the budget is used up by the one on the mesh it begins with.
+    // Without an earlier solve, the solve on the initial mesh uses up the budget.
     is_done_ = is_done_ || n_solves(state) >= n_solves_;
     if (!is_done_) {
       if (!has_direction_) choose_direction(state);
@@ -87,7 +87,7 @@ class EnergyDescent final : public Smoother<dim> {
     has_direction_ = true;
   }
 
-  /// Returns how many nodes were put back.
+  /// Returns the number of nodes that were reset.
   std::size_t move_nodes(SmoothingState<dim>& state) {
     descent_->move_from(base_, state.mesh);
     compute_cell_mean_ratios(state.mesh, state.cell_quality);
@@ -97,7 +97,7 @@ class EnergyDescent final : public Smoother<dim> {
 
   void accept(const SmoothingState<dim>& state, double energy) {
     const double gain = energy_ - energy, gain_before = first_energy_ - energy_;
-    is_done_ = gain_before > 0.0 && gain < least_gain_ * gain_before;
+    is_done_ = gain_before > 0.0 && gain < min_gain_ * gain_before;
     descent_->accept(base_, state.mesh);
     energy_ = energy;
     base_ = state.mesh.copied_coordinates();
@@ -114,7 +114,7 @@ class EnergyDescent final : public Smoother<dim> {
   int n_solves_ = 10;
   int n_pairs_;
   double quality_floor_ = 0.3;
-  double least_gain_ = 0.0;
+  double min_gain_ = 0.0;
 
   MovableNodes<dim> nodes_;
   std::unique_ptr<NodeDescent<dim>> descent_;
@@ -135,15 +135,15 @@ Stages<dim> make_stages() {
 
 const RegisteredMethod descent({.name = "energy-descent",
                                 .title = "Energy descent",
-                                .description = "GETMe, then nodes move down the energy of the "
-                                               "solution, and with it the true error; a solve "
-                                               "an iteration",
+                                .description = "GETMe, then nodes move to lower the energy of the "
+                                               "solution, and with it the true error; one solve "
+                                               "in each iteration",
                                 .source = "Delfour, Payre, Zolésio 1985; Sobolev gradient",
                                 .needs_problem = true},
                                {make_stages<2, 0>, make_stages<3, 0>});
 const RegisteredMethod lbfgs({.name = "energy-lbfgs",
                               .title = "Energy L-BFGS",
-                              .description = "the same by limited-memory BFGS",
+                              .description = "energy-descent by limited-memory BFGS",
                               .source = "Nocedal 1980",
                               .needs_problem = true},
                              {make_stages<2, 10>, make_stages<3, 10>});

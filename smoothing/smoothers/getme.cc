@@ -4,7 +4,7 @@
 namespace smoothfem {
 namespace {
 
-/// The simultaneous method for the mean quality, then the sequential one for the lowest.
+/// Runs the simultaneous method for the mean quality, then the sequential one for the lowest.
 template <int dim, int spacedim = dim>
 Stages<dim, spacedim> make_stages() {
   auto stages = stages_of<dim, spacedim>("getme-simultaneous");

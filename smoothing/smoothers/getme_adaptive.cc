@@ -25,23 +25,23 @@ ElementParameters<dim> default_parameters() {
 
 constexpr std::size_t grain = 4096;  ///< nodes or cells that one thread takes at a time
 
-/// Tables and arrays of a run; the stages, which follow each other, use the same ones.
+/// Tables and arrays of a run, shared by the stages, which run one after the other.
 template <int dim>
 struct AdaptiveArrays {
   NeighbourWeights weights;
   ElementPass<dim> pass;
   std::vector<NodeIndex> moving;        ///< free nodes of transformed elements, ascending
-  std::vector<std::uint8_t> marked;     ///< those of them that know where to move
+  std::vector<std::uint8_t> marked;     ///< moving nodes with a weighted mean to move to
   std::vector<std::uint8_t> active;     ///< cells around them
-  std::vector<std::uint8_t> level;      ///< position in the relaxation values of each node
-  std::vector<CellIndex> active_cells;  ///< the same, ascending
+  std::vector<std::uint8_t> level;      ///< position of each node in the relaxation values
+  std::vector<CellIndex> active_cells;  ///< the active cells, ascending
   std::vector<Point<dim>> previous;     ///< of moving nodes
 };
 
-/// What both stages of GETMe adaptive do (thesis, Section 4.5, Fig. 4.4): nodes move to the
-/// weighted means of their positions in the transformed elements of low quality and the
-/// untransformed other ones; where that makes elements invalid, their nodes move less, by a table
-/// of relaxation values that ends with zero.
+/// Base of both stages of GETMe adaptive (thesis, Section 4.5, Fig. 4.4). Elements of low quality
+/// are transformed, the others are not; nodes move to the weighted means of their positions in
+/// both. Nodes of elements that become invalid move less, by a table of relaxation values that ends
+/// with zero.
 template <int dim>
 class AdaptiveStage : public Smoother<dim> {
  public:
@@ -56,7 +56,7 @@ class AdaptiveStage : public Smoother<dim> {
 
   void initialize(const SmoothingState<dim>& state) override {
     if (relaxation_.back() != 0.0)
-      throw InputError("method getme-adaptive: the parameter relaxation has to end with 0");
+      throw InputError("method getme-adaptive: the parameter relaxation must end with 0");
     const Topology& topology = state.mesh.topology();
     arrays_->pass.prepare(topology, element_);
     arrays_->weights.prepare(state.mesh.shared_topology());
@@ -72,7 +72,7 @@ class AdaptiveStage : public Smoother<dim> {
   AdaptiveStage(std::vector<double> relaxation, std::shared_ptr<AdaptiveArrays<dim>> arrays)
       : relaxation_(std::move(relaxation)), arrays_(std::move(arrays)) {}
 
-  /// One iteration that transforms the elements of at most this quality.
+  /// Makes one iteration that transforms the elements of at most this quality.
   StepReport smooth_below(SmoothingState<dim>& state, double threshold) {
     auto& weights = arrays_->weights;
     const auto& moving = arrays_->moving;
@@ -84,7 +84,8 @@ class AdaptiveStage : public Smoother<dim> {
       for (const NodeIndex i : std::span(arrays_->moving).subspan(first, last - first)) {
         arrays_->previous[i] = state.mesh.coordinates()[i];
         arrays_->level[i] = 0;
-        if (!arrays_->pass.has_mean(i)) arrays_->marked[i] = 0;  // nothing says where to
+        if (!arrays_->pass.has_mean(i))
+          arrays_->marked[i] = 0;  // all weights are zero: the node stays
         if (arrays_->marked[i]) set_position(state.mesh, i);
       }
     });
@@ -126,7 +127,7 @@ class AdaptiveStage : public Smoother<dim> {
       if (marks[i]) marked.push_back(i);
   }
 
-  /// Moves a marked node as far as its level says.
+  /// Moves a marked node by the fraction of its level.
   void set_position(Mesh<dim>& mesh, NodeIndex i) const {
     const double fraction = relaxation_[arrays_->level[i]];
     const Point<dim>& previous = arrays_->previous[i];
@@ -145,8 +146,8 @@ class AdaptiveStage : public Smoother<dim> {
     });
   }
 
-  /// Shortens the movements around invalid cells until there is none; returns how many nodes stay
-  /// where they were.
+  /// Shortens the movements around invalid cells until none is left. Returns the number of nodes
+  /// that do not move.
   std::size_t relax_until_valid(SmoothingState<dim>& state) {
     const Topology& topology = state.mesh.topology();
     std::size_t n_reset = 0;
@@ -177,7 +178,7 @@ class AdaptiveStage : public Smoother<dim> {
   std::shared_ptr<AdaptiveArrays<dim>> arrays_;
 };
 
-/// First stage: all elements are transformed until q_mean hardly rises.
+/// First stage: transforms all elements until q_mean hardly rises.
 template <int dim>
 class AdaptiveMeanStage final : public AdaptiveStage<dim> {
  public:
@@ -189,8 +190,7 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
     Parameters all = AdaptiveStage<dim>::parameters();
     all.push_back({"tolerance", "stop when q_mean rises by no more than this in an iteration",
                    &tolerance_, -1.0, 1.0});
-    all.push_back({"max_iterations", "stop after this many iterations at the latest",
-                   &max_iterations_, 1.0, 1e9});
+    all.push_back({"max_iterations", "largest number of iterations", &max_iterations_, 1.0, 1e9});
     return all;
   }
   SmootherTraits traits() const override {
@@ -208,9 +208,9 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
   int max_iterations_ = 1000;
 };
 
-/// Second stage: cycles that transform a fraction of the elements, those of the lowest quality when
-/// the cycle begins. A cycle ends after `patience` iterations in a row that did not raise the best
-/// q*_min (Section 5.1.3), or as in Fig. 4.4 (`no_gain`), the stage after a cycle that did not
+/// Second stage: cycles that transform the fraction of elements with the lowest quality at the
+/// start of the cycle. Default: a cycle ends after `patience` iterations in a row without a higher
+/// best q*_min (Section 5.1.3). With `no_gain` (Fig. 4.4) the stage ends after a cycle that did not
 /// raise it.
 template <int dim>
 class AdaptiveMinStage final : public AdaptiveStage<dim> {
@@ -223,25 +223,24 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
     Parameters all = AdaptiveStage<dim>::parameters();
     all.push_back({"fraction",
                    "fraction of the elements whose quality sets the threshold at the beginning of "
-                   "a cycle; the thesis does not print it, 0.001 to 0.01 is good",
+                   "a cycle; not given in the thesis, 0.001 to 0.01 works well",
                    &fraction_, 0.0, 1.0});
     all.push_back(
         {"patience",
-         "iterations in a row without a higher q*_min that end a cycle; the thesis has 5, 10 "
-         "gains as much q*_min as the sequential method",
+         "iterations in a row without a higher q*_min that end a cycle; 5 in the thesis; with 10 "
+         "q*_min rises as much as by the sequential method",
          &patience_, 1.0, 1e9});
     all.push_back(
         {"no_gain",
-         "which iterations count for `patience`: those in a row without a new best q*_min "
-         "(Section 5.1.3), or all of a cycle whose q*_min is not above that of the one "
-         "before, until there are more (Fig. 4.4)",
+         "iterations that count for `patience`: those in a row without a new best q*_min "
+         "(Section 5.1.3), or all of a cycle whose q*_min is not above that of the previous "
+         "one, until there are more (Fig. 4.4)",
          Choice{&no_gain_, {"in-a-row", "in-cycle"}}});
     all.push_back({"patience_below_start",
-                   "go on for this many times `patience` while the best q*_min is below that of "
-                   "the mesh the method began with; not in the thesis, whose rule is 1",
+                   "factor on `patience` while the best q*_min is below that of the method's "
+                   "initial mesh; not in the thesis, which corresponds to 1",
                    &patience_below_start_, 1.0, 1e6});
-    all.push_back({"max_iterations", "stop after this many iterations at the latest",
-                   &max_iterations_, 1.0, 1e9});
+    all.push_back({"max_iterations", "largest number of iterations", &max_iterations_, 1.0, 1e9});
     return all;
   }
   SmootherTraits traits() const override {

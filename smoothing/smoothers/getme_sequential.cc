@@ -17,7 +17,7 @@ template <int dim>
 ElementParameters<dim> default_parameters() {
   if constexpr (dim == 2)
     return {.lambda = 9.0 / 20.0, .theta_degrees = 25.0, .rho = 0.01};
-  else  // tetrahedra and hexahedra as in Section 6.3, pyramids and prisms as in Section 5.4
+  else  // Tetrahedra and hexahedra: Section 6.3. Pyramids and prisms: Section 5.4.
     return {.tetrahedron = {17.0, 17.0},
             .pyramid = {1.82, 1.82},
             .prism = {0.85, 0.85},
@@ -25,7 +25,7 @@ ElementParameters<dim> default_parameters() {
             .rho = 0.01};
 }
 
-/// By which quality the next element is chosen: its mean ratio.
+/// Chooses the next element by its mean ratio.
 struct ByMeanRatio {
   static constexpr std::string_view stage_name = "sequential";
   static constexpr ResultMesh result = ResultMesh::best_q_star_min;
@@ -38,7 +38,7 @@ struct ByMeanRatio {
   }
 };
 
-/// Or q_gamma = min(mean ratio, gamma (1 - warpage / 2)) (thesis, Section 4.7).
+/// Chooses it by q_gamma = min(mean ratio, gamma (1 - warpage / 2)) (thesis, Section 4.7).
 struct ByMeanRatioAndWarpage {
   static constexpr std::string_view stage_name = "qgamma";
   static constexpr ResultMesh result = ResultMesh::best_score;
@@ -60,8 +60,8 @@ struct ByMeanRatioAndWarpage {
 };
 
 /// Transforms the element with the lowest corrected quality, alone, again and again (thesis,
-/// Section 4.3, Fig. 4.3). A step is a cycle of such transformations, after which the lowest
-/// quality is looked at. Assessment: what quality is.
+/// Section 4.3, Fig. 4.3). A step is a cycle of such transformations; the lowest quality is
+/// evaluated after it. Assessment: the quality of an element.
 template <int dim, int spacedim, class Assessment>
 class GetmeSequential final : public Smoother<dim, spacedim> {
  public:
@@ -76,17 +76,17 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
          0.0, 1.0},
         {"penalty_success", "added when the transformation is kept; penalties never fall below 0",
          &penalty_success_, -1.0, 0.0},
-        {"cycle", "transformations between two looks at the lowest quality (Section 6.2)", &cycle_,
-         1.0, 1e9},
-        {"patience", "stop after this many looks without a higher lowest quality", &patience_, 1.0,
-         1e9},
+        {"cycle", "transformations between evaluations of the lowest quality (Section 6.2)",
+         &cycle_, 1.0, 1e9},
+        {"patience", "stop after this many evaluations without improving the lowest quality",
+         &patience_, 1.0, 1e9},
         {"patience_below_start",
-         "go on for this many times `patience` while the best q*_min is below that of the mesh the "
-         "method began with; not in the thesis, whose rule is 1",
+         "factor on `patience` while the best q*_min is below that of the method's initial mesh; "
+         "not in the thesis, which corresponds to 1",
          &patience_below_start_, 1.0, 1e6},
-        {"max_cycles", "stop after this many cycles at the latest", &max_cycles_, 1.0, 1e9},
+        {"max_cycles", "largest number of cycles", &max_cycles_, 1.0, 1e9},
         {"max_mean_loss",
-         "stop when q_mean, looked at once per cycle, has fallen by more than this fraction of its "
+         "stop when q_mean, evaluated once a cycle, has fallen by more than this fraction of its "
          "value at the stage's start (Section 5.2)",
          &max_mean_loss_, 0.0, 1.0}};
     all.insert(all.end(), own.begin(), own.end());
@@ -106,7 +106,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
             .max_iterations = max_cycles_};
   }
 
-  /// Only elements that can be changed take part.
+  /// Only elements with a free node take part.
   void initialize(const SmoothingState<dim, spacedim>& state) override {
     regularization_.emplace(element_);
     const auto& topology = state.mesh.topology();
@@ -159,8 +159,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     return by_quality_.empty() ? 0.0 : by_quality_.key(by_quality_.top());
   }
 
-  /// Of two elements whose quality is that of the face they share, the one with the lower mean
-  /// ratio (thesis, Section 4.7).
+  /// Returns the worst cell. If two elements share their worst face and so have equal quality, it
+  /// is the one with the lower mean ratio (thesis, Section 4.7).
   CellIndex worst_cell(const SmoothingState<dim, spacedim>& state) const {
     CellIndex worst = by_corrected_quality_.top();
     if (Assessment::result == ResultMesh::best_q_star_min) return worst;
@@ -173,14 +173,14 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     return worst;
   }
 
-  /// The size that an element's step is told, where it needs one.
+  /// Returns the size that is passed to an element's step, if it needs one.
   double fitting_size(const Mesh<dim, spacedim>& mesh, std::span<const NodeIndex> nodes) {
     if (!regularization_->fits_neighbours()) return 0.0;
     neighbour_sizes_.update(mesh, nodes);
     return neighbour_sizes_.of(nodes);
   }
 
-  /// Sets the free nodes of a cell to their transformed positions; remembers the old ones.
+  /// Moves the free nodes of a cell to their transformed positions; remembers the old ones.
   [[gnu::flatten]] void transform(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     auto& mesh = state.mesh;
     const auto& topology = mesh.topology();
@@ -206,7 +206,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     });
   }
 
-  /// Evaluates the cells around the nodes of a cell that have moved; puts these back if one of them
+  /// Evaluates the cells around the moved nodes of a cell. Resets these nodes if one of the cells
   /// is invalid, or if a facet there is beyond its bound.
   bool accept_or_undo(SmoothingState<dim, spacedim>& state, CellIndex cell) {
     new_quality_.resize(touched_.size());
@@ -272,7 +272,7 @@ const RegisteredMethod registered({.name = "getme-sequential",
                                    .source = "Section 4.3, Fig. 4.3; parameters of Chapter 6"},
                                   single_stage_also_on_surfaces<Sequential>());
 
-/// GETMe, then the sequential method on q_gamma from its mesh.
+/// GETMe, followed by the sequential method on q_gamma.
 Stages<3> make_qgamma_stages() {
   Stages<3> stages = stages_of<3>("getme");
   stages.push_back(std::make_unique<GetmeSequential<3, 3, ByMeanRatioAndWarpage>>());

@@ -11,8 +11,8 @@ namespace {
 
 /// Transforms every element; each free node moves to the weighted mean of its positions in its
 /// transformed elements (thesis, Section 4.2, Eq. 4.2 and Fig. 4.2). One pass over the elements
-/// gives their quality and the sums for the next iteration, so that each is fetched and looked at
-/// once: the pass after an iteration's movements starts the next one.
+/// computes their quality and the sums for the next iteration, so that each element is loaded once.
+/// The pass after an iteration's movements therefore starts the next iteration.
 template <int dim, int spacedim>
 class GetmeSimultaneous final : public Smoother<dim, spacedim> {
  public:
@@ -52,7 +52,7 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
 
  private:
   /// p_i = sum of w_j p'_ij over the elements j around node i, divided by the sum of w_j (Eq. 4.2).
-  /// Where all weights are zero the elements are regular already: the node stays.
+  /// If all weights are zero, the elements are regular already: the node stays.
   void move_nodes(Mesh<dim, spacedim>& mesh) {
     constexpr std::size_t grain = 512;
     parallel_for_ranges(mesh.n_nodes(), grain, [&](std::size_t first, std::size_t last) {
@@ -69,7 +69,7 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
   QualityGainStopping stopping_;
   ElementPass<dim, spacedim> pass_;
   std::vector<Point<spacedim>> previous_;
-  bool is_transformed_ = false;  ///< the sums of pass_ are those of the present mesh
+  bool is_transformed_ = false;  ///< true if the sums of pass_ are those of the present mesh
 };
 
 const RegisteredMethod registered({.name = "getme-simultaneous",

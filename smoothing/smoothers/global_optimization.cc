@@ -11,14 +11,16 @@
 namespace smoothfem {
 namespace {
 
-/// Feasible Newton method for the shape objective. An iteration is one Newton step: the linear
-/// system by block-preconditioned conjugate gradients, no more exactly than the progress deserves;
-/// each node's movement shortened so that its own elements stay valid, which lets all others go on
-/// when one is in the way; and backtracking until the objective, infinite for invalid meshes, has
-/// fallen enough. Far from the minimum, where the Hessian is indefinite and a Newton step does
-/// little for elements that have almost collapsed, the convex model stands for it. Source: thesis,
-/// Section 1.3.3; Munson, Mesh shape-quality optimization using the inverse mean-ratio metric,
-/// Math. Program. 110 (2007); forcing terms: Eisenstat and Walker, SIAM J. Sci. Comput. 17 (1996).
+/// Feasible Newton method for the shape objective. Each iteration is one Newton step with three
+/// parts. First, block-preconditioned conjugate gradients solve the linear system, with an accuracy
+/// that follows the progress. Second, the movement of each node is shortened so that its elements
+/// stay valid; one blocked node does not stop the others. Third, backtracking continues until the
+/// objective, infinite for invalid meshes, has fallen enough.
+///
+/// Far from the minimum the Hessian is indefinite, and a Newton step does little for elements that
+/// have almost collapsed. There the convex model replaces it. Sources: thesis, Section 1.3.3;
+/// Munson, Mesh shape-quality optimization using the inverse mean-ratio metric, Math. Program. 110
+/// (2007); forcing terms: Eisenstat and Walker, SIAM J. Sci. Comput. 17 (1996).
 template <int dim>
 class GlobalOptimization final : public Smoother<dim> {
  public:
@@ -27,33 +29,32 @@ class GlobalOptimization final : public Smoother<dim> {
   Parameters parameters() override {
     return {
         {"tolerance",
-         "stop when a Newton step's model promises to lower the objective by no more than this "
+         "stop when a Newton step's model predicts that the objective falls by no more than this "
          "fraction",
          &tolerance_, 0.0, 1.0},
         {"newton_below",
-         "take the exact Hessian once a step lowers the objective by less than this fraction",
+         "use the exact Hessian once a step lowers the objective by less than this fraction",
          &newton_below_, 0.0, 1.0},
-        {"forcing", "the linear solve leaves at most this fraction of the gradient", &forcing_,
-         1e-12, 0.999},
+        {"forcing", "residual of the linear solve, as a fraction of the gradient, at most",
+         &forcing_, 1e-12, 0.999},
         {"determinant_fraction",
-         "a step may take at most this fraction of the determinant of an element's corner",
+         "largest fraction of the determinant of an element's corner that a step may remove",
          &determinant_fraction_, 1e-3, 0.999},
-        {"max_cg_iterations", "at most this many CG iterations a Newton step", &max_cg_iterations_,
-         1.0, 1e9},
+        {"max_cg_iterations", "largest number of CG iterations in a Newton step",
+         &max_cg_iterations_, 1.0, 1e9},
         {"start_sweeps",
          "sweeps of one-node Newton steps before the first Newton step of all nodes; on heavily "
-         "distorted meshes 10 shorten the whole run most",
+         "distorted meshes 10 sweeps give the shortest run",
          &start_sweeps_, 0.0, 1e9},
-        {"max_iterations", "stop after this many Newton steps at the latest", &max_iterations_, 1.0,
-         1e9},
+        {"max_iterations", "largest number of Newton steps", &max_iterations_, 1.0, 1e9},
         {"result",
-         "the mesh to end with: the last one, whose objective is the lowest, or that of the "
-         "highest q_mean on the way (Section 5.2)",
+         "resulting mesh: the last one, which has the lowest objective, or the one with the "
+         "highest q_mean (Section 5.2)",
          Choice{&result_, {"last", "best-q-mean"}}}};
   }
 
   SmootherTraits traits() const override {
-    const bool best = result_ != 0;  // the method itself looks at no mean ratio
+    const bool best = result_ != 0;  // the method itself uses no mean ratio
     return {.quality_use = best ? QualityUse::loop : QualityUse::none,
             .result = best ? ResultMesh::best_q_mean : ResultMesh::last};
   }
@@ -78,7 +79,7 @@ class GlobalOptimization final : public Smoother<dim> {
     const bool exact = find_newton_step(state.mesh);
     double slope = limit_step(state.mesh);
     if (!(slope < 0.0)) {
-      // Shortened node by node, this direction descends where the Newton step did not.
+      // Shortened node by node, this is a descent direction even if the Newton step was not.
       solver_.precondition(right_, step_);
       slope = limit_step(state.mesh);
     }
@@ -97,8 +98,8 @@ class GlobalOptimization final : public Smoother<dim> {
     value_ = objective_->value(trial_);
   }
 
-  /// Solves with the present model, with the convex one where the exact Hessian is indefinite.
-  /// Returns whether the Hessian was the exact one, or had to be given up.
+  /// Solves with the present model; if that is the exact Hessian and it is indefinite, solves with
+  /// the convex model. Returns true if the Hessian was exact or had to be replaced.
   bool find_newton_step(const Mesh<dim>& mesh) {
     if (model_ == HessianModel::convex) {
       solve(mesh);
@@ -115,7 +116,7 @@ class GlobalOptimization final : public Smoother<dim> {
     objective_->derivatives(mesh.coordinates(), model_, gradient_, hessian_);
     for (std::size_t i = 0; i < gradient_.size(); ++i) right_[i] = -gradient_[i];
     solver_.prepare(hessian_);
-    // Tighter as the gradient falls faster, so that the last steps are Newton's own.
+    // Tighter when the gradient falls faster, so that the last steps are exact Newton steps.
     const double norm = solver_.norm(right_);
     const double fall = gradient_norm_ > 0.0 ? norm / gradient_norm_ : 1.0;
     gradient_norm_ = norm;
@@ -129,8 +130,8 @@ class GlobalOptimization final : public Smoother<dim> {
       trial_[free_nodes[i]] = mesh.coordinates()[free_nodes[i]] + alpha * step_[i];
   }
 
-  /// Shortens the step of each node so that its elements keep positive determinants (in a few
-  /// rounds; what is left over is the line search's). Returns the slope along it.
+  /// Shortens the step of each node so that its elements keep positive determinants, in a few
+  /// rounds; the line search handles the rest. Returns the slope along the step.
   double limit_step(const Mesh<dim>& mesh) {
     constexpr int max_rounds = 5;
     const auto& free_nodes = mesh.topology().free_nodes();
@@ -144,7 +145,7 @@ class GlobalOptimization final : public Smoother<dim> {
     return dot<dim>(gradient_, step_);
   }
 
-  /// Halves the step until the objective falls enough (Armijo); false if it never does.
+  /// Halves the step until the objective falls enough (Armijo). Returns false if it never does.
   bool line_search(Mesh<dim>& mesh, double slope) {
     constexpr double sufficient = 1e-4;
     constexpr int max_halvings = 60;
@@ -179,7 +180,7 @@ class GlobalOptimization final : public Smoother<dim> {
   std::vector<double> limits_;
   double value_ = 0.0;
   double gradient_norm_ = 0.0;
-  bool start_ = false;  ///< the next step begins with the sweeps
+  bool start_ = false;  ///< true if the next step begins with the sweeps
 };
 
 const RegisteredMethod registered(

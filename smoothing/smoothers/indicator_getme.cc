@@ -15,13 +15,15 @@
 namespace smoothfem {
 namespace {
 
-/// GETMe simultaneous (thesis, Section 4.2) whose transformed elements are scaled to target sizes
-/// in place of their own: small where an error indicator e of the solution at hand says that it
-/// bends, e / h with the cell's width h. Sizes s ~ rho^-p with rho = sqrt(1 + (c / mean c)^2),
-/// c = e / h, whose sum is that of the cells. p = 2 d / (d + 2) would give the least error of the
-/// gradient by elements of degree 1 for a number of cells in dimension d, but cells reach their
-/// targets in part only, as nodes go to the mean of what several elements want: the default is
-/// larger. Sweeps are many, as each moves nodes little.
+/// GETMe simultaneous (thesis, Section 4.2) whose transformed elements are scaled to target sizes.
+/// Elements get small where an error indicator e of the present solution is large compared with the
+/// cell's width h. Target sizes are s ~ rho^-p with rho = sqrt(1 + (c / mean c)^2) and c = e / h;
+/// their sum equals that of the cells' sizes.
+///
+/// In dimension d, p = 2 d / (d + 2) would give the smallest error of the gradient for elements of
+/// degree 1 and a fixed number of cells. But cells reach their targets only in part, as a node
+/// moves to the mean of the positions that several elements request. The default is therefore
+/// larger. Many sweeps are needed, as each moves nodes little.
 template <int dim>
 class IndicatorGetme final : public SolutionDriven<dim> {
  public:
@@ -36,8 +38,9 @@ class IndicatorGetme final : public SolutionDriven<dim> {
          "exponent p of the target sizes rho^-p, rho = sqrt(1 + (c / mean c)^2), c = e / h with "
          "the indicator e of a cell of width h",
          &power_, 0.0, 100.0},
-        {"sweeps", "of GETMe simultaneous between two solves", &n_sweeps_, 1.0, 1e6},
-        {"averagings", "of the indicator over cells around the nodes", &n_averagings_, 0.0, 1e3}};
+        {"sweeps", "sweeps of GETMe simultaneous between two solves", &n_sweeps_, 1.0, 1e6},
+        {"averagings", "averagings of the indicator over cells around the nodes", &n_averagings_,
+         0.0, 1e3}};
     all.insert(all.end(), own.begin(), own.end());
     return all;
   }
@@ -108,7 +111,7 @@ class IndicatorGetme final : public SolutionDriven<dim> {
   int n_averagings_ = 1;
 
   ElementPass<dim> pass_;
-  std::vector<double> target_sizes_;  ///< of each cell, as ElementPass has them
+  std::vector<double> target_sizes_;  ///< of each cell, in the form of ElementPass
   std::vector<Point<dim>> previous_;
 };
 
@@ -124,7 +127,7 @@ const RegisteredMethod registered(
     {.name = "indicator-getme",
      .title = "Indicator-sized GETMe",
      .description = "GETMe, then GETMe simultaneous whose elements are scaled to target sizes from "
-                    "an error indicator of the solution; a solve an iteration",
+                    "an error indicator of the solution; one solve in each iteration",
      .source = "Section 4.2; indicator of Zienkiewicz and Zhu 1987",
      .needs_problem = true},
     {make_stages<2>, make_stages<3>});

@@ -14,11 +14,11 @@
 namespace smoothfem {
 namespace {
 
-/// Moving mesh method of Huang and Kamenski (2015): cells become alike in a metric that the second
-/// derivatives of the solution make, small where it bends and thin across the direction it bends
-/// in. Between two solves nodes go down the mesh functional, with the metric staying in its place.
-/// Theirs go with the gradient flow in a time of the mesh; here the Laplacian of the nodes and BFGS
-/// take far fewer steps to the same place.
+/// Moving mesh method of Huang and Kamenski (2015). Cells become alike in a metric made from the
+/// second derivatives of the solution: small where it bends, and thin across the direction in which
+/// it bends. Between two solves, nodes descend the mesh functional while the metric stays fixed in
+/// space. The authors follow the gradient flow in a mesh time; here the Laplacian of the nodes and
+/// BFGS reach the same mesh in far fewer steps.
 template <int dim>
 class IndicatorMmpde final : public SolutionDriven<dim> {
  public:
@@ -29,12 +29,14 @@ class IndicatorMmpde final : public SolutionDriven<dim> {
     Parameters all = this->common_parameters();
     const Parameters own{
         {"concentration",
-         "c: a fraction 1 - 1/c of the cells goes where the solution bends; c - 1 is halved when "
+         "c: a fraction 1 - 1/c of the cells moves to where the solution bends; c - 1 is halved "
+         "when "
          "the estimated error has fallen by less than 1 %",
          &concentration_, 1.0, 1e6, true},
-        {"averagings", "of the second derivatives over cells around the nodes", &n_averagings_, 0.0,
-         1e3},
-        {"steps", "down the functional between two solves, at most", &n_steps_, 1.0, 1e6}};
+        {"averagings", "averagings of the second derivatives over cells around the nodes",
+         &n_averagings_, 0.0, 1e3},
+        {"steps", "largest number of descent steps of the functional between two solves", &n_steps_,
+         1.0, 1e6}};
     all.insert(all.end(), own.begin(), own.end());
     return all;
   }
@@ -44,27 +46,28 @@ class IndicatorMmpde final : public SolutionDriven<dim> {
     functional_ = std::make_unique<MeshFunctional<dim>>(state.mesh);
     descent_ = std::make_unique<NodeDescent<dim>>(state.mesh.topology(), this->nodes(), n_pairs);
     concentration_now_ = concentration_;
-    least_error_ = std::numeric_limits<double>::infinity();
+    min_error_ = std::numeric_limits<double>::infinity();
   }
 
   std::size_t move_nodes(SmoothingState<dim>& state) override {
     choose_concentration(state);
     const auto before = state.mesh.copied_coordinates();
     functional_->set_metric(metric(state));
-    go_down(state.mesh);
+    descend(state.mesh);
     compute_cell_mean_ratios(state.mesh, state.cell_quality);
     return reset_nodes_of_invalid_cells(state.mesh, before, state.cell_quality,
                                         this->lowest_quality())
         .size();
   }
 
-  /// Where cells are too few for that much, as beside a boundary that stays, less is better.
+  /// A lower concentration is better if there are too few cells, for example next to a boundary
+  /// that stays.
   void choose_concentration(const SmoothingState<dim>& state) {
-    constexpr double least_gain = 0.01;
+    constexpr double min_gain = 0.01;
     const double error = this->estimated_error(state);
-    if (error > (1.0 - least_gain) * least_error_)
+    if (error > (1.0 - min_gain) * min_error_)
       concentration_now_ = 0.5 * (1.0 + concentration_now_);
-    least_error_ = std::min(least_error_, error);
+    min_error_ = std::min(min_error_, error);
   }
 
   bool has_more_to_try() const override {
@@ -81,9 +84,9 @@ class IndicatorMmpde final : public SolutionDriven<dim> {
                             sizes);
   }
 
-  /// The functional is infinite where a cell is not valid, so that none becomes so.
-  void go_down(Mesh<dim>& mesh) {
-    constexpr double least_gain = 1e-6;
+  /// The functional is infinite for an invalid cell, so that no cell becomes invalid.
+  void descend(Mesh<dim>& mesh) {
+    constexpr double min_gain = 1e-6;
     auto base = mesh.copied_coordinates();
     double lowest = functional_->value(mesh);
     bool has_direction = false;
@@ -101,7 +104,7 @@ class IndicatorMmpde final : public SolutionDriven<dim> {
       base = mesh.copied_coordinates();
       const double gain = (lowest - value) / lowest;
       lowest = value;
-      if (gain < least_gain) return;
+      if (gain < min_gain) return;
     }
     mesh.set_coordinates(base);
   }
@@ -112,7 +115,7 @@ class IndicatorMmpde final : public SolutionDriven<dim> {
   int n_averagings_ = 2;
   int n_steps_ = 200;
 
-  double concentration_now_ = 0.0, least_error_ = 0.0;
+  double concentration_now_ = 0.0, min_error_ = 0.0;
   std::unique_ptr<MeshFunctional<dim>> functional_;
   std::unique_ptr<NodeDescent<dim>> descent_;
 };
@@ -125,7 +128,7 @@ Stages<dim> make_stages() {
   return stages;
 }
 
-/// Large movements first, then those that only the energy sees.
+/// Makes large movements first, then those that only the energy detects.
 template <int dim>
 Stages<dim> with_descent() {
   auto stages = make_stages<dim>();
@@ -137,7 +140,7 @@ const RegisteredMethod registered(
     {.name = "indicator-mmpde",
      .title = "MMPDE",
      .description = "GETMe, then a moving mesh method: cells become alike in a metric of the "
-                    "solution's recovered second derivatives; a solve an iteration",
+                    "solution's recovered second derivatives; one solve in each iteration",
      .source = "Huang, Kamenski 2015, arXiv 1410.7872",
      .needs_problem = true},
     {make_stages<2>, make_stages<3>});

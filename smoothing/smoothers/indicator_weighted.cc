@@ -29,15 +29,15 @@ struct OfAllDirections {
     return std::pow(1.0 + (e / mean) * (e / mean), 0.5 * power);
   }
   static double identity() { return 1.0; }
-  /// A fraction of the mean of pulls: sum by their weights.
+  /// Returns a fraction of the mean of pulls: their sum divided by their weights.
   static Point<dim> step(double fraction, const Point<dim>& sum, double weights) {
     return weights > 0.0 ? Point<dim>(fraction / weights * sum) : Point<dim>(Point<dim>::Zero());
   }
 };
 
-/// The same by the indicator's tensor T, whose trace is e^2: (I + T / (mean e)^2)^(p/2). Where the
-/// gradient errs into one direction nodes are pulled along it by rho^p, but across it by 1, so that
-/// cells become thin there and not small.
+/// Weight by the indicator's tensor T, whose trace is e^2: (I + T / (mean e)^2)^(p/2). In the
+/// direction of the gradient's error nodes are pulled by rho^p, across it by 1. So cells become
+/// thin in that direction, and not small.
 template <int dim>
 struct OfEachDirection {
   using Weight = CellTensor<dim>;
@@ -61,9 +61,9 @@ struct OfEachDirection {
   }
 };
 
-/// Cells in which the solution's error is large pull their nodes together: weighted Laplace with
-/// the cells' sizes times a weight in place of the sizes (Eq. 1.2), from an error indicator of the
-/// solution at hand. Some sweeps, then the next solve.
+/// Weighted Laplace (Eq. 1.2) in which the size of each cell is multiplied by a weight from an
+/// error indicator of the present solution. Cells with a large error pull their nodes together.
+/// Alternates a few sweeps and a solve.
 template <int dim, template <int> class Directions>
 class IndicatorWeighted final : public SolutionDriven<dim> {
  public:
@@ -75,11 +75,13 @@ class IndicatorWeighted final : public SolutionDriven<dim> {
     const Parameters own{
         {"power",
          "exponent p of the weights rho^p, rho = sqrt(1 + (e / mean e)^2) with the indicator "
-         "e; 4 and more has been seen to break meshes",
+         "e; values of 4 and more have broken meshes",
          &power_, 0.0, 100.0},
-        {"sweeps", "of weighted Laplace between two solves", &n_sweeps_, 1.0, 1e6},
-        {"relaxation", "fraction of the way that nodes go", &relaxation_, 0.0, 1.0, true},
-        {"averagings", "of the indicator over cells around the nodes", &n_averagings_, 0.0, 1e3}};
+        {"sweeps", "sweeps of weighted Laplace between two solves", &n_sweeps_, 1.0, 1e6},
+        {"relaxation", "fraction of the way to the weighted mean that nodes move", &relaxation_,
+         0.0, 1.0, true},
+        {"averagings", "averagings of the indicator over cells around the nodes", &n_averagings_,
+         0.0, 1e3}};
     all.insert(all.end(), own.begin(), own.end());
     for (const Parameter& parameter : Directions<dim>::parameters(&indicator_))
       all.push_back(parameter);
@@ -109,7 +111,7 @@ class IndicatorWeighted final : public SolutionDriven<dim> {
     return weights;
   }
 
-  /// One sweep of all nodes at once; returns how many were put back.
+  /// Makes one sweep of all nodes at once. Returns the number of nodes that were reset.
   std::size_t sweep_nodes(SmoothingState<dim>& state, const std::vector<Weight>& weights) {
     Mesh<dim>& mesh = state.mesh;
     pulls_.resize(mesh.n_cells());
@@ -136,7 +138,7 @@ class IndicatorWeighted final : public SolutionDriven<dim> {
     return sum / static_cast<double>(nodes.size());
   }
 
-  /// Seen from the node, so that a mesh far from the origin moves as one near it.
+  /// Relative to the node, so that a mesh far from the origin moves like one near it.
   Point<dim> relaxed_mean(const Mesh<dim>& mesh, NodeIndex i) const {
     const Point<dim>& here = mesh.coordinates()[i];
     Point<dim> sum = Point<dim>::Zero();
@@ -159,7 +161,7 @@ class IndicatorWeighted final : public SolutionDriven<dim> {
   double relaxation_ = 0.8;
   int n_averagings_ = 1;
 
-  std::vector<Pull> pulls_;  ///< of each cell on its nodes
+  std::vector<Pull> pulls_;  ///< pull of each cell on its nodes
   std::vector<Point<dim>> previous_;
 };
 
@@ -171,7 +173,7 @@ Stages<dim> weighted() {
   return stages;
 }
 
-/// Large movements first, then those that only the energy sees.
+/// Makes large movements first, then those that only the energy detects.
 template <int dim>
 Stages<dim> weighted_and_descent() {
   auto stages = weighted<dim, OfAllDirections>();
@@ -183,14 +185,14 @@ const RegisteredMethod registered(
     {.name = "indicator-weighted",
      .title = "Indicator-weighted",
      .description = "GETMe, then weighted Laplace whose weights grow with an error indicator of "
-                    "the solution; a solve an iteration",
+                    "the solution; one solve in each iteration",
      .source = "indicator of Zienkiewicz and Zhu 1987",
      .needs_problem = true},
     {weighted<2, OfAllDirections>, weighted<3, OfAllDirections>});
 const RegisteredMethod by_direction(
     {.name = "indicator-aligned",
      .title = "Indicator-aligned",
-     .description = "as indicator-weighted, with weights for each direction: cells become thin "
+     .description = "indicator-weighted with a weight for each direction: cells become thin "
                     "across a front or layer, and stay long along it",
      .source = "indicator of Zienkiewicz and Zhu 1987",
      .needs_problem = true},

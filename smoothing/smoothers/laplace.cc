@@ -5,7 +5,7 @@
 namespace smoothfem {
 namespace {
 
-/// Each free node moves to the mean of its edge neighbours (thesis, Eq. 1.1).
+/// Moves each free node to the mean of its edge neighbours (thesis, Eq. 1.1).
 template <int dim, int spacedim>
 class Laplace final : public Smoother<dim, spacedim> {
  public:
@@ -15,7 +15,7 @@ class Laplace final : public Smoother<dim, spacedim> {
   StoppingRule stopping() const override { return stopping_.rule(); }
 
   void initialize(const SmoothingState<dim, spacedim>& state) override {
-    state.mesh.topology().node_neighbours(0);  // the table is made before the first step
+    state.mesh.topology().build_node_neighbours();
   }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {

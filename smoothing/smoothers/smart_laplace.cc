@@ -7,9 +7,9 @@
 namespace smoothfem {
 namespace {
 
-/// Laplacian movements from the old positions of all nodes, each accepted only if the node's cells
-/// stay valid and their mean quality rises; all accepted ones are applied at once (thesis,
-/// Section 1.3.2).
+/// Computes Laplacian movements from the old positions of all nodes. A movement is accepted only if
+/// the node's cells stay valid and their mean quality rises. All accepted movements are made at
+/// once (thesis, Section 1.3.2).
 template <int dim, int spacedim>
 class SmartLaplace final : public Smoother<dim, spacedim> {
  public:
@@ -19,7 +19,7 @@ class SmartLaplace final : public Smoother<dim, spacedim> {
   StoppingRule stopping() const override { return stopping_.rule(); }
 
   void initialize(const SmoothingState<dim, spacedim>& state) override {
-    state.mesh.topology().node_neighbours(0);  // with cells of nodes, before the first step
+    state.mesh.topology().build_node_neighbours();
   }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
@@ -35,14 +35,14 @@ class SmartLaplace final : public Smoother<dim, spacedim> {
   }
 
  private:
-  /// The mean of a node's neighbours, if that is accepted.
+  /// Returns the mean of a node's neighbours if that is accepted, otherwise the present position.
   static Point<spacedim> next(const SmoothingState<dim, spacedim>& state, NodeIndex node) {
     const Point<spacedim> mean =
         allowed_position(state.mesh, node, mean_of_neighbours(state.mesh, node));
     return raises_quality(state, node, mean) ? mean : state.mesh.coordinates()[node];
   }
 
-  /// Whether a node's cells are valid with a higher mean quality than before once it is moved.
+  /// True if a node's cells are valid with a higher mean quality after the move than before.
   static bool raises_quality(const SmoothingState<dim, spacedim>& state, NodeIndex node,
                              const Point<spacedim>& moved) {
     const auto cells = state.mesh.topology().node_cells(node);

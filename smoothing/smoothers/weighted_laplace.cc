@@ -7,8 +7,8 @@
 namespace smoothfem {
 namespace {
 
-/// Sums of some cells' sizes and of their centroids, weighted by these, seen from a node. Sizes are
-/// absolute: signed ones let a tangled mesh explode.
+/// Sums of cells' sizes and of their centroids weighted by size, relative to a node. Sizes are
+/// absolute: with signed sizes a tangled mesh explodes.
 template <int dim>
 class WeightedCentroids {
  public:
@@ -54,10 +54,10 @@ class WeightedCentroids {
   }
 
   Vector<dim, double> node_;
-  Lanes sums_{};  ///< of the coordinates, and of the sizes behind them
+  Lanes sums_{};  ///< weighted coordinates, followed by the sizes
 };
 
-/// Each free node moves to the mean of the centroids of its cells, weighted by their areas or
+/// Moves each free node to the mean of the centroids of its cells, weighted by their areas or
 /// volumes (thesis, Eq. 1.2).
 template <int dim>
 class WeightedLaplace final : public Smoother<dim> {

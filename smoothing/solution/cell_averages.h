@@ -7,8 +7,8 @@
 
 namespace smoothfem {
 
-/// Each cell gets the mean of its nodes, which have the mean of the cells around them. of_cells:
-/// numbers, vectors or tensors; zero: of that type.
+/// Replaces the value of each cell by the mean over its nodes of the means over the cells around
+/// each node. of_cells: numbers, vectors or tensors; zero: the zero of that type.
 template <class Value>
 void average_over_nodes(const Topology& topology, const Value& zero, std::vector<Value>& of_cells) {
   std::vector<Value> of_nodes(topology.n_nodes(), zero);

@@ -12,7 +12,8 @@ namespace smoothfem {
 
 namespace {
 
-/// The positive semidefinite root of a matrix that is so itself, but for rounding.
+/// Returns the positive semidefinite square root of a matrix that is positive semidefinite up to
+/// rounding.
 template <int dim>
 CellTensor<dim> root(const CellTensor<dim>& square) {
   const Eigen::SelfAdjointEigenSolver<CellTensor<dim>> eigen(square);
@@ -87,7 +88,7 @@ class CombinedSolver final : public ProblemSolver<dim> {
                       const std::vector<double>& energies) {
     constexpr double rounding = 1e-20;  // of a squared error, relative to the energy
     const Mesh<dim> mesh(topology_, {coordinates.begin(), coordinates.end()});
-    std::vector<double> squares;  // infinite where there is no error
+    std::vector<double> squares;  // infinite for problems without error
     double sum = 0.0, n = 0.0;
     for (std::size_t k = 0; k < solvers_.size(); ++k) {
       const double square = estimated_squared_error(mesh, *solvers_[k]);
@@ -100,7 +101,7 @@ class CombinedSolver final : public ProblemSolver<dim> {
     for (const double square : squares) weights_.push_back(n > 0.0 ? sum / n / square : 1.0);
   }
 
-  /// values: of a solver, one for each node or cell.
+  /// values: of one solver, one for each node or cell.
   template <class Values>
   auto weighted_sum(const Values& values) const {
     auto sums = values(*solvers_.front());
@@ -126,7 +127,7 @@ class CombinedSolver final : public ProblemSolver<dim> {
   std::vector<std::unique_ptr<ProblemSolver<dim>>> solvers_;
   std::shared_ptr<const Topology> topology_;
   int degree_ = 0;
-  std::vector<double> weights_;  ///< empty: to be chosen at the next solve
+  std::vector<double> weights_;  ///< empty: chosen at the next solve
 };
 
 }  // namespace

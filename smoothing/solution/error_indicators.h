@@ -12,21 +12,21 @@ namespace smoothfem {
 
 enum IndicatorKind { recovery, residual };
 
-/// The parameter that chooses between them.
+/// Parameter that chooses the indicator.
 inline Parameter indicator_choice(int* indicator) {
   return {"indicator",
-          "what tells where the error is large: the gradient against a recovered one (Zienkiewicz, "
+          "error indicator: the gradient compared with a recovered one (Zienkiewicz, "
           "Zhu 1987), or the residual with the gradient's jumps (Kelly et al. 1983)",
           Choice{indicator, {"recovery", "residual"}}};
 }
 
-/// Of each cell, of the last solve.
+/// Returns the indicator of each cell, of the last solve.
 template <int dim>
 std::vector<double> error_indicators(const ProblemSolver<dim>& solver, int indicator) {
   return indicator == recovery ? solver.recovery_indicators() : solver.residual_indicators();
 }
 
-/// Of each cell: its area or volume.
+/// Returns the area or volume of each cell.
 template <int dim>
 std::vector<double> cell_sizes(const Mesh<dim>& mesh) {
   std::vector<double> sizes(mesh.n_cells());
@@ -34,7 +34,7 @@ std::vector<double> cell_sizes(const Mesh<dim>& mesh) {
   return sizes;
 }
 
-/// What the recovery says of |grad(u - u_h)|^2; mesh: that of the last solve.
+/// Returns the recovery's estimate of |grad(u - u_h)|^2; mesh: that of the last solve.
 template <int dim>
 double estimated_squared_error(const Mesh<dim>& mesh, const ProblemSolver<dim>& solver) {
   const auto errors = solver.recovery_indicators();

@@ -8,15 +8,16 @@
 namespace smoothfem {
 
 /// The limited-memory BFGS approximation of an inverse Hessian from the last steps s and the
-/// changes y of the gradient along them (Nocedal 1980), with gamma L^-1 in place of a multiple of
-/// the identity as the matrix that it starts from; inverse(r) in what follows is L^-1 r.
+/// changes y of the gradient along them (Nocedal 1980). It starts from gamma L^-1 instead of a
+/// multiple of the identity; inverse(r) computes L^-1 r.
 class LimitedMemory {
  public:
   explicit LimitedMemory(std::size_t n_pairs) : n_pairs_(n_pairs) {}
 
   void clear() { pairs_.clear(); }
 
-  /// Pairs along which the function is not convex say nothing, and are left out.
+  /// Adds a pair. Pairs along which the function is not convex carry no information and are
+  /// skipped.
   void add(NodeVectors s, NodeVectors y) {
     const double curvature = dot(s, y);
     if (n_pairs_ == 0 || !(curvature > 0.0)) return;
@@ -26,7 +27,7 @@ class LimitedMemory {
 
   bool empty() const { return pairs_.empty(); }
 
-  /// The approximate inverse Hessian times a gradient.
+  /// Returns the approximate inverse Hessian times a gradient.
   template <class Inverse>
   NodeVectors apply(const NodeVectors& gradient, const Inverse& inverse) const {
     if (pairs_.empty()) return inverse(gradient);

@@ -12,17 +12,17 @@ namespace smoothfem {
 
 namespace {
 
-constexpr double theta = 1.0 / 3.0, p = 1.5;  // as Huang and Kamenski have them
+constexpr double theta = 1.0 / 3.0, p = 1.5;  // values of Huang and Kamenski
 constexpr std::size_t grain = 256;
 
-/// Calls visit(corners, share) for the simplices of a cell with n nodes, in the plane.
+/// Calls visit(corners, share) for the simplices of a planar cell with n nodes.
 template <class Visit>
 void for_each_simplex(std::size_t n, std::integral_constant<int, 2>, const Visit& visit) {
   if (n == 3) return visit(std::array<std::size_t, 3>{0, 1, 2}, 1.0);
   for (std::size_t k = 0; k < n; ++k)
     visit(std::array<std::size_t, 3>{k, (k + 1) % n, (k + n - 1) % n}, 0.5);
 }
-/// In space.
+/// Calls visit(corners, share) for the simplices of a volume cell with n nodes.
 template <class Visit>
 void for_each_simplex(std::size_t n, std::integral_constant<int, 3>, const Visit& visit) {
   if (n == 4) return visit(std::array<std::size_t, 4>{0, 1, 2, 3}, 1.0);

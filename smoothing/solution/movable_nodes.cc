@@ -10,7 +10,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Of a side, or at each corner of a face, where four nodes need not be in one plane.
+/// Returns the normal of a side, or those at each corner of a face, whose four nodes need not be in
+/// one plane.
 std::vector<Point<2>> normals(std::span<const NodeIndex> side, std::span<const Point<2>> x) {
   const Point<2> along = x[side[1]] - x[side[0]];
   return {Point<2>(along.y(), -along.x()).normalized()};
@@ -25,7 +26,7 @@ std::vector<Point<3>> normals(std::span<const NodeIndex> face, std::span<const P
   return all;
 }
 
-/// What the facets around a boundary node say about where it may go.
+/// Directions that the facets around a boundary node allow.
 template <int dim>
 struct Surroundings {
   CellTensor<dim> of_normals = CellTensor<dim>::Zero();  ///< sum of n n^T
@@ -40,9 +41,10 @@ struct Surroundings {
     ++n_normals;
   }
 
-  /// Onto the directions that all normals are at right angles to; zero if there are none.
+  /// Returns the projection onto the directions at right angles to all normals; zero if there are
+  /// none.
   CellTensor<dim> projection() const {
-    constexpr double tolerance = 1e-9;  // on squares: normals differ by the rounding of nodes
+    constexpr double tolerance = 1e-9;  // for squares: normals differ by the rounding of nodes
     if (has_two_tags || n_normals == 0) return CellTensor<dim>::Zero();
     const Eigen::SelfAdjointEigenSolver<CellTensor<dim>> eigen(of_normals / n_normals);
     CellTensor<dim> sum = CellTensor<dim>::Zero();

@@ -8,22 +8,23 @@
 
 namespace smoothfem {
 
-/// The nodes that a method moves by a solution: the free ones and, where nodes may slide on the
-/// boundary, those of its straight lines and plane faces, along these. The domain stays what it is:
-/// corners stay, and so do all nodes of a boundary that is curved, those between parts of different
+/// The nodes that a solution-adaptive method moves: the free ones and, if nodes may slide on the
+/// boundary, those of its straight lines and plane faces, along these. The domain keeps its shape.
+/// These nodes stay: corners, all nodes of a curved boundary, those between parts of different
 /// tags, and fixed nodes inside.
 template <int dim>
 class MovableNodes {
  public:
   MovableNodes() = default;
-  /// mesh: with the boundary on which nodes slide.
+  /// mesh: its boundary is the one on which nodes slide.
   MovableNodes(const Mesh<dim>& mesh, bool boundary_slides);
 
   /// Ascending.
   const std::vector<NodeIndex>& nodes() const { return nodes_; }
   bool contains(NodeIndex node) const { return contains_[node] != 0; }
 
-  /// What a node follows of a movement: all of it inside, its part along the boundary there.
+  /// Returns the part of a movement that a node follows: all of it inside, its component along the
+  /// boundary there.
   Point<dim> along(NodeIndex node, const Point<dim>& movement) const {
     return contains_[node] == slides ? Point<dim>(projections_[node] * movement) : movement;
   }

@@ -9,9 +9,9 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// The lower triangle, which is all that the factorization looks at.
+/// Returns the lower triangle only: the factorization reads nothing else.
 Matrix graph_laplacian(const Topology& topology, const std::vector<NodeIndex>& nodes) {
-  // Keeps the matrix positive definite where nodes have no way to one that stays.
+  // Keeps the matrix positive definite for nodes without a path to a node that stays.
   constexpr double shift = 1e-9;
   std::vector<int> number(topology.n_nodes(), -1);
   for (std::size_t k = 0; k < nodes.size(); ++k) number[nodes[k]] = static_cast<int>(k);

@@ -9,13 +9,13 @@
 
 namespace smoothfem {
 
-/// A vector for each node that moves, in their order: n_nodes x dim.
+/// A vector for each moving node, in their order: n_nodes x dim.
 using NodeVectors = Eigen::MatrixXd;
 
-/// The graph Laplacian L of the nodes of a mesh that move: each has the number of its edges on the
-/// diagonal, and -1 for each neighbour among them. A gradient g in node positions becomes the
-/// movement L^-1 g, in which neighbours go together: nodes alone would make their cells invalid
-/// long before the error falls (Sobolev gradient). Depends on the topology alone; factorized once.
+/// The graph Laplacian L of the moving nodes of a mesh. Its diagonal has each node's number of
+/// edges; each moving neighbour has -1. A gradient g in node positions becomes the movement L^-1 g,
+/// in which neighbours move together (Sobolev gradient). Nodes that move alone would make their
+/// cells invalid long before the error falls. Depends on the topology alone; factorized once.
 class NodeLaplacian {
  public:
   /// nodes: ascending.

@@ -10,10 +10,10 @@
 
 namespace smoothfem {
 
-/// What methods share that move nodes by what a solution says, then solve anew, and so on. The
-/// result is the mesh of the lowest energy, and with it of the lowest true error; where boundary
-/// nodes slide energies cannot be compared (their boundary values change), and the total of the
-/// recovery's error estimates takes their place.
+/// Base of solution-adaptive methods: they move nodes by the solution, solve again, and so on. The
+/// result is the mesh of the lowest energy, and with it of the lowest true error. If boundary nodes
+/// slide, energies cannot be compared (their boundary values change); the total of the recovery's
+/// error estimates replaces them.
 template <int dim>
 class SolutionDriven : public Smoother<dim> {
  public:
@@ -57,32 +57,32 @@ class SolutionDriven : public Smoother<dim> {
 
   Parameters common_parameters() {
     return {
-        {"degree", "of the finite elements whose error is to fall", &degree_, 1.0, 2.0},
-        {"solves", "of the problem at most, the one on the mesh it begins with included",
+        {"degree", "degree of the finite elements whose error is reduced", &degree_, 1.0, 2.0},
+        {"solves", "largest number of solves of the problem, including the one on the initial mesh",
          &n_solves_, 1.0, 1e6},
         {"boundary",
-         "whether nodes of straight lines and plane faces of the boundary slide on these, or stay",
+         "slide: nodes of straight lines and plane faces of the boundary move along them; or stay",
          Choice{&boundary_, {"fixed", "slide"}}},
         {"quality_floor",
-         "mean ratio below which nodes of cells are put back; the lowest of the mesh at hand "
-         "where that is lower",
+         "mean ratio below which nodes of cells are reset; the lowest of the present mesh "
+         "if that is lower",
          &quality_floor_, 0.0, 1.0}};
   }
 
-  /// Called before the first solve; for what depends on the mesh that the method begins with.
+  /// Called before the first solve; for data that depend on the initial mesh of the method.
   virtual void prepare(const SmoothingState<dim>& /*state*/) {}
 
-  /// Moves nodes by the solution at hand, and puts those of cells below lowest_quality() back.
-  /// Returns how many. Leaves state.cell_quality up to date.
+  /// Moves nodes by the present solution and resets those of cells below lowest_quality(). Returns
+  /// the number of reset nodes. Leaves state.cell_quality up to date.
   virtual std::size_t move_nodes(SmoothingState<dim>& state) = 0;
 
-  /// False ends the stage before its solves are used up.
+  /// Returns false to end the stage before its solves are used up.
   virtual bool has_more_to_try() const { return true; }
 
   const MovableNodes<dim>& nodes() const { return nodes_; }
   double lowest_quality() const { return lowest_quality_; }
 
-  /// What the recovery says of the last solve.
+  /// Returns the recovery's error estimate for the last solve.
   static double estimated_error(const SmoothingState<dim>& state) {
     return std::sqrt(estimated_squared_error(state.mesh, *state.solver));
   }

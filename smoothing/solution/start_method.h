@@ -8,14 +8,15 @@
 
 namespace smoothfem {
 
-/// First stage of methods that know the problem: another method, run to its end in one iteration.
-/// They begin with a mesh of good cells, and have their solves for what that method cannot see.
+/// First stage of solution-adaptive methods: runs another method to its end in one iteration. So
+/// they begin with cells of good quality and spend their solves on the rest.
 template <int dim>
 class StartMethod final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "start"; }
   Parameters parameters() override {
-    return {{"method", "method that smooths the mesh first, with its defaults; none: nothing does",
+    return {{"method",
+             "method that smooths the mesh first, with its default parameters; none: no such stage",
              &method_}};
   }
   SmootherTraits traits() const override {
@@ -27,8 +28,9 @@ class StartMethod final : public Smoother<dim> {
 
   void check_parameters() const override {
     if (method_ != "none" && make_method<dim>(method_).info.needs_problem)
-      throw InputError("'start.method' is " + method_ +
-                       ", which needs the problem itself; take another method, or none");
+      throw InputError(
+          "'start.method' is " + method_ +
+          ", which is a solution-adaptive method itself; choose another method, or none");
   }
 
   StepReport step(SmoothingState<dim>& state) override {

@@ -12,7 +12,7 @@ namespace {
 template <int dim>
 using Corners = std::array<std::uint8_t, dim + 1>;
 
-/// The simplices that a cell with n nodes is divided into.
+/// Returns the simplices into which a cell with n nodes is divided.
 std::span<const Corners<2>> simplices(std::size_t n, std::integral_constant<int, 2>) {
   static constexpr std::array<Corners<2>, 2> all{{{0, 1, 2}, {0, 2, 3}}};
   return {all.data(), n - 2};
@@ -30,7 +30,7 @@ std::span<const Corners<3>> simplices(std::size_t n, std::integral_constant<int,
 template <int dim>
 struct TensorField<dim>::Place {
   std::array<NodeIndex, dim + 1> nodes{};
-  Eigen::Matrix<double, dim, dim> inverse;                  ///< of the edges from the first node
+  Eigen::Matrix<double, dim, dim> inverse;  ///< inverse matrix of the edges from the first node
   Eigen::Matrix<double, dim + 1, 1> barycentric;            ///< coordinates of the point
   double depth = -std::numeric_limits<double>::infinity();  ///< the lowest of them
 
@@ -63,7 +63,7 @@ TensorField<dim>::TensorField(const Mesh<dim>& mesh, std::span<const CellTensor<
   }
 }
 
-/// In the simplex of the cell that it is deepest in.
+/// Locates the point in the simplex of the cell in which it is deepest.
 template <int dim>
 auto TensorField<dim>::place_in(const Point<dim>& point, CellIndex cell) const -> Place {
   Place best;
@@ -77,12 +77,13 @@ auto TensorField<dim>::place_in(const Point<dim>& point, CellIndex cell) const -
     place.barycentric.template tail<dim>() = place.inverse * (point - x_[place.nodes[0]]);
     place.barycentric[0] = 1.0 - place.barycentric.template tail<dim>().sum();
     place.depth = place.barycentric.minCoeff();
-    if (place.depth > best.depth) best = place;  // never one without size, whose depth is a NaN
+    if (place.depth > best.depth)
+      best = place;  // a simplex without size has depth NaN and is never chosen
   }
   return best;
 }
 
-/// From cell to cell around the nodes of the last one, as long as their centroids come nearer.
+/// Goes from cell to cell around the nodes of the last one, as long as their centroids come nearer.
 template <int dim>
 auto TensorField<dim>::find(const Point<dim>& point, CellIndex& cell) const -> Place {
   Place here = place_in(point, cell);

@@ -22,8 +22,8 @@ double mean_length(const CompressedRows<NodeIndex>& edges, std::span<const Point
 
 }  // namespace
 
-/// The wall's lower edge is a line of features, or several that end at the wall's upright edges: a
-/// surface's constraints do the rest.
+/// Builds a wall on the boundary. Its lower edge is one feature line, or several that end at the
+/// wall's upright edges. So the constraints of a surface apply.
 BoundaryLines::BoundaryLines(const PlanarMesh& mesh, const FeatureParameters& parameters,
                              double slide_distance)
     : topology_(mesh.shared_topology()),

@@ -9,12 +9,12 @@
 
 namespace smoothfem {
 
-/// The boundary of a planar mesh, as it is now, for nodes that slide along it: a node that more
-/// than the feature angle turns at is a corner, which stays.
+/// The boundary of a planar mesh in its present state, for nodes that slide along it. Nodes where
+/// it turns by more than the feature angle are corners, which stay.
 class BoundaryLines final : public SlidingNodes<2> {
  public:
-  /// slide_distance: the middles of boundary edges come off the initial boundary by no more than
-  /// this fraction of its mean edge length; above 0, infinity is no bound. Throws InputError
+  /// slide_distance: largest distance of the midpoints of boundary edges from the initial boundary,
+  /// as a fraction of its mean edge length. Above 0; infinity means no limit. Throws InputError
   /// otherwise, and as find_features does.
   BoundaryLines(const PlanarMesh& mesh, const FeatureParameters& parameters, double slide_distance);
 
@@ -24,18 +24,18 @@ class BoundaryLines final : public SlidingNodes<2> {
   bool keeps_bound(std::span<const Point<2>> x, NodeIndex node) const override;
 
   double edge_bound() const { return edge_bound_; }
-  /// The largest distance of the middle of a boundary edge from the initial boundary. x: of all
-  /// nodes.
+  /// Returns the largest distance of the midpoint of a boundary edge from the initial boundary. x:
+  /// of all nodes.
   double edge_distance(std::span<const Point<2>> x) const;
 
  private:
   double distance(std::span<const NodeIndex> edge, std::span<const Point<2>> x) const;
 
   std::shared_ptr<const Topology> topology_;
-  std::vector<NodeIndex> wall_nodes_;  ///< of the mesh's nodes; absent inside
+  std::vector<NodeIndex> wall_nodes_;  ///< wall node of each of the mesh's nodes; absent inside
   CompressedRows<std::uint32_t> node_edges_;
   double edge_bound_ = 0.0;
-  std::unique_ptr<const SurfaceConstraints> wall_;  ///< that stands on the boundary
+  std::unique_ptr<const SurfaceConstraints> wall_;  ///< the wall that stands on the boundary
 };
 
 }  // namespace smoothfem

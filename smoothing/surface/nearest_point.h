@@ -7,7 +7,7 @@
 
 namespace smoothfem {
 
-/// The nearest point to p of the segment from a to b.
+/// Returns the nearest point to p of the segment from a to b.
 template <int spacedim>
 Point<spacedim> nearest_on_segment(const Point<spacedim>& p, const Point<spacedim>& a,
                                    const Point<spacedim>& b) {
@@ -17,8 +17,8 @@ Point<spacedim> nearest_on_segment(const Point<spacedim>& p, const Point<spacedi
   return a + std::clamp(dot<spacedim>(p - a, along) / square, 0.0, 1.0) * along;
 }
 
-/// The nearest point to p of the triangle a, b, c: its foot in the triangle's plane if that lies
-/// inside, otherwise the nearest one of the sides.
+/// Returns the nearest point to p of the triangle a, b, c: its foot in the triangle's plane if that
+/// lies inside, otherwise the nearest point of the sides.
 inline Point<3> nearest_on_triangle(const Point<3>& p, const Point<3>& a, const Point<3>& b,
                                     const Point<3>& c) {
   const Point<3> u = b - a, v = c - a, w = p - a;

@@ -26,14 +26,14 @@ struct Piece {
   }
 };
 
-/// Pieces, found by their boxes. Boost's R-tree rather than VTK's locator: it needs no more than
-/// headers, and it lets the pieces of other parts of the surface be left out.
+/// Finds pieces by their boxes. Uses Boost's R-tree instead of VTK's locator: it needs only
+/// headers, and a search can skip the pieces of other parts of the surface.
 class PieceIndex {
  public:
   explicit PieceIndex(std::vector<Piece> pieces) : pieces_(std::move(pieces)), tree_(entries()) {}
 
-  /// Nearest point to p on the pieces of a part, or of all of them. Every piece within `radius`
-  /// meets the box of that size; where none is as near, a larger box is taken.
+  /// Returns the nearest point to p on the pieces of a part, or of all. Searches a box of size
+  /// `radius` first, which meets every piece within `radius`; a larger box if no piece is as near.
   Point<3> nearest(const Point<3>& p, std::optional<std::uint32_t> part, double radius) const {
     Point<3> best = p;
     for (double best_square = infinite; best_square > radius * radius; radius *= 2.0) {
@@ -56,7 +56,7 @@ class PieceIndex {
     return best;
   }
 
-  /// Longest side of the box around all pieces.
+  /// Returns the longest side of the box around all pieces.
   double extent() const {
     const Box box = tree_.bounds();
     return std::max({box.max_corner().get<0>() - box.min_corner().get<0>(),

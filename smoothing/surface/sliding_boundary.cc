@@ -8,7 +8,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Over the sides of all facets: each is one of two.
+/// Mean over the sides of all facets; each side belongs to two facets.
 double mean_edge_length(const CompressedRows<NodeIndex>& facets, std::span<const Point<3>> x) {
   double sum = 0.0;
   for (std::size_t f = 0; f < facets.size(); ++f)

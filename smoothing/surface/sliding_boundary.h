@@ -5,18 +5,18 @@
 
 namespace smoothfem {
 
-/// How far facets of a sliding boundary come off the initial one, unless said otherwise: by a
-/// fraction of its mean edge length. A chord from middle to middle of two facets comes off by as
-/// much where they make 23 degrees: coarse meshes of curved boundaries keep their shape, others
-/// hardly notice.
+/// Default of the largest distance of a sliding boundary's facets from the initial one, as a
+/// fraction of its mean edge length. The chord between the midpoints of two facets has this
+/// distance if they meet at 23 degrees. So coarse meshes of curved boundaries keep their shape;
+/// other meshes hardly notice.
 constexpr double default_slide_distance = 0.1;
 
-/// A volume mesh whose boundary nodes slide on the boundary that it has now: nodes of its feature
-/// lines along them, corners stay. Features follow from the parameters and from borders between
-/// labelled faces of different tags. Inner nodes are fixed where they were. slide_distance: the
-/// middles of facets and of their sides, which cut across what is curved, come off the boundary by
-/// no more than this fraction of its mean edge length; steps beyond are not taken. Throws
-/// InputError unless it is above 0; infinity is no bound.
+/// Returns a volume mesh whose boundary nodes slide on its present boundary. Nodes of feature lines
+/// slide along them, and corners stay. Features follow from the parameters and from borders between
+/// labelled faces of different tags. Inner nodes keep their fixed flags. slide_distance: largest
+/// distance from the boundary of the midpoints of facets and of their sides, as a fraction of the
+/// boundary's mean edge length. Facets cut across curved parts; steps beyond the distance are not
+/// taken. Throws InputError unless it is above 0; infinity means no limit.
 VolumeMesh with_sliding_boundary(const VolumeMesh& mesh, const FeatureParameters& parameters = {},
                                  double slide_distance = default_slide_distance);
 

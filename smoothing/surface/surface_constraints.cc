@@ -39,11 +39,11 @@ std::vector<Piece> segments_of(const SurfaceFeatures& features, std::span<const 
   return segments;
 }
 
-/// Smallest radius to begin a search with, relative to the surface: above rounding.
-constexpr double least_radius = 1e-10;
-constexpr std::size_t facet_grain = 256;  ///< facets that one thread looks at at a time
+/// Smallest radius of a first search, relative to the surface: above rounding.
+constexpr double min_radius = 1e-10;
+constexpr std::size_t facet_grain = 256;  ///< facets that one thread checks at a time
 
-/// The middles of a facet and of its sides.
+/// Returns the midpoints of a facet and of its sides.
 std::vector<Point<3>> middles(std::span<const NodeIndex> nodes, std::span<const Point<3>> x) {
   const std::size_t n = nodes.size();
   std::vector<Point<3>> points;
@@ -81,12 +81,12 @@ Point<3> SurfaceConstraints::project(NodeIndex node, const Point<3>& from,
   if (node_class.kind == GeometricClassification::corner) return from;
   const PieceIndex& index =
       node_class.kind == GeometricClassification::patch ? *triangles_ : *segments_;
-  const double radius = (wanted - from).norm() + least_radius * triangles_->extent();
+  const double radius = (wanted - from).norm() + min_radius * triangles_->extent();
   return index.nearest(wanted, node_class.part, radius);
 }
 
 double SurfaceConstraints::distance(const Point<3>& point) const {
-  return distance(point, least_radius * triangles_->extent());
+  return distance(point, min_radius * triangles_->extent());
 }
 
 double SurfaceConstraints::distance(const Point<3>& point, double radius) const {
@@ -94,8 +94,7 @@ double SurfaceConstraints::distance(const Point<3>& point, double radius) const 
 }
 
 double SurfaceConstraints::facet_distance(std::span<const Point<3>> coordinates) const {
-  const double radius =
-      facet_bound_ < unbounded ? facet_bound_ : least_radius * triangles_->extent();
+  const double radius = facet_bound_ < unbounded ? facet_bound_ : min_radius * triangles_->extent();
   std::vector<double> of_facet(facets_.size(), 0.0);
   parallel_for_ranges(facets_.size(), facet_grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f)

@@ -13,15 +13,15 @@ namespace smoothfem {
 
 class PieceIndex;  // smoothing/surface/piece_index.h
 
-/// Keeps nodes where they belong on a surface: those of its smooth parts on them, those of a
-/// feature line on it, corners where they are (thesis, Section 5.1.2). The surface is the initial
-/// mesh of it, a facet of more than three nodes seen as triangles around the mean of its nodes; a
-/// node's own smooth part or line counts only, so that it cannot change over to another sheet of
-/// the surface. Facets between moved nodes cut across what is curved; they may be bounded, too.
+/// Keeps nodes on their part of a surface: nodes of smooth parts on these, nodes of a feature line
+/// on the line, corners at their positions (thesis, Section 5.1.2). The surface is its initial
+/// mesh; a facet with more than three nodes becomes triangles around the mean of its nodes. Only
+/// the node's own smooth part or line counts, so that it cannot change over to another sheet of the
+/// surface. Facets between moved nodes cut across curved parts; their distance may be bounded, too.
 class SurfaceConstraints final : public NodeConstraints {
  public:
-  /// facets: a surface of nodes with these coordinates, its initial mesh. facet_bound: how far
-  /// facets may come off it, above 0. Throws InputError as find_features does.
+  /// facets: the initial mesh of a surface of nodes with these coordinates. facet_bound: largest
+  /// distance of facets from the surface, above 0. Throws InputError as find_features does.
   SurfaceConstraints(const SurfaceFacets& facets, std::span<const Point<3>> coordinates,
                      const FeatureParameters& parameters = {}, double facet_bound = unbounded);
   ~SurfaceConstraints() override;
@@ -50,7 +50,7 @@ class SurfaceConstraints final : public NodeConstraints {
  private:
   /// radius: where the search begins.
   double distance(const Point<3>& point, double radius) const;
-  /// Around these nodes, ascending; none where there is no bound.
+  /// Returns the facets around these nodes, ascending; none if there is no bound.
   std::vector<std::uint32_t> facets_of(std::span<const NodeIndex> around) const;
   bool is_out_of_bound(std::uint32_t facet, std::span<const Point<3>> coordinates) const;
 
@@ -62,17 +62,18 @@ class SurfaceConstraints final : public NodeConstraints {
   std::unique_ptr<const PieceIndex> triangles_, segments_;
 };
 
-/// Throws InputError unless it is above 0; infinity is.
+/// Throws InputError unless the distance is above 0; infinity is allowed.
 void require_slide_distance(double slide_distance);
 
-/// A mesh of the surface that these cells are, which its nodes never leave: its features follow
-/// from the parameters, tags of the cells and labelled edges. Corners are fixed, and the nodes that
-/// `fixed` names (one flag a node). Throws InputError as Topology and NodeConstraints do.
+/// Makes a mesh of the surface that these cells form; its nodes never leave it. Features follow
+/// from the parameters, tags of the cells and labelled edges. Corners are fixed, and so are the
+/// nodes with a flag in `fixed` (one for each node). Throws InputError as Topology and
+/// NodeConstraints do.
 SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point<3>> coordinates,
                               MeshLabels labels = {}, std::optional<std::vector<bool>> fixed = {},
                               const FeatureParameters& parameters = {});
 
-/// The same mesh, its present nodes taken for the initial ones, with other features.
+/// Returns the mesh with other features; its present nodes become the initial ones.
 SurfaceMesh with_features(const SurfaceMesh& mesh, const FeatureParameters& parameters);
 
 }  // namespace smoothfem

@@ -43,7 +43,7 @@ std::vector<Side> sides_of(const CompressedRows<NodeIndex>& facets) {
   return sides;
 }
 
-/// Things that belong together, and in the end a number for each group of them, by first member.
+/// Union of elements into groups. At the end each group gets a number, by first member.
 class Groups {
  public:
   explicit Groups(std::size_t n) : parents_(n) {
@@ -117,7 +117,8 @@ class FeatureSearch {
     result_.facet_patches = patches.numbers();
   }
 
-  /// Nodes of a single smooth part, of two edges that go on nearly straight, and the rest.
+  /// Classifies nodes: those of a single smooth part, of two feature edges that continue nearly
+  /// straight, and the rest.
   void find_lines_and_classify_nodes() {
     const auto& edges = result_.feature_edges;
     auto& nodes = result_.classifications;
@@ -136,8 +137,8 @@ class FeatureSearch {
     Groups lines(edges.size());
     for (NodeIndex i = 0; i < x_.size(); ++i) {
       if (edges_at[i].empty()) continue;
-      nodes[i].kind =
-          goes_on(i, edges_at[i]) ? GeometricClassification::line : GeometricClassification::corner;
+      nodes[i].kind = continues_straight(i, edges_at[i]) ? GeometricClassification::line
+                                                         : GeometricClassification::corner;
       if (nodes[i].kind == GeometricClassification::line)
         lines.join(edges_at[i][0], edges_at[i][1]);
     }
@@ -147,7 +148,7 @@ class FeatureSearch {
         nodes[i].part = result_.edge_lines[edges_at[i][0]];
   }
 
-  bool goes_on(NodeIndex node, const std::vector<std::uint32_t>& edges) const {
+  bool continues_straight(NodeIndex node, const std::vector<std::uint32_t>& edges) const {
     if (edges.size() != 2) return false;
     const auto direction_to_other_end = [&](std::uint32_t e) {
       const Edge& edge = result_.feature_edges[e];

@@ -9,28 +9,28 @@
 
 namespace smoothfem {
 
-/// A surface in space: facets with three or more nodes, all running around the same side of it.
+/// A surface in space: facets with three or more nodes, all with the same orientation.
 struct SurfaceFacets {
   CompressedRows<NodeIndex> nodes;
   std::vector<int> tags;  ///< labels whose borders are features; empty: none
-  std::vector<std::array<NodeIndex, 2>> marked_edges;  ///< features whatever their angle
+  std::vector<std::array<NodeIndex, 2>> marked_edges;  ///< edges that are features at any angle
 };
 
-/// When an edge of a surface is a feature that smoothing has to keep.
+/// Rules for feature edges of a surface, which smoothing has to keep.
 struct FeatureParameters {
-  /// Edges whose facets meet at an angle more than this off flat are features, and nodes where a
-  /// line of features turns by more are corners. In (0, 180] degrees.
+  /// Largest angle, in (0, 180] degrees. Edges whose facets deviate from flat by more are features.
+  /// Nodes where a feature line turns by more are corners.
   double angle_degrees = 40.0;
 };
 
-/// A surface taken apart at its features: edges between facets that meet at an angle, have
-/// different tags, are marked, or where other than two facets meet (the surface's boundary).
-/// Corners are nodes where other than two feature edges meet or where two make an angle.
+/// A surface divided at its feature edges. These are edges between facets that meet at an angle or
+/// have different tags, marked edges, and the surface's boundary: edges with one or more than two
+/// facets. Corners are nodes where other than two feature edges meet, or where two make an angle.
 struct SurfaceFeatures {
   std::vector<GeometricClassification> classifications;  ///< of each node
-  std::vector<std::uint32_t> facet_patches;              ///< the smooth part of each facet
+  std::vector<std::uint32_t> facet_patches;              ///< smooth part of each facet
   std::vector<std::array<NodeIndex, 2>> feature_edges;   ///< the lower node first, ascending
-  std::vector<std::uint32_t> edge_lines;                 ///< the line of each feature edge
+  std::vector<std::uint32_t> edge_lines;                 ///< line of each feature edge
 };
 
 /// Throws InputError for an angle out of range, and for two facets that run along their common edge

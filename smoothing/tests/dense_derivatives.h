@@ -45,7 +45,8 @@ DenseDerivatives dense_derivatives(ShapeObjective<dim>& objective, const Mesh<di
   return result;
 }
 
-/// Global optimization of the mesh lowers the objective in every iteration, to a minimum.
+/// Checks that global optimization of the mesh lowers the objective in every iteration, to a
+/// minimum.
 template <int dim>
 void expect_descent_to_a_stationary_point(Mesh<dim> mesh) {
   ShapeObjective<dim> objective(mesh.shared_topology());

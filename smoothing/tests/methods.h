@@ -12,8 +12,8 @@
 
 namespace smoothfem::test {
 
-/// A method of the catalogue, or with " NAME=VALUE" behind its name one whose stages all have a
-/// parameter otherwise.
+/// Makes a method of the catalogue. The name may end with " NAME=VALUE", a parameter to set in all
+/// of its stages.
 template <int dim, int spacedim = dim>
 Method<dim, spacedim> make_variant(const std::string& name) {
   const auto space = name.find(' ');
@@ -26,7 +26,7 @@ Method<dim, spacedim> make_variant(const std::string& name) {
   return method;
 }
 
-/// The same with so few iterations a stage that differences in rounding cannot grow.
+/// Makes the method with so few iterations in each stage that differences in rounding cannot grow.
 template <int dim, int spacedim = dim>
 Method<dim, spacedim> short_method(const std::string& name, const std::string& n_iterations) {
   auto method = make_variant<dim, spacedim>(name);
@@ -36,13 +36,13 @@ Method<dim, spacedim> short_method(const std::string& name, const std::string& n
   return method;
 }
 
-/// Names of all methods, and how tests of them are called.
+/// Returns the names of all methods, which also name their tests.
 inline std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const auto& info : method_catalogue()) names.push_back(info.name);
   return names;
 }
-/// The same and the variants that are as good as methods of their own.
+/// Returns these names and those of variants that are tested like separate methods.
 inline std::vector<std::string> variant_names() {
   auto names = method_names();
   for (const auto& name : method_names())
@@ -56,14 +56,15 @@ inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-/// Methods whose stages all need a valid mesh promise that it stays valid.
+/// True if all stages of the method need a valid mesh and so promise that it stays valid.
 template <int dim, int spacedim>
 bool claims_validity(const Method<dim, spacedim>& method) {
   return std::all_of(method.stages.begin(), method.stages.end(),
                      [](const auto& stage) { return stage->traits().needs_valid_mesh; });
 }
 
-/// How many fixed nodes are elsewhere than in the mesh `before`; 0 if nothing went wrong.
+/// Returns the number of fixed nodes that differ from the mesh `before`; 0 if the method is
+/// correct.
 template <int dim, int spacedim>
 std::size_t n_moved_fixed_nodes(const Mesh<dim, spacedim>& before,
                                 const Mesh<dim, spacedim>& after) {

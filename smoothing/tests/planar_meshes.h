@@ -25,8 +25,9 @@ inline PlanarMesh make_mesh(const std::vector<Point<2>>& coordinates, const Cell
 
 enum class GridCells { triangles, quadrilaterals, mixed };
 
-/// n x n unit squares, seen as quadrilaterals, cut into two triangles each, or both by turns. With
-/// height sqrt(3)/2 and half an edge of shift a row (equilateral = true) the triangles are regular.
+/// Makes n x n unit squares: quadrilaterals, cut into two triangles each, or both in turn. With
+/// equilateral = true the rows have the height sqrt(3)/2 and are shifted by half an edge each, so
+/// that the triangles are regular.
 inline PlanarMesh grid_mesh(std::uint32_t n, GridCells kind, bool equilateral = false) {
   std::vector<Point<2>> x;
   for (std::uint32_t j = 0; j <= n; ++j)
@@ -47,7 +48,7 @@ inline PlanarMesh grid_mesh(std::uint32_t n, GridCells kind, bool equilateral = 
   return make_mesh(x, cells);
 }
 
-/// A pentagon ringed by five others; its nodes are free.
+/// Makes a pentagon surrounded by five others; its nodes are free.
 inline PlanarMesh pentagon_mesh() {
   std::vector<Point<2>> x;
   const auto add = [&x](double radius, double turn) {
@@ -65,7 +66,7 @@ inline PlanarMesh pentagon_mesh() {
   return make_mesh(x, cells);
 }
 
-/// Three rings of regular hexagons with edges of length one around a regular hexagon.
+/// Makes three rings of regular hexagons with edges of length one around a regular hexagon.
 inline PlanarMesh honeycomb_mesh() {
   constexpr double s = 0.5 * std::numbers::sqrt3;
   std::vector<Point<2>> x;
@@ -88,7 +89,7 @@ inline PlanarMesh honeycomb_mesh() {
   return make_mesh(x, cells);
 }
 
-/// Numbers in [-1, 1), the same on every machine (SplitMix64).
+/// Random numbers in [-1, 1), the same on every machine (SplitMix64).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -105,7 +106,7 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Moves each free node by up to `radius` in x and y where its cells stay valid.
+/// Moves each free node by up to `radius` in x and y, if its cells stay valid.
 inline void distort(PlanarMesh& mesh, double radius, std::uint64_t seed) {
   Random random(seed);
   for (const NodeIndex i : mesh.topology().free_nodes()) {

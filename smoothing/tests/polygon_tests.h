@@ -11,9 +11,9 @@
 namespace smoothfem::test {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t most_nodes = 12;  ///< of the polygons of tests
+constexpr std::size_t max_nodes = 12;  ///< of the polygons of tests
 
-/// Nodes uniform in the square from -1 - i to 1 + i.
+/// Makes a polygon with nodes uniform in the square from -1 - i to 1 + i.
 inline Polygon random_polygon(std::size_t n, Random& random) {
   Polygon polygon;
   for (std::size_t k = 0; k < n; ++k) {
@@ -23,7 +23,7 @@ inline Polygon random_polygon(std::size_t n, Random& random) {
   return polygon;
 }
 
-/// Any counterclockwise triangle.
+/// Makes a random counterclockwise triangle.
 inline Polygon random_triangle(Random& random) {
   Polygon triangle = random_polygon(3, random);
   if (signed_area(triangle) < 0.0) std::swap(triangle[1], triangle[2]);
@@ -36,7 +36,7 @@ inline Polygon unit_polygon(std::size_t n, std::size_t k) {
   return polygon;
 }
 
-/// Column by column, from what the transformation does to single nodes.
+/// Returns the matrix of a transformation, column by column, from its effect on single nodes.
 inline Eigen::MatrixXcd matrix_of(std::size_t n,
                                   const std::function<Polygon(const Polygon&)>& step) {
   Eigen::MatrixXcd matrix(n, n);

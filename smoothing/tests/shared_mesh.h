@@ -8,10 +8,10 @@
 
 namespace smoothfem::test {
 
-/// A mesh of other people, which is not part of the repository: in the folder that the environment
-/// variable SMOOTHFEM_MESHES names, in ../shared/meshes, or (published ones) in the user's cache,
-/// where `./run study gear --published` puts it. Empty if it is nowhere: the test is then skipped
-/// with how_to_get as its reason.
+/// Returns the path of a third-party mesh, which is not part of the repository. Searches the folder
+/// of the environment variable SMOOTHFEM_MESHES, then ../shared/meshes, and for published meshes
+/// the user's cache, where `./run study gear --published` stores them. Returns an empty path if it
+/// is not found: the test is then skipped with how_to_get as its reason.
 inline std::filesystem::path shared_mesh(const std::string& name) {
   const auto variable = [](const char* variable_name) -> std::filesystem::path {
     const char* value = std::getenv(variable_name);
@@ -26,7 +26,7 @@ inline std::filesystem::path shared_mesh(const std::string& name) {
   return {};
 }
 
-/// Why a test is skipped, and what to do.
+/// Returns the reason for a skipped test and how to get its mesh.
 inline std::string how_to_get(const std::string& name) {
   return "SKIPPED: the mesh " + name +
          " is not part of the repository and not at hand; name its folder by SMOOTHFEM_MESHES, or "

@@ -8,8 +8,8 @@
 #include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/tests/volume_meshes.h"
 
-/// Meshes whose inverted cells have nodes of the boundary only: what tools that make hexahedral
-/// meshes leave in thin walls and at curved boundaries.
+/// Meshes whose inverted cells have nodes of the boundary only. Tools that make hexahedral meshes
+/// produce them in thin walls and at curved boundaries.
 
 namespace smoothfem::test {
 
@@ -25,10 +25,10 @@ inline VolumeMesh shell(BoxCells kind) {
   return mesh;
 }
 
-/// Nodes of the boundary's smooth parts moved along it, at random, as long as no facet turns by
-/// more than some 14 degrees, which would make features of its sides: cells turn over without.
+/// Moves nodes of the boundary's smooth parts along it at random. No facet turns by more than about
+/// 14 degrees, so that its sides do not become features. Cells still turn over.
 inline VolumeMesh tangled_along_boundary(VolumeMesh mesh, int n_passes = 3) {
-  constexpr double largest = 0.06, least_cosine = 0.97;
+  constexpr double largest = 0.06, min_cosine = 0.97;
   const VolumeMesh sliding = with_sliding_boundary(mesh);
   const NodeConstraints& constraints = *sliding.constraints();
   const auto& facets = mesh.topology().boundary_facets();
@@ -43,16 +43,15 @@ inline VolumeMesh tangled_along_boundary(VolumeMesh mesh, int n_passes = 3) {
           constraints.project(i, old, Point<3>(old + largest * Point<3>(a, b, c)));
       for (const std::uint32_t f : facets_of_node[i]) {
         const Point<3> normal = facet_normal(facets[f], mesh.coordinates());
-        if (!(normal.dot(constraints.facet_normals()[f]) > least_cosine))
-          mesh.coordinates()[i] = old;
+        if (!(normal.dot(constraints.facet_normals()[f]) > min_cosine)) mesh.coordinates()[i] = old;
       }
     }
   return mesh;
 }
 
-/// A strip of one layer of cells round a quarter of a circle, its outer side turned by up to so
-/// much: where it is turned by more than some 18 degrees the inner corners of its cells are
-/// inverted, and no side of the strip is folded.
+/// A strip of one layer of cells around a quarter of a circle, with its outer side turned by up to
+/// `turn`. Turned by more than about 18 degrees, the inner corners of its cells are inverted, while
+/// no side of the strip is folded.
 inline PlanarMesh strip(bool triangles, double turn) {
   constexpr std::uint32_t n = 40;
   std::vector<Point<2>> points;

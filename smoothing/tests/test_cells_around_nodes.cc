@@ -9,11 +9,11 @@
 namespace smoothfem {
 namespace {
 
-/// Compares with the tables of the topology; with no room for a table, too.
+/// Compares with the tables of the topology, also without room for a table.
 template <int dim>
 void expect_cells_of_topology(const Mesh<dim>& mesh) {
   const Topology& topology = mesh.topology();
-  for (const std::size_t max_entries : {CellsAroundNodes::most_entries, std::size_t{0}}) {
+  for (const std::size_t max_entries : {CellsAroundNodes::default_max_entries, std::size_t{0}}) {
     CellsAroundNodes around(max_entries);
     around.prepare(mesh.shared_topology());
     for (std::size_t i = 0; i < topology.free_nodes().size(); ++i) {
@@ -39,7 +39,7 @@ TEST(CellsAroundNodes, AreThoseOfTheTopology) {
     expect_cells_of_topology(test::box_mesh(4, 4, 4, kind));
 }
 
-TEST(CellsAroundNodes, AreThoseOfTheMeshTheyWerePreparedForLast) {
+TEST(CellsAroundNodes, BelongToTheMeshOfTheLastPreparation) {
   CellsAroundNodes around;
   for (const std::uint32_t n : {3, 5}) {
     const PlanarMesh mesh = test::grid_mesh(n, test::GridCells::quadrilaterals);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What every method has to hold, whichever it is: a new one is tested by being registered.
+/// Requirements for every method. A new method is tested as soon as it is registered.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@ using test::grid_mesh;
 using test::GridCells;
 using test::regular_topologies;
 
-/// Meshes that are where every method wants them.
+/// Meshes on which no method moves a node.
 template <int dim>
 std::vector<Mesh<dim>> regular_patches() {
   if constexpr (dim == 2)
@@ -61,18 +61,18 @@ Eigen::Matrix<double, dim, dim> rotation() {
 
 class EveryMethod : public testing::TestWithParam<std::string> {
  protected:
-  /// Calls check<dim>() for the dimensions that the method takes.
+  /// Calls check<dim>() for the dimensions that the method supports.
   template <class Check>
   static void in_every_dimension(const Check& check) {
     const std::string name = GetParam().substr(0, GetParam().find(' '));
-    if (takes_meshes<2>(name)) check.template operator()<2>();
-    if (takes_meshes<3>(name)) check.template operator()<3>();
+    if (supports_mesh_kind<2>(name)) check.template operator()<2>();
+    if (supports_mesh_kind<3>(name)) check.template operator()<3>();
   }
   template <int dim>
   static Method<dim> method() {
     return test::make_variant<dim>(GetParam());
   }
-  /// The method with so few iterations that differences in rounding cannot grow.
+  /// Makes the method with so few iterations that differences in rounding cannot grow.
   template <int dim>
   static Method<dim> short_method(const std::string& n_iterations = "5") {
     return test::short_method<dim>(GetParam(), n_iterations);
@@ -101,7 +101,7 @@ TEST_P(EveryMethod, ImprovesDistortedMeshesOfEveryTypeAndMovesOnlyFreeNodes) {
   });
 }
 
-TEST_P(EveryMethod, LeavesRegularPatchesWhereTheyAre) {
+TEST_P(EveryMethod, KeepsRegularPatches) {
   in_every_dimension([]<int dim>() {
     for (const auto& mesh : regular_patches<dim>()) {
       Mesh<dim> result = mesh;
@@ -131,8 +131,8 @@ TEST_P(EveryMethod, CommutesWithSimilarities) {
   });
 }
 
-/// Sizes of cells are 1; coordinates keep nine digits of them.
-TEST_P(EveryMethod, DoesTheSameFarFromTheOrigin) {
+/// Cells have size 1; their coordinates keep nine digits.
+TEST_P(EveryMethod, GivesTheSameMeshFarFromTheOrigin) {
   in_every_dimension([]<int dim>() {
     const Point<dim> far = Point<dim>::LinSpaced(1e7, -2e7);
     for (const auto& [name, mesh] : distorted_meshes<dim>()) {
@@ -149,7 +149,7 @@ TEST_P(EveryMethod, DoesTheSameFarFromTheOrigin) {
   });
 }
 
-TEST_P(EveryMethod, GivesTheSameBitsTwice) {
+TEST_P(EveryMethod, IsBitwiseReproducible) {
   in_every_dimension([]<int dim>() {
     auto reused = method<dim>();  // for meshes that become larger and smaller
     for (const auto& [name, mesh] : distorted_meshes<dim>()) {
@@ -166,9 +166,9 @@ TEST_P(EveryMethod, GivesTheSameBitsTwice) {
   });
 }
 
-// Captures are named where clang 14 does not take structured bindings by [&].
+// Captures are named because clang 14 does not support capturing structured bindings by [&].
 
-TEST_P(EveryMethod, TellsTheObserverEveryIterationAndGivesTheSameMeshWithout) {
+TEST_P(EveryMethod, ReportsEveryIterationToTheObserverAndGivesTheSameMeshWithoutIt) {
   in_every_dimension([]<int dim>() {
     for (const auto& [name, mesh] : distorted_meshes<dim>()) {
       Mesh<dim> result = mesh;
@@ -206,7 +206,7 @@ TEST_P(EveryMethod, TellsTheObserverEveryIterationAndGivesTheSameMeshWithout) {
   });
 }
 
-TEST_P(EveryMethod, KeepsTheMeshValidIfItClaimsSo) {
+TEST_P(EveryMethod, KeepsTheMeshValidIfItPromisesTo) {
   in_every_dimension([]<int dim>() {
     if (!claims_validity<dim>()) GTEST_SKIP() << "does not claim it";
     for (auto& [name, mesh] : distorted_meshes<dim>()) {
@@ -219,7 +219,7 @@ TEST_P(EveryMethod, KeepsTheMeshValidIfItClaimsSo) {
   });
 }
 
-TEST_P(EveryMethod, RefusesTangledMeshesIfItNeedsValidOnes) {
+TEST_P(EveryMethod, RefusesTangledMeshesIfItNeedsValidMeshes) {
   in_every_dimension([]<int dim>() {
     auto mesh = tangled_mesh<dim>();
     const auto tangled = mesh.copied_coordinates();
@@ -234,7 +234,7 @@ TEST_P(EveryMethod, RefusesTangledMeshesIfItNeedsValidOnes) {
   });
 }
 
-TEST_P(EveryMethod, TakesUnusedNodes) {
+TEST_P(EveryMethod, AcceptsUnusedNodes) {
   in_every_dimension([]<int dim>() {
     auto without = regular_topologies<dim>()[1].second;
     auto coordinates = without.copied_coordinates();
@@ -253,7 +253,7 @@ TEST_P(EveryMethod, TakesUnusedNodes) {
   });
 }
 
-TEST_P(EveryMethod, TakesMeshesWithNothingToMove) {
+TEST_P(EveryMethod, AcceptsMeshesWithoutFreeNodes) {
   in_every_dimension([]<int dim>() {
     for (const auto& [name, free] : regular_topologies<dim>()) {
       Mesh<dim> mesh(std::make_shared<const Topology>(dim, free.n_nodes(), free.topology().cells(),
@@ -266,8 +266,8 @@ TEST_P(EveryMethod, TakesMeshesWithNothingToMove) {
   });
 }
 
-/// Large enough for several blocks of cells and another order inside.
-TEST_P(EveryMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
+/// Large enough for several blocks of cells and for internal reordering.
+TEST_P(EveryMethod, IsBitwiseIdenticalForEveryNumberOfThreads) {
   const int default_threads = n_threads();
   in_every_dimension([]<int dim>() {
     auto mesh = [] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Formulas of geometry at sizes near the limits of numbers, far from the origin, and on thin
-/// cells.
+/// Tests geometry formulas at sizes near the limits of floating point, far from the origin, and on
+/// thin cells.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ using test::box_mesh;
 using test::BoxCells;
 using test::distorted_meshes;
 
-/// All that is said about a mesh, sizes as lengths.
+/// All numbers of a mesh; sizes as lengths.
 template <int dim>
 std::vector<double> numbers_of(const Mesh<dim>& mesh) {
   std::vector<double> numbers = cell_mean_ratios(mesh);
@@ -76,12 +76,12 @@ TEST(ExtremeGeometry, SurfaceNumbersDoNotDependOnTheSize) {
   }
 }
 
-/// Coordinates that keep nine digits of a cell's size give numbers with about eight.
+/// Coordinates that keep nine digits of a cell's size give results with about eight digits.
 template <int dim>
 void expect_same_numbers_far_from_the_origin() {
   const Point<dim> far = Point<dim>::LinSpaced(1e7, -2e7);
   for (auto& [name, mesh] : distorted_meshes<dim>()) {
-    for (auto& p : mesh.coordinates()) p = (p + far) - far;  // as far as it is kept there
+    for (auto& p : mesh.coordinates()) p = (p + far) - far;  // rounded as at that distance
     Mesh<dim> moved = mesh;
     for (auto& p : moved.coordinates()) p += far;
     const auto here = numbers_of(mesh), there = numbers_of(moved);
@@ -97,7 +97,8 @@ TEST(ExtremeGeometry, VolumeNumbersAreTheSameFarFromTheOrigin) {
   expect_same_numbers_far_from_the_origin<3>();
 }
 
-/// A rectangle, a right triangle, a box and a tetrahedron, thin by h, with qualities by hand.
+/// Tests a rectangle, a right triangle, a box and a tetrahedron, each thin by h, with hand-computed
+/// qualities.
 TEST(ExtremeGeometry, ThinCells) {
   for (const double h : {1e-3, 1e-6}) {
     const auto planar = [&](std::vector<Point<2>> x) {
@@ -124,7 +125,7 @@ TEST(ExtremeGeometry, ThinCells) {
   }
 }
 
-/// Beyond: no number, but never one that is not, nor one outside of [0, 1].
+/// Beyond the limits of floating point a quality may be zero, but never NaN nor outside of [0, 1].
 TEST(ExtremeGeometry, QualitiesStayInTheirRange) {
   for (const double size : {1e-320, 1e-200, 1e-160, 1e160, 1e200, 1e307}) {
     for (auto& [name, mesh] : distorted_meshes<2>()) {

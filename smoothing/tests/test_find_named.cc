@@ -36,7 +36,7 @@ TEST(EditDistance, CountsInsertedDeletedChangedAndSwappedLetters) {
   EXPECT_EQ(edit_distance("", "ring"), 4U);
   EXPECT_EQ(edit_distance("ring", ""), 4U);
   EXPECT_EQ(edit_distance("", ""), 0U);
-  // "ac" from the swapped "ca" would have to be edited again to give "abc".
+  // The swapped "ca" would have to be edited again to give "abc".
   EXPECT_EQ(edit_distance("ca", "abc"), 3U);
 }
 
@@ -46,7 +46,7 @@ TEST(EditDistance, IsSymmetric) {
     for (const auto& b : words) EXPECT_EQ(edit_distance(a, b), edit_distance(b, a)) << a << b;
 }
 
-TEST(FindNamed, GivesTheElementOfThatName) {
+TEST(FindNamed, ReturnsTheElementOfTheName) {
   std::vector<Named> all{{"axle", 1}, {"gear", 2}, {"gear", 3}};
   const auto name_of = [](const Named& named) { return named.name; };
   find_named("domain", "gear", all, name_of).value = 4;
@@ -60,20 +60,20 @@ TEST(FindNamed, GivesTheElementOfThatName) {
   EXPECT_EQ(&find_named("domain", "gear", names), &names[1]);
 }
 
-TEST(FindNamed, SaysWhichNameIsNear) {
+TEST(FindNamed, SuggestsTheNearestName) {
   EXPECT_EQ(refusal("gaer", {"axle", "gear", "ring"}),
             "there is no domain 'gaer'; did you mean 'gear'? choose one of axle, gear, ring");
   EXPECT_EQ(refusal("Gear", {"axle", "gear"}),
             "there is no domain 'Gear'; did you mean 'gear'? choose one of axle, gear");
 }
 
-TEST(FindNamed, TakesTheNearestNameAndOfEquallyNearOnesTheFirst) {
+TEST(FindNamed, SuggestsTheFirstOfEquallyNearNames) {
   EXPECT_EQ(nearest_name("subdivison", {"subdivide", "subdivision"}), "subdivision");
   EXPECT_EQ(nearest_name("bing", {"sing", "ring"}), "sing");
   EXPECT_EQ(nearest_name("bing", {"ring", "sing"}), "ring");
 }
 
-TEST(FindNamed, AsksForNoNameThatIsFar) {
+TEST(FindNamed, SuggestsNoDistantName) {
   EXPECT_EQ(refusal("tooth", {"axle", "gear"}),
             "there is no domain 'tooth'; choose one of axle, gear");
   EXPECT_EQ(nearest_name("gxxr", {"gear"}), "");  // two letters of four
@@ -83,8 +83,8 @@ TEST(FindNamed, AsksForNoNameThatIsFar) {
   EXPECT_EQ(nearest_name("", {"gear"}), "");
 }
 
-TEST(FindNamed, SaysThatThereIsNone) {
-  EXPECT_EQ(refusal("gear", {}), "there is no domain 'gear'; there is none to choose");
+TEST(FindNamed, ReportsThatNoneIsAvailable) {
+  EXPECT_EQ(refusal("gear", {}), "there is no domain 'gear'; none is available");
   EXPECT_EQ(nearest_name("gear", {}), "");
 }
 
@@ -97,7 +97,7 @@ std::string refusal_of(const Registry<Named>& registry, const std::string& wante
   return "found";
 }
 
-TEST(Registry, ListsByNameWhateverTheOrderOfRegistration) {
+TEST(Registry, ListsByNameInAnyOrderOfRegistration) {
   Registry<Named> registry("animal");
   for (const auto& entry : {Named{"dog", 2}, {"ant", 0}, {"cat", 1}}) registry.add(entry);
   ASSERT_EQ(registry.all().size(), 3U);
@@ -107,12 +107,13 @@ TEST(Registry, ListsByNameWhateverTheOrderOfRegistration) {
             "there is no animal 'cta'; did you mean 'cat'? choose one of ant, cat, dog");
 }
 
-TEST(Registry, RefusesATakenNameAtTheFirstLookUp) {
+TEST(Registry, RefusesADuplicateNameAtTheFirstLookUp) {
   Registry<Named> registry("animal");
   registry.add({"dog", 1});
   registry.add({"dog", 2});
-  EXPECT_EQ(refusal_of(registry, "dog"),
-            "two of the kind animal are registered as 'dog'; give one of them another name");
+  EXPECT_EQ(
+      refusal_of(registry, "dog"),
+      "two entries of the kind animal are registered as 'dog'; give one of them another name");
   EXPECT_THROW(registry.all(), InputError);
 }
 

@@ -112,7 +112,7 @@ TEST(BlockConjugateGradients, SolvesLikeADenseFactorization) {
   }
 }
 
-TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
+TEST(FeasibleFractions, StopWhereADeterminantHasFallen) {
   constexpr double share = 0.9;
   for (const auto& mesh : distorted_meshes(0.3)) {
     auto to = mesh.copied_coordinates();
@@ -124,7 +124,7 @@ TEST(FeasibleFractions, StopWhereADeterminantIsDown) {
     std::vector<double> limits;
     const double smallest =
         feasible_fractions<2>(mesh.topology(), mesh.coordinates(), to, share, limits);
-    /// The smallest determinant of a cell's corners in terms of that at the start.
+    /// The smallest determinant of a cell's corners, relative to that at the start.
     const auto remaining = [&](CellIndex c, double t) {
       const auto nodes = mesh.topology().cell_nodes(c);
       const auto n = nodes.size();

@@ -12,7 +12,7 @@ namespace {
 using test::pi;
 
 TEST(IsoscelesStep, HasTheEigenvaluesOfLemma27) {
-  for (std::size_t n = 3; n <= test::most_nodes; ++n)
+  for (std::size_t n = 3; n <= test::max_nodes; ++n)
     for (const double theta : {-0.9, 0.0, 0.3, 1.1}) {
       const auto values = isosceles_eigenvalues(theta, n);
       const Eigen::MatrixXcd matrix =
@@ -31,7 +31,7 @@ TEST(IsoscelesStep, HasTheEigenvaluesOfLemma27) {
 }
 
 TEST(IsoscelesStep, ItsModuliAreRootsOfTheCombinedEigenvalues) {
-  for (std::size_t n = 3; n <= test::most_nodes; ++n) {
+  for (std::size_t n = 3; n <= test::max_nodes; ++n) {
     const auto one = isosceles_eigenvalues(0.7, n);
     const auto both = eigenvalues(0.5, 0.7, n);
     for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(std::norm(one[k]), both[k], 1e-14);
@@ -53,7 +53,7 @@ TEST(IsoscelesStep, BuildsIsoscelesTrianglesOutside) {
 
 TEST(IsoscelesStep, IteratesFollowTheTurningLimit) {
   test::Random random(7);
-  for (std::size_t n = 3; n <= test::most_nodes; ++n)
+  for (std::size_t n = 3; n <= test::max_nodes; ++n)
     for (std::size_t k = 0; k <= n / 2; ++k)
       for (const bool on_line : {false, true}) {
         const double nodes = static_cast<double>(n);
@@ -72,7 +72,8 @@ TEST(IsoscelesStep, IteratesFollowTheTurningLimit) {
         while (step < 2000) go_on();
         for (std::size_t i = 0; i < 2 * n; ++i, go_on())
           EXPECT_LT(distance(z, isosceles_limit(start, theta, step)), 1e-9) << n << ' ' << k;
-        // Theorem 2.12: two steps later the same polygon, its nodes one number further.
+        // Theorem 2.12: two steps later it is the same polygon with its nodes shifted by one
+        // number.
         const Polygon now = isosceles_limit(start, theta, step),
                       later = isosceles_limit(start, theta, step + 2);
         for (std::size_t m = 0; m < n; ++m) EXPECT_LT(std::abs(later[m] - now[(m + 1) % n]), 1e-13);
@@ -94,7 +95,7 @@ TEST(Napoleon, TrianglesAreEquilateralWithTheKnownSide) {
 
 TEST(PetrDouglasNeumann, PolygonsAreRegularWhateverTheirNodes) {
   test::Random random(9);
-  for (std::size_t n = 3; n <= test::most_nodes; ++n)
+  for (std::size_t n = 3; n <= test::max_nodes; ++n)
     for (std::size_t k = 1; k < n; ++k) {
       const Polygon z = test::random_polygon(n, random);
       const Polygon result = petr_douglas_neumann_polygon(z, k);

@@ -59,7 +59,7 @@ TEST(Parameters, TextReadsBackAsTheSameValue) {
   EXPECT_EQ(value, 0.1 + 0.2);
 }
 
-TEST(Catalogue, HasTheBuiltInMethodsAndNamesThemInErrors) {
+TEST(Catalogue, HasTheBuiltInMethodsAndListsThemInErrors) {
   for (const std::string name :
        {"getme", "getme-sequential", "getme-simultaneous", "global-optimization", "laplace",
         "smart-laplace", "weighted-laplace"})
@@ -71,8 +71,8 @@ TEST(Catalogue, HasTheBuiltInMethodsAndNamesThemInErrors) {
 
 template <int dim>
 void expect_documented_defaults(const std::string& method_name) {
-  if (!takes_meshes<dim>(method_name)) {
-    EXPECT_THAT(message_of([&] { make_method<dim>(method_name); }), HasSubstr("does not take"));
+  if (!supports_mesh_kind<dim>(method_name)) {
+    EXPECT_THAT(message_of([&] { make_method<dim>(method_name); }), HasSubstr("does not support"));
     return;
   }
   Method<dim> method = make_method<dim>(method_name);
@@ -114,7 +114,7 @@ TEST(Presets, SetParametersThatExist) {
     EXPECT_FALSE(preset.description.empty() || preset.source.empty());
     for (const auto& info : method_catalogue()) {
       const auto apply = [&]<int dim>() {
-        if (!takes_meshes<dim>(info.name)) return;
+        if (!supports_mesh_kind<dim>(info.name)) return;
         Method<dim> method = make_method<dim>(info.name);
         const bool meant =
             std::any_of(method.stages.begin(), method.stages.end(), [&](const auto& stage) {
@@ -133,7 +133,7 @@ TEST(Presets, SetParametersThatExist) {
   }
 }
 
-TEST(Presets, HaveTheParametersOfTheText) {
+TEST(Presets, HaveTheParametersOfTheThesis) {
   const auto text = [](const std::string& preset, const std::string& method_name,
                        const std::string& parameter) {
     Method<3> method = make_method<3>(method_name);
@@ -176,7 +176,7 @@ TEST(MinTree, PicksLikeASortedSet) {
     tree.build(keys);
     for (int step = 0; step < 5000; ++step) {
       ASSERT_EQ(tree.top(), oracle.begin()->second) << n << ' ' << step;
-      // Now and then the top itself, as the sequential method does.
+      // Sometimes changes the top itself, as the sequential method does.
       const auto at_random = static_cast<std::uint32_t>(0.5 * (random() + 1.0) * n);
       const std::uint32_t number = step % 2 ? tree.top() : at_random;
       oracle.erase({keys[number], number});
@@ -197,7 +197,7 @@ TEST(MinTree, IsEmptyWithoutFiniteKeys) {
   EXPECT_FALSE(tree.empty());
 }
 
-TEST(InvalidNodeReset, PutsBackUntilAllIsValid) {
+TEST(InvalidNodeReset, ResetsNodesUntilAllCellsAreValid) {
   const auto valid = test::grid_mesh(6, test::GridCells::triangles);
   auto mesh = valid;
   test::Random random(5);
@@ -217,7 +217,7 @@ TEST(InvalidNodeReset, PutsBackUntilAllIsValid) {
   EXPECT_LT(n_back, mesh.topology().free_nodes().size()) << "nodes of valid cells stay moved";
 }
 
-TEST(InvalidNodeReset, LeavesValidMeshesAlone) {
+TEST(InvalidNodeReset, KeepsValidMeshes) {
   auto mesh = test::grid_mesh(3, test::GridCells::quadrilaterals);
   const auto previous = mesh.copied_coordinates();
   mesh.coordinates()[5] += Point<2>(0.1, 0.1);
@@ -254,15 +254,15 @@ TEST(Loop, TheSequentialMethodStopsWhenTheMeanQualityHasFallen) {
   const std::vector<double> free = q_means(1.0);
   const double largest_loss = 1.0 - *std::min_element(free.begin(), free.end()) / free.front();
   ASSERT_GT(largest_loss, 1e-3) << "the mean quality has to fall for this test";
-  const double loss = std::stod(std::to_string(0.5 * largest_loss));  // as it is set
+  const double loss = std::stod(std::to_string(0.5 * largest_loss));  // the value as it is set
   const auto first_below = std::find_if(free.begin(), free.end(), [&](double q_mean) {
     return q_mean < (1.0 - loss) * free.front();
   });
   EXPECT_EQ(q_means(loss), std::vector<double>(free.begin(), first_below + 1));
 }
 
-/// Layers that become much thinner upwards: on such grids the last steps of the optimization, which
-/// looks at the worst cells more than at the others, lower the mean quality.
+/// A box whose layers become much thinner upwards. On such grids the last steps of the optimization
+/// lower the mean quality, as they improve the worst cells more than the others.
 VolumeMesh graded_box() {
   auto mesh = test::box_mesh(6, 6, 6, test::BoxCells::hexahedra);
   for (auto& p : mesh.coordinates()) p.z() = 6.0 - 6.0 * std::pow(1.0 - p.z() / 6.0, 5.0);
@@ -289,7 +289,7 @@ TEST(Loop, GlobalOptimizationCanEndWithTheMeshOfTheBestMeanQuality) {
   }
 }
 
-/// Small meshes are smoothed in their own order, large ones in another.
+/// Small meshes are smoothed in their original order, large ones are reordered.
 TEST(Loop, AnObserverThatThrowsLeavesAMeshItHasSeen) {
   for (const std::uint32_t n : {10u, 150u}) {
     PlanarMesh mesh = test::grid_mesh(n, test::GridCells::quadrilaterals);
@@ -307,7 +307,7 @@ TEST(Loop, AnObserverThatThrowsLeavesAMeshItHasSeen) {
   }
 }
 
-TEST(Loop, AStageThatRefusesToBeginLeavesTheMeshThatItWasGiven) {
+TEST(Loop, AStageThatThrowsAtItsStartLeavesItsInitialMesh) {
   for (const std::uint32_t n : {10u, 150u}) {
     PlanarMesh mesh = test::grid_mesh(n, test::GridCells::quadrilaterals);
     test::distort(mesh, 0.3, 1);
@@ -319,8 +319,8 @@ TEST(Loop, AStageThatRefusesToBeginLeavesTheMeshThatItWasGiven) {
   }
 }
 
-/// The iteration that ends the second stage of GETMe adaptive by the words of the thesis: numbers
-/// of q*_min from the mesh that the stage begins with on.
+/// Returns the iteration that ends the second stage of GETMe adaptive, by the text of the thesis.
+/// q_star_min: its values from the initial mesh of the stage on.
 std::size_t end_of_second_stage(const std::vector<double>& q_star_min, int patience,
                                 bool as_figure) {
   double best = q_star_min[0], best_at_start = best;
@@ -337,7 +337,7 @@ std::size_t end_of_second_stage(const std::vector<double>& q_star_min, int patie
   return 0;
 }
 
-TEST(Loop, CyclesOfGetmeAdaptiveEndBySection513OrByItsFigure) {
+TEST(Loop, CyclesOfGetmeAdaptiveEndBySection513OrFig44) {
   std::vector<std::size_t> ends;
   for (const std::string rule : {"in-a-row", "in-cycle"}) {
     PlanarMesh mesh = test::grid_mesh(20, test::GridCells::triangles);
@@ -347,7 +347,7 @@ TEST(Loop, CyclesOfGetmeAdaptiveEndBySection513OrByItsFigure) {
     method.set("min.patience", "3");
     method.set("min.patience_below_start", "1");
     std::vector<double> q_star_min;
-    double best_mean = -1;  // the second stage begins with the mesh that has it
+    double best_mean = -1;  // the second stage begins with the mesh of that quality
     smooth(mesh, method, [&](const auto& record, const auto&) {
       if (record.stage == "min") return q_star_min.push_back(record.quality.q_star_min);
       if (record.quality.q_mean <= best_mean) return;
@@ -361,7 +361,7 @@ TEST(Loop, CyclesOfGetmeAdaptiveEndBySection513OrByItsFigure) {
   EXPECT_NE(ends[0], ends[1]);
 }
 
-/// Takes its time, and says how much.
+/// Takes its time and reports how much.
 class SlowSmoother final : public Smoother<2> {
  public:
   static constexpr std::chrono::milliseconds preparation{40}, iteration{10};
@@ -377,7 +377,7 @@ class SlowSmoother final : public Smoother<2> {
   }
 };
 
-TEST(Loop, PreparationsAreTimedApart) {
+TEST(Loop, PreparationsAreTimedSeparately) {
   PlanarMesh mesh = test::grid_mesh(10, test::GridCells::quadrilaterals);
   Method<2> method;
   method.stages.push_back(std::make_unique<SlowSmoother>());
@@ -416,7 +416,7 @@ class Spoiler final : public Smoother<2> {
   }
 };
 
-/// Makes no better mesh until an iteration of its own, which undoes the spoiler's.
+/// Makes no better mesh until a given iteration, which undoes the spoiler's change.
 class Idler final : public Smoother<2> {
  public:
   explicit Idler(int patience_below_start, int mends_at = 0)
@@ -440,7 +440,7 @@ class Idler final : public Smoother<2> {
   int patience_below_start_, mends_at_, n_ = 0;
 };
 
-TEST(Loop, SaysWhenPatienceBelowTheStartWasTheRule) {
+TEST(Loop, ReportsWhenPatienceBelowTheStartApplied) {
   const auto last_stage = [](bool spoiled, auto... arguments) {
     PlanarMesh mesh = test::grid_mesh(6, test::GridCells::quadrilaterals);
     Method<2> method;
@@ -451,19 +451,20 @@ TEST(Loop, SaysWhenPatienceBelowTheStartWasTheRule) {
   const StageResult above = last_stage(false, 10), rule_of_thesis = last_stage(true, 1),
                     below = last_stage(true, 10), recovered = last_stage(true, 10, 7);
   EXPECT_EQ(above.iterations, 3u);
-  EXPECT_EQ(above.why_stopped, "there was no better mesh in 3 iterations");
+  EXPECT_EQ(above.why_stopped, "no improvement in 3 iterations");
   EXPECT_EQ(rule_of_thesis.why_stopped, above.why_stopped);
   EXPECT_EQ(below.iterations, 30u);
   EXPECT_EQ(below.why_stopped,
-            "there was no better mesh in 30 iterations, 10 times its patience, as q*_min is below "
-            "that of the start (patience_below_start, which the thesis does not have)");
+            "no improvement in 30 iterations, 10 times the patience, as q*_min is below "
+            "that of the start (patience_below_start; not in the thesis)");
   EXPECT_EQ(recovered.iterations, 10u);
-  EXPECT_THAT(recovered.why_stopped,
-              HasSubstr("no better mesh in 3 iterations, after more of them while q*_min was below "
-                        "that of the start (patience_below_start"));
+  EXPECT_THAT(
+      recovered.why_stopped,
+      HasSubstr("no improvement in 3 iterations, after an extended patience while q*_min was below "
+                "that of the start (patience_below_start"));
 }
 
-/// Moves one node beyond its neighbours, again and again.
+/// Moves one node beyond its neighbours in every iteration.
 class Tangler final : public Smoother<2> {
  public:
   std::string_view name() const override { return "tangler"; }
@@ -476,7 +477,7 @@ class Tangler final : public Smoother<2> {
   }
 };
 
-TEST(Loop, CellsMadeInvalidAreCountedBeforeNodesArePutBack) {
+TEST(Loop, CellsMadeInvalidAreCountedBeforeNodesAreReset) {
   PlanarMesh mesh = test::grid_mesh(10, test::GridCells::quadrilaterals);
   PlanarMesh tangled = mesh;
   tangled.coordinates()[mesh.topology().free_nodes()[0]].x() += 2.0;
@@ -492,9 +493,8 @@ TEST(Loop, CellsMadeInvalidAreCountedBeforeNodesArePutBack) {
   });
 }
 
-/// A mesh that is large enough for other methods to reorder it, its nodes and cells numbered
-/// anyhow.
-VolumeMesh large_mesh_in_no_order(test::BoxCells kind) {
+/// A mesh that is large enough to be reordered, with randomly numbered nodes and cells.
+VolumeMesh large_shuffled_mesh(test::BoxCells kind) {
   VolumeMesh mesh = test::box_mesh(26, 26, 25, kind);
   test::distort(mesh, 0.3, 1);
   const auto shuffled = [](std::size_t n, std::uint64_t seed) {
@@ -516,7 +516,7 @@ TEST(Loop, SweepsFollowTheMeshsOwnOrder) {
   for (const auto kind : {test::BoxCells::tetrahedra, test::BoxCells::hexahedra})
     for (const std::string name : {"laplace", "weighted-laplace"}) {
       SCOPED_TRACE(name);
-      VolumeMesh mesh = large_mesh_in_no_order(kind);
+      VolumeMesh mesh = large_shuffled_mesh(kind);
       SmoothingState<3> alone{mesh, {}};
       const auto stages = stages_of<3>(name);
       stages[0]->initialize(alone);

@@ -37,7 +37,7 @@ Points dented_polygon(std::size_t n) {
   return corners;
 }
 
-/// By matrices, as the thesis writes it: S = D W^-1, mean of 2 det(S) / |S|^2.
+/// Computes the mean ratio by matrices, as in the thesis: S = D W^-1, mean of 2 det(S) / |S|^2.
 double mean_ratio_by_matrices(const Points& x) {
   const std::size_t n = x.size();
   const Points regular = regular_polygon(n);
@@ -76,7 +76,7 @@ TEST(MeanRatio, RegularPolygonsAreIdeal) {
     EXPECT_NEAR(mean_ratio_of(regular_polygon(n)), 1.0, 1e-14) << n;
 }
 
-TEST(MeanRatio, InvalidCellsHaveNone) {
+TEST(MeanRatio, InvalidCellsHaveQualityZero) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(mean_ratio_of({{0, 0}, {0, 1}, {1, 0}}), 0.0) << "clockwise";
   EXPECT_EQ(mean_ratio_of({{0, 0}, {1, 1}, {2, 2}}), 0.0) << "flat";
@@ -120,20 +120,20 @@ void expect_lanes_equal_scalars() {
     EXPECT_EQ(q[l], mean_ratio(std::span<const Vector2<double>, n>(cells[l]))) << n << ' ' << l;
 }
 
-TEST(MeanRatio, LanesGiveTheSameBits) {
+TEST(MeanRatio, LanesAreBitwiseIdenticalToSingleCells) {
   expect_lanes_equal_scalars<3>();
   expect_lanes_equal_scalars<4>();
 }
 
-TEST(MeanRatio, BlocksOfCellsGiveTheSameBitsAsSingleCells) {
+TEST(MeanRatio, BlocksOfCellsAreBitwiseIdenticalToSingleCells) {
   auto mesh = test::grid_mesh(7, test::GridCells::mixed);
   test::distort(mesh, 0.8, 3);
   const auto all = cell_mean_ratios(mesh);
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) EXPECT_EQ(all[c], cell_mean_ratio(mesh, c)) << c;
 }
 
-TEST(MeshQuality, LooksAtFreeCellsForTheStarredMinimum) {
-  // A square with a centre node at (0.5, 0.5), and a flat triangle of fixed nodes beside it.
+TEST(MeshQuality, TakesTheStarredMinimumOfFreeCells) {
+  // A square with a centre node at (0.5, 0.5), and next to it a flat triangle of fixed nodes.
   const auto mesh = make_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}, {0.5, -0.01}},
                               {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 5, 1}});
   const MeshQuality quality = mesh_quality(mesh);
@@ -146,7 +146,7 @@ TEST(MeshQuality, LooksAtFreeCellsForTheStarredMinimum) {
 
 TEST(MeshQuality, CountsInvalidCellsAndNamesThem) {
   auto mesh = test::grid_mesh(2, test::GridCells::quadrilaterals);
-  mesh.coordinates()[4] = {1.9, 1.9};  // the last square is left with a dent, the others are convex
+  mesh.coordinates()[4] = {1.9, 1.9};  // the last square gets a dent, the others are convex
   EXPECT_EQ(mesh_quality(mesh).n_invalid, 1u);
   try {
     require_valid(mesh, "some.mesh", std::vector<std::size_t>{11, 12, 13, 14});

@@ -29,7 +29,7 @@ std::vector<T> as_vector(std::span<const T> values) {
 
 TEST(CompressedRows, AreMadeInManyBatches) {
   constexpr std::size_t n = 600000;
-  // Short rows first: what is set aside for the others is not enough.
+  // Short rows come first: the memory reserved for the others is too small.
   const auto length = [](std::size_t i) { return i < n / 2 ? i % 2 : 3 + i % 3; };
   const auto rows = make_rows<std::uint32_t>(n, [&](std::size_t i, auto& row) {
     for (std::size_t k = 0; k < length(i); ++k) row.push_back(static_cast<std::uint32_t>(i + k));
@@ -42,7 +42,7 @@ TEST(CompressedRows, AreMadeInManyBatches) {
   EXPECT_EQ(make_rows<int>(0, [](std::size_t, auto&) {}).size(), 0u);
 }
 
-TEST(CompressedRows, RefuseMoreEntriesThanCanBeCounted) {
+TEST(CompressedRows, RefuseTooManyEntries) {
   constexpr RowOffset half = 1u << 31;
   EXPECT_EQ(row_offsets({0, 2, 0, 3}), (std::vector<RowOffset>{0, 2, 2, 5}));
   EXPECT_NO_THROW(row_offsets({0, half, half - 1}));
@@ -81,7 +81,7 @@ TEST(Topology, FixesBoundaryAndUnusedNodes) {
   EXPECT_TRUE(topology.has_free_node(2));
 }
 
-TEST(Topology, TakesFixedFlagsAsGiven) {
+TEST(Topology, UsesTheGivenFixedFlags) {
   const Topology topology(2, 4, rows_of({{0, 1, 2}}), std::vector<bool>{true, false, true, false});
   EXPECT_THAT(topology.free_nodes(), ElementsAre(1));
 }

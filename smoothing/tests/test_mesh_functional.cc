@@ -60,7 +60,7 @@ std::vector<double> sizes_of(const Mesh<dim>& mesh) {
   return sizes;
 }
 
-/// Not the same in any two places.
+/// A metric that differs in any two places.
 template <int dim>
 TensorField<dim> varying_field(const Mesh<dim>& mesh) {
   std::vector<CellTensor<dim>> of_cells;
@@ -81,7 +81,7 @@ void for_all_cells(const Check& check) {
   }
 }
 
-/// With the same curvature everywhere no cell is to differ from others.
+/// With the same curvature everywhere all cells should be alike.
 TEST(ErrorMetric, IsTheIdentityForOneCurvature) {
   const std::vector<CellTensor<3>> hessians(2, -7.0 * CellTensor<3>::Identity());
   for (const auto& m : error_metric<3>(hessians, std::vector{1.0, 3.0}, 4.0))
@@ -91,10 +91,10 @@ TEST(ErrorMetric, IsTheIdentityForOneCurvature) {
     EXPECT_EQ(m, (CellTensor<2>::Identity()));
 }
 
-/// Two cells of size 1, one of them without curvature. By hand, d = 2: with curvature l along x,
-/// sqrt(det M) = ((a + l)^2 + a^2)^(1/4) / 2^(1/4) ((a + l) a)^(1/4), and a of the other; together
-/// 2 c a. Then M is scaled to have an integral of 2.
-TEST(ErrorMetric, OfOneBentCellIsTheOneByHand) {
+/// Two cells of size 1, one of them without curvature. By hand, for d = 2 and curvature l along x:
+/// sqrt(det M) = ((a + l)^2 + a^2)^(1/4) / 2^(1/4) ((a + l) a)^(1/4) in one cell and a in the
+/// other. Together they are 2 c a. Then M is scaled to an integral of 2.
+TEST(ErrorMetric, OfOneBentCellMatchesHandComputation) {
   CellTensor<2> bent = CellTensor<2>::Zero();
   bent(0, 0) = 5.0;
   constexpr double c = 3.0;
@@ -109,7 +109,7 @@ TEST(ErrorMetric, OfOneBentCellIsTheOneByHand) {
   EXPECT_NEAR(root, 2.0 * c - 1.0, 1e-6);
 }
 
-TEST(TensorField, IsTheSameFromWhereverASearchBegins) {
+TEST(TensorField, DoesNotDependOnTheStartOfTheSearch) {
   for_all_cells([]<int dim>(bool simplices) {
     const auto mesh = bent_mesh<dim>(simplices, 0.15);
     const auto field = varying_field(mesh);
@@ -120,7 +120,7 @@ TEST(TensorField, IsTheSameFromWhereverASearchBegins) {
       CellIndex near = target, far = 0;
       const auto here = field.at(point, near), there = field.at(point, far);
       EXPECT_LT((here.tensor - there.tensor).norm(), 1e-9) << target;
-      // Linear around the point, unless that lies on a border.
+      // Linear around the point, unless it lies on a border.
       constexpr double h = 1e-6;
       for (int d = 0; d < dim && simplices; ++d) {
         const Point<dim> offset = h * Point<dim>::Unit(d);
@@ -141,7 +141,7 @@ TEST(TensorField, OutsideIsThatOfTheBoundary) {
 }
 
 /// J is the identity: theta d^(dp/2) + (1 - 2 theta) d^(dp/2) on each unit of size.
-TEST(MeshFunctional, OfItsReferenceIsTheOneByHand) {
+TEST(MeshFunctional, OfItsReferenceMatchesHandComputation) {
   for_all_cells([]<int dim>(bool simplices) {
     const auto mesh = regular_mesh<dim>(simplices);
     MeshFunctional<dim> functional(mesh);

@@ -10,7 +10,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// A method that does nothing, with the object for its stage's name.
+/// A method that does nothing; the object is the name of its stage.
 class Idle final : public Smoother<2> {
  public:
   explicit Idle(std::string name) : name_(std::move(name)) {}
@@ -35,15 +35,16 @@ const RegisteredScheme registered({.name = "idle", .make = [](const MethodInFile
                                                         .factories = {.planar = make}};
                                    }});
 
-TEST(MethodScheme, MakesWhatTheFileHas) {
+TEST(MethodScheme, MakesTheMethodsOfTheFile) {
   const auto method = make_method<2>("idle:folder/a:b.x:Name");
   EXPECT_EQ(method.info.title, "folder/a:b.x");
   ASSERT_EQ(method.stages.size(), 1U);
   EXPECT_EQ(method.stages[0]->name(), "Name");
-  EXPECT_TRUE(takes_meshes<2>("idle:f:Name"));
-  EXPECT_FALSE(takes_meshes<3>("idle:f:Name"));
-  EXPECT_THAT([] { (void)make_method<3>("idle:f:Name"); },
-              ThrowsMessage<InputError>(HasSubstr("does not take volume meshes; choose one of")));
+  EXPECT_TRUE(supports_mesh_kind<2>("idle:f:Name"));
+  EXPECT_FALSE(supports_mesh_kind<3>("idle:f:Name"));
+  EXPECT_THAT(
+      [] { (void)make_method<3>("idle:f:Name"); },
+      ThrowsMessage<InputError>(HasSubstr("does not support volume meshes; choose one of")));
 }
 
 TEST(MethodScheme, FilesAreRelativeToAFolder) {
@@ -54,7 +55,7 @@ TEST(MethodScheme, FilesAreRelativeToAFolder) {
   EXPECT_EQ(method_name_in("there", "other:f.x:Name"), "other:f.x:Name");
 }
 
-TEST(MethodScheme, RefusesWhatIsIncomplete) {
+TEST(MethodScheme, RefusesIncompleteNames) {
   for (const char* name : {"idle:", "idle:f", "idle::Name", "idle:f:"})
     EXPECT_THAT([&] { (void)make_method<2>(name); },
                 ThrowsMessage<InputError>(HasSubstr("write idle:FILE:NAME")))

@@ -25,7 +25,7 @@ double fitting_size(const Mesh<dim>& mesh, CellIndex cell) {
   return sizes.of(mesh.topology().cell_nodes(cell));
 }
 
-/// From sizes of cells that are computed otherwise: size(mesh, cell).
+/// Computes the expected sizes from another formula: size(mesh, cell).
 template <int dim, class Size>
 void expect_means_of(const Mesh<dim>& mesh, const Size& size) {
   const Topology& topology = mesh.topology();
@@ -48,8 +48,8 @@ void expect_means_of(const Mesh<dim>& mesh, const Size& size) {
   }
 }
 
-/// Of triangles and tetrahedra all node simplices are the cell, of quadrilaterals they add up to
-/// twice the area.
+/// Every node simplex of a triangle or tetrahedron is the cell; those of a quadrilateral add up to
+/// twice its area.
 TEST(NeighbourSizes, AreMeansOfAreasAndVolumes) {
   const auto twice_area = [](const auto& mesh, CellIndex c) {
     return 2.0 * signed_cell_size(mesh, c);
@@ -71,7 +71,7 @@ TEST(NeighbourSizes, AreMeansOfAreasAndVolumes) {
   EXPECT_DOUBLE_EQ(fitting_size(box_mesh(3, 3, 3, BoxCells::hexahedra), 0), 1.0);
 }
 
-/// Side by side with edges of one length, cells of all types have sizes of one magnitude.
+/// With edges of equal length, cells of all types have sizes of the same magnitude.
 TEST(NeighbourSizes, OfCellsOfAllTypesMayBeMixed) {
   const double cube = 1.0, prism = std::sqrt(0.75), simplex = std::sqrt(0.5);
   EXPECT_NEAR(fitting_size(test::equilateral_prisms(5, 3), 0), prism, 1e-12);
@@ -97,12 +97,12 @@ void expect_same_of_some_nodes() {
     }
   }
 }
-TEST(NeighbourSizes, OfSomeNodesHaveTheSameBits) {
+TEST(NeighbourSizes, OfSomeNodesAreBitwiseIdentical) {
   expect_same_of_some_nodes<2>();
   expect_same_of_some_nodes<3>();
 }
 
-TEST(NeighbourSizes, ElementsGetTheSizeTheyAreTold) {
+TEST(NeighbourSizes, ElementsGetThePrescribedSize) {
   const std::vector<Vector2<double>> polygon{{0, 0}, {3, 0.5}, {2.5, 2}, {1, 3}, {-0.5, 1}};
   std::vector<Vector2<double>> result(polygon.size());
   const ElementRegularization<2> planar({.lambda = 0.4,
@@ -129,7 +129,7 @@ TEST(NeighbourSizes, ElementsGetTheSizeTheyAreTold) {
   EXPECT_NEAR(length(centroid(after) - centroid(before)), 0.0, 1e-15);
 }
 
-/// After some nodes have moved, the sums around them are those of a pass over all elements.
+/// After some nodes have moved, the sums around them equal those of a pass over all elements.
 template <int dim>
 void expect_sums_around_as_of_all(const std::string& scaling) {
   for (const auto& [name, mesh] : distorted_meshes<dim>()) {

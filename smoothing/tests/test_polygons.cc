@@ -17,7 +17,7 @@ using Shape = PolygonLimit::Shape;
 
 TEST(Eigenpolygons, AddUpToThePolygonAndAreRegular) {
   test::Random random(1);
-  for (std::size_t n = 3; n <= test::most_nodes; ++n) {
+  for (std::size_t n = 3; n <= test::max_nodes; ++n) {
     const Polygon z = test::random_polygon(n, random);
     const auto coefficients = eigenpolygon_coefficients(z);
     EXPECT_LT(distance(sum_of_eigenpolygons(coefficients), z), 1e-14) << n;
@@ -39,7 +39,7 @@ TEST(Eigenpolygons, AddUpToThePolygonAndAreRegular) {
 TEST(Eigenpolygons, HaveTheVerticesOfTheorem211) {
   for (std::size_t n = 3; n <= 30; ++n)
     for (std::size_t k = 0; k < n; ++k) {
-      // Vertices, and how often they come, from the exponents of the root of unity.
+      // Vertices and their multiplicity, from the exponents of the root of unity.
       std::multiset<std::size_t> exponents;
       for (std::size_t m = 0; m < n; ++m) exponents.insert(m * k % n);
       const StarPolygon star = star_polygon(n, k);
@@ -60,7 +60,7 @@ TEST(Eigenpolygons, HaveTheVerticesOfTheorem211) {
 
 TEST(Eigenvalues, AreThoseOfTheMatrix) {
   test::Random random(2);
-  for (std::size_t n = 3; n <= test::most_nodes; ++n) {
+  for (std::size_t n = 3; n <= test::max_nodes; ++n) {
     const double lambda = 0.5 + 0.49 * random(), theta = 0.25 * pi * (1.0 + 0.9 * random());
     const auto values = eigenvalues(lambda, theta, n);
     const Eigen::MatrixXcd matrix =
@@ -72,7 +72,7 @@ TEST(Eigenvalues, AreThoseOfTheMatrix) {
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 0; k < n; ++k) {
       EXPECT_NEAR(solved[static_cast<Eigen::Index>(k)], sorted[k], 1e-13 * sorted.back()) << n;
-      // Each belongs to its eigenpolygon.
+      // Each vector belongs to its eigenpolygon.
       const Polygon v = eigenpolygon(n, k, 1.0), mv = transformed(v, lambda, theta);
       for (std::size_t m = 0; m < n; ++m)
         EXPECT_LT(std::abs(mv[m] - values[k] * v[m]), 1e-12 * sorted.back()) << n << ' ' << k;
@@ -82,7 +82,7 @@ TEST(Eigenvalues, AreThoseOfTheMatrix) {
 }
 
 TEST(Eigenvalues, AreEqualOnTheirIntersectionLinesOnly) {
-  for (std::size_t n = 3; n <= test::most_nodes; ++n)
+  for (std::size_t n = 3; n <= test::max_nodes; ++n)
     for (std::size_t sum = 1; sum < n; ++sum)
       for (const double theta : {0.1, 0.4, 0.9, 1.4}) {
         const double lambda = intersection_line(n, sum, theta);
@@ -97,7 +97,7 @@ TEST(Eigenvalues, AreEqualOnTheirIntersectionLinesOnly) {
 }
 
 TEST(Eigenvalues, VanishWhereLemma212Says) {
-  for (std::size_t n = 3; n <= test::most_nodes; ++n)
+  for (std::size_t n = 3; n <= test::max_nodes; ++n)
     for (std::size_t k = n / 2 + 1; k < n; ++k) {
       const double root = pi * static_cast<double>(2 * k - n) / static_cast<double>(2 * n);
       const auto values = eigenvalues(0.5, root, n);
@@ -106,7 +106,7 @@ TEST(Eigenvalues, VanishWhereLemma212Says) {
     }
 }
 
-/// Definition 2.5 with its lines.
+/// Applies Definition 2.5 with its lines.
 std::size_t domain_by_definition(double lambda, double theta, std::size_t n) {
   std::size_t k = 0;
   while (k < n / 2 && lambda < intersection_line(n, 2 * k + 1, theta)) ++k;
@@ -114,12 +114,13 @@ std::size_t domain_by_definition(double lambda, double theta, std::size_t n) {
 }
 
 struct ByIteration {
-  std::size_t index;  ///< eigenpolygon that is left
-  double growth;      ///< of the last step
-  double purity;      ///< 1: nothing but that eigenpolygon is left
+  std::size_t index;  ///< dominant eigenpolygon
+  double growth;      ///< in the last step
+  double purity;      ///< 1: only that eigenpolygon remains
 };
 
-/// What is left after many scaled steps, from its symmetry: each node is the one before, turned.
+/// Returns the polygon after many scaled steps, from its symmetry: each node is the previous one,
+/// turned.
 ByIteration iterate(Polygon z, double lambda, double theta, int n_steps) {
   const double n = static_cast<double>(z.size());
   double growth = 0.0;
@@ -137,10 +138,10 @@ ByIteration iterate(Polygon z, double lambda, double theta, int n_steps) {
   return {static_cast<std::size_t>(std::lround(index)) % z.size(), growth, std::abs(turn)};
 }
 
-TEST(Classification, IsDefinition25AndWhatIterationGives) {
+TEST(Classification, AgreesWithDefinition25AndIteration) {
   test::Random random(3);
   constexpr int grid = 9;
-  for (std::size_t n = 3; n <= test::most_nodes; ++n) {
+  for (std::size_t n = 3; n <= test::max_nodes; ++n) {
     int n_iterated = 0;
     for (int i = 0; i < grid; ++i)
       for (int j = 0; j < grid; ++j) {
@@ -165,9 +166,9 @@ TEST(Classification, IsDefinition25AndWhatIterationGives) {
   }
 }
 
-TEST(Classification, KnowsTheIntersectionLines) {
+TEST(Classification, FindsTheIntersectionLines) {
   test::Random random(4);
-  for (std::size_t n = 3; n <= test::most_nodes; ++n)
+  for (std::size_t n = 3; n <= test::max_nodes; ++n)
     for (std::size_t k = 0; k < n / 2; ++k)
       for (const double theta : {0.2, 0.7, 1.3}) {
         const double lambda = intersection_line(n, 2 * k + 1, theta);
@@ -178,7 +179,7 @@ TEST(Classification, KnowsTheIntersectionLines) {
         EXPECT_EQ(domain_name(limit), "S_" + std::to_string(k));
         EXPECT_EQ(domain_name(classify(lambda + 1e-6, theta, n)), "D_" + std::to_string(k));
         EXPECT_EQ(domain_name(classify(lambda - 1e-6, theta, n)), "D_" + std::to_string(k + 1));
-        // The sum of both eigenpolygons stays as it is, up to the growth.
+        // The sum of both eigenpolygons keeps its shape, up to the growth.
         const Polygon sum = limit_polygon(test::random_polygon(n, random), limit);
         EXPECT_LT(
             distance(transformed(sum, lambda, theta), scaled_about_centroid(sum, limit.growth)),
@@ -188,7 +189,7 @@ TEST(Classification, KnowsTheIntersectionLines) {
 
 TEST(Classification, ScaledIteratesTendToTheLimitPolygon) {
   test::Random random(5);
-  for (std::size_t n = 3; n <= test::most_nodes; ++n)
+  for (std::size_t n = 3; n <= test::max_nodes; ++n)
     for (const double lambda : {0.3, 0.5, 0.8})
       for (const double theta : {0.1, 0.6, 1.2}) {
         const PolygonLimit limit = classify(lambda, theta, n);

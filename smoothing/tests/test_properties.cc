@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What every method and the untangling have to hold on random meshes. RapidCheck makes the meshes
-/// and, where a property fails, looks for a smaller mesh that fails as well.
+/// Requirements for every method and for untangling on random meshes. RapidCheck makes the meshes
+/// and, if a property fails, looks for a smaller mesh that fails as well.
 ///
-/// The seed is fixed, so that every run sees the same meshes; the long tests try five times as many. Others:
+/// The seed is fixed, so that every run uses the same meshes. The long tests use five times as
+/// many. For other meshes:
 ///   RC_PARAMS="seed=7 max_success=300" smoothing_unit_test --gtest_filter='*Properties*'
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -26,18 +27,18 @@ using test::BoxCells;
 using test::grid_mesh;
 using test::GridCells;
 
-/// RapidCheck reads the variable before its first property; who has set it keeps it.
+/// RapidCheck reads the variable before its first property. A value set by the user is kept.
 [[maybe_unused]] const int fixed_seed = ::setenv("RC_PARAMS", "seed=20 max_success=100", 0);
 
-/// A grid or box of random cells, size, stretch, distortion and fixed nodes. Tenths are whole
+/// A grid or box with random cells, size, stretch, distortion and fixed nodes. Tenths are whole
 /// numbers, which shrink better than others.
 template <int dim>
 struct RandomMesh {
   int kind = 0;
-  std::vector<std::uint32_t> n_cells;  ///< a side; dim numbers
+  std::vector<std::uint32_t> n_cells;  ///< per side; dim numbers
   std::vector<int> stretch;            ///< of each axis, 1 to 10
-  int distortion_tenths = 5;           ///< of a cell, the radius within which nodes move
-  int fixed_tenths = 0;                ///< of the inner nodes that do not move either
+  int distortion_tenths = 5;           ///< of a cell: the radius within which nodes move
+  int fixed_tenths = 0;                ///< of the inner nodes that are fixed in addition
   std::uint64_t seed = 1;
 };
 
@@ -73,7 +74,7 @@ Mesh<dim> stretched(Mesh<dim> mesh, const std::vector<int>& factors) {
   return mesh;
 }
 
-/// The mesh with this fraction of its free nodes fixed where they are.
+/// Fixes this fraction of the mesh's free nodes at their positions.
 template <int dim>
 Mesh<dim> with_more_fixed_nodes(Mesh<dim> mesh, int tenths, std::uint64_t seed) {
   test::Random random(seed);
@@ -83,8 +84,8 @@ Mesh<dim> with_more_fixed_nodes(Mesh<dim> mesh, int tenths, std::uint64_t seed) 
 }
 
 /// Nodes that a strong distortion leaves in place, because their cells would not be valid, move a
-/// little: in a symmetric mesh cells of equal quality leave the choice between them to rounding.
-/// Rounding in the stretch may cost a cell its validity that has hardly any: such meshes are
+/// little. In a symmetric mesh, cells of equal quality would leave the choice between them to
+/// rounding. Rounding in the stretch may make a barely valid cell invalid: such meshes are
 /// discarded.
 template <int dim>
 Mesh<dim> valid_mesh(const RandomMesh<dim>& random) {
@@ -96,8 +97,8 @@ Mesh<dim> valid_mesh(const RandomMesh<dim>& random) {
   return with_more_fixed_nodes(std::move(mesh), random.fixed_tenths, random.seed + 1);
 }
 
-/// Free nodes anywhere within some cells. Fixed before or after that: what is fixed in a bad place
-/// may be beyond mending.
+/// Moves free nodes anywhere within some cells. Nodes are fixed before or after that; a mesh with
+/// nodes fixed in a bad place may be impossible to untangle.
 template <int dim>
 Mesh<dim> tangled_mesh(const RandomMesh<dim>& random, bool fixed_in_place) {
   auto mesh = stretched(regular_mesh(random), random.stretch);
@@ -119,7 +120,7 @@ struct RandomSimilarity {
   std::uint64_t seed = 1;
 
   double scale() const { return std::array{1e-9, 1.0, 1e9}[scale_index]; }
-  /// Turned by any angle and moved by up to 30 cells.
+  /// Turns a mesh by any angle and moves it by up to 30 cells.
   Mesh<dim> operator()(Mesh<dim> mesh) const {
     test::Random random(seed);
     Eigen::Matrix<double, dim, dim> turned;
@@ -181,14 +182,14 @@ namespace {
 
 class MethodProperties : public testing::TestWithParam<std::string> {
  protected:
-  /// Checks property.operator()<dim>(...) for the dimensions that the method takes.
+  /// Checks property.operator()<dim>(...) for the dimensions that the method supports.
   template <class... Arguments2, class... Arguments3>
   static void check(void (*planar)(const std::string&, Arguments2...),
                     void (*volume)(const std::string&, Arguments3...)) {
     const std::string name = GetParam();
-    if (takes_meshes<2>(name))
+    if (supports_mesh_kind<2>(name))
       rc::detail::checkGTest([=](std::decay_t<Arguments2>... made) { planar(name, made...); });
-    if (takes_meshes<3>(name))
+    if (supports_mesh_kind<3>(name))
       rc::detail::checkGTest([=](std::decay_t<Arguments3>... made) { volume(name, made...); });
   }
 };
@@ -211,17 +212,17 @@ TEST_P(MethodProperties, StaysValidAndMovesOnlyFreeNodes) {
   check(stays_valid_and_fixed<2>, stays_valid_and_fixed<3>);
 }
 
-/// A coordinate is rounded by eps times the extent L of the mesh, at every scale the same. In a
-/// cell of quality q and size h that is an error of eps L / (q h) in its quality, on which
-/// transformations build, and every iteration may make the error larger by 1/q again. With q above
-/// 0.01, two iterations and L / h below 100 that leaves at most 1e-16 * 1e2 * 1e4 h, to be on the
-/// safe side of which 1e-8 is needed. Below that quality whether a cell still counts as valid is a
-/// matter of rounding, and one answer or the other makes different meshes, both of them right.
+/// Bounds the effect of rounding. A coordinate is rounded by eps times the extent L of the mesh, at
+/// every scale. In a cell of quality q and size h this is an error of eps L / (q h) in its quality,
+/// on which transformations build. Every iteration may multiply the error by 1/q. With q above
+/// 0.01, two iterations and L / h below 100 the error is at most 1e-16 * 1e2 * 1e4 h; 1e-8 is on
+/// the safe side. Below that quality rounding decides whether a cell counts as valid; either
+/// decision gives a different, correct mesh.
 ///
-/// Newton steps are solved for in single precision and no further than they need, so that they
-/// differ in their seventh digit: it is the minimum that is the same. The method ends when a step
-/// gains less than 1e-8 of the objective, 1e-4 h away from the minimum; that step leaves the
-/// square. The hundredfold is for directions in which the objective hardly rises.
+/// Newton steps are solved in single precision and no further than they need, so that they differ
+/// in their seventh digit; only the minimum is the same. The method ends when a step gains less
+/// than 1e-8 of the objective, 1e-4 h away from the minimum; that step leaves the square. The
+/// factor of one hundred covers directions in which the objective hardly rises.
 template <int dim>
 void commutes_with_similarities(const std::string& name, const RandomMesh<dim>& random,
                                 const RandomSimilarity<dim>& similarity) {
@@ -246,7 +247,7 @@ TEST_P(MethodProperties, CommutesWithSimilarities) {
   check(commutes_with_similarities<2>, commutes_with_similarities<3>);
 }
 
-/// Each stage for itself, from the mesh of the one before.
+/// Runs each stage separately, from the mesh of the previous one.
 template <int dim>
 void never_lowers_what_it_keeps(const std::string& name, const RandomMesh<dim>& random) {
   auto mesh = valid_mesh(random);
@@ -263,14 +264,14 @@ void never_lowers_what_it_keeps(const std::string& name, const RandomMesh<dim>& 
   }
 }
 
-TEST_P(MethodProperties, NeverLowersTheQualityByWhichItKeepsMeshes) {
+TEST_P(MethodProperties, NeverLowersTheQualityThatSelectsItsResult) {
   check(never_lowers_what_it_keeps<2>, never_lowers_what_it_keeps<3>);
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, MethodProperties, testing::ValuesIn(test::method_names()),
                          test::test_name);
 
-/// Runs call() with each number of threads and restores the default number, also after a failure.
+/// Runs call() with each number of threads. Restores the default number, also after a failure.
 template <class Call>
 void with_each_number_of_threads(const Call& call) {
   const struct Restore {
@@ -283,7 +284,7 @@ void with_each_number_of_threads(const Call& call) {
   }
 }
 
-/// Cells in several blocks, or there would be nothing for a second thread to do.
+/// Cells in several blocks; otherwise a second thread would have nothing to do.
 template <int dim>
 RandomMesh<dim> enlarged(RandomMesh<dim> random) {
   for (auto& n : random.n_cells) n += dim == 2 ? 128 : 25;
@@ -298,7 +299,7 @@ void check_numbers_of_threads() {
   parameters.disableShrinking = true;
   const auto property = [](const RandomMesh<dim>& random) {
     const auto name = *rc::gen::elementOf(test::method_names()).as("method");
-    RC_PRE(takes_meshes<dim>(name));
+    RC_PRE(supports_mesh_kind<dim>(name));
     const auto mesh = valid_mesh(enlarged(random));
     RC_ASSERT(mesh.topology().blocks().size() > 1u);
     std::optional<Mesh<dim>> expected;
@@ -316,10 +317,10 @@ void check_numbers_of_threads() {
   EXPECT_TRUE(result.template is<rc::detail::SuccessResult>()) << text.str();
 }
 
-TEST(ThreadProperties, PlanarMeshesComeOutWithTheSameBits) {
+TEST(ThreadProperties, PlanarMeshesAreBitwiseIdentical) {
   check_numbers_of_threads<2>();
 }
-TEST(ThreadProperties, VolumeMeshesComeOutWithTheSameBits) {
+TEST(ThreadProperties, VolumeMeshesAreBitwiseIdentical) {
   check_numbers_of_threads<3>();
 }
 
@@ -343,7 +344,7 @@ void check_untangling(const RandomMesh<dim>& random, bool fixed_in_place, Untang
   if (n_invalid > 0) ++(result.valid ? counts.mended : counts.given_up);
 }
 
-/// Both outcomes have to come up, or half of the property would not be tested.
+/// Both outcomes must occur; otherwise half of the property would not be tested.
 template <int dim>
 void check_all_untangling() {
   UntangleCounts counts;
@@ -354,10 +355,10 @@ void check_all_untangling() {
   EXPECT_GT(counts.given_up, 0);
 }
 
-TEST(UntangleProperties, MakesPlanarMeshesValidOrLeavesThemAsTheyAre) {
+TEST(UntangleProperties, MakesPlanarMeshesValidOrKeepsThem) {
   check_all_untangling<2>();
 }
-TEST(UntangleProperties, MakesVolumeMeshesValidOrLeavesThemAsTheyAre) {
+TEST(UntangleProperties, MakesVolumeMeshesValidOrKeepsThem) {
   check_all_untangling<3>();
 }
 
@@ -373,7 +374,7 @@ void check_valid_meshes_stay() {
   });
 }
 
-TEST(UntangleProperties, LeavesValidMeshesAsTheyAre) {
+TEST(UntangleProperties, KeepsValidMeshes) {
   check_valid_meshes_stay<2>();
   check_valid_meshes_stay<3>();
 }

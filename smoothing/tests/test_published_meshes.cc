@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Global optimization on the published gear meshes (Table 6.1:
+/// Tests global optimization on the published gear meshes (Table 6.1:
 /// studies/tests/test_printed_tables.cc).
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace smoothfem {
 namespace {
 
-/// The minima as an independent optimizer found them.
+/// Expects the minima of an independent optimizer.
 TEST(GlobalOptimization, ReachesTheKnownMinimaAtEveryScale) {
   for (const auto& [name, minimum] :
        {std::pair{"gear_tri_initial.mesh", 18706.636}, {"gear_quad_initial.mesh", 6659.553}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Volume meshes whose boundary nodes slide on the initial boundary.
+/// Tests volume meshes whose boundary nodes slide on the initial boundary.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ double volume(const VolumeMesh& mesh) {
   return sum;
 }
 
-/// A box whose nodes, those of its sides too, were moved at random where they may go.
+/// A box whose nodes, also those of its sides, were moved at random where they may move.
 VolumeMesh disturbed_box(BoxCells cells, std::uint32_t n = 4) {
   VolumeMesh mesh = with_sliding_boundary(box_mesh(n, n, n, cells));
   test::Random random(2);
@@ -39,7 +39,7 @@ VolumeMesh disturbed_box(BoxCells cells, std::uint32_t n = 4) {
 }
 
 /// A quarter of a tube, whose inner and outer sides are curved. unevenness: cells at one end are
-/// longer by this share than in the middle, and those at the other one shorter.
+/// longer by this share than those in the middle, cells at the other end are shorter.
 VolumeMesh tube(std::uint32_t n, double unevenness = 0.0) {
   VolumeMesh mesh = box_mesh(n, n, n, BoxCells::hexahedra);
   for (auto& p : mesh.coordinates()) {
@@ -82,7 +82,7 @@ TEST_P(SlidingBoundary, KeepsABoxABox) {
   }
 }
 
-TEST_P(SlidingBoundary, KeepsNodesOnACurvedBoundaryAndTellsHowFarFacetsAreOff) {
+TEST_P(SlidingBoundary, KeepsNodesOnACurvedBoundaryAndMeasuresFacetDistances) {
   const VolumeMesh mesh = with_sliding_boundary(tube(6));
   VolumeMesh result = mesh;
   auto made = method();
@@ -118,7 +118,7 @@ TEST_P(SlidingBoundary, KeepsFacetsWithinTheirBound) {
   }
 }
 
-TEST_P(SlidingBoundary, GivesTheSameBitsWithEveryNumberOfThreads) {
+TEST_P(SlidingBoundary, IsBitwiseIdenticalForEveryNumberOfThreads) {
   const int default_threads = n_threads();
   for (const VolumeMesh& mesh :
        {disturbed_box(BoxCells::mixed, 8), with_sliding_boundary(tube(8, 0.6), {}, 0.02)}) {
@@ -135,7 +135,7 @@ TEST_P(SlidingBoundary, GivesTheSameBitsWithEveryNumberOfThreads) {
   set_n_threads(default_threads);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, SlidingBoundary, testing::ValuesIn(methods_that_take<3>(true)),
+INSTANTIATE_TEST_SUITE_P(Catalogue, SlidingBoundary, testing::ValuesIn(methods_supporting<3>(true)),
                          test::test_name);
 
 TEST(SlidingBoundaries, HaveTheBordersOfLabelsAsFeatures) {
@@ -168,7 +168,7 @@ TEST(SlidingBoundaries, NeedADistanceAboveZero) {
                  InputError);
 }
 
-TEST(SlidingBoundaries, AreRefusedByMethodsThatCannotKeepThem) {
+TEST(SlidingBoundaries, AreRefusedByMethodsWithoutConstraints) {
   std::set<std::string> taken;
   for (const auto& info : method_catalogue()) {
     VolumeMesh mesh = with_sliding_boundary(box_mesh(3, 3, 3, BoxCells::hexahedra));
@@ -178,10 +178,10 @@ TEST(SlidingBoundaries, AreRefusedByMethodsThatCannotKeepThem) {
       taken.insert(info.name);
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("cannot keep boundary nodes on the boundary; "
-                                                   "fix them, or take one of getme, getme-qgamma"));
+                                                   "fix them, or use one of getme, getme-qgamma"));
     }
   }
-  EXPECT_THAT(taken, testing::ElementsAreArray(methods_that_take<3>(true)));
+  EXPECT_THAT(taken, testing::ElementsAreArray(methods_supporting<3>(true)));
   EXPECT_THAT(taken, testing::IsSupersetOf({"getme", "laplace", "smart-laplace"}));
 }
 

@@ -13,7 +13,7 @@
 namespace smoothfem {
 namespace {
 
-/// Numbers 0 .. n-1 in an order of no use to anybody.
+/// Returns the numbers 0 .. n-1 in random order.
 std::vector<std::uint32_t> shuffled(std::size_t n, std::uint64_t seed) {
   std::vector<std::uint32_t> order(n);
   std::iota(order.begin(), order.end(), 0U);
@@ -36,7 +36,7 @@ std::vector<double> some_qualities(std::size_t n) {
   return quality;
 }
 
-/// Eq. 4.3 as it is written.
+/// Computes Eq. 4.3 literally.
 double weight_by_definition(const Topology& topology, CellIndex cell,
                             const std::vector<double>& quality) {
   std::set<CellIndex> neighbours;
@@ -89,7 +89,7 @@ void expect_common_nodes_counted_once(int n_between) {
   cells.push_back(above);
   NodeIndex next = 14;
   for (int k = 0; k < n_between; ++k, next += 3) cells.push_back({next, next + 1, next + 2});
-  cells.push_back({10, 9, 14});  // one that shares an edge with the first
+  cells.push_back({10, 9, 14});  // a cell that shares an edge with the first
   cells.push_back(below);
   const auto topology = std::make_shared<const Topology>(2, next, test::rows_of(cells));
   std::vector<double> quality(cells.size(), 1.0);
@@ -105,7 +105,7 @@ void expect_common_nodes_counted_once(int n_between) {
     EXPECT_NEAR(weights.weights()[c], weight_by_definition(*topology, c, quality), 1e-12) << c;
 }
 
-/// Steps between cells are kept in pieces of 16,383.
+/// Steps between cells are stored in pieces of 16,383.
 TEST(NeighbourWeights, CountPolygonsWithManyCommonNodesOnce) {
   for (const int n_between :
        {1, 5000, 8189, 8190, 8191, 8192, 16380, 16381, 16382, 16383, 16384, 40000})
@@ -128,12 +128,14 @@ TEST(NeighbourWeights, OfSomeCellsAreThoseOfAll) {
   for (const CellIndex c : cells) EXPECT_EQ(some.weights()[c], expected[c]);
 }
 
-/// What a cell adds to one of its nodes in these tests: numbers whose sums depend on their order.
+/// Contribution of a cell to one of its nodes in these tests: numbers whose sums depend on their
+/// order.
 Lanes share(CellIndex cell, NodeIndex node) {
   return Lanes{1.0 / (1.0 + cell), std::sqrt(1.0 + node + cell), 1.0, 1e-3 * cell};
 }
 
-/// The nodes of a shuffled mesh are used by all of its blocks, whose sums do not fit at a time.
+/// The nodes of a shuffled mesh are used by all of its blocks, whose sums do not fit into memory at
+/// a time.
 class NodeSumsOfManyBlocks : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -185,7 +187,7 @@ TEST_F(NodeSumsOfManyBlocks, AreTheSameForEveryNumberOfThreadsAndEveryTime) {
   set_n_threads(n);
 }
 
-TEST_F(NodeSumsOfManyBlocks, OfSomeNodesAreSetAloneAndWithTheSameBits) {
+TEST_F(NodeSumsOfManyBlocks, OfSomeNodesAreSetAloneAndBitwiseIdentical) {
   NodeSums sums = all_sums();
   const auto expected = values(sums);
   std::vector<NodeIndex> nodes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Meshes of surfaces in space: projection, and that every method keeps nodes on the surface.
+/// Tests meshes of surfaces in space: projection, and that every method keeps nodes on the surface.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ Turn a_turn() {
   return Eigen::AngleAxisd(0.9, Point<3>(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
 }
 
-/// The surface that a planar mesh becomes when its nodes go to place(x, y).
+/// Makes a surface from a planar mesh by moving its nodes to place(x, y).
 template <class Place>
 SurfaceMesh lifted(const PlanarMesh& plan, const Place& place) {
   std::vector<Point<3>> x;
@@ -54,7 +54,7 @@ SurfaceMesh bent_sheet(std::uint32_t n, GridCells cells) {
   });
 }
 
-/// Nodes moved at random where their cells stay valid, as far as their carriers let them.
+/// Moves nodes at random where their cells stay valid, as far as their surface parts allow.
 void disturb(SurfaceMesh& mesh, double radius, std::uint64_t seed) {
   test::Random random(seed);
   for (const NodeIndex i : mesh.topology().free_nodes()) {
@@ -167,7 +167,7 @@ TEST(SurfaceFeatures, AreBordersOfTagsAndLabelledEdgesToo) {
   EXPECT_EQ(nodes_of_kind(mesh, GeometricClassification::patch).size(), 25u - 5u - 2u);
 }
 
-TEST(SurfaceFeatures, AreRefusedForFacetsThatRunAgainstEachOther) {
+TEST(SurfaceFeatures, AreRefusedForInconsistentlyOrientedFacets) {
   test::Cells cells{{0, 1, 2}, {1, 2, 3}};
   const std::vector<Point<3>> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
   try {
@@ -204,8 +204,8 @@ TEST(NodeConstraints, ProjectOntoTheNodesOwnPart) {
   EXPECT_NEAR(constraints.distance({2.0, 1.0, 1.5}), 1.0, 1e-15);
 }
 
-/// Against a look at all segments and triangles there are, by another formula: the minimum over a
-/// fine net of points of the triangles cannot be lower.
+/// Compares with a search of all segments and triangles by another formula: the minimum over a fine
+/// net of points of the triangles cannot be lower.
 TEST(NodeConstraints, FindTheNearestPoint) {
   const auto mesh = sphere_patch(6, GridCells::triangles);
   test::Random random(3);
@@ -299,7 +299,7 @@ TEST_P(SurfaceMethod, KeepsNodesOnTheirPartsAndCornersWhereTheyAre) {
   }
 }
 
-/// The planar methods are the second formula.
+/// The planar methods serve as the second formula.
 TEST_P(SurfaceMethod, GivesThePlanarMeshOnAFlatSurface) {
   const Turn turn = a_turn();
   const Point<3> shift(3.0, -1.0, 2.0);
@@ -339,7 +339,7 @@ TEST_P(SurfaceMethod, CommutesWithRotations) {
   }
 }
 
-TEST_P(SurfaceMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
+TEST_P(SurfaceMethod, IsBitwiseIdenticalForEveryNumberOfThreads) {
   const int default_threads = n_threads();
   auto mesh = sphere_patch(60, GridCells::mixed);
   disturb(mesh, 0.6 * edge_length(mesh), 8);
@@ -355,11 +355,11 @@ TEST_P(SurfaceMethod, GivesTheSameBitsWithEveryNumberOfThreads) {
   set_n_threads(default_threads);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, SurfaceMethod, testing::ValuesIn(methods_that_take<2, 3>()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, SurfaceMethod, testing::ValuesIn(methods_supporting<2, 3>()),
                          test::test_name);
 
-TEST(SurfaceMethods, AreTheFiveOfTheThesisAndNamedToWhoeverAsksForAnother) {
-  EXPECT_THAT((methods_that_take<2, 3>()),
+TEST(SurfaceMethods, AreTheFiveOfTheThesisAndListedInErrors) {
+  EXPECT_THAT((methods_supporting<2, 3>()),
               testing::ElementsAre("getme", "getme-sequential", "getme-simultaneous", "laplace",
                                    "smart-laplace"));
   try {
@@ -367,7 +367,7 @@ TEST(SurfaceMethods, AreTheFiveOfTheThesisAndNamedToWhoeverAsksForAnother) {
     FAIL() << "not refused";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "method global-optimization does not take surface meshes; choose one of getme, "
+                 "method global-optimization does not support surface meshes; choose one of getme, "
                  "getme-sequential, getme-simultaneous, laplace, smart-laplace");
   }
 }

@@ -51,7 +51,7 @@ double distance(const Polygon& a, const Polygon& b) {
   return longest;
 }
 
-/// Apices of similar triangles on the sides, and once more the other way round.
+/// Takes the apices of similar triangles on the sides, and once more with reversed orientation.
 Polygon two_half_steps(const Polygon& z) {
   const std::size_t n = z.size();
   const Complex w(lambda, (1.0 - lambda) * std::tan(theta));
@@ -125,7 +125,7 @@ TEST(Regularize, MakesPolygonsRegular) {
   }
 }
 
-TEST(Regularize, LeavesRegularPolygonsWhereTheyAre) {
+TEST(Regularize, KeepsRegularPolygons) {
   for (std::size_t n = 3; n <= 8; ++n) {
     Polygon regular;
     for (std::size_t k = 0; k < n; ++k) regular.push_back(Complex(4.0, 5.0) + 2.0 * root(n, k));

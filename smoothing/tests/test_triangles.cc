@@ -11,7 +11,7 @@ namespace {
 using test::pi;
 constexpr int n_triangles = 200;
 
-/// Visits random triangles with angles all over (0, pi/2).
+/// Visits random triangles, with angles from all of (0, pi/2).
 template <class Visit>
 void for_random_triangles(const Visit& visit) {
   test::Random random(1);
@@ -60,8 +60,8 @@ TEST(TriangleTransformation, IsTheStepOfPolygons) {
   });
 }
 
-/// Proposition 2.1 and its like: what is left of a defect after two steps is at most `factor` times
-/// the defect.
+/// Checks Proposition 2.1 and similar ones: the defect after two steps is at most `factor` times
+/// the defect before.
 template <class Step, class Defect>
 void expect_shrinking(const Polygon& start, double theta, double factor, const Step& step,
                       const Defect& defect) {
@@ -86,7 +86,7 @@ TEST(TriangleTransformation, SideRatiosTendToOneAsProposition21Says) {
 }
 
 /// Proposition 2.2 promises one factor below 1 for all triangles, theta = pi/4 included. Up to
-/// there the factor tends to (3 t^2 - 1) / (1 + t^2) for triangles with ever shorter third sides:
+/// there, the factor tends to (3 t^2 - 1) / (1 + t^2) for triangles with ever shorter third sides:
 /// to 1.
 TEST(TriangleTransformation, OneStepNeedNotShrinkSideRatiosByAFixedFactorAt45Degrees) {
   const auto worst = [](double theta, double z) {
@@ -183,8 +183,8 @@ TEST(TriangleTransformation, KeepsTheOrientationAndOnlyTheEquilateralOneTheCentr
   EXPECT_GT(moved, 0.1);
 }
 
-TEST(TriangleTransformation, SidesAreNeverZeroAgain) {
-  // Two nodes together, and three on a line.
+TEST(TriangleTransformation, SidesNeverBecomeZero) {
+  // Two coinciding nodes, and three nodes on a line.
   for (const Polygon& start : {Polygon{{0, 0}, {1, 0}, {1, 0}}, Polygon{{0, 0}, {1, 0}, {0, 0}},
                                Polygon{{0, 0}, {1, 0}, {2, 0}}, Polygon{{0, 0}, {0, 0}, {1, 1}}})
     for (const double theta : {0.05, pi / 6.0, 0.9, 1.5}) {

@@ -15,7 +15,7 @@ using test::BoxCells;
 using test::grid_mesh;
 using test::GridCells;
 
-/// Moves each free node by up to `radius` in each direction, whatever becomes of its cells.
+/// Moves each free node by up to `radius` in each direction, even if cells become invalid.
 template <int dim>
 Mesh<dim> scrambled(Mesh<dim> mesh, double radius, std::uint64_t seed) {
   test::Random random(seed);
@@ -54,14 +54,14 @@ void expect_untangled(const std::vector<Mesh<dim>>& meshes, double radius) {
     }
 }
 
-TEST(Untangle, MendsPlanarScrambles) {
+TEST(Untangle, UntanglesScrambledPlanarMeshes) {
   for (const double radius : {0.6, 1.5, 4.0}) expect_untangled(planar_meshes(), radius);
 }
-TEST(Untangle, MendsVolumeScrambles) {
+TEST(Untangle, UntanglesScrambledVolumeMeshes) {
   for (const double radius : {0.6, 1.5, 4.0}) expect_untangled(volume_meshes(), radius);
 }
 
-TEST(Untangle, MendsMeshesWithAllFreeNodesInAPlaneOrAPoint) {
+TEST(Untangle, UntanglesMeshesWithAllFreeNodesInAPlaneOrAPoint) {
   for (const auto& regular : volume_meshes())
     for (const int n_equal : {1, 3}) {
       auto mesh = regular;
@@ -71,7 +71,7 @@ TEST(Untangle, MendsMeshesWithAllFreeNodesInAPlaneOrAPoint) {
     }
 }
 
-TEST(Untangle, LeavesValidMeshesAsTheyAre) {
+TEST(Untangle, KeepsValidMeshes) {
   auto mesh = box_mesh(4, 4, 4, BoxCells::hexahedra);
   test::distort(mesh, 0.6, 3);
   const auto before = mesh.copied_coordinates();
@@ -81,7 +81,7 @@ TEST(Untangle, LeavesValidMeshesAsTheyAre) {
   EXPECT_EQ(mesh.copied_coordinates(), before);
 }
 
-TEST(Untangle, NamesCellsThatNothingCanMend) {
+TEST(Untangle, NamesCellsThatCannotBeUntangled) {
   auto mesh = test::make_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 3, 2}});
   const auto before = mesh.copied_coordinates();
   const auto result = untangle(mesh);
@@ -91,7 +91,7 @@ TEST(Untangle, NamesCellsThatNothingCanMend) {
   EXPECT_EQ(mesh.copied_coordinates(), before);
 }
 
-TEST(Untangle, SaysWhatIsLeftAndKeepsTheMeshWhereItFails) {
+TEST(Untangle, ReportsInvalidCellsAndKeepsTheMeshIfItFails) {
   // The boundary itself is folded: no position of the inner node makes all triangles positive.
   auto mesh = test::make_mesh({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 0.4}},
                               {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Meshes whose inverted cells have nodes of the boundary only: they can be mended by nodes that
-/// slide along it, and by nothing else.
+/// Tests meshes whose inverted cells have nodes of the boundary only: only nodes that slide along
+/// it can untangle them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::vector<CellIndex> invalid_cells_of(const VolumeMesh& mesh) {
 
 class UntangleSliding : public testing::TestWithParam<BoxCells> {};
 
-TEST_P(UntangleSliding, MendsCellsThatHaveNodesOfTheBoundaryOnly) {
+TEST_P(UntangleSliding, UntanglesCellsWithBoundaryNodesOnly) {
   const VolumeMesh tangled = tangled_along_boundary(shell(GetParam()));
   const auto n_invalid = invalid_cells_of(tangled).size();
   ASSERT_GE(n_invalid, 20u);
@@ -61,7 +61,7 @@ TEST_P(UntangleSliding, MendsCellsThatHaveNodesOfTheBoundaryOnly) {
   EXPECT_GT(n_lines, 50u);
 }
 
-TEST_P(UntangleSliding, GivesTheSameBitsWithEveryNumberOfThreads) {
+TEST_P(UntangleSliding, IsBitwiseIdenticalForEveryNumberOfThreads) {
   const VolumeMesh tangled = with_sliding_boundary(tangled_along_boundary(shell(GetParam())));
   const int before = n_threads();
   std::optional<std::vector<Point<3>>> expected;
@@ -78,11 +78,7 @@ TEST_P(UntangleSliding, GivesTheSameBitsWithEveryNumberOfThreads) {
 INSTANTIATE_TEST_SUITE_P(Cells, UntangleSliding,
                          testing::Values(BoxCells::hexahedra, BoxCells::tetrahedra,
                                          BoxCells::prisms),
-                         [](const auto& info) {
-                           return info.param == BoxCells::hexahedra    ? "hexahedra"
-                                  : info.param == BoxCells::tetrahedra ? "tetrahedra"
-                                                                       : "prisms";
-                         });
+                         [](const auto& info) { return std::string(name_of(info.param)); });
 
 TEST(UntangleSlidingBoundaries, KeepFacetsWithinTheirBound) {
   const VolumeMesh tangled = tangled_along_boundary(shell(BoxCells::hexahedra));
@@ -93,14 +89,14 @@ TEST(UntangleSlidingBoundaries, KeepFacetsWithinTheirBound) {
   EXPECT_EQ(mesh.copied_coordinates(), tangled.copied_coordinates());
 }
 
-TEST(UntangleSlidingBoundaries, NameCellsOfCornersOnly) {
+TEST(UntangleSlidingBoundaries, NamesCellsWithCornersOnly) {
   VolumeMesh cube = box_mesh(1, 1, 1, BoxCells::hexahedra);
   std::swap(cube.coordinates()[0], cube.coordinates()[1]);
   VolumeMesh mesh = with_sliding_boundary(cube);
   EXPECT_EQ(untangle(mesh).fully_fixed_cells, std::vector<CellIndex>{0});
 }
 
-TEST(UntangleSlidingInThePlane, MendsCellsThatHaveNodesOfTheBoundaryOnly) {
+TEST(UntangleSlidingInThePlane, UntanglesCellsWithBoundaryNodesOnly) {
   for (const bool triangles : {false, true}) {
     const PlanarMesh tangled = strip(triangles, 0.45);
     PlanarMesh fixed = tangled;

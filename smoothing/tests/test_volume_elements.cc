@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Quality and transformations of volume elements, against second formulas: the thesis' tables as
-/// printed, dense matrices, printed numbers.
+/// Tests quality and transformations of volume elements against second formulas: the printed tables
+/// of the thesis, dense matrices and printed numbers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,8 +69,8 @@ Points random_element(std::size_t n, test::Random& random) {
   return x;
 }
 
-/// Calls act with the points as a span of fixed extent, and returns what act leaves in a second
-/// one.
+/// Calls act with the points as a span of fixed extent. Returns the points that it writes to a
+/// second span.
 template <class Act>
 Points with_span(const Points& in, const Act& act) {
   Points out(in.size());
@@ -266,8 +266,8 @@ TEST_P(VolumeElements, TransformationsCommuteWithSimilarities) {
   }
 }
 
-/// Lemma 3.2: the base points keep the centroid, but for pyramids; the whole transformation keeps
-/// that of hexahedra.
+/// Lemma 3.2: the base points keep the centroid, except for pyramids; the whole transformation
+/// keeps that of hexahedra.
 TEST_P(VolumeElements, CentroidsAreAsInTheLemma) {
   test::Random random(13);
   double base_moves = 0.0, all_moves = 0.0;
@@ -309,7 +309,7 @@ TEST_P(VolumeElements, AreRegularizedFromValidAndInvalidStarts) {
   }
 }
 
-TEST_P(VolumeElements, KeepWhatScalingSaysAndRelax) {
+TEST_P(VolumeElements, KeepTheScaledQuantityAndRelax) {
   test::Random random(19);
   for (int i = 0; i < 100; ++i) {
     Points x = regular_element(GetParam());
@@ -347,8 +347,8 @@ TEST_P(VolumeElements, KeepWhatScalingSaysAndRelax) {
 
 INSTANTIATE_TEST_SUITE_P(Types, VolumeElements, testing::Values(4, 5, 6, 8));
 
-/// Section 3.2: on average 3.69 transformations with sigma = 0.78 make a random tetrahedron
-/// regular, counted over valid ones (with invalid ones, 4.11).
+/// Section 3.2: on average 3.69 transformations with sigma = 0.78 make a random valid tetrahedron
+/// regular (4.11 if invalid ones count, too).
 TEST(OppositeFaceNormals, NeedThePrintedNumberOfTransformations) {
   test::Random random(23);
   int n_starts = 0;
@@ -363,7 +363,7 @@ TEST(OppositeFaceNormals, NeedThePrintedNumberOfTransformations) {
 }
 
 /// Section 3.2: the tetrahedron that no sigma makes regular at once.
-TEST(OppositeFaceNormals, TransformTheCounterexampleAsPrinted) {
+TEST(OppositeFaceNormals, TransformThePrintedCounterexample) {
   const Points x{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
   for (const double sigma : {0.1, 0.78, 1.0, std::sqrt(2.0) + std::sqrt(3.0),
                              0.5 * (std::sqrt(2.0) + std::sqrt(6.0)), 5.0}) {
@@ -383,7 +383,7 @@ TEST(OppositeFaceNormals, DoNotMoveNodesOppositeToFacesWithoutArea) {
   EXPECT_EQ(opposite(x, 1.0)[3], x[3]);
 }
 
-TEST(InverseRoot, IsThatOfTheMathematicalLibrary) {
+TEST(InverseRoot, AgreesWithTheMathematicalLibrary) {
   test::Random random(29);
   for (int i = 0; i < 200000; ++i) {
     const double x = std::exp(690.0 * random());
@@ -401,7 +401,7 @@ TEST(InverseRoot, IsThatOfTheMathematicalLibrary) {
   }
 }
 
-/// Lanes and single cells give the same bits.
+/// Compares lanes with single cells, bit for bit.
 TEST(VolumeLanes, AreTheSameAsSingleCells) {
   test::Random random(31);
   const auto check = [&]<std::size_t n>() {
@@ -487,7 +487,7 @@ TEST(HexahedronMapping, PositiveMeansPositiveAtEveryPoint) {
     n_folded_inside += smallest_at_corners > 0.0 && smallest <= 0.0;
   }
   EXPECT_GT(n_positive, 50);
-  EXPECT_GT(n_folded_inside, 0);  // the case it is there for
+  EXPECT_GT(n_folded_inside, 0);  // the case that this test is for
 }
 
 }  // namespace

@@ -29,10 +29,10 @@ VolumeMesh distorted_box(std::uint32_t n, BoxCells kind, double radius, std::uin
   return mesh;
 }
 
-/// Matrices are kept in single precision: their rounding errors in terms of their norm.
+/// Rounding error of matrices, which are stored in single precision, relative to their norm.
 constexpr double matrix_rounding = 1e-6;
 
-/// Edges of the regular element from each of its corners as columns, written out from its nodes.
+/// Edges of the regular element from each of its corners as columns, from its nodes.
 Eigen::Matrix3d regular_corner(std::size_t n_nodes, const LocalSimplex& corner) {
   const double s = 0.5 * std::sqrt(3.0), h = std::sqrt(2.0 / 3.0), p = std::sqrt(0.5);
   std::vector<Point<3>> x;
@@ -49,7 +49,7 @@ Eigen::Matrix3d regular_corner(std::size_t n_nodes, const LocalSimplex& corner) 
   return edges;
 }
 
-/// The objective by its definition.
+/// Computes the objective by its definition.
 double plain_objective(const VolumeMesh& mesh) {
   double sum = 0.0;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
@@ -170,7 +170,7 @@ TEST(VolumeConjugateGradients, SolveLikeADenseFactorization) {
   }
 }
 
-/// The smallest determinant of a cell's corners, in terms of that at the start, on the way.
+/// Returns the smallest determinant of a cell's corners on the way, relative to that at the start.
 double remaining(const VolumeMesh& mesh, const std::vector<Point<3>>& to, CellIndex c, double t) {
   const auto nodes = mesh.topology().cell_nodes(c);
   double least = 1e300;
@@ -189,7 +189,7 @@ double remaining(const VolumeMesh& mesh, const std::vector<Point<3>>& to, CellIn
   return least;
 }
 
-TEST(VolumeFeasibleFractions, StopBeforeADeterminantIsDownAndNotMuchEarlier) {
+TEST(VolumeFeasibleFractions, StopJustBeforeADeterminantHasFallen) {
   constexpr double share = 0.9;
   for (const BoxCells kind : all_kinds) {
     const auto mesh = distorted_box(3, kind, 0.3, 2);
@@ -203,14 +203,14 @@ TEST(VolumeFeasibleFractions, StopBeforeADeterminantIsDownAndNotMuchEarlier) {
     feasible_fractions<3>(mesh.topology(), mesh.coordinates(), to, share, limits);
     std::size_t n_limited = 0, n_sharp = 0;
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-      double least_beyond = 1e300;
+      double min_beyond = 1e300;
       for (const CellIndex c : mesh.topology().node_cells(i)) {
         for (int step = 0; step <= 10; ++step)
           EXPECT_GT(remaining(mesh, to, c, limits[i] * step / 10.0), 1.0 - share - 1e-9);
-        least_beyond = std::min(least_beyond, remaining(mesh, to, c, 1.02 * limits[i]));
+        min_beyond = std::min(min_beyond, remaining(mesh, to, c, 1.02 * limits[i]));
       }
       n_limited += limits[i] < 1.0;
-      n_sharp += limits[i] < 1.0 && least_beyond < 1.0 - share;
+      n_sharp += limits[i] < 1.0 && min_beyond < 1.0 - share;
     }
     EXPECT_GT(n_limited, 0u);
     EXPECT_GE(static_cast<double>(n_sharp), 0.95 * static_cast<double>(n_limited));
@@ -352,7 +352,7 @@ TEST(VolumeGlobalOptimization, RescuesBarelyValidElements) {
     auto expected = regular;
     const double value = optimize(expected);
     auto mesh = regular;
-    // Towards a neighbour until an element has almost collapsed.
+    // Moves a node towards a neighbour until an element has almost collapsed.
     const NodeIndex node = mesh.topology().free_nodes()[mesh.topology().free_nodes().size() / 2];
     const Point<3> start = mesh.coordinates()[node];
     const Point<3> aim = mesh.coordinates()[mesh.topology().node_neighbours(node)[0]];

@@ -17,8 +17,8 @@ double warpage_of(const Quad& p) {
   return face_warpage(std::span<const Vector3<double>, 4>(p));
 }
 
-/// The unit square with one node lifted: opposite normals are (-h, -h, 1) and (0, 0, 1) at nodes 2
-/// and 0, (0, -h, 1) and (-h, 0, 1) at 1 and 3.
+/// The unit square with one node lifted. Opposite normals are (-h, -h, 1) and (0, 0, 1) at nodes 2
+/// and 0, (0, -h, 1) and (-h, 0, 1) at nodes 1 and 3.
 TEST(Warpage, HandComputed) {
   for (const double h : {0.0, 0.1, 0.5, 1.0, 3.0}) {
     const double first = 1.0 / std::sqrt(1.0 + 2.0 * h * h), second = 1.0 / (1.0 + h * h);
@@ -48,7 +48,7 @@ TEST(Warpage, DoesNotDependOnFirstNodeDirectionAndSize) {
   EXPECT_NEAR(warpage_of(large), expected, 1e-14);
 }
 
-TEST(Warpage, LanesGiveTheSameBits) {
+TEST(Warpage, LanesAreBitwiseIdenticalToSingleCells) {
   test::Random random(3);
   std::array<std::array<Vector3<double>, 8>, n_lanes> cells;
   std::array<Vector3<Lanes>, 8> together;

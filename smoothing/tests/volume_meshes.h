@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <ostream>
+
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem::test {
@@ -14,10 +16,19 @@ inline VolumeMesh make_volume_mesh(const std::vector<Point<3>>& coordinates,
 
 enum class BoxCells { tetrahedra, pyramids, prisms, hexahedra, mixed };
 
-/// nx x ny x nz unit cubes: as hexahedra, or each cut into six tetrahedra along a diagonal (all the
-/// same way, so that they fit), six pyramids over its middle, or two prisms. mixed: prisms in the
-/// lower layers, above them hexahedra, then a layer of pyramids, and tetrahedra on top (in the
-/// cubes above the pyramids, whose top face is cut so that the tetrahedra fit).
+inline const char* name_of(BoxCells kind) {
+  constexpr const char* names[] = {"tetrahedra", "pyramids", "prisms", "hexahedra", "mixed"};
+  return names[static_cast<int>(kind)];
+}
+inline void PrintTo(BoxCells kind, std::ostream* out) {
+  *out << name_of(kind);
+}
+
+/// Makes nx x ny x nz unit cubes. They are hexahedra, or each is cut into six tetrahedra along a
+/// diagonal, six pyramids over its middle, or two prisms. All diagonals run in the same direction,
+/// so that the tetrahedra fit. mixed: prisms in the lower layers, hexahedra above them, then a
+/// layer of pyramids, and tetrahedra on top. The top faces of the pyramids' cubes are cut so that
+/// the tetrahedra fit.
 inline VolumeMesh box_mesh(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz, BoxCells kind) {
   std::vector<Point<3>> x;
   for (std::uint32_t k = 0; k <= nz; ++k)
@@ -40,7 +51,8 @@ inline VolumeMesh box_mesh(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz,
         if (here == BoxCells::hexahedra) {
           cells.append(h);
         } else if (here == BoxCells::prisms) {
-          if (kind == BoxCells::mixed) {  // lying, so that squares meet what is above
+          // Turned, so that their quadrilaterals meet the hexahedra above.
+          if (kind == BoxCells::mixed) {
             cells.append(Row{h[0], h[5], h[1], h[3], h[6], h[2]});
             cells.append(Row{h[0], h[4], h[5], h[3], h[7], h[6]});
           } else {
@@ -53,7 +65,7 @@ inline VolumeMesh box_mesh(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz,
           const bool tetrahedra_above = kind == BoxCells::mixed && k + 1 < nz;
           const auto& faces = VolumeElement<8>::faces;
           for (std::size_t f = 0; f < faces.size(); ++f) {
-            const auto& n = faces[f].nodes;  // outwards; seen from the middle the other way round
+            const auto& n = faces[f].nodes;  // outwards; seen from the middle in reverse order
             if (tetrahedra_above && f + 1 == faces.size()) {
               cells.append(Row{h[4], h[6], h[5], middle});
               cells.append(Row{h[4], h[7], h[6], middle});
@@ -69,7 +81,7 @@ inline VolumeMesh box_mesh(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz,
   return make_volume_mesh(x, cells);
 }
 
-/// n x n rhombs of two equilateral triangles each, in n_layers layers of regular prisms.
+/// Makes n x n rhombs of two equilateral triangles each, in n_layers layers of regular prisms.
 inline VolumeMesh equilateral_prisms(std::uint32_t n, std::uint32_t n_layers) {
   VolumeMesh mesh = box_mesh(n, n, n_layers, BoxCells::prisms);
   // The diagonal that cuts a square becomes an edge of length one.
@@ -78,7 +90,7 @@ inline VolumeMesh equilateral_prisms(std::uint32_t n, std::uint32_t n_layers) {
   return mesh;
 }
 
-/// Moves each free node by up to `radius` in each direction where its cells stay valid.
+/// Moves each free node by up to `radius` in each direction, if its cells stay valid.
 inline void distort(VolumeMesh& mesh, double radius, std::uint64_t seed) {
   Random random(seed);
   for (const NodeIndex i : mesh.topology().free_nodes()) {
@@ -94,7 +106,7 @@ inline void distort(VolumeMesh& mesh, double radius, std::uint64_t seed) {
 template <int dim>
 using NamedMeshes = std::vector<std::pair<std::string, Mesh<dim>>>;
 
-/// Grids and boxes of unit cells, of each type of cells and of several.
+/// Grids and boxes of unit cells, of each type of cells and of several types.
 template <int dim>
 NamedMeshes<dim> regular_topologies() {
   if constexpr (dim == 2)
@@ -111,7 +123,7 @@ NamedMeshes<dim> regular_topologies() {
             {"mixed", box_mesh(3, 4, 6, BoxCells::mixed)}};
 }
 
-/// The same with each free node up to a quarter of a cell elsewhere.
+/// The same meshes, with each free node moved by up to a quarter of a cell.
 template <int dim>
 NamedMeshes<dim> distorted_meshes() {
   auto all = regular_topologies<dim>();

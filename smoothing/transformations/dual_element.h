@@ -11,15 +11,15 @@
 namespace smoothfem {
 
 /// The regularizing transformation of tetrahedra, hexahedra, pyramids and prisms by their dual
-/// elements (thesis, Definition 3.4): the means of the faces are the nodes of the dual element; on
-/// a base point b_k of its face k stands the face's normal n_k, and p'_k = b_k + sigma n_k /
-/// sqrt(|n_k|). Commutes with similarities; regular elements stay regular; keeps the centroid of
-/// hexahedra only (Lemma 3.2). Iterating it makes any element regular, also an invalid one: any
-/// sigma > 0 for tetrahedra and hexahedra, sigma <= 2 for pyramids and prisms, which do not settle
-/// for large ones.
+/// elements (thesis, Definition 3.4). The means of the faces are the nodes of the dual element. The
+/// normal n_k of its face k is erected on a base point b_k of that face: p'_k = b_k + sigma n_k /
+/// sqrt(|n_k|). It commutes with similarities and keeps regular elements regular; it keeps the
+/// centroid of hexahedra only (Lemma 3.2). Iterating it makes any element regular, also an invalid
+/// one. Tetrahedra and hexahedra need sigma > 0; pyramids and prisms sigma <= 2, as they do not
+/// converge for large sigma.
 class DualElement {
  public:
-  /// nodes, result: n = 4, 5, 6 or 8 points each, not overlapping. sigma > 0, one a lane.
+  /// nodes, result: n = 4, 5, 6 or 8 points each, not overlapping. sigma > 0, one for each lane.
   template <class Real, std::size_t n>
   static inline void apply(Real sigma, std::span<const Vector3<Real>, n> nodes,
                            std::span<Vector3<Real>, n> result) {
@@ -32,7 +32,7 @@ class DualElement {
       dual[f] = (face.size == 4 ? 0.25 : 1.0 / 3.0) * sum;
     });
     const Real tau = base_position<n>(sigma);
-    std::array<Vector3<Real>, 4> normals;  // of the first half of a hexahedron's dual faces
+    std::array<Vector3<Real>, 4> normals;  // normals of the first half of a hexahedron's dual faces
     unrolled<n>([&](auto k) {
       constexpr LocalFace face = Element::dual_faces[k];
       const auto &a = dual[face.nodes[0]], &b = dual[face.nodes[1]], &c = dual[face.nodes[2]];
@@ -55,8 +55,9 @@ class DualElement {
   }
 
  private:
-  /// Where base points of triangles lie on the line from the first node of the dual face to the
-  /// middle of the other two (Eq. 3.8); chosen so that regular elements stay regular.
+  /// Returns the position of triangles' base points (Eq. 3.8). They lie on the line from the first
+  /// node of the dual face to the middle of the other two. The position is chosen so that regular
+  /// elements stay regular.
   template <std::size_t n, class Real>
   static inline Real base_position(Real sigma) {
     if constexpr (n == 5) return 0.5 + sigma;

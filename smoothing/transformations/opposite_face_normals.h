@@ -10,18 +10,18 @@
 namespace smoothfem {
 
 /// The regularizing transformation of tetrahedra by opposite face normals (thesis, Definition 3.3):
-/// p'_i = p_i + sigma n_i / sqrt(|n_i|) with n_i the normal of the face opposite to node i,
-/// directed to the node. Commutes with similarities; enlarges; moves the centroid. Iterating it
-/// makes any tetrahedron regular, also an invalid one.
+/// p'_i = p_i + sigma n_i / sqrt(|n_i|). n_i is the normal of the face opposite to node i, directed
+/// to the node. It commutes with similarities, enlarges, and moves the centroid. Iterating it makes
+/// any tetrahedron regular, also an invalid one.
 class OppositeFaceNormals {
  public:
-  /// nodes, result: 4 points each, not overlapping. sigma >= 0, one a lane. A face without area
-  /// moves nothing.
+  /// nodes, result: 4 points each, not overlapping. sigma >= 0, one for each lane. A face without
+  /// area moves nothing.
   template <class Real>
   static inline void apply(Real sigma, std::span<const Vector3<Real>, 4> nodes,
                            std::span<Vector3<Real>, 4> result) {
     const auto &p1 = nodes[0], &p2 = nodes[1], &p3 = nodes[2], &p4 = nodes[3];
-    // With the edges as the cell's table has them, which compilers then compute once.
+    // Edges are those of the cell's table, so that compilers compute them once.
     result[0] = p1 + scaled(sigma, cross(p4 - p2, p3 - p2));
     result[1] = p2 + scaled(sigma, cross(p3 - p1, p4 - p3));
     result[2] = p3 + scaled(sigma, cross(p4 - p2, p4 - p1));

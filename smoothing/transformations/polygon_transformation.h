@@ -10,11 +10,11 @@
 
 namespace smoothfem {
 
-/// The regularizing transformation of planar n-gons (thesis, Section 2.3): similar triangles with
-/// base angle theta and subdivision ratio lambda on every side, their apices taken, and the same
-/// once more with the orientation reversed. Linear, keeps the centroid, commutes with similarities.
-/// The regular polygon is its dominant eigenpolygon for the parameters used in smoothing, so
-/// iterating it makes any n-gon regular.
+/// The regularizing transformation of planar n-gons (thesis, Section 2.3). Similar triangles with
+/// base angle theta and subdivision ratio lambda stand on every side, and their apices are the new
+/// nodes. A second half step does the same with reversed orientation. Linear, keeps the centroid,
+/// commutes with similarities. The regular polygon is its dominant eigenpolygon for the parameters
+/// used in smoothing, so that iterating it makes any n-gon regular.
 class PolygonTransformation {
  public:
   /// lambda in (0, 1), theta in (0, pi/2) radians.
@@ -27,9 +27,9 @@ class PolygonTransformation {
     imaginary_ = previous.imag();
   }
 
-  /// result: as many points as polygon, at least three; must not overlap it. The circulant matrix
-  /// of both half steps together: `diagonal` for the node, w (1 - conj w) for the one before it and
-  /// the conjugate of that for the one after it (Eq. 2.29 with its conjugates).
+  /// Transforms a polygon. result: as many points as polygon, at least three; must not overlap it.
+  /// Both half steps together are a circulant matrix: `diagonal` for the node, w (1 - conj w) for
+  /// the previous node and its conjugate for the next one (Eq. 2.29 with its conjugates).
   template <class Real, std::size_t extent>
   void apply(std::span<const Vector2<Real>, extent> polygon,
              std::span<Vector2<Real>, extent> result) const {
@@ -43,8 +43,8 @@ class PolygonTransformation {
     }
   }
 
-  /// The same of a polygon in space that need not be flat: turning by 90 degrees is turning about a
-  /// unit normal, the cross product with it.
+  /// Transforms a polygon in space that need not be flat. A turn by 90 degrees becomes the cross
+  /// product with a unit normal.
   template <std::size_t extent>
   void apply(Vector3<double> normal, std::span<const Vector3<double>, extent> polygon,
              std::span<Vector3<double>, extent> result) const {

@@ -25,8 +25,8 @@ inline auto perimeter(std::span<const Corner, extent> polygon) {
   return sum;
 }
 
-/// Scales a transformed polygon about the original's centroid, which the transformation must have
-/// kept, so that it has the original's mean edge length (thesis, Eq. 3.11).
+/// Scales a transformed polygon about the original's centroid, so that it has the original's mean
+/// edge length (thesis, Eq. 3.11). The transformation must have kept the centroid.
 template <class Corner, std::size_t extent>
 inline void keep_mean_edge_length(std::span<const Corner, extent> original,
                                   std::span<Corner, extent> transformed) {
@@ -35,18 +35,20 @@ inline void keep_mean_edge_length(std::span<const Corner, extent> original,
   for (auto& node : transformed) node = centre + factor * (node - centre);
 }
 
-/// Twice the mean area of the triangles that a polygon's nodes make with their neighbours.
+/// Twice the mean area of the triangles that a polygon's nodes form with their neighbours.
 template <class Real, std::size_t extent>
 inline Real mean_node_triangle(std::span<const Vector2<Real>, extent> polygon) {
   const std::size_t n = polygon.size();
-  if (n == 3) return cross(polygon[1] - polygon[0], polygon[2] - polygon[0]);  // all three the same
+  if (n == 3)
+    return cross(polygon[1] - polygon[0],
+                 polygon[2] - polygon[0]);  // all three triangles are equal
   Real sum{};
   for (std::size_t k = 0; k < n; ++k)
     sum += cross(polygon[k + 1 == n ? 0 : k + 1] - polygon[k],
                  polygon[k == 0 ? n - 1 : k - 1] - polygon[k]);
   return sum / static_cast<double>(n);
 }
-/// The same of a polygon in space, across its mean normal.
+/// Twice the mean area for a polygon in space, projected along its mean normal.
 template <std::size_t extent>
 inline double mean_node_triangle(std::span<const Vector3<double>, extent> polygon) {
   const std::size_t n = polygon.size();
@@ -93,7 +95,7 @@ inline auto node_simplex_size(Corners corners) {
     return mean_node_tetrahedron(corners);
 }
 
-/// Scales a transformed cell by `factor` and moves it so that it has the original's centroid.
+/// Scales a transformed cell by `factor` and moves it to the original's centroid.
 template <class Corner, std::size_t extent, class Real>
 inline void scale_about_centroid(std::span<const Corner, extent> original, Real factor,
                                  std::span<Corner, extent> transformed) {
@@ -102,8 +104,8 @@ inline void scale_about_centroid(std::span<const Corner, extent> original, Real 
   for (auto& node : transformed) node = centre + factor * (node - present_centre);
 }
 
-/// Moves a transformed volume cell to the original's centroid and scales it there so that it has
-/// the original's mean edge length (thesis, Eq. 3.11). edges: of `original`.
+/// Moves a transformed volume cell to the original's centroid and scales it there to the original's
+/// mean edge length (thesis, Eq. 3.11). edges: of `original`.
 template <class Real, std::size_t n>
 inline void keep_mean_edge_length(std::span<const Vector3<Real>, n> original,
                                   const CellEdges<Real, n>& edges,
@@ -112,8 +114,9 @@ inline void keep_mean_edge_length(std::span<const Vector3<Real>, n> original,
   scale_about_centroid(original, edge_length_sum(edges) / edge_length_sum(present), transformed);
 }
 
-/// The same for the mean volume of the node simplices, which have to be positive for both, as those
-/// of valid cells and their transformed ones are.
+/// Moves a transformed volume cell to the original's centroid and scales it to the original's mean
+/// volume of node simplices. That must be positive for both, as for valid cells and their
+/// transformed ones.
 template <class Real, std::size_t n>
 inline void keep_mean_volume(std::span<const Vector3<Real>, n> original,
                              std::span<Vector3<Real>, n> transformed) {
@@ -122,7 +125,8 @@ inline void keep_mean_volume(std::span<const Vector3<Real>, n> original,
                        transformed);
 }
 
-/// The same so that its mean node simplex has a given size. Both have to be positive.
+/// Moves a transformed cell to the original's centroid and scales its mean node simplex to a given
+/// size. Both sizes must be positive.
 template <int dim, class Corner, std::size_t extent, class Real>
 inline void give_size(std::span<const Corner, extent> original, Real size,
                       std::span<Corner, extent> transformed) {

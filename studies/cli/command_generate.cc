@@ -16,7 +16,7 @@ namespace {
 struct Arguments {
   std::string domain, out, to, elements;
   std::string distortion = distortion_kind_names[0];
-  double edge_scale = 1.0, distort_to = 0.0, least_quality = 0.0;
+  double edge_scale = 1.0, distort_to = 0.0, min_quality = 0.0;
   int sweeps = 1;
   std::uint64_t seed = 1;
   bool quiet = false, list = false;
@@ -30,7 +30,7 @@ void distort_and_write(Mesh<dim, spacedim>& mesh, const Arguments& arguments) {
     parameters.seed = arguments.seed;
     parameters.n_candidates = default_candidates(dim);
     parameters.n_sweeps = arguments.sweeps;
-    parameters.least_quality = arguments.least_quality;
+    parameters.min_quality = arguments.min_quality;
     if (arguments.distortion == distortion_kind_names[1])
       parameters.kind = DistortionKind::random_steps;
     distort(mesh, parameters);
@@ -93,7 +93,7 @@ void smoothfem_add_generate_command(CLI::App& app) {
                    "times all nodes are moved (1 unless given)")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--distortion-least-quality", arguments->least_quality,
+      ->add_option("--distortion-least-quality", arguments->min_quality,
                    "mean ratio that distortion leaves every cell (0 unless given)")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--seed", arguments->seed, "seed of generation and distortion")

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 TEST_F(CommandLine, EveryMethodSmoothsAMeshWithPentagons) {
   write_mesh(file("in.vtu"), mixed_mesh(true));
   for (const auto& info : method_catalogue()) {
-    if (!takes_meshes<2>(info.name)) continue;
+    if (!supports_mesh_kind<2>(info.name)) continue;
     const std::string out = info.name + ".vtu";
     const Outcome smoothed = smoothfem({"smooth", "in.vtu", "-m", info.name, "-o", out});
     EXPECT_EQ(smoothed.exit_code, 0) << info.name << ": " << smoothed.err;
@@ -150,7 +150,7 @@ TEST_F(CommandLine, SmoothsVolumeMeshesOfEveryFormat) {
 TEST_F(CommandLine, EveryMethodForVolumeMeshesSmoothsOne) {
   write_mesh(file("in.vtu"), shaken_box());
   for (const auto& info : method_catalogue()) {
-    if (!takes_meshes<3>(info.name)) continue;
+    if (!supports_mesh_kind<3>(info.name)) continue;
     const Outcome outcome = smoothfem({"smooth", "in.vtu", "-m", info.name, "-o", "out.vtu"});
     ASSERT_EQ(outcome.exit_code, 0) << info.name << ": " << outcome.err;
     EXPECT_GT(mesh_quality(read_volume(file("out.vtu"))).q_mean, mesh_quality(shaken_box()).q_mean);
@@ -348,7 +348,7 @@ TEST_F(CommandLine, ListNamesEverythingThereIs) {
   for (const auto& info : method_catalogue()) {
     expect_listed(info.name);
     const auto expect_parameters_listed = [&]<int dim>() {
-      if (!takes_meshes<dim>(info.name)) return;
+      if (!supports_mesh_kind<dim>(info.name)) return;
       Method<dim> method = make_method<dim>(info.name);
       for (const auto& parameter : method.parameters()) expect_listed(parameter.name);
     };

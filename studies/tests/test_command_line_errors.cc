@@ -158,7 +158,7 @@ TEST_F(BadInput, PresetOrRuleOrGroupThatIsNotThere) {
   expect_refused(smooth("box.msh", "getme", {"--fix", "group=inlet"}),
                  {"'inlet'", "the mesh has no labelled boundary groups"});
   expect_refused(smooth("good.mesh", "getme-qgamma", {}),
-                 {"getme-qgamma does not take planar meshes"});
+                 {"getme-qgamma does not support planar meshes"});
   for (const std::string n : {"0", "-1", "2000", "many"})
     expect_refused(smooth("good.mesh", "getme", {"--threads", n}), {"--threads", n});
 }

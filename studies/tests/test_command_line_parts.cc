@@ -36,7 +36,7 @@ TEST(BadPlaces, NothingToDoIsTold) {
   PlanarMesh rim = test::grid_mesh(1, test::GridCells::quadrilaterals);
   rim.coordinates()[0] += Point<2>(0.6, 0.3);
   EXPECT_THAT(input_error_of([&] { (void)fixed_away_from_bad_cells(rim, 0.99, 2); }),
-              HasSubstr("free some by --fix"));
+              HasSubstr("free nodes by --fix"));
 }
 
 TEST_F(CommandLine, OnlyBelowMovesNodesNearBadCellsOnly) {

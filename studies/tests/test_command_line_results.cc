@@ -36,14 +36,14 @@ class Results : public CommandLine {
 TEST_F(Results, SmoothSaysWhyEachStageStopped) {
   const Outcome getme = smoothfem({"smooth", "good.mesh", "-m", "getme", "-o", "o.mesh"});
   EXPECT_EQ(getme.exit_code, 0);
-  EXPECT_THAT(getme.out, AllOf(HasSubstr("simultaneous stopped after "),
-                               HasSubstr("sequential stopped after "),
-                               HasSubstr(": there was no better mesh in ")));
+  EXPECT_THAT(getme.out,
+              AllOf(HasSubstr("simultaneous stopped after "),
+                    HasSubstr("sequential stopped after "), HasSubstr(": no improvement in ")));
   const Outcome laplace = smoothfem({"smooth", "good.mesh", "-m", "laplace", "-o", "o.mesh"});
   EXPECT_THAT(laplace.out, HasSubstr("no node moved farther than 0.01 mean edge lengths"));
   const Outcome cut = smoothfem(
       {"smooth", "good.mesh", "-m", "laplace", "-o", "o.mesh", "--set", "max_iterations=1"});
-  EXPECT_THAT(cut.out, HasSubstr("stopped after 1: it reached its largest number of iterations"));
+  EXPECT_THAT(cut.out, HasSubstr("stopped after 1: reached max_iterations"));
 }
 
 TEST_F(Results, SmoothSaysWhenNothingWasBetterThanTheInitialMesh) {

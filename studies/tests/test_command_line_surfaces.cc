@@ -77,7 +77,7 @@ TEST_F(CommandLine, RefusesWhatSurfacesCannotHave) {
     return outcome.err;
   };
   EXPECT_THAT(refusal({"-m", "global-optimization"}),
-              HasSubstr("does not take surface meshes; choose one of getme, getme-sequential"));
+              HasSubstr("does not support surface meshes; choose one of getme, getme-sequential"));
   EXPECT_THAT(refusal({"-m", "getme", "--untangle"}), HasSubstr("cannot be untangled"));
   EXPECT_THAT(refusal({"-m", "getme", "--boundary", "slide"}), HasSubstr("is for volume meshes"));
   EXPECT_THAT(refusal({"-m", "getme", "--feature-angle", "200"}),

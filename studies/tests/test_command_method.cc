@@ -161,7 +161,8 @@ TEST_F(CommandMethod, FailuresAreRowsWithTheReason) {
       {"true {in} {out}", "it left no file out.vtk"},
       {"cp /dev/null {out} {in}", "it ended with exit code 1"},
       {"sh -c ': > out.vtk' {in} {out}", "its mesh cannot be read: out.vtk"},
-      {"cp {in} {out}\n set time_pattern = ([0-9]+) ms", "it prints nothing that the time_pattern"},
+      {"cp {in} {out}\n set time_pattern = ([0-9]+) ms",
+       "it printed nothing that the time_pattern"},
       {"cp {in} {out}\n set series = s{iteration}.vtk", "it left no file s1.vtk"},
       {"cp {in} {out}\n set files = none.sh", "there is no file 'none.sh'"},
       {"cp {in} {out}\n set files = mine.sh, b/mine.sh",
@@ -216,7 +217,7 @@ TEST_F(CommandMethod, WrongKeysAreRefusedBeforeAnythingRuns) {
       {" set command = cp {in} {out}\n set format = doc\n", "mesh.doc"},
       {" set command = cp {in} {out}\n set series = step.vtk\n", "has no {iteration}"},
       {" set command = cp {in} {out}\n set time_pattern = time\n", "has no group"},
-      {" set command = cp {in} {out}\n set time_pattern = (\n", "is no regular expression"},
+      {" set command = cp {in} {out}\n set time_pattern = (\n", "is not a regular expression"},
       {" set command = cp {in} {out} {iterations}\n set repeat = 2\n", "is not repeated"},
       {" set type = command\n", "needs a command"}};
   for (const auto& [text, reason] : keys) {

@@ -175,7 +175,7 @@ TEST_F(StudyFile, OfSurfacesHasMethodsForThemAndNoFiniteElements) {
   expect_error(head + "set methods = getme\nset degrees = 1\n", "finite elements are not solved");
   expect_error(head + "set dimension = 3\nset degrees =\n", "'dimension = 2'");
   expect_error(head + "set methods = getme-adaptive\nset degrees =\n",
-               "does not take surface meshes; choose one of getme");
+               "does not support surface meshes; choose one of getme");
 }
 
 TEST_F(StudyFile, NamesItsMeshFileRelativeToItself) {
@@ -189,7 +189,7 @@ TEST_F(StudyFile, NamesItsMeshFileRelativeToItself) {
 TEST_F(StudyFile, AllMeansEveryRegisteredMethod) {
   std::vector<std::string> registered;
   for (const auto& info : method_catalogue())
-    if (takes_meshes<2>(info.name)) registered.push_back(info.name);
+    if (supports_mesh_kind<2>(info.name)) registered.push_back(info.name);
   ASSERT_GE(registered.size(), 4u);
   EXPECT_EQ(names_of(read(one_mesh + "set methods = all\n").methods), registered);
   EXPECT_EQ(names_of(read(one_mesh).methods), registered) << "'all' is the default";

@@ -560,8 +560,8 @@ end
                   .seed = 4,
                   .kind = DistortionKind::random_steps,
                   .n_sweeps = 3,
-                  .least_quality = 0.2});
-  distort_within(within, 0.5, {.n_candidates = 3, .least_quality = 0.3});
+                  .min_quality = 0.2});
+  distort_within(within, 0.5, {.n_candidates = 3, .min_quality = 0.3});
   const auto written = [&](const char* name) {
     return std::get<PlanarMesh>(
         read_mesh(out / "meshes" / (std::string(name) + "_initial.mesh")).mesh);

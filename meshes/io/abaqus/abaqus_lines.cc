@@ -25,7 +25,7 @@ std::string unquoted(std::string_view text) {
   return std::string(text);
 }
 
-/// Commas inside quotes do not separate.
+/// Splits at commas outside of quotes.
 std::vector<std::string_view> split_at_commas(std::string_view text) {
   std::vector<std::string_view> parts;
   std::size_t begin = 0;
@@ -63,7 +63,7 @@ bool AbaqusLines::next_line() {
 bool AbaqusLines::next_keyword() {
   while (!at_keyword_) {
     if (!next_line()) {
-      if (is_open_) fail("the file has no last line as smoothfem writes it; it is truncated");
+      if (is_open_) fail("the last line that smoothfem writes is missing; the file is truncated");
       return false;
     }
     at_keyword_ = trimmed(reader_.text()).starts_with('*');

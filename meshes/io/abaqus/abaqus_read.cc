@@ -18,7 +18,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Elements of one dimension with the position of their set's name; 0 stands for none.
+/// Elements of one dimension with the position of their set's name; 0 means no set.
 struct LabelledElements {
   ElementList list;
   std::vector<std::size_t> sets;
@@ -53,7 +53,7 @@ class AbaqusReader {
     else if (keyword == "NSET" && capitals(lines_.parameter("NSET")) == abaqus_fixed_set)
       for_each_range([&](const LabelRange& range) { fixed_.push_back(range); });
     else if (keyword == "PART" && ++n_parts_ > 1)
-      lines_.fail("the file has several parts; save each of them as a file of its own");
+      lines_.fail("the file has several parts; save each of them as a separate file");
     else if (keyword == "INCLUDE" || keyword == "SYSTEM" || keyword == "NGEN" ||
              keyword == "NFILL" || keyword == "NCOPY" || keyword == "ELGEN" || keyword == "ELCOPY")
       lines_.fail("*" + keyword +
@@ -62,7 +62,7 @@ class AbaqusReader {
   }
 
   void read_mesh_block(const std::string& keyword) {
-    // Reference points of an assembly have labels of their own and are no part of the mesh.
+    // Reference points of an assembly have separate labels and are not part of the mesh.
     if (in_assembly_ && !in_instance_) return;
     if (lines_.has_parameter("INPUT"))
       lines_.fail("*" + keyword + " with INPUT is not supported; put the lines of that file here");
@@ -72,7 +72,7 @@ class AbaqusReader {
   void read_instance() {
     in_instance_ = true;
     if (++n_instances_ > 1)
-      lines_.fail("the assembly has several instances; save each of them as a file of its own");
+      lines_.fail("the assembly has several instances; save each of them as a separate file");
     if (lines_.next_data())
       lines_.fail(
           "the instance is moved or turned, which is not supported; save the mesh with its "
@@ -96,9 +96,10 @@ class AbaqusReader {
     const std::string type = capitals(lines_.parameter("TYPE"));
     const auto element = abaqus_element(type);
     if (!element)
-      lines_.fail("the element type '" + type +
-                  "' cannot be read; known are C3D4, C3D5, C3D6, C3D8, CPS3, CPS4, S3, S4 and the "
-                  "like, without nodes besides their corners");
+      lines_.fail(
+          "the element type '" + type +
+          "' cannot be read; use C3D4, C3D5, C3D6, C3D8, CPS3, CPS4, S3, S4 or similar types, "
+          "whose nodes are their corners");
     auto& elements = elements_[element->dimension];
     const std::size_t set = set_number(lines_.parameter("ELSET"));
     while (lines_.next_data()) {
@@ -123,7 +124,7 @@ class AbaqusReader {
     }
   }
 
-  /// 0 without a name.
+  /// Returns the number of a set; 0 without a name.
   std::size_t set_number(const std::string& name) {
     if (name.empty()) return 0;
     const auto [set, is_new] = set_numbers_.try_emplace(capitals(name), set_names_.size() + 1);
@@ -131,8 +132,8 @@ class AbaqusReader {
     return set->second;
   }
 
-  /// The labels of a set as ranges. Entries that are no numbers name other sets, whose members have
-  /// a set already.
+  /// Calls `use` with the labels of a set as ranges. Entries that are not numbers name other sets,
+  /// whose members have a set already.
   template <class Use>
   void for_each_range(const Use& use) {
     const bool generate = lines_.has_parameter("GENERATE");
@@ -145,7 +146,7 @@ class AbaqusReader {
       if (range.step == 0 || range.last < range.first)
         lines_.fail("the labels from " + std::to_string(range.first) + " to " +
                     std::to_string(range.last) + " in steps of " + std::to_string(range.step) +
-                    " are no range");
+                    " are not a range");
       use(range);
     }
   }
@@ -202,7 +203,7 @@ class AbaqusReader {
     return static_cast<NodeIndex>(found - ids.begin());
   }
 
-  /// In the order of the labels.
+  /// Adds the elements in the order of their labels.
   void add_elements(int dimension) {
     LabelledElements& from = elements_[dimension];
     ElementList& to = parts_.elements[dimension];
@@ -222,8 +223,8 @@ class AbaqusReader {
     for (const std::size_t set : sets) to.tags.push_back(set == 0 ? 0 : tag_of(dimension, set));
   }
 
-  /// Gives elements without a set, 0, the first *ELSET that has them; sets are numbered as they
-  /// come.
+  /// Gives elements without a set (0) the first *ELSET that contains them. Sets are numbered in the
+  /// order of appearance.
   void find_sets(const std::vector<std::size_t>& ids, std::vector<std::size_t>& sets) const {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> first(ids.size(), none);
@@ -236,7 +237,7 @@ class AbaqusReader {
       if (sets[i] == 0 && first[i] != none) sets[i] = first[i];
   }
 
-  /// The tag that a comment gave to the set's name, or a new one.
+  /// Returns the tag that a comment gave to the set's name, or a new one.
   int tag_of(int dimension, std::size_t set) {
     const auto [tag, is_new] = tags_.try_emplace({dimension, set}, 0);
     if (!is_new) return tag->second;

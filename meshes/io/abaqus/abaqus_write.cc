@@ -22,8 +22,8 @@ struct NamedElement {
   AbaqusElement element;
 };
 
-/// The types that are written come first of their kind: continuum elements in space, plane stress
-/// elements, shells, trusses.
+/// The types that the writer uses come first of their kind: continuum elements in space, plane
+/// stress elements, shells, trusses.
 constexpr std::array element_types{
     NamedElement{"C3D4", {3, 4}}, NamedElement{"C3D5", {3, 5}},   NamedElement{"C3D6", {3, 6}},
     NamedElement{"C3D8", {3, 8}}, NamedElement{"SC6", {3, 6}},    NamedElement{"SC8", {3, 8}},
@@ -36,7 +36,7 @@ constexpr std::array element_types{
     NamedElement{"T3D2", {1, 2}}, NamedElement{"B21", {1, 2}},    NamedElement{"B31", {1, 2}},
     NamedElement{"R2D2", {1, 2}}, NamedElement{"SAX1", {1, 2}}};
 
-/// Facets of volume meshes are shells, those of planar ones trusses.
+/// Facets of volume meshes are shells, those of planar meshes trusses.
 std::string type_name(int mesh_dim, int dim, std::size_t n_nodes) {
   if (dim == 1) return "T2D2";
   if (dim < mesh_dim) return n_nodes == 3 ? "S3" : "S4";
@@ -73,7 +73,7 @@ std::string quoted_if_needed(const std::string& name) {
   return plain && std::isalpha(static_cast<unsigned char>(name.front())) ? name : '"' + name + '"';
 }
 
-/// The set of a tag: its name if it has one that Abaqus can hold and no other tag has.
+/// Returns the set of a tag: its name, if Abaqus can hold it and no other tag has it.
 std::string set_name(const std::pair<int, int>& key, const Names& names) {
   const auto found = names.find(key);
   const auto same_name = [&](const auto& other) {
@@ -129,7 +129,7 @@ class AbaqusWriter {
     }
   }
 
-  /// One block for each type and tag; the labels tell the order.
+  /// One block for each type and tag; the labels define the order.
   template <class LabelOf>
   void write_elements(int dim, const CompressedRows<NodeIndex>& rows, const std::vector<int>& tags,
                       const LabelOf& label_of) {

@@ -7,7 +7,7 @@
 
 namespace smoothfem {
 
-/// An element type of Gmsh whose nodes are its corners; they have our order.
+/// An element type of Gmsh whose nodes are its corners, in the order of volume_elements.h.
 struct MshElementType {
   int number;  ///< in files
   int dimension;
@@ -18,14 +18,14 @@ struct MshElementType {
 constexpr std::array<MshElementType, 8> msh_element_types{
     {{15, 0, 1}, {1, 1, 2}, {2, 2, 3}, {3, 2, 4}, {4, 3, 4}, {5, 3, 8}, {6, 3, 6}, {7, 3, 5}}};
 
-/// The type of a number; null for all others, those with nodes on edges among them.
+/// Returns the type of a number; null for all others, for example those with nodes on edges.
 constexpr const MshElementType* msh_element_type(int number) {
   const auto* found = std::find_if(msh_element_types.begin(), msh_element_types.end(),
                                    [&](const auto& type) { return type.number == number; });
   return found == msh_element_types.end() ? nullptr : found;
 }
 
-/// The type of elements with so many nodes; null if there is none.
+/// Returns the type of elements with n_nodes nodes; null if there is no such type.
 constexpr const MshElementType* msh_element_type(int dimension, std::size_t n_nodes) {
   const auto* found = std::find_if(
       msh_element_types.begin(), msh_element_types.end(),

@@ -11,12 +11,12 @@
 
 namespace smoothfem {
 
-/// The cells, or the labelled facets, of one physical tag: Gmsh sorts elements by the entities of
+/// The cells, or the labelled facets, of one physical tag. Gmsh sorts elements by the entities of
 /// its model.
 struct MshEntity {
   int dimension;
   int number = 0;                                       ///< from 1 in each dimension
-  int group = 0;                                        ///< physical tag; 0 stands for none
+  int group = 0;                                        ///< physical tag; 0 means none
   std::map<int, std::vector<std::uint32_t>> by_type{};  ///< cells or facets by Gmsh's type
 };
 
@@ -41,7 +41,7 @@ inline void append_msh_entities(std::vector<MshEntity>& entities, int dimension,
   }
 }
 
-/// The entities of the labelled facets, then those of the cells.
+/// Returns the entities of the labelled facets, followed by those of the cells.
 inline std::vector<MshEntity> msh_entities(const Topology& topology) {
   const MeshLabels& labels = topology.labels();
   std::vector<MshEntity> entities;

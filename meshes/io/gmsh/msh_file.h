@@ -7,23 +7,23 @@
 
 namespace smoothfem {
 
-/// Reads a Gmsh file, version 2.2 or 4.1, text or binary in either byte order, or 4.0 as text,
-/// which is all that Gmsh has of it (format: reference manual of Gmsh, "MSH file format"). Nodes
-/// and cells come in the order of their tags; nodes that no element uses are dropped. Physical
-/// groups of cells and facets are kept with their names (of several groups of one entity the
-/// first), node and element tags too. Points, parametric coordinates and other sections are
-/// skipped, of partitions only their groups are read. Memory is a small multiple of the file's
-/// size, whatever counts it announces.
+/// Reads a Gmsh file: version 2.2 or 4.1, text or binary in either byte order, or version 4.0 as
+/// text, Gmsh's only form of it (reference manual of Gmsh, "MSH file format"). Nodes and cells come
+/// in the order of their tags; nodes that no element uses are dropped. Physical groups of cells and
+/// facets are kept with their names; the first of several groups of an entity counts. Node and
+/// element tags are kept, too. Points, parametric coordinates and other sections are skipped; of
+/// partitions only the groups are read. Memory is a small multiple of the file's size, whatever
+/// counts it announces.
 ///
-/// Throws InputError "path:line: what is wrong" ("path: at byte N: ..." for binary files) for other
-/// versions, files that are not complete, nodes or elements with equal tags, coordinates that are
-/// not finite, and elements with nodes besides their corners.
+/// Throws InputError "path:line: message" ("path: at byte N: ..." for binary files). Causes: other
+/// versions, incomplete files, nodes or elements with equal tags, coordinates that are not finite,
+/// and elements with nodes other than their corners.
 MeshFile read_msh(const std::filesystem::path& path);
 
-/// Version and encoding follow the options; text has the digits that give back every bit. Each
-/// physical tag is an entity of the model. Throws InputError for polygons with five and more nodes;
-/// in version 2.2 also for meshes where only some cells have a tag, and for numbers of nodes or
-/// cells that do not fit into 32 bits.
+/// Writes a Gmsh file. Version and encoding follow the options; text has enough digits to keep
+/// every bit. Each physical tag is an entity of the model. Throws InputError for polygons with five
+/// or more nodes. In version 2.2 throws it also if only some cells have a tag, or if numbers of
+/// nodes or cells do not fit into 32 bits.
 void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                const MeshWriteOptions& options);
 

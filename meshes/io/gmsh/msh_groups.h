@@ -15,7 +15,8 @@
 
 namespace smoothfem {
 
-/// The number in a line of a .msh file that is text in both encodings. Input: one of msh_input.h.
+/// Returns the number in a line of a .msh file that is text in both encodings. Input: one of
+/// msh_input.h.
 template <class Input>
 std::uint64_t msh_count_in_text(Input& in, const char* what) {
   const std::string_view line = in.text_line(what);
@@ -24,15 +25,16 @@ std::uint64_t msh_count_in_text(Input& in, const char* what) {
   const auto [end, error] = std::from_chars(line.data(), last, n);
   const std::string_view rest(end, static_cast<std::size_t>(last - end));
   if (error != std::errc() || rest.find_first_not_of(" \t\r") != rest.npos)
-    in.fail(std::string(what) + " is " + in_quotes(line) + ", which is not an integer from 0 on");
+    in.fail(std::string(what) + " is " + in_quotes(line) +
+            ", which is not an integer of at least 0");
   return n;
 }
 
-/// The physical groups of a .msh file: their names, and in version 4 the groups of the model's
-/// entities, which are those of their elements.
+/// The physical groups of a .msh file: their names and, in version 4, the groups of the model's
+/// entities, which apply to their elements.
 class MshGroups {
  public:
-  /// $PhysicalNames: lines 'dimension tag "name"'. Of a group with two names the first counts.
+  /// Reads $PhysicalNames: lines 'dimension tag "name"'. The first name of a group counts.
   template <class Input>
   void read_names(Input& in) {
     const std::uint64_t n = msh_count_in_text(in, "the number of physical names");
@@ -51,8 +53,8 @@ class MshGroups {
     }
   }
 
-  /// $Entities or $PartitionedEntities, whose text may be broken into lines anywhere.
-  /// points_have_boxes: as in version 4.0, where 4.1 has the coordinates alone.
+  /// Reads $Entities or $PartitionedEntities, whose text may be broken into lines anywhere.
+  /// points_have_boxes: true in version 4.0; version 4.1 has the coordinates only.
   template <class Input>
   void read_entities(Input& in, bool is_partitioned, bool points_have_boxes) {
     const auto integer = [&] {
@@ -88,18 +90,19 @@ class MshGroups {
       }
   }
 
-  /// Of several groups of an entity the first; 0 if it has none.
+  /// Returns the first of an entity's groups; 0 if it has none.
   int tag_of_entity(int dimension, int entity) const {
     const auto found = tags_of_entities_.find({dimension, entity});
     return found == tags_of_entities_.end() ? 0 : found->second;
   }
 
-  /// An element has this tag; 0 stands for none. A negative one means the group, turned over.
+  /// Marks the group of an element's tag as used; 0 means none. A negative tag means the group with
+  /// reversed orientation.
   void use(int dimension, int tag) {
     if (tag != 0) used_.insert(unsigned_group(dimension, tag));
   }
 
-  /// The names of groups that entities or elements are in.
+  /// Returns the names of groups that entities or elements are in.
   std::map<std::pair<int, int>, std::string> used_names() const {
     std::map<Group, std::string> names = names_;
     std::erase_if(names, [&](const auto& name) {
@@ -111,7 +114,7 @@ class MshGroups {
  private:
   using Group = std::pair<int, int>;  // dimension and tag
 
-  /// The same for both signs; the negative one, which every integer has.
+  /// Maps both signs to the negative one, which every integer has.
   static Group unsigned_group(int dimension, int tag) { return {dimension, tag > 0 ? -tag : tag}; }
 
   void add(int dimension, int entity, int tag) {

@@ -21,7 +21,7 @@ std::string MshTextInput::next_section() {
   if (!reader_.next_line()) return {};
   std::string section(reader_.word());
   if (section.front() != '$' || section.starts_with("$End"))
-    fail("expected the beginning of a section; a section before has more lines than announced");
+    fail("expected the beginning of a section; the previous section has more lines than announced");
   return section;
 }
 

@@ -12,9 +12,9 @@
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_file.h"
 
-/// The two encodings of a .msh file behind one interface, so that its sections are read by the same
-/// lines. A record is a line in text and has no mark in binary files. Positions are line numbers in
-/// text, from 1, and bytes in binary files. Whatever is wrong throws InputError with the position.
+/// The two encodings of a .msh file with one interface, so that the same code reads its sections. A
+/// record is a line in text and has no mark in binary files. Positions are line numbers from 1 in
+/// text, and bytes in binary files. All errors are InputErrors with the position.
 
 namespace smoothfem {
 
@@ -23,37 +23,38 @@ class MshTextInput {
   explicit MshTextInput(LineReader reader) : reader_(std::move(reader)) {}
 
   std::size_t position() const { return reader_.line(); }
-  /// Something is missing or damaged.
+  /// Throws InputError for missing or damaged content.
   [[noreturn]] void fail(const std::string& message) const { reader_.fail(message); }
   [[noreturn]] void fail_at(std::size_t position, const std::string& message) const {
     reader_.fail_at(position, message);
   }
-  /// Something is as it should be, but cannot be used.
+  /// Throws InputError for correct content that cannot be used.
   [[noreturn]] void refuse(const std::string& message) const { reader_.fail(message); }
 
-  /// Goes to the beginning of the next section; its name, or nothing at the end of the file.
+  /// Goes to the beginning of the next section. Returns its name, or nothing at the end of the
+  /// file.
   std::string next_section();
   void skip_section(const std::string& section);
   void require_end(const std::string& section);
 
-  /// The next record; its name in error messages is "node 5 of 11".
+  /// Goes to the next record; error messages call it, for example, "node 5 of 11".
   void begin(const char* what, std::uint64_t i, std::uint64_t n);
   void begin(const char* what) { reader_.require_line(what); }
   void end() { reader_.require_end_of_line(); }
-  /// A record that is text in both encodings.
+  /// Returns a record that is text in both encodings.
   std::string_view text_line(const char* what);
 
-  /// Where records may be broken into lines anywhere: goes on to the next line at the end of one.
+  /// Goes to the next line at the end of one, for records that may be broken into lines anywhere.
   void find_value(const char* what) { reader_.require_word(what); }
   bool has_value() const { return reader_.has_word(); }
   std::uint64_t count(const char* what) { return reader_.integer(what); }
   std::uint64_t tag(const char* what) { return reader_.integer(what); }
   double coordinate(const char* what) { return reader_.number(what); }
-  /// of: what the record is about.
+  /// of: the subject of the record.
   int integer(const char* of) { return static_cast<int>(signed_integer(of, INT32_MIN, INT32_MAX)); }
   std::int64_t node_of_element() { return signed_integer("element", INT64_MIN, INT64_MAX); }
   void skip_number(const char* what);
-  /// n items have to follow, of at least so many bytes each; for binary files.
+  /// Requires that n items of at least so many bytes each follow; checks binary files only.
   void require_bytes(std::uint64_t, std::size_t) const {}
 
  private:
@@ -64,7 +65,7 @@ class MshTextInput {
 
 class MshBinaryInput {
  public:
-  /// begin: of the number after the line with the version, by which the byte order shows.
+  /// begin: position of the number after the version line, which shows the byte order.
   MshBinaryInput(std::string path, std::string_view content, std::size_t begin, bool is_version_4);
 
   std::size_t position() const { return at_; }

@@ -15,7 +15,8 @@
 
 namespace smoothfem {
 
-/// Positions of some tags from the smallest to the largest; equal ones stay in their order.
+/// Returns the positions of some tags from the smallest to the largest; equal tags stay in their
+/// order.
 inline std::vector<std::size_t> ascending_order(const std::vector<std::size_t>& tags) {
   std::vector<std::size_t> order(tags.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -36,8 +37,8 @@ std::vector<Value> in_order(const std::vector<Value>& values,
 /// The layouts of version 4.
 enum class MshVersion4 { v4_0, v4_1 };
 
-/// The end of the first record of $Nodes and $Elements: in version 4.1 the smallest and the largest
-/// tag, of which nothing depends here.
+/// Reads the end of the first record of $Nodes and $Elements: in version 4.1 the smallest and the
+/// largest tag, which are not used.
 template <class Input>
 void msh_end_of_totals(Input& in, MshVersion4 version) {
   if (version == MshVersion4::v4_1)
@@ -46,8 +47,8 @@ void msh_end_of_totals(Input& in, MshVersion4 version) {
   in.end();
 }
 
-/// The dimension and the number of a block's entity, with which its first record begins: in this
-/// order in version 4.1, in the other one in 4.0.
+/// Reads the dimension and the number of a block's entity, the beginning of its first record.
+/// Version 4.0 has the opposite order.
 template <class Input>
 std::pair<int, int> msh_entity_of_block(Input& in, MshVersion4 version) {
   const int first = in.integer("block"), second = in.integer("block");
@@ -66,10 +67,10 @@ void msh_require_total(const Input& in, const char* what, std::uint64_t n_found,
 /// The section $Nodes of a .msh file. Input: one of msh_input.h.
 class MshNodes {
  public:
-  std::vector<std::size_t> tags;  ///< ascending once they are read
+  std::vector<std::size_t> tags;  ///< ascending after reading
   std::vector<Point<3>> coordinates;
 
-  /// Version 2: a record for each node.
+  /// Reads version 2: a record for each node.
   template <class Input>
   void read_2(Input& in) {
     const std::uint64_t n_nodes = msh_count_in_text(in, "the number of nodes");
@@ -82,7 +83,7 @@ class MshNodes {
     sort(in);
   }
 
-  /// Version 4.0: blocks of nodes with tag and coordinates.
+  /// Reads version 4.0: blocks of nodes with tag and coordinates.
   template <class Input>
   void read_4_0(Input& in) {
     read_blocks(in, MshVersion4::v4_0, [&](std::uint64_t n, int n_parameters) {
@@ -95,7 +96,7 @@ class MshNodes {
     });
   }
 
-  /// Version 4.1: blocks of tags and then of coordinates.
+  /// Reads version 4.1: blocks of tags, followed by their coordinates.
   template <class Input>
   void read_4_1(Input& in) {
     read_blocks(in, MshVersion4::v4_1, [&](std::uint64_t n, int n_parameters) {
@@ -112,9 +113,9 @@ class MshNodes {
     });
   }
 
-  /// The node of a tag; nothing if there is none.
+  /// Returns the node of a tag, or nothing if there is no such node.
   std::optional<NodeIndex> index_of(std::uint64_t tag) const {
-    const std::uint64_t guess = tags.empty() ? 0 : tag - tags.front();  // mostly there are no gaps
+    const std::uint64_t guess = tags.empty() ? 0 : tag - tags.front();  // there are mostly no gaps
     if (guess < tags.size() && tags[guess] == tag) return static_cast<NodeIndex>(guess);
     const auto found = std::lower_bound(tags.begin(), tags.end(), tag);
     if (found == tags.end() || *found != tag) return {};
@@ -137,7 +138,8 @@ class MshNodes {
     for (int k = 0; k < n_parameters; ++k) in.skip_number("a parametric coordinate");
   }
 
-  /// read_nodes(n, n_parameters): those of a block, with so many parametric coordinates each.
+  /// Reads blocks. read_nodes(n, n_parameters) reads the nodes of a block, with so many parametric
+  /// coordinates each.
   template <class Input>
   void read_blocks(Input& in, MshVersion4 version, const auto& read_nodes) {
     in.begin("the numbers of nodes");
@@ -159,7 +161,7 @@ class MshNodes {
     sort(in);
   }
 
-  /// By their tags, so that the order does not depend on the model's entities.
+  /// Sorts the nodes by their tags, so that the order does not depend on the model's entities.
   template <class Input>
   void sort(Input& in) {
     const auto order = ascending_order(tags);
@@ -174,7 +176,7 @@ class MshNodes {
     positions_ = {};
   }
 
-  std::vector<std::size_t> positions_;  ///< of the tags in the file, while they are read
+  std::vector<std::size_t> positions_;  ///< positions of the tags in the file during reading
 };
 
 }  // namespace smoothfem

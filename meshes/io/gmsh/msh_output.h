@@ -10,8 +10,8 @@
 
 namespace smoothfem {
 
-/// Puts numbers into a .msh file as text or as bytes. Goes through a buffer of some kilobytes, so
-/// that no mesh is held twice.
+/// Writes numbers to a .msh file as text or as bytes, through a buffer of a few kilobytes, so that
+/// no mesh is held twice.
 class MshOutput {
  public:
   MshOutput(const std::filesystem::path& path, bool is_binary)
@@ -19,10 +19,10 @@ class MshOutput {
 
   bool is_binary() const { return is_binary_; }
 
-  /// As it stands, in both encodings.
+  /// Writes words unchanged, in both encodings.
   void text(std::string_view words) { buffer_ += words; }
 
-  /// A number of a record; in text with a blank behind it.
+  /// Writes a number of a record; in text it is followed by a blank.
   template <class Number>
   void number(Number value) {
     if (is_binary_) {
@@ -32,10 +32,10 @@ class MshOutput {
       buffer_ += ' ';
     }
   }
-  /// The same with 16 digits in text, for what needs no exact number.
+  /// Writes a number with 16 digits in text, where an exact number is not needed.
   void rounded(double value);
 
-  /// Ends a record: a line in text, whose last blank goes unless it stays.
+  /// Ends a record: a line in text, without its last blank unless blank_stays is true.
   void end_record(bool blank_stays = false) {
     if (!is_binary_) {
       if (!blank_stays) buffer_.pop_back();
@@ -44,7 +44,7 @@ class MshOutput {
     if (buffer_.size() >= large) write_buffer();
   }
 
-  /// Throws std::runtime_error with the reason unless everything is in the file.
+  /// Throws std::runtime_error with the reason unless the file is complete.
   void finish();
 
  private:

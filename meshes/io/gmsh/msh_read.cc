@@ -19,12 +19,12 @@ namespace smoothfem {
 
 namespace {
 
-/// Walks through the sections of a file. No count is trusted: nothing is allocated before the file
-/// has shown that it holds it.
+/// Reads the sections of a file. No count is trusted: memory is allocated only for content that the
+/// file has.
 template <class Input>
 class MshReader {
  public:
-  /// version: nothing for 2.
+  /// version: nothing for version 2.
   MshReader(Input input, std::optional<MshVersion4> version)
       : in_(std::move(input)), version_4_(version) {}
 
@@ -34,7 +34,7 @@ class MshReader {
       read(section);
     for (const std::string section : {"$Nodes", "$Elements"})
       if (!seen_.contains(section))
-        in_.refuse("the file has no section " + section + "; it is truncated or holds no mesh");
+        in_.refuse("the file has no section " + section + "; it is truncated or not a mesh");
     for (int dimension = 1; dimension <= 3; ++dimension) sort(parts_.elements[dimension]);
     parts_.names = groups_.used_names();
     parts_.coordinates = std::move(nodes_.coordinates);
@@ -74,10 +74,11 @@ class MshReader {
 
   const MshElementType& known_type(int number) const {
     if (const auto* type = msh_element_type(number)) return *type;
-    in_.refuse("the mesh has elements of Gmsh's type " + std::to_string(number) +
-               ", but only points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms "
-               "and pyramids without nodes besides their corners can be read; save it with element "
-               "order 1");
+    in_.refuse(
+        "the mesh has elements of Gmsh's type " + std::to_string(number) +
+        ", but only points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms "
+        "and pyramids without nodes other than their corners can be read; save it with element "
+        "order 1");
   }
 
   void read_elements_2() {
@@ -184,7 +185,7 @@ class MshReader {
   MeshParts parts_;
 };
 
-/// Nothing for version 2.
+/// Returns nothing for version 2.
 std::optional<MshVersion4> version_of(const LineReader& reader, const std::string& word) {
   if (word == "2.2" || word == "2.1" || word == "2.0" || word == "2") return std::nullopt;
   if (word == "4.1") return MshVersion4::v4_1;
@@ -208,7 +209,7 @@ MeshFile read_msh(const std::filesystem::path& path) {
   if (is_binary && size != sizeof(double))
     reader.fail("the file's numbers have " + std::to_string(size) +
                 " bytes instead of 8; save it as text");
-  // Gmsh writes and reads none of these either.
+  // Gmsh neither writes nor reads such files.
   if (is_binary && version_4 == MshVersion4::v4_0)
     reader.fail("the file has version " + in_quotes(word) +
                 " and is binary; save it as text, or as version 4.1 or 2.2");

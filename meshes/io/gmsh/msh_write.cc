@@ -56,7 +56,7 @@ class MshWriter {
     return is_of_cells(entity) ? mesh_.topology().cells() : labels_.facets;
   }
   bool is_of_cells(const MshEntity& entity) const { return entity.dimension == mesh_.dimension(); }
-  /// Facets are numbered behind the cells.
+  /// Facets are numbered after the cells.
   std::size_t element_number(const MshEntity& entity, std::uint32_t i) const {
     if (!is_of_cells(entity)) return last_cell_ + 1 + i;
     return labels_.cell_ids.empty() ? std::size_t{i} + 1 : labels_.cell_ids[i];
@@ -75,7 +75,7 @@ class MshWriter {
     end_section("MeshFormat");
   }
 
-  /// Text also in binary files. A name cannot hold the character that ends it.
+  /// Writes names as text, also in binary files. A name cannot contain the character that ends it.
   void write_names() {
     std::string lines;
     int n = 0;
@@ -111,7 +111,7 @@ class MshWriter {
     end_section("Nodes");
   }
 
-  /// Type by type, as Gmsh does; readers sort by the numbers.
+  /// Writes type by type, as Gmsh does; readers sort by the numbers.
   void write_elements_2() {
     out_.text("$Elements\n" + std::to_string(n_elements()) + "\n");
     for (const MshElementType& type : msh_element_types)
@@ -166,13 +166,15 @@ class MshWriter {
           low = low.cwiseMin(point);
           high = high.cwiseMax(point);
         }
-    // Gmsh scales boxes about their middles, by 1 here, which rounds: the files stay the same.
+    // Gmsh scales boxes about their middles, here by 1, which rounds. This keeps the files
+    // unchanged.
     const Point<3> middle = 0.5 * (low + high);
     for (const Point<3>& corner : {low, high})
       for (const double x : Point<3>((corner - middle) + middle)) out_.rounded(x);
   }
 
-  /// All nodes stand in the first entity of the cells, in their order, whichever entities use them.
+  /// Writes all nodes in the first entity of the cells, in their order, whichever entities use
+  /// them.
   void write_nodes_4() {
     out_.text("$Nodes\n");
     const auto& ids = labels_.node_ids;

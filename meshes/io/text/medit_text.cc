@@ -34,7 +34,7 @@ constexpr std::array sections{Section{"Tetrahedra", 3, 4}, Section{"Hexahedra", 
                               Section{"Triangles", 2, 3},  Section{"Quadrilaterals", 2, 4},
                               Section{"Edges", 1, 2}};
 
-/// The numbers of a section that is not read. How many make an entry is not known.
+/// The numbers of a skipped section; the number of words in an entry is unknown.
 class SkippedSection {
  public:
   void add(std::string_view word) {
@@ -46,7 +46,8 @@ class SkippedSection {
   }
 
  private:
-  std::uint64_t n_words_ = 0, n_entries_ = 0;  ///< the first word says how many entries follow
+  std::uint64_t n_words_ = 0,
+                n_entries_ = 0;  ///< the first word is the number of entries that follow
 };
 
 class MeditReader {
@@ -86,7 +87,8 @@ class MeditReader {
     return section == sections.end() ? nullptr : section;
   }
 
-  /// Some programs write 'End' behind each section. What else stands behind it is not read.
+  /// True if a section follows. Some programs write 'End' after each section; anything else after
+  /// it is not read.
   bool section_follows() const {
     LineReader ahead = reader_;
     return ahead.find_word('#') && find_section(ahead.word()) != nullptr;
@@ -104,15 +106,15 @@ class MeditReader {
       read_required();
     } else if (keyword.ends_with("P2") || keyword.ends_with("Q2")) {
       reader_.fail("the section " + std::string(keyword) +
-                   " has elements with nodes besides their corners; save the mesh with linear "
+                   " has elements with nodes other than their corners; save the mesh with linear "
                    "elements");
     } else {
       skipped_.emplace();
     }
   }
 
-  /// Nothing at the end of the file. Entries of sections that are not read are no keywords: they do
-  /// not begin with a letter.
+  /// Returns the next keyword, or nothing at the end of the file. Entries of skipped sections are
+  /// not keywords, as they do not begin with a letter.
   std::string_view next_keyword() {
     while (reader_.find_word('#')) {
       const std::string_view found = reader_.word();
@@ -122,24 +124,24 @@ class MeditReader {
       }
       if (!skipped_)
         reader_.fail("expected the name of a section, but found " + in_quotes(found) +
-                     "; the section before has more entries than announced");
+                     "; the previous section has more entries than announced");
       skipped_->add(found);
     }
     require_complete();
     return {};
   }
 
-  /// Not every program writes 'End', without which a file may have been cut off: in the middle of a
-  /// number, or of a section that is not read.
+  /// Checks that the file is complete. Not every program writes 'End'; a file without it may have
+  /// been cut off within a number or a skipped section.
   void require_complete() const {
     if (!content_.ends_with('\n') || (skipped_ && !skipped_->is_complete()))
       reader_.fail(
-          "the file ends before the last word, 'End', and not behind a section; it is "
+          "the file ends before the last word, 'End', and not after a section; it is "
           "truncated");
   }
 
-  /// A count cannot exceed the bytes that are left, so a wrong one is found before memory is asked
-  /// for.
+  /// Reads a count. It cannot exceed the remaining bytes, so that a wrong one is found before
+  /// memory is allocated.
   std::size_t count(std::string_view keyword) {
     const std::uint64_t n = integer("the number of " + std::string(keyword));
     if (n > reader_.rest().size())
@@ -149,7 +151,7 @@ class MeditReader {
   }
 
   void read_vertices() {
-    if (dimension_ == 0) reader_.fail("the section Vertices stands before the dimension");
+    if (dimension_ == 0) reader_.fail("the section Vertices comes before the dimension");
     if (!parts_.coordinates.empty()) reader_.fail("there is a second section Vertices");
     const std::size_t n = count("Vertices");
     parts_.coordinates.assign(n, Point<3>::Zero());
@@ -162,7 +164,7 @@ class MeditReader {
 
   void require_vertices(std::string_view section) const {
     if (parts_.coordinates.empty())
-      reader_.fail("the section " + std::string(section) + " stands before Vertices");
+      reader_.fail("the section " + std::string(section) + " comes before Vertices");
   }
 
   NodeIndex node() {
@@ -195,14 +197,14 @@ class MeditReader {
   void read_required() {
     require_vertices("RequiredVertices");
     if (!parts_.fixed) parts_.fixed.emplace(parts_.coordinates.size(), false);
-    parts_.boundary_is_fixed_too = true;
+    parts_.fixes_boundary_as_well = true;
     for (std::size_t n = count("RequiredVertices"); n > 0; --n) (*parts_.fixed)[node()] = true;
   }
 
   LineReader reader_;
   std::string_view content_;
   std::uint64_t dimension_ = 0;
-  std::optional<SkippedSection> skipped_;  ///< that we are in
+  std::optional<SkippedSection> skipped_;  ///< the current section
   MeshParts parts_;
 };
 
@@ -250,7 +252,7 @@ std::vector<NodeIndex> sorted(std::span<const NodeIndex> nodes) {
   return key;
 }
 
-/// The labelled facets, and those of the boundary that have no label, with reference 0.
+/// Returns the labelled facets, and those of the boundary without a label with reference 0.
 Facets facets_with_boundary(const Topology& topology) {
   Facets facets{topology.labels().facets, topology.labels().facet_tags};
   std::set<std::vector<NodeIndex>> labelled;
@@ -303,10 +305,11 @@ void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, c
 void write_medit_with_boundary(const std::filesystem::path& path, const MeshView& mesh) {
   for (CellIndex c = 0; c < mesh.n_cells(); ++c)
     if (mesh.topology().cell_type(c) == ElementType::polygon)
-      throw InputError("cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
-                       std::to_string(mesh.topology().cell_nodes(c).size()) +
-                       " nodes, Medit's cells of planar meshes have three or four; take the format "
-                       "vtk or mesh");
+      throw InputError(
+          "cannot write " + path.string() + ": cell " + std::to_string(c) + " has " +
+          std::to_string(mesh.topology().cell_nodes(c).size()) +
+          " nodes, but Medit's cells of planar meshes have three or four; use the format "
+          "vtk or mesh");
   const Facets facets = facets_with_boundary(mesh.topology());
   write(path, mesh, facets.nodes, facets.tags);
 }

@@ -17,17 +17,18 @@ namespace {
 
 constexpr std::string_view title = "planar_polygonal_mesh";
 
-/// "node 5 of 11", counted from 1 as people count lines.
+/// Returns "node 5 of 11", counted from 1.
 std::string nth(const std::string& what, std::size_t i, std::size_t n) {
   return what + " " + std::to_string(i + 1) + " of " + std::to_string(n);
 }
 
-/// The count of a section line `keyword count` that the reader stands on. A count cannot exceed the
-/// bytes that are left, so a wrong one is found before memory is asked for.
+/// Returns the count of the present section line `keyword count`. A count cannot exceed the
+/// remaining bytes, so that a wrong one is found before memory is allocated.
 std::size_t section_count(LineReader& reader, const std::string& keyword) {
   const std::string_view found = reader.word();
   if (found != keyword)
-    reader.fail("expected '" + keyword + "' and a count; the section before has more lines than " +
+    reader.fail("expected '" + keyword +
+                "' and a count; the previous section has more lines than " +
                 "announced, or the file is not a polygonal mesh");
   const std::size_t count = reader.integer("the count of " + keyword);
   reader.require_end_of_line();
@@ -97,19 +98,14 @@ void skip_quality_numbers(LineReader& reader, std::size_t n_cells) {
 
 }  // namespace
 
-bool is_polygonal_text(std::string_view content) {
-  LineReader reader({}, content);
-  return reader.next_line() && reader.word() == title;
-}
-
 MeshFile read_polygonal_text(const std::filesystem::path& path) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
   reader.require_line("the first line");
   if (reader.word() != title)
     reader.fail("the first line is not '" + std::string(title) +
-                "' (planar polygonal mesh) and not 'MeshVersionFormatted' (Medit); this is no mesh "
-                "file of a known kind");
+                "' (planar polygonal mesh) and not 'MeshVersionFormatted' (Medit); the format of "
+                "this file is unknown");
   reader.require_end_of_line();
   MeshParts parts;
   parts.coordinates = read_nodes(reader);

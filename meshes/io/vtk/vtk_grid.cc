@@ -35,23 +35,23 @@ void VtkCells::append(VtkCells other, std::size_t first_point) {
 }
 
 std::string VtkCells::missing_point(std::int64_t point, std::size_t n_points) const {
-  // Offsets may all be there before the nodes.
+  // All offsets may be read before the nodes.
   const auto next = std::upper_bound(offsets.begin(), offsets.end(), nodes.size());
   return "cell " + std::to_string(next - offsets.begin() - 1) + " names point " +
          std::to_string(point) + ", but the file has only " + std::to_string(n_points) + " points";
 }
 
-bool is_honoured_point_array(std::string_view name) {
+bool is_known_point_array(std::string_view name) {
   return name == "fixed" || name == "node_id";
 }
 
-bool is_honoured_cell_array(std::string_view name) {
+bool is_known_cell_array(std::string_view name) {
   return name == "physical_tag" || name == "cell_id";
 }
 
 namespace {
 
-/// What a VTK cell type is here: its dimension and number of nodes (0: any).
+/// Dimension and number of nodes (0: any) of a VTK cell type.
 struct CellKind {
   int dimension;
   std::size_t n_nodes;
@@ -86,7 +86,7 @@ std::optional<CellKind> kind_of(int vtk_type) {
   }
 }
 
-/// Six times a prism's volume, roughly: enough for its sign.
+/// Approximately six times a prism's volume; only its sign is used.
 double signed_prism_volume(const std::vector<Point<3>>& x, std::span<const NodeIndex> nodes) {
   const Point<3> base = (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]) +
                         (x[nodes[4]] - x[nodes[3]]).cross(x[nodes[5]] - x[nodes[3]]);
@@ -94,7 +94,7 @@ double signed_prism_volume(const std::vector<Point<3>>& x, std::span<const NodeI
                   x[nodes[2]]);
 }
 
-/// Other programs may keep anything under the name of a number; 0 is none.
+/// External programs may store anything under the name of a number; 0 means none.
 std::size_t id_of(double value) {
   constexpr double largest_exact = 9007199254740992.0;
   return value >= 1.0 && value <= largest_exact ? static_cast<std::size_t>(value) : 0;
@@ -104,7 +104,7 @@ int tag_of(double value) {
   return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
 }
 
-/// Makes the parts of a grid, which is used up.
+/// Makes the parts of a grid and consumes it.
 class GridParts {
  public:
   GridParts(const std::string& path, VtkGrid& grid)
@@ -112,7 +112,7 @@ class GridParts {
 
   MeshParts make() {
     if (grid_.points.empty()) fail("the file has no points");
-    if (cells_.size() == 0) fail("the file has no cells; it holds no mesh or is truncated");
+    if (cells_.size() == 0) fail("the file has no cells; it is not a mesh or is truncated");
     if (cells_.types.size() != cells_.size())
       fail("the file has " + std::to_string(cells_.size()) + " cells but " +
            std::to_string(cells_.types.size()) + " cell types; it is truncated or damaged");
@@ -142,14 +142,14 @@ class GridParts {
                         name.find("Lagrange") != name.npos || name.find("Bezier") != name.npos;
     fail("cell " + std::to_string(cell) + " has the VTK type " + std::to_string(type) + " (" +
          name + "); " +
-         (curved ? "cells with nodes besides their corners cannot be read: save the mesh with "
+         (curved ? "cells with nodes other than their corners cannot be read: save the mesh with "
                    "linear cells"
                  : "only triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and "
                    "hexahedra can be read"));
   }
 
-  /// Brings the nodes into our order, wedges excepted, and returns the cell's dimension: 0 for
-  /// cells that are left out.
+  /// Changes the nodes to the order of volume_elements.h, except for wedges. Returns the cell's
+  /// dimension: 0 for cells that are left out.
   std::size_t check_cell(std::size_t cell) {
     const int type = cells_.types[cell];
     const auto kind = kind_of(type);
@@ -163,7 +163,8 @@ class GridParts {
     return static_cast<std::size_t>(kind->dimension);
   }
 
-  /// The rows are still as in the file, which is Gmsh's order unless VTK's fits as well or better.
+  /// Chooses the order of wedges. The rows still have the file's order, which is Gmsh's unless
+  /// VTK's fits as well or better.
   void choose_wedge_order() {
     std::size_t n_wedges = 0, n_positive = 0;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -176,7 +177,7 @@ class GridParts {
       if (cells_.types[c] == VTK_WEDGE) permute(nodes_of(c), vtk_wedge);
   }
 
-  /// Null if the file has no such array.
+  /// Returns null if the file has no such array.
   const std::vector<double>* array_of(const auto& arrays, std::string_view name, std::size_t n,
                                       const std::string& kind) const {
     const auto found = arrays.find(name);
@@ -206,7 +207,7 @@ class GridParts {
              ", which is not 'dimension tag name'");
   }
 
-  /// Cells by their dimension.
+  /// Divides the cells by their dimension.
   void divide(const std::array<std::size_t, 4>& n_cells) {
     const auto* tags = array_of(grid_.cell_arrays, "physical_tag", cells_.size(), "cell");
     const auto* ids = array_of(grid_.cell_arrays, "cell_id", cells_.size(), "cell");

@@ -34,7 +34,7 @@ LegacyVtkInput::LegacyVtkInput(const std::filesystem::path& path, std::string_vi
   if (!first.starts_with(title.substr(0, 14)))
     fail("the first line is not '# vtk DataFile Version ...'; this is not a legacy VTK file");
   if (first.size() > title.size()) version_ = first[title.size()] - '0';
-  if (!lines_.whole_line()) fail("the file ends behind its first line; it is truncated");
+  if (!lines_.whole_line()) fail("the file ends after its first line; it is truncated");
   const std::string type = lower_case(word("the file type, ASCII or BINARY"));
   is_binary_ = type.starts_with("binary");
   if (!is_binary_ && !type.starts_with("ascii"))
@@ -81,8 +81,8 @@ std::optional<VtkNumber> LegacyVtkInput::number_type(const std::string& name) co
 
 void LegacyVtkInput::require_numbers(std::uint64_t n, std::uint64_t components, VtkNumber type,
                                      const std::string& what) const {
-  // In text a number has two bytes at least, but for the last one of a file; some may stand on this
-  // line.
+  // In text a number has at least two bytes, except for the last one of a file; some numbers may be
+  // on this line.
   const std::uint64_t n_bytes =
       is_binary_ ? lines_.rest().size() : lines_.rest().size() + lines_.text().size() + 1;
   const std::uint64_t most = n_bytes / (is_binary_ ? size_of(type) : 2);
@@ -107,7 +107,7 @@ void LegacyVtkInput::skip_numbers(VtkNumber type, std::uint64_t n, std::uint64_t
 void LegacyVtkInput::skip_array(const std::string& type_name, std::uint64_t n_components,
                                 std::uint64_t n_tuples) {
   if (const auto type = number_type(type_name)) return skip_numbers(*type, n_tuples, n_components);
-  // A bit is no less than an eighth of a byte, and a string has at least one.
+  // A bit takes at least an eighth of a byte, and a string at least one byte.
   require_numbers(n_components, n_tuples > 0 ? 1 : 0, VtkNumber::int8, "components");
   require_numbers(n_tuples / 8, n_components, VtkNumber::int8, "values");
   const std::string name = lower_case(type_name);
@@ -131,7 +131,7 @@ void LegacyVtkInput::skip_strings(std::uint64_t n) {
   }
 }
 
-/// The two highest bits of the first byte tell how many bytes hold the length.
+/// The two highest bits of the first byte define the number of bytes of the length.
 void LegacyVtkInput::skip_binary_string() {
   const std::string_view rest = lines_.rest();
   if (rest.empty()) fail("the file ends before the last string of an array; it is truncated");

@@ -13,15 +13,15 @@
 
 namespace smoothfem {
 
-/// The words and numbers of a legacy VTK file, whose numbers are text, or bytes with the highest
-/// first behind the line that announces them. Whatever is wrong throws InputError "path:line: ...";
-/// lines count as an editor shows them, also in binary files.
+/// The words and numbers of a legacy VTK file. Numbers are text, or big-endian bytes after the line
+/// that announces them. All errors are InputErrors "path:line: ..."; lines count as an editor shows
+/// them, also in binary files.
 class LegacyVtkInput {
  public:
   /// Reads the lines before the data set. The content must outlive the input.
   LegacyVtkInput(const std::filesystem::path& path, std::string_view content);
 
-  /// The first number of the format's version.
+  /// Returns the first number of the format's version.
   int version() const { return version_; }
 
   /// Goes to the next word, the name of a section; false at the end of the file.
@@ -31,19 +31,19 @@ class LegacyVtkInput {
   void require_keyword(const std::string& keyword);
 
   std::string_view word(std::string_view what);
-  /// On this line.
+  /// True if this line has another word.
   bool has_word() const { return lines_.has_word(); }
   std::uint64_t count(std::string_view what);
-  /// The type that the next word names; it must be one of numbers.
+  /// Reads the type that the next word names; it must be a type of numbers.
   VtkNumber number_type();
   VtkNumber integer_type();
-  /// Nothing if it is not one of numbers.
+  /// Returns nothing if it is not a type of numbers.
   std::optional<VtkNumber> number_type(const std::string& name) const;
 
-  /// Refuses counts of numbers that the file cannot hold.
+  /// Throws InputError for counts of numbers that the file cannot hold.
   void require_numbers(std::uint64_t n, std::uint64_t components, VtkNumber type,
                        const std::string& what) const;
-  /// use(number) for n numbers as Value, double or std::int64_t; they have been required.
+  /// Calls use(number) for n numbers as Value: double or std::int64_t. Call require_numbers before.
   template <class Value, class Use>
   void read_numbers(VtkNumber type, std::uint64_t n, std::string_view what, const Use& use) {
     if (is_binary_) {
@@ -54,14 +54,14 @@ class LegacyVtkInput {
     }
   }
 
-  /// An array whose type may also be bits or strings.
+  /// Skips an array whose type may also be bits or strings.
   void skip_array(const std::string& type, std::uint64_t n_components, std::uint64_t n_tuples);
-  /// Colours are bytes or, in text, fractions.
+  /// Skips colours: bytes or, in text, fractions.
   void skip_colours(std::uint64_t n, std::uint64_t n_components);
-  /// What VTK says about an array, up to a blank line.
+  /// Skips VTK's information about an array, up to a blank line.
   void skip_metadata();
 
-  /// VTK's number of a cell's type, which must be one byte.
+  /// Returns VTK's number of a cell's type, which must be one byte.
   std::uint8_t cell_type(std::size_t cell, std::int64_t type) const;
 
   [[noreturn]] void fail(const std::string& message) const { lines_.fail(message); }

@@ -32,7 +32,7 @@ vtkStandardNewMacro(Collector);
 VtkMessages::VtkMessages()
     : collector_(vtkSmartPointer<Collector>::New()), former_(vtkOutputWindow::GetInstance()) {
   vtkOutputWindow::SetInstance(collector_);
-  // Since version 9 VTK also logs by itself.
+  // Since version 9 VTK also has its own log.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 

@@ -6,8 +6,8 @@
 
 namespace smoothfem {
 
-/// Keeps VTK from printing errors and warnings for the length of a scope. They name its own source
-/// files and addresses, which tell users nothing.
+/// Keeps VTK from printing errors and warnings for the length of a scope. They name VTK's source
+/// files and addresses, which do not help users.
 class VtkMessages {
  public:
   VtkMessages();

@@ -12,7 +12,7 @@
 
 namespace smoothfem {
 
-/// What the numbers of an array in a VTK file are.
+/// Type of the numbers of an array in a VTK file.
 enum class VtkNumber { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 struct VtkNumberName {
@@ -20,7 +20,7 @@ struct VtkNumberName {
   VtkNumber type;
 };
 
-/// The type of a name; nothing if there is none.
+/// Returns the type of a name; nothing if there is no such type.
 template <std::size_t n>
 std::optional<VtkNumber> vtk_number(const std::array<VtkNumberName, n>& names,
                                     std::string_view name) {
@@ -30,7 +30,7 @@ std::optional<VtkNumber> vtk_number(const std::array<VtkNumberName, n>& names,
   return found->type;
 }
 
-/// `visit.operator()<T>()` with the type of C++.
+/// Calls `visit.operator()<T>()` with the C++ type.
 template <class Visit>
 decltype(auto) with_vtk_number(VtkNumber type, const Visit& visit) {
   switch (type) {
@@ -65,7 +65,7 @@ inline bool is_integer(VtkNumber type) {
   return with_vtk_number(type, []<class T>() { return std::is_integral_v<T>; });
 }
 
-/// Bits: an unsigned integer.
+/// Changes the byte order. Bits: an unsigned integer.
 template <class Bits>
 Bits with_bytes_swapped(Bits bits) {
   if constexpr (sizeof(Bits) == 2) bits = __builtin_bswap16(bits);
@@ -74,8 +74,8 @@ Bits with_bytes_swapped(Bits bits) {
   return bits;
 }
 
-/// use(number) for n numbers in memory, each as Value: double, or std::int64_t if the type is one
-/// of integers (those beyond it become negative).
+/// Calls use(number) for n numbers in memory, each as Value: double, or std::int64_t for types of
+/// integers (larger numbers become negative).
 template <class Value, class Use>
 void for_each_vtk_number(VtkNumber type, bool is_swapped, const char* bytes, std::size_t n,
                          const Use& use) {

@@ -14,8 +14,9 @@ namespace smoothfem {
 
 namespace {
 
-/// The cell sections of polygonal data in the order in which cell arrays count them, with VTK's
-/// types of cells that have few nodes, and of all others. An unstructured grid has the first only.
+/// The cell sections of polygonal data in the order in which cell arrays count them. Each has VTK's
+/// types of cells with few nodes and of all other cells. An unstructured grid has the first section
+/// only.
 struct PolygonalSection {
   std::string_view keyword;
   std::size_t n_nodes;
@@ -31,8 +32,8 @@ std::uint8_t type_of(const PolygonalSection& section, std::size_t n_nodes) {
                                           : section.type_of_many;
 }
 
-/// Walks through the sections of a file. No count is trusted: nothing is allocated before the file
-/// has shown that it can hold it.
+/// Reads the sections of a file. No count is trusted: memory is allocated only for content that the
+/// file can hold.
 class LegacyVtkReader {
  public:
   LegacyVtkReader(const std::filesystem::path& path, std::string_view content)
@@ -46,7 +47,7 @@ class LegacyVtkReader {
   }
 
  private:
-  /// What arrays belong to.
+  /// Owner of arrays.
   enum class Attributes { field, cells, points };
 
   void read_data_set() {
@@ -69,7 +70,7 @@ class LegacyVtkReader {
     if (keyword == "field") return read_field();
     if (attributes_ == Attributes::field || !read_attribute(keyword))
       in_.fail("expected the name of a section, but found " + in_quotes(keyword) +
-               "; the section before has more numbers than announced, or the file is damaged");
+               "; the previous section has more numbers than announced, or the file is damaged");
   }
 
   void read_points() {
@@ -102,7 +103,7 @@ class LegacyVtkReader {
       in_.fail(cells.missing_point(point, grid_.points.size()));
   }
 
-  /// n rows "k i1 .. ik" of size integers altogether.
+  /// Reads n rows "k i1 .. ik" with `size` integers altogether.
   void read_rows(VtkCells& cells, std::uint64_t n, std::uint64_t size) {
     in_.require_numbers(size, 1, VtkNumber::int32, "integers");
     if (n > size) refuse_rows();
@@ -126,7 +127,7 @@ class LegacyVtkReader {
     if (in_row || cells.size() != n) refuse_rows();
   }
 
-  /// Since version 5.
+  /// Reads cells in the form of version 5 and later.
   void read_offsets_and_nodes(VtkCells& cells, std::uint64_t n_offsets, std::uint64_t n_nodes) {
     in_.require_keyword("offsets");
     VtkNumber type = in_.integer_type();
@@ -179,7 +180,7 @@ class LegacyVtkReader {
                std::to_string(n) + (of_cells ? " cells" : " points"));
   }
 
-  /// False if the keyword begins none.
+  /// Returns false if the keyword begins no attribute.
   bool read_attribute(const std::string& keyword) {
     static constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> sizes{
         {{"vectors", 3},
@@ -230,12 +231,12 @@ class LegacyVtkReader {
     }
   }
 
-  /// Keeps what is honoured.
+  /// Keeps known arrays and skips all others.
   void read_array(const std::string& name, const std::string& type_name, std::uint64_t n_components,
                   std::uint64_t n_tuples) {
     const bool is_names = attributes_ == Attributes::field && name == vtk_names_array;
-    const bool is_kept = (attributes_ == Attributes::points && is_honoured_point_array(name)) ||
-                         (attributes_ == Attributes::cells && is_honoured_cell_array(name));
+    const bool is_kept = (attributes_ == Attributes::points && is_known_point_array(name)) ||
+                         (attributes_ == Attributes::cells && is_known_cell_array(name));
     const auto type = in_.number_type(type_name);
     if (!type || (!is_names && !is_kept)) return in_.skip_array(type_name, n_components, n_tuples);
     in_.require_numbers(n_tuples, n_components, *type, "values");

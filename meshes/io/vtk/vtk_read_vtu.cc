@@ -15,7 +15,7 @@ namespace smoothfem {
 
 namespace {
 
-/// The pieces of a file as one grid.
+/// Reads the pieces of a file as one grid.
 class VtuReader {
  public:
   explicit VtuReader(VtuFile& file) : file_(file) {}
@@ -32,8 +32,8 @@ class VtuReader {
     const std::size_t first_point = grid_.points.size();
     if (piece.n_points > 0) read_points(piece);
     if (piece.n_cells > 0) grid_.cells.append(read_cells(piece), first_point);
-    read_arrays(piece, "PointData", piece.n_points, is_honoured_point_array, grid_.point_arrays);
-    read_arrays(piece, "CellData", piece.n_cells, is_honoured_cell_array, grid_.cell_arrays);
+    read_arrays(piece, "PointData", piece.n_points, is_known_point_array, grid_.point_arrays);
+    read_arrays(piece, "CellData", piece.n_cells, is_known_cell_array, grid_.cell_arrays);
   }
 
   const VtuArray& required(const VtuPiece& piece, const std::string& section,
@@ -92,11 +92,11 @@ class VtuReader {
   }
 
   void read_arrays(const VtuPiece& piece, std::string_view section, std::uint64_t n,
-                   bool (*is_honoured)(std::string_view), auto& arrays) {
+                   bool (*is_known_array)(std::string_view), auto& arrays) {
     const auto found = piece.sections.find(section);
     if (found == piece.sections.end()) return;
     for (const VtuArray& array : found->second)
-      if (is_honoured(array.name) && piece.array(section, array.name) == &array)
+      if (is_known_array(array.name) && piece.array(section, array.name) == &array)
         read_first_components(array, n, arrays[std::string(array.name)]);
   }
 
@@ -123,7 +123,7 @@ class VtuReader {
   VtkGrid grid_;
 };
 
-/// The text is gone when the mesh is made of its parts: large meshes would need more memory.
+/// Frees the text before the mesh is made of its parts: large meshes would need more memory.
 MeshParts vtu_parts(const std::filesystem::path& path) {
   VtuFile file(path, read_whole_file(path));
   return parts_of_grid(path.string(), VtuReader(file).grid());

@@ -98,7 +98,7 @@ void set_cells(const Topology& topology, vtkUnstructuredGrid& grid) {
                 facets[f]);
 }
 
-/// The first cell that has all nodes of a facet; n_cells if there is none.
+/// Returns the first cell that has all nodes of a facet; n_cells if there is no such cell.
 CellIndex cell_of_facet(const Topology& topology, std::span<const NodeIndex> facet) {
   for (const CellIndex c : topology.node_cells(facet[0])) {
     const auto nodes = topology.cell_nodes(c);
@@ -110,7 +110,7 @@ CellIndex cell_of_facet(const Topology& topology, std::span<const NodeIndex> fac
   return static_cast<CellIndex>(topology.n_cells());
 }
 
-/// A field's values at the cells and behind them at the labelled facets.
+/// Returns a field's values at the cells, followed by those at the labelled facets.
 std::vector<double> with_facets(const Topology& topology, std::vector<double> values) {
   const auto& facets = topology.labels().facets;
   for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -137,7 +137,7 @@ void add_labels(const MeshLabels& labels, std::size_t n_cells, vtkUnstructuredGr
   if (!labels.node_ids.empty())
     add_array<vtkTypeInt64Array>(*grid.GetPointData(), "node_id", labels.node_ids);
   if (labels.names.empty()) return;
-  // Not as an array of strings: VTK crashes where such arrays are damaged.
+  // Not an array of strings: VTK crashes where such arrays are damaged.
   std::string lines;
   for (const auto& [key, name] : labels.names) lines += physical_name_line(key, name) + "\n";
   add_array<vtkUnsignedCharArray>(*grid.GetFieldData(), "physical_name", lines);
@@ -166,7 +166,7 @@ void run(Writer& writer, const std::filesystem::path& path) {
     throw InputError("cannot write " + path.string() + ": VTK's writer does not take the mesh");
 }
 
-/// VTK's writer into a buffer of ours; as a string it would hold the file twice.
+/// VTK's writer into a buffer of this program; as a string it would hold the file twice.
 class StreamingWriter final : public vtkXMLUnstructuredGridWriter {
  public:
   static StreamingWriter* New();
@@ -191,7 +191,7 @@ vtkStandardNewMacro(StreamingWriter);
 
 }  // namespace
 
-/// Into memory first: VTK does not notice every failed write, write_atomically does.
+/// Writes to memory first: VTK does not notice every failed write; write_atomically does.
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions&) {
   vtkNew<vtkUnstructuredGridWriter> writer;

@@ -38,7 +38,7 @@ constexpr std::array<std::uint8_t, 256> base64_digits = [] {
 
 }  // namespace
 
-/// Three bytes, or fewer where '=' fills up the end of a part; 0 if there are none.
+/// Decodes three bytes, or fewer where '=' fills up the end of a part; returns 0 if there are none.
 std::size_t VtuBytes::decode_four(char* to) {
   if (!text_.empty() && static_cast<unsigned char>(text_.front()) <= ' ')
     text_.remove_prefix(std::min(text_.find_first_not_of(" \t\r\n"), text_.size()));
@@ -84,7 +84,7 @@ bool VtuBytes::read(char* to, std::size_t n) {
 
 // --- Compression ---------------------------------------------------------------------------------
 
-/// VTK's class of that name.
+/// VTK's decompressor class of this name.
 class VtuDecompressor {
  public:
   explicit VtuDecompressor(const std::string& name) {
@@ -97,7 +97,7 @@ class VtuDecompressor {
       throw InputError("is compressed by " + in_quotes(name) + ", which is not known");
   }
 
-  /// False if the block is damaged or has another size.
+  /// Returns false if the block is damaged or has another size.
   bool decompress(const std::vector<char>& from, std::vector<char>& to) const {
     return compressor_->Uncompress(reinterpret_cast<const unsigned char*>(from.data()), from.size(),
                                    reinterpret_cast<unsigned char*>(to.data()),
@@ -105,7 +105,7 @@ class VtuDecompressor {
   }
 
  private:
-  VtkMessages messages_;  // none on the terminal
+  VtkMessages messages_;  // suppresses messages on the terminal
   vtkSmartPointer<vtkDataCompressor> compressor_;
 };
 
@@ -136,14 +136,15 @@ std::uint64_t VtuArrayBytes::header_number() {
   return number;
 }
 
-/// The header of a compressed array: number of blocks, their size, that of the last one if it is
-/// another one, and the size of each when compressed.
+/// Reads the header of a compressed array: number of blocks, their size, the size of the last one
+/// if it differs, and the compressed size of each.
 void VtuArrayBytes::read_block_sizes() {
   const std::uint64_t n_blocks = header_number();
   block_size_ = header_number();
   last_block_size_ = header_number();
   if (last_block_size_ == 0) last_block_size_ = block_size_;
-  // Against overflow below; what is allocated is checked by those who know what the array is for.
+  // Prevents overflow below; callers check the size against the array's purpose before they
+  // allocate memory.
   constexpr std::uint64_t most = std::uint64_t{1} << 40;
   if (n_blocks > bytes_.most() / encoding_.header_size || block_size_ > most ||
       last_block_size_ > most)

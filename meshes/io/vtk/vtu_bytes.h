@@ -11,15 +11,15 @@
 
 namespace smoothfem {
 
-/// Bytes in a .vtu file, as they are or in Base64. Parts that have been encoded one by one, as
-/// headers are, follow each other.
+/// Bytes in a .vtu file, raw or in Base64. Parts that are encoded separately, like headers, follow
+/// each other.
 class VtuBytes {
  public:
   VtuBytes(std::string_view text, bool is_base64) : text_(text), is_base64_(is_base64) {}
 
-  /// The next n bytes; false if there are not so many, or they are no Base64.
+  /// Reads the next n bytes; false if there are not enough, or if they are not Base64.
   bool read(char* to, std::size_t n);
-  /// There are no more.
+  /// Returns an upper bound of the remaining bytes.
   std::size_t most() const {
     return n_decoded_ + (is_base64_ ? text_.size() / 4 * 3 + 3 : text_.size());
   }
@@ -29,28 +29,28 @@ class VtuBytes {
 
   std::string_view text_;
   bool is_base64_;
-  std::array<char, 3> decoded_{};  ///< but not yet read
+  std::array<char, 3> decoded_{};  ///< not yet read
   std::size_t n_decoded_ = 0;
 };
 
-/// How the arrays of a file are written.
+/// Encoding of the arrays of a file.
 struct VtuEncoding {
-  bool is_swapped = false;      ///< against this machine's order of bytes
+  bool is_swapped = false;      ///< relative to this machine's byte order
   std::size_t header_size = 4;  ///< bytes of a number in the arrays' headers
   std::string compressor;       ///< VTK's class; empty if arrays are not compressed
 };
 
 class VtuDecompressor;
 
-/// The content of a binary array behind its header, decompressed block by block. Throws InputError
-/// without a position for whatever is damaged.
+/// The content of a binary array after its header, decompressed block by block. Throws InputError
+/// without a position for any damage.
 class VtuArrayBytes {
  public:
   VtuArrayBytes(VtuBytes bytes, const VtuEncoding& encoding);
   VtuArrayBytes(VtuArrayBytes&&) noexcept;
   ~VtuArrayBytes();
 
-  /// What the header says; the file has room for it, if it is not compressed.
+  /// Returns the size in the header; the file has room for it, if it is not compressed.
   std::uint64_t size() const { return size_; }
   bool is_compressed() const { return decompressor_ != nullptr; }
 

@@ -22,8 +22,9 @@ constexpr std::array type_names{
 constexpr std::array<std::string_view, 5> section_names{"Points", "Cells", "PointData", "CellData",
                                                         "FieldData"};
 
-/// A file of a few kB may say that it is decompressed to any size. Meshes shrink to a tenth.
-constexpr std::uint64_t most_decompressed(std::uint64_t file_size) {
+/// Largest decompressed size. A file of a few kB may announce any size; meshes shrink to about a
+/// tenth.
+constexpr std::uint64_t max_decompressed_size(std::uint64_t file_size) {
   return (std::uint64_t{64} << 20) + 100 * file_size;
 }
 
@@ -74,7 +75,7 @@ std::uint64_t VtuFile::number(std::string_view attribute, std::uint64_t fallback
   const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
   if (error != std::errc() || end != text->data() + text->size())
     tags_.fail(std::string(attribute) + " is " + in_quotes(*text) +
-               ", which is not an integer from 0 on");
+               ", which is not an integer of at least 0");
   return value;
 }
 
@@ -120,7 +121,7 @@ void VtuFile::read_array_tag() {
     pieces_.back().sections[std::string(section)].push_back(array);
 }
 
-/// Raw data may look like tags, so what follows them is looked for from the end.
+/// Raw data may contain tags, so that the rest of the file is searched from its end.
 void VtuFile::read_appended() {
   const XmlTag& tag = tags_.tag();
   const std::string_view encoding = tag.attribute("encoding").value_or("base64");
@@ -141,7 +142,7 @@ VtkNumber VtuFile::type_of(const VtuArray& array) const {
   fail(array, "has numbers of the type " + in_quotes(array.type) + ", which is not known");
 }
 
-/// Whole pages only, and no less than are worth the call.
+/// Releases whole pages only, and only if they are worth the call.
 void VtuFile::release(const VtuArray& array) {
   constexpr std::size_t least = std::size_t{1} << 20;
   if (array.text.size() < least) return;
@@ -179,7 +180,7 @@ VtuArrayBytes VtuFile::open_binary(const VtuArray& array, std::uint64_t n, VtkNu
                        std::to_string(n) + " values need " + std::to_string(size_of(type)) +
                        " bytes each; the file is damaged");
     n_decompressed_ += bytes.is_compressed() ? bytes.size() : 0;
-    if (n_decompressed_ > most_decompressed(content_.size()))
+    if (n_decompressed_ > max_decompressed_size(content_.size()))
       throw InputError(
           "would be more than 100 times as large as the file when decompressed; it is damaged");
     return bytes;

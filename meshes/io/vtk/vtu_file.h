@@ -24,28 +24,28 @@ namespace smoothfem {
 struct VtuArray {
   std::string_view name, type, format;
   std::uint64_t n_components = 1;
-  std::uint64_t n_tuples = 0;  ///< of field data; other arrays do not say it
+  std::uint64_t n_tuples = 0;  ///< of field data; other arrays do not give it
   std::string_view text;       ///< between its tags
   std::uint64_t offset = 0;    ///< in the appended data
   std::size_t position = 0;    ///< in the file
 };
 
-/// Those below one element: `<Points>`, `<Cells>`, `<PointData>`,
-/// `<CellData>` or `<FieldData>`.
+/// The arrays below one element: `<Points>`, `<Cells>`, `<PointData>`, `<CellData>` or
+/// `<FieldData>`.
 using VtuSection = std::vector<VtuArray>;
 
 struct VtuPiece {
   std::uint64_t n_points = 0, n_cells = 0;
   std::map<std::string, VtuSection, std::less<>> sections;
 
-  /// Null if there is none; an empty name stands for any.
+  /// Returns null if there is no such array; an empty name means any.
   const VtuArray* array(std::string_view section, std::string_view name) const;
 };
 
-/// The elements of a .vtu file with an unstructured grid. No count is trusted: arrays are read when
-/// the file has shown that it can hold them. Each array can be read once: of large
-/// ones in Base64 the text is gone then, so that large meshes do not need the memory twice. Throws
-/// InputError "path:line: ..." for whatever is wrong.
+/// The elements of a .vtu file with an unstructured grid. No count is trusted: arrays are read only
+/// after the file has shown that it can hold them. Each array can be read once: the text of large
+/// Base64 arrays is then released, so that large meshes do not need the memory twice. Throws
+/// InputError "path:line: ..." for any error.
 class VtuFile {
  public:
   VtuFile(const std::filesystem::path& path, std::string content);
@@ -55,9 +55,9 @@ class VtuFile {
   const std::vector<VtuPiece>& pieces() const { return pieces_; }
   const VtuSection& field_data() const { return field_data_; }
 
-  /// use(number) for n numbers that the array has, neither more nor fewer, each as Value: double,
-  /// or std::int64_t, for which the array must hold integers. start() comes before, when it is
-  /// known that they are there: the time to allocate.
+  /// Calls use(number) for the n numbers that the array must have, each as Value: double, or
+  /// std::int64_t, for which the array must hold integers. Calls start() before, when the numbers
+  /// are known to exist: allocate memory there.
   template <class Value, class Start, class Use>
   void read(const VtuArray& array, std::uint64_t n, const Start& start, const Use& use) {
     const VtkNumber type = type_of(array);
@@ -85,7 +85,7 @@ class VtuFile {
   }
 
   [[noreturn]] void fail(const VtuArray& array, const std::string& message) const;
-  /// About a piece as a whole.
+  /// Throws InputError about a piece as a whole.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
@@ -100,7 +100,7 @@ class VtuFile {
   LineReader open_text(const VtuArray& array, std::uint64_t n) const;
   VtuArrayBytes open_binary(const VtuArray& array, std::uint64_t n, VtkNumber type);
 
-  /// Errors of a call with the place of the array.
+  /// Adds the position of the array to errors of a call.
   template <class Call>
   decltype(auto) in_array(const VtuArray& array, const Call& call) const {
     try {

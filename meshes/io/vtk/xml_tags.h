@@ -10,19 +10,18 @@
 
 namespace smoothfem {
 
-/// `<name a="1" b="2">`, `</name>` or `<name/>`, as they stand in the text.
+/// A tag `<name a="1" b="2">`, `</name>` or `<name/>` of the text.
 struct XmlTag {
   std::string_view name;
   std::vector<std::pair<std::string_view, std::string_view>> attributes;
-  bool begins = false, ends = false;     ///< an element; one may do both
+  bool begins = false, ends = false;     ///< an element; one tag may do both
   std::size_t first = 0, past_last = 0;  ///< its characters
 
   std::optional<std::string_view> attribute(std::string_view attribute_name) const;
 };
 
-/// Walks through the tags of an XML file; what stands between them is left to the caller. The text
-/// must outlive it. Throws InputError "path:line: ..." for tags that are not closed or do not
-/// belong together.
+/// Iterates over the tags of an XML file; the caller reads the text between them. The text must
+/// outlive it. Throws InputError "path:line: ..." for tags that are not closed or do not match.
 class XmlTags {
  public:
   XmlTags(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {}
@@ -31,9 +30,9 @@ class XmlTags {
   /// element may be open.
   bool next();
   const XmlTag& tag() const { return tag_; }
-  /// The element around the present one; empty if there is none.
+  /// Returns the element around the present one; empty if there is no such element.
   std::string_view parent() const;
-  /// The text goes on here; what stands before has no tags.
+  /// Continues at this position; the skipped text has no tags.
   void go_to(std::size_t position) { at_ = position; }
 
   /// Throws InputError; position: in the text.

@@ -24,7 +24,7 @@ std::vector<std::string> method_labels(const std::string& list, MeshDimensions d
   std::vector<std::string> names;
   for (const auto& info : method_catalogue())
     if (with_dimensions(dimensions, [&]<int dim, int spacedim>() {
-          return takes_meshes<dim, spacedim>(info.name);
+          return supports_mesh_kind<dim, spacedim>(info.name);
         }))
       names.push_back(info.name);
   return names;

@@ -92,7 +92,7 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
   parameters.kind = description.distortion;
   parameters.n_candidates = description.distortion_candidates;
   parameters.n_sweeps = description.distortion_sweeps;
-  parameters.least_quality = description.distortion_least_quality;
+  parameters.min_quality = description.distortion_least_quality;
   parameters.seed = description.seed;
   if (description.distort_within > 0.0) {
     distort_within(mesh, description.distort_within, parameters);

@@ -11,12 +11,12 @@ namespace smoothfem {
 namespace {
 
 // A unit cube, a pyramid of volume 1/3 on it, a prism of volume 1/2 at its side and a tetrahedron
-// of volume 5/24 at the pyramid, written by hand in the order that each format documents.
+// of volume 5/24 at the pyramid. Written by hand in the node order that each format documents.
 
 const std::string points[] = {"0 0 0", "1 0 0", "1 1 0",   "0 1 0",  "0 0 1",  "1 0 1",
                               "1 1 1", "0 1 1", ".5 .5 2", "2 .5 0", "2 .5 1", ".5 -1 1.5"};
 
-/// The nodes in lines of their own; before: what stands before the coordinates.
+/// The nodes on separate lines; before: text before the coordinates.
 std::string node_lines(const std::function<std::string(int)>& before, const std::string& after) {
   std::string text;
   int n = 0;
@@ -27,26 +27,26 @@ std::string nothing(int) {
   return {};
 }
 
-const std::string gmsh_by_hand =
+const std::string hand_written_gmsh =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n12\n" +
     node_lines([](int n) { return std::to_string(n) + " "; }, "") +
     "$EndNodes\n$Elements\n4\n1 5 2 0 1 1 2 3 4 5 6 7 8\n2 7 2 0 1 5 6 7 8 9\n"
     "3 6 2 0 1 2 10 3 6 11 7\n4 4 2 0 1 5 6 9 12\n$EndElements\n";
 
-std::string vtk_by_hand(const std::string& wedge) {
+std::string hand_written_vtk(const std::string& wedge) {
   return "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n" +
          node_lines(nothing, "") + "CELLS 4 27\n8 0 1 2 3 4 5 6 7\n5 4 5 6 7 8\n6 " + wedge +
          "\n4 4 5 8 11\nCELL_TYPES 4\n12\n14\n13\n10\n";
 }
 const std::string vtk_wedge_row = "1 2 9 5 6 10", gmsh_prism_row = "1 9 2 5 10 6";
 
-const std::string medit_by_hand =
+const std::string hand_written_medit =
     "MeshVersionFormatted 2\n# a comment\nDimension\n3\n\nVertices\n12\n" +
     node_lines(nothing, " 0") +
     "Corners 1\n1\nHexahedra 1 1 2 3 4 5 6 7 8 0\nPyramids\n1\n5 6 7 8 9\n0 # of the last one\n"
     "Prisms\n1\n2 10 3 6 11 7 0\nTetrahedra\n1\n5 6 9 12 0\nNormals\n1\n0 0 1\nEnd\n";
 
-std::string abaqus_by_hand() {
+std::string hand_written_abaqus() {
   std::string nodes = node_lines([](int n) { return std::to_string(n) + " "; }, "");
   std::replace(nodes.begin(), nodes.end(), ' ', ',');
   return "*Heading\nwritten by hand, 2 lines\n** a comment\n*Node\n" + nodes +
@@ -55,13 +55,14 @@ std::string abaqus_by_hand() {
          "*Element, Type=DC3D4\n4, 5, 6, 9, 12\n";
 }
 
-struct ByHand {
+struct HandWritten {
   std::string name, extension, content;
+  friend void PrintTo(const HandWritten& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
-class FilesByHand : public FileTest, public ::testing::WithParamInterface<ByHand> {};
+class HandWrittenFiles : public FileTest, public ::testing::WithParamInterface<HandWritten> {};
 
-TEST_P(FilesByHand, HaveTheirVolumes) {
+TEST_P(HandWrittenFiles, HaveTheirVolumes) {
   const VolumeMesh mesh = read_volume(file_with("a" + GetParam().extension, GetParam().content));
   EXPECT_NO_THROW(require_valid(mesh));
   std::map<ElementType, double> volumes;
@@ -74,23 +75,24 @@ TEST_P(FilesByHand, HaveTheirVolumes) {
   EXPECT_NEAR(volumes[ElementType::tetrahedron], 5.0 / 24.0, 1e-15);
 }
 
-INSTANTIATE_TEST_SUITE_P(Volumes, FilesByHand,
-                         ::testing::Values(ByHand{"gmsh", ".msh", gmsh_by_hand},
-                                           ByHand{"vtk", ".vtk", vtk_by_hand(vtk_wedge_row)},
-                                           ByHand{"vtk_in_the_order_of_gmsh", ".vtk",
-                                                  vtk_by_hand(gmsh_prism_row)},
-                                           ByHand{"medit", ".mesh", medit_by_hand},
-                                           ByHand{"abaqus", ".inp", abaqus_by_hand()}),
+INSTANTIATE_TEST_SUITE_P(Volumes, HandWrittenFiles,
+                         ::testing::Values(HandWritten{"gmsh", ".msh", hand_written_gmsh},
+                                           HandWritten{"vtk", ".vtk",
+                                                       hand_written_vtk(vtk_wedge_row)},
+                                           HandWritten{"vtk_in_the_order_of_gmsh", ".vtk",
+                                                       hand_written_vtk(gmsh_prism_row)},
+                                           HandWritten{"medit", ".mesh", hand_written_medit},
+                                           HandWritten{"abaqus", ".inp", hand_written_abaqus()}),
                          [](const auto& info) { return info.param.name; });
 
 using VolumeFiles = FileTest;
 
 TEST_F(VolumeFiles, WedgesAreWrittenInTheOrderOfVtk) {
-  const auto path = file_with("a.msh", gmsh_by_hand);
+  const auto path = file_with("a.msh", hand_written_gmsh);
   write_mesh(file("a.vtu"), read_volume(path));
   const VolumeMesh again = read_volume(file("a.vtu"));
   EXPECT_EQ(again.topology().cells(), read_volume(path).topology().cells());
-  // One wedge against two: the two decide, and the other one stays as it stands in the file.
+  // One wedge against two: the majority decides, and the other wedge keeps its order in the file.
   const std::string two_against_one =
       "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n"
       "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n0 0 2\n1 0 2\n0 1 2\n0 0 3\n1 0 3\n0 1 3\n"
@@ -110,7 +112,7 @@ TEST_F(VolumeFiles, VoxelsAreHexahedra) {
   EXPECT_EQ(mesh_quality(mesh).q_min, 1.0);
 }
 
-TEST_F(VolumeFiles, InvertedCellsStayAsTheyAreAndAreNamedWithTheirNumberAndLine) {
+TEST_F(VolumeFiles, KeepsInvertedCellsAndNamesThemByNumberAndLine) {
   const auto path = file_with(
       "a.inp",
       "*NODE\n10,0,0,0\n20,1,0,0\n30,0,1,0\n40,0,0,1\n*ELEMENT,TYPE=C3D4\n7,10,30,20,40\n");
@@ -122,14 +124,14 @@ TEST_F(VolumeFiles, InvertedCellsStayAsTheyAreAndAreNamedWithTheirNumberAndLine)
                                ::testing::HasSubstr("cell 7")));
 }
 
-TEST_F(VolumeFiles, MeditNeedsNoLastWordBehindCompleteSections) {
-  std::string content = medit_by_hand;
+TEST_F(VolumeFiles, MeditNeedsNoEndAfterCompleteSections) {
+  std::string content = hand_written_medit;
   content.erase(content.find("End"));
   EXPECT_EQ(read_volume(file_with("a.mesh", content)).n_cells(), 4u);
 }
 
-TEST_F(VolumeFiles, MeditSectionsMayEachHaveALastWord) {
-  std::string content = medit_by_hand;
+TEST_F(VolumeFiles, MeditSectionsMayEachHaveAnEnd) {
+  std::string content = hand_written_medit;
   for (const std::string section : {"Pyramids", "Tetrahedra"})
     content.insert(content.find(section), "\nEnd\n\n");
   EXPECT_EQ(read_volume(file_with("a.mesh", content)).n_cells(), 4u);
@@ -153,6 +155,7 @@ TEST_F(VolumeFiles, AbaqusSetsAreNames) {
 
 struct BadVolume {
   std::string name, extension, content, message;
+  friend void PrintTo(const BadVolume& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 class BadVolumeFile : public FileTest, public ::testing::WithParamInterface<BadVolume> {};
@@ -210,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVolume{"abaqus_include", ".inp", "*INCLUDE, INPUT=mesh.inp\n",
                   ":1: *INCLUDE is not supported"},
         BadVolume{"abaqus_range", ".inp", abaqus_head + "*ELSET, ELSET=a, GENERATE\n5,1\n",
-                  ":7: the labels from 5 to 1 in steps of 1 are no range"}),
+                  ":7: the labels from 5 to 1 in steps of 1 are not a range"}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -10,8 +10,9 @@
 
 namespace smoothfem {
 
-/// The generator a second time, from the paper's description: the state goes on by the odd number
-/// next to 2^64 divided by the golden ratio; a number is the state, mixed by two multiplications.
+/// Second implementation of the generator, from the paper's description. The state grows by the odd
+/// number next to 2^64 divided by the golden ratio. A number is the state, mixed by two
+/// multiplications.
 inline std::uint64_t next_number(std::uint64_t& state) {
   state += 0x9e3779b97f4a7c15;
   std::uint64_t z = state;
@@ -37,8 +38,8 @@ inline Point<2> point_of_disc(std::uint64_t& state) {
   }
 }
 
-/// Calls visit(node, mean length of its edges, state of the generator): free nodes one after the
-/// other, sweep after sweep.
+/// Calls visit(node, mean length of its edges, state of the generator) for the free nodes one after
+/// the other, sweep after sweep.
 inline void for_each_visit(const PlanarMesh& mesh, std::uint64_t seed, int n_sweeps,
                            const auto& visit) {
   const Topology& topology = mesh.topology();
@@ -55,15 +56,16 @@ inline void for_each_visit(const PlanarMesh& mesh, std::uint64_t seed, int n_swe
     }
 }
 
-/// The distortion of triangles a second time, from its documentation and with other formulas:
-/// nodes one after the other, their numbers from the generator above.
-inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radius,
-                                             std::uint64_t seed, int n_candidates, int n_sweeps) {
+/// Second implementation of the distortion of triangles, from its documentation and with other
+/// formulas: nodes one after the other, with numbers from the generator above.
+inline std::vector<Point<2>> reference_distortion(const PlanarMesh& mesh, double radius,
+                                                  std::uint64_t seed, int n_candidates,
+                                                  int n_sweeps) {
   const Topology& topology = mesh.topology();
   const std::vector<Point<2>> original = mesh.copied_coordinates();
   std::vector<Point<2>> x = original;
-  // Of a triangle, 2 sqrt(3) times twice its area over the sum of its squared sides; here without
-  // the constants: only the order matters. At most 0 if one is invalid.
+  // For a triangle, 2 sqrt(3) times twice its area over the sum of its squared sides. Constants are
+  // left out, as only the order matters. At most 0 if one is invalid.
   const auto quality_around = [&](NodeIndex node) {
     double sum = 0.0;
     for (const CellIndex cell : topology.node_cells(node)) {
@@ -94,9 +96,10 @@ inline std::vector<Point<2>> distorted_again(const PlanarMesh& mesh, double radi
   return x;
 }
 
-/// Random steps of triangles a second time: from the documentation and with other formulas.
-inline std::vector<Point<2>> stepped_again(const PlanarMesh& mesh, double radius,
-                                           std::uint64_t seed, int n_sweeps) {
+/// Second implementation of random steps of triangles, from the documentation and with other
+/// formulas.
+inline std::vector<Point<2>> reference_random_steps(const PlanarMesh& mesh, double radius,
+                                                    std::uint64_t seed, int n_sweeps) {
   const Topology& topology = mesh.topology();
   std::vector<Point<2>> x = mesh.copied_coordinates();
   const auto all_valid = [&](NodeIndex node) {
