@@ -299,7 +299,7 @@ TEST(PoissonSolver, ChosenGaussPointsAgreeWithTwentyADirectionOnHexahedra) {
   for (const double distortion : {0.1, 0.5})
     for (const int degree : {1, 2})
       for (const bool galerkin : {false, true}) {
-        const auto mesh = unit_cube(5, Cells::hexahedra, distortion);
+        const auto mesh = unit_cube(4, Cells::hexahedra, distortion);
         const auto solve = [&](int n_points) {
           PoissonOptions options{.degree = degree, .galerkin_load = galerkin};
           options.tensor_points.hexahedron = n_points;
@@ -333,7 +333,7 @@ TEST(PoissonSolver, ChosenGaussPointsAgreeWithTwentyADirectionOnHexahedra) {
 TEST(PoissonSolver, StiffnessOfHexahedraWithChosenPointsIsThatOfTwentyADirection) {
   for (const double distortion : {0.15, 0.3, 0.6})
     for (const int degree : {1, 2}) {
-      const auto mesh = unit_cube(5, Cells::hexahedra, distortion);
+      const auto mesh = unit_cube(4, Cells::hexahedra, distortion);
       const auto matrix = [&](int n_points) {
         const auto space =
             make_finite_element_space(&mesh, degree, TensorPoints{.hexahedron = n_points});
