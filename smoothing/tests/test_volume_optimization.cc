@@ -207,7 +207,7 @@ TEST(VolumeFeasibleFractions, StopJustBeforeADeterminantHasFallen) {
       for (const CellIndex c : mesh.topology().node_cells(i)) {
         for (int step = 0; step <= 50; ++step)
           EXPECT_GT(remaining(mesh, to, c, limits[i] * step / 50.0), 1.0 - share - 1e-9);
-        min_beyond = std::min(least_beyond, remaining(mesh, to, c, 1.02 * limits[i]));
+        min_beyond = std::min(min_beyond, remaining(mesh, to, c, 1.02 * limits[i]));
       }
       n_limited += limits[i] < 1.0;
       n_sharp += limits[i] < 1.0 && min_beyond < 1.0 - share;
