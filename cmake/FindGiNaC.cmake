@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Finds GiNaC (Debian: libginac-dev, which ships no CMake files), which brings CLN. Defines GiNaC::GiNaC.
+# Finds GiNaC (Debian: libginac-dev, which ships no CMake files), including CLN. Defines GiNaC::GiNaC.
 find_path(GiNaC_INCLUDE_DIR ginac/ginac.h)
 find_library(GiNaC_LIBRARY ginac)
 find_library(GiNaC_CLN_LIBRARY cln)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What is installed, for users (component program) and for programs that call the libraries (component
-# development), and the Debian packages of both.
+# Installed files for users (component program) and for programs that call the libraries (component
+# development), and the Debian packages of both components.
 include(CMakePackageConfigHelpers)
 
 set(libraries smoothfem_smoothing smoothfem_meshes smoothfem_fem)
@@ -50,7 +50,7 @@ install(DIRECTORY adapters DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem COMPON
 install(DIRECTORY launcher/new_smoother DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/launcher COMPONENT program
   USE_SOURCE_PERMISSIONS)
 
-# Headers: all that a smoother of one's own may want to include, and what reads, generates and solves.
+# Headers for users' smoothers, and for reading and generating meshes and for solving.
 foreach(folder base geometry getme laplacian loop mesh optimization polygons quality simd surface transformations)
   file(GLOB headers CONFIGURE_DEPENDS smoothing/${folder}/*.h)
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/smoothing/${folder}
@@ -62,7 +62,7 @@ foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)
 endforeach()
-# The build tree, too, can be found by find_package.
+# find_package can also find the build tree.
 export(EXPORT smoothfem NAMESPACE smoothfem:: FILE ${PROJECT_BINARY_DIR}/smoothfem.cmake)
 install(EXPORT smoothfem NAMESPACE smoothfem:: DESTINATION ${package_folder} COMPONENT development)
 configure_package_config_file(cmake/smoothfemConfig.cmake.in ${PROJECT_BINARY_DIR}/smoothfemConfig.cmake

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# How libraries, tests and benchmarks of this project are made.
+# Functions that make the libraries, tests and benchmarks of this project.
 
-# Built as it will be installed: below one folder, with the data beside the programs.
+# The build tree has the layout of the installation: one folder, with the data next to the programs.
 include(GNUInstallDirs)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
-set(SMOOTHFEM_PYTHON_PACKAGE lib/python3/dist-packages/smoothfem)  # as Debian's python3 has its packages
+set(SMOOTHFEM_PYTHON_PACKAGE lib/python3/dist-packages/smoothfem)  # as for packages of Debian's python3
 set(SMOOTHFEM_LIBEXEC ${PROJECT_BINARY_DIR}/libexec/smoothfem)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/bin ${SMOOTHFEM_LIBEXEC} ${PROJECT_BINARY_DIR}/share)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/share/smoothfem SYMBOLIC)
@@ -37,7 +37,7 @@ function(smoothfem_add_library name)
   target_link_libraries(${target} PRIVATE smoothfem_options)
 endfunction()
 
-# The same library once more, in a folder of its own, compiled for another processor.
+# Adds a copy of a library for another processor, in a separate folder.
 function(smoothfem_add_copy_for_arch target arch folder)
   set(copy ${target}-${arch})
   get_target_property(sources ${target} SOURCES)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes OUTPUT with the commit that SOURCE_DIR is at and whether it has uncommitted changes; leaves the
-# file alone if it says so already, so that nothing is compiled again without need.
+# Writes OUTPUT with the commit of SOURCE_DIR and whether it has uncommitted changes. An OUTPUT that is
+# up to date is not rewritten, so that nothing is recompiled without need.
 execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse HEAD
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
                 RESULT_VARIABLE failed)
@@ -8,7 +8,7 @@ set(dirty false)
 if(failed)
   set(commit "unknown")
 else()
-  # Results of the program are none of its sources: they change while it makes them one after the other.
+  # Results of the program are not its sources: they change while the program writes them.
   execute_process(COMMAND git -C ${SOURCE_DIR} status --porcelain --untracked-files=no -- . ":!results/reference"
                   OUTPUT_VARIABLE changes ERROR_QUIET)
   if(changes)

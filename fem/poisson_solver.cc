@@ -24,7 +24,7 @@ struct PoissonSolver<dim>::Workspace {
   std::size_t n_mesh_nodes;  ///< on the root
   PoissonSystem system;
   SlicedMatrix sliced;                       ///< the system's matrix, for products
-  std::unique_ptr<TrilinosMatrix> trilinos;  ///< made when first needed
+  std::unique_ptr<TrilinosMatrix> trilinos;  ///< made at first use
   CholeskyConditionNumber cholesky;
   IterativeConditionNumber iterative;
   Eigen::VectorXd free_solution, discrete;
@@ -47,7 +47,7 @@ struct PoissonSolver<dim>::Workspace {
   bool is_tiny() const { return space->n_free <= dense_limit; }
   bool needs_multigrid() const { return !is_tiny() && (dim == 3 || space->ranks.size() > 1); }
 
-  /// Multigrid has been set up if it is needed.
+  /// Call set_up_multigrid before, if it is needed.
   ConditionNumber verified_condition_number() {
     if (is_tiny())
       return dense_condition_number(system.matrix, space->column_numbers, space->n_free,
@@ -75,7 +75,7 @@ PoissonSolver<dim>::~PoissonSolver() = default;
 
 namespace {
 
-/// Sum of the squares of the boundary values: what they add to |b|^2 as identity rows.
+/// Returns the sum of the squares of the boundary values, which they add to |b|^2 as identity rows.
 template <int dim>
 double boundary_square_sum(const FiniteElementSpace<dim>& space, const Eigen::VectorXd& exact) {
   return space.ranks.sum(exact
@@ -105,11 +105,12 @@ void record_errors(const ErrorNorms& norms, SolutionRecord& record) {
   record.h1_error = norms.h1_error;
 }
 
-/// Of hexahedra whose points were chosen. Collective.
-void record_points(const chosen_points::Use& of_matrix, const chosen_points::Use& of_errors,
-                   const Ranks& ranks, SolutionRecord& record) {
+/// Records the points of hexahedra with chosen rules. Collective.
+void record_points(const adaptive_quadrature::Use& of_matrix,
+                   const adaptive_quadrature::Use& of_errors, const Ranks& ranks,
+                   SolutionRecord& record) {
   record.most_points = static_cast<int>(
-      ranks.max(static_cast<double>(std::max(of_matrix.most_points, of_errors.most_points))));
+      ranks.max(static_cast<double>(std::max(of_matrix.max_points, of_errors.max_points))));
   const std::size_t n = ranks.sum(std::max(of_matrix.n_unsettled, of_errors.n_unsettled));
   if (n > 0)
     add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") +
@@ -127,7 +128,7 @@ void record_conjugate_gradients(const ConjugateGradientsResult& cg, SolutionReco
     add_remark("CG stopped at its limit of time", record);
 }
 
-/// Of a run whose solution is not used; what has not converged has no cost.
+/// Records the cost of a run whose solution is not used. A run that has not converged has no cost.
 void record_cost(const std::string& name, const ConjugateGradientsResult& run,
                  std::size_t& iterations, double& seconds, SolutionRecord& record) {
   if (run.end == ConjugateGradientsEnd::converged) {
@@ -177,7 +178,7 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
     return conjugate_gradients(work.sliced, work.system.right_hand_side, work.free_solution,
                                cg_options, preconditioner);
   };
-  // Preconditioned runs show what a solution costs, if there is one.
+  // Preconditioned runs measure the cost of a solution, if there is one.
   cg_options.stop_if_indefinite = true;
   if (asked_for(options_.jacobi_cg)) {
     const auto jacobi = run(jacobi_preconditioner(work.sliced));
@@ -191,7 +192,7 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
     });
     record_cost("multigrid", multigrid, record.amg_cg_iterations, record.amg_cg_seconds, record);
   }
-  cg_options.stop_if_indefinite = false;  // as the thesis: its iterate is what counts
+  cg_options.stop_if_indefinite = false;  // as in the thesis: its iterate counts
   const auto cg = run({});                // last: its solution is the one whose errors count
   record_conjugate_gradients(cg, record);
 
@@ -220,7 +221,7 @@ std::vector<double> PoissonSolver<dim>::nodal_errors() const {
     if (dof != space.absent)
       local[node] = std::abs(work_->system.exact[dof] - work_->discrete[dof]);
   }
-  // Nodes that several ranks have come several times, with the same value.
+  // Nodes of several ranks occur several times, with the same value.
   const auto of_ranks = space.ranks.gather(local);
   std::vector<double> errors(work_->n_mesh_nodes, 0.0);
   for (std::size_t k = 0; k < of_ranks.size(); ++k) errors[space.nodes_of_ranks[k]] = of_ranks[k];

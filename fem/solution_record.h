@@ -12,14 +12,15 @@ struct SolutionRecord {
   std::size_t n_dofs = 0, n_free = 0;
   double assembly_seconds = 0.0;  ///< of matrix and right-hand side
   double condition_number = 0.0, lambda_min = 0.0, lambda_max = 0.0;
-  std::string condition_method;     ///< "none" where it was not asked for
+  std::string condition_method;     ///< "none" if it was not requested
   double condition_residual = 0.0;  ///< see ConditionNumber::residual
   std::size_t cg_iterations = 0, jacobi_cg_iterations = 0, amg_cg_iterations = 0;
   double cg_seconds = 0.0, jacobi_cg_seconds = 0.0, amg_setup_seconds = 0.0, amg_cg_seconds = 0.0;
   bool cg_converged = false;
-  double e_max = 0.0, e_mean = 0.0, e_l2 = 0.0, e_h1 = 0.0;  ///< the thesis' protocol
+  double e_max = 0.0, e_mean = 0.0, e_l2 = 0.0, e_h1 = 0.0;  ///< protocol of the thesis
   double l2_error = 0.0, h1_error = 0.0;                     ///< true errors by quadrature
-  /// Gauss points per direction of the hexahedron that needed most; 0 where none were chosen.
+  /// Gauss points in each direction of the hexahedron with the highest-order rule; 0 if no rules
+  /// were chosen.
   int most_points = 0;
   std::string status;  ///< "ok", or what is wrong with the numbers
 };

@@ -20,7 +20,7 @@ bool is_read(void (*read)(const std::filesystem::path&), const std::filesystem::
   } catch (const InputError& error) {
     const std::string message = error.what();
     require(message.find('\n') == message.npos, "a message has several lines: " + message);
-    require(message.size() < 1000, "a message is no sentence: " + message);
+    require(message.size() < 1000, "a message is not a sentence: " + message);
     return false;
   }
 }

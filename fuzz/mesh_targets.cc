@@ -20,7 +20,7 @@ void require_sound(const Mesh<dim, spacedim>& mesh) {
     require(point.allFinite(), "a coordinate is not finite");
   for (const auto* rows : {&topology.cells(), &labels.facets})
     for (const NodeIndex node : rows->entries())
-      require(node < mesh.n_nodes(), "a cell or facet names a node that is not there");
+      require(node < mesh.n_nodes(), "a cell or facet names a node that does not exist");
   require(mesh.n_cells() > 0, "there are no cells");
   require(labels.facet_tags.size() == labels.facets.size(), "facets have no tags");
   require(has_size(labels.cell_tags.size(), mesh.n_cells()), "cells have no tags");
@@ -28,7 +28,7 @@ void require_sound(const Mesh<dim, spacedim>& mesh) {
   require(has_size(labels.node_ids.size(), mesh.n_nodes()), "nodes have no numbers");
   const MeshQuality quality = mesh_quality(mesh);
   const auto is_quality = [](double q) { return q >= 0.0 && q <= 1.0 + 1e-9; };
-  require(is_quality(quality.q_min) && is_quality(quality.q_mean), "the quality is no number");
+  require(is_quality(quality.q_min) && is_quality(quality.q_mean), "the quality is not a number");
 }
 
 template <const char* name>
@@ -37,7 +37,7 @@ void read(const std::filesystem::path& path) {
   const auto format = std::find_if(formats.begin(), formats.end(),
                                    [](const MeshFormat& f) { return f.name == name; });
   require(format != formats.end(), std::string("there is no format ") + name);
-  // Not read_mesh, which would turn exceptions that are none of ours into sentences.
+  // Not read_mesh: it would turn foreign exceptions into InputErrors.
   const MeshFile file = format->read(path);
   std::visit([](const auto& mesh) { require_sound(mesh); }, file.mesh);
 }

@@ -20,7 +20,7 @@ bool run_study(Bytes bytes) {
   return is_read([](const std::filesystem::path& path) { read_any_study(path); }, file.path());
 }
 
-/// Where a checkpoint is; gone when the process ends.
+/// Folder of a checkpoint; removed when the process ends.
 class CheckpointFolder {
  public:
   CheckpointFolder() : path_("/dev/shm/smoothfem-fuzz-" + std::to_string(::getpid())) {
@@ -37,8 +37,8 @@ class CheckpointFolder {
 
 constexpr std::size_t number_of_numbers = 4;
 
-/// The first byte says which of a checkpoint's files the rest is, and whether as it stands on the
-/// disk or sealed, without which nothing gets past the seal.
+/// The first byte selects one of a checkpoint's files for the remaining bytes, and whether they are
+/// written unchanged or sealed. Without a seal no reader accepts them.
 bool run_checkpoint(Bytes bytes) {
   static const CheckpointFolder folder;
   using Read = void (*)(const std::filesystem::path&);

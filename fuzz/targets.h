@@ -11,21 +11,21 @@ namespace smoothfem::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// A reader of files that anybody may have written. It reads any bytes or throws InputError with
-/// one sentence; everything else is a finding.
+/// A reader of files from unknown sources. It must read any bytes or throw InputError with one
+/// sentence; everything else is a finding.
 struct Target {
   std::string name;  ///< also of its folder in fuzz/corpus/
-  /// Whether the bytes are read, or refused. Throws std::logic_error, or what the reader throws and
-  /// should not.
+  /// Returns true if the bytes are read, false if they are refused. Throws std::logic_error, or an
+  /// exception that the reader should not throw.
   bool (*run)(Bytes bytes);
 };
 
-/// One for each mesh format. What is read must also be a mesh whose quality can be computed.
+/// Returns a target for each mesh format. A read mesh must allow computing its quality.
 std::vector<Target> mesh_targets();
-/// The study file, and the files of a checkpoint.
+/// Returns the targets of the study file and of the files of a checkpoint.
 std::vector<Target> study_targets();
 
-/// A file without a place on the disk, whose content changes from run to run.
+/// A file in memory, whose content changes from run to run.
 class MemoryFile {
  public:
   MemoryFile();
@@ -40,10 +40,10 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Throws std::logic_error unless it holds.
+/// Throws std::logic_error with the rule unless the condition holds.
 void require(bool condition, const std::string& rule);
 
-/// Whether a reader reads a file; an InputError must be one sentence.
+/// Returns true if a reader reads a file. An InputError must be one sentence.
 bool is_read(void (*read)(const std::filesystem::path&), const std::filesystem::path& path);
 
 }  // namespace smoothfem::fuzz

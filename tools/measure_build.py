@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures what a developer waits for, in a build folder of its own (build/timing): a fresh build of
-the program and of the tests, the largest translation units, and builds after two typical changes.
-Prints the table of CONTRIBUTING.md. Usage: measure_build.py SOURCE [CMAKE_OPTION...]; run it on a
-quiet machine."""
+"""Measures build times in a separate folder (build/timing): a fresh build of the program and of the
+tests, the largest translation units, and builds after two typical changes. Prints the table of
+CONTRIBUTING.md. Usage: measure_build.py SOURCE [CMAKE_OPTION...]; run it on a quiet machine."""
 
 import os
 import shutil
@@ -17,7 +16,7 @@ LARGEST = 8  # translation units in the table
 
 
 def timed(*command):
-    """Seconds that a command takes; ends the program where it fails."""
+    """Returns the seconds that a command takes; ends the program if it fails."""
     start = time.monotonic()
     result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                             check=False)
@@ -27,12 +26,12 @@ def timed(*command):
 
 
 def readme_smoother(source):
-    """The smoother that README.md shows."""
+    """Returns the smoother that README.md shows."""
     return (source / "README.md").read_text(encoding="utf-8").split("```cpp\n")[1].split("```")[0]
 
 
 def after_change(build, path, text):
-    """Seconds to the program after a file has another text; puts the old one back."""
+    """Returns the seconds to build the program after a change of a file; restores the file."""
     old = path.read_text(encoding="utf-8") if path.exists() else None
     try:
         path.write_text(text, encoding="utf-8")
@@ -46,7 +45,7 @@ def after_change(build, path, text):
 
 
 def units(log):
-    """(seconds of the processor, MB, name) of what the compiler has made, largest first."""
+    """Returns (CPU seconds, MB, name) of the compiled files, largest first."""
     rows = []
     for line in log.read_text(encoding="utf-8").splitlines():
         _, processor, memory, made = line.split("\t")

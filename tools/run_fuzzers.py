@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs all fuzzers for a while, two at a time, and prints what they did."""
+"""Runs all fuzzers, two at a time, and prints a table of their results."""
 import argparse
 import concurrent.futures
 import os
@@ -13,16 +13,16 @@ from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parent
 AT_A_TIME = 2
-SECONDS_A_FILE = 10  # what takes longer is a finding
-MEMORY_MB = 1500  # of the process, with libraries and sanitizers
-ALLOCATION_MB = 300  # at once
+SECONDS_A_FILE = 10  # a longer run is a finding
+MEMORY_MB = 1500  # limit of the process, with libraries and sanitizers
+ALLOCATION_MB = 300  # limit of a single allocation
 LARGEST_FILE = 1 << 16
-MOST_FINDINGS = 5  # of a target; then it is ended
+MAX_FINDINGS = 5  # of a target, which then ends
 
 
 @dataclass
 class Outcome:
-    """What a target did, over all of its starts."""
+    """Results of a target, over all of its starts."""
     target: str
     runs: int = 0
     seconds: float = 0.0
@@ -35,7 +35,7 @@ class Outcome:
         def last(pattern: str) -> int:
             found = re.findall(pattern, log)
             return int(found[-1]) if found else 0
-        # A run that is broken off has no statistics, but progress.
+        # A run that is cut off prints its progress, but no statistics.
         self.runs += last(r'stat::number_of_executed_units: *(\d+)') or last(r'\n#(\d+)')
         self.coverage = max(self.coverage, last(r' cov: (\d+)'))
         self.memory_mb = max(self.memory_mb, last(r'stat::peak_rss_mb: *(\d+)') or last(r' rss: (\d+)'))
@@ -44,14 +44,14 @@ class Outcome:
 
 
 def run_target(fuzzer: Path, folder: Path, seconds: float) -> Outcome:
-    """Goes on after each finding until the time is over. Files that reach new lines are kept in a
-    folder, from which the next run begins."""
+    """Runs a target until the time is over, and restarts it after each finding. Files that reach new
+    lines are kept in a folder, from which the next run starts."""
     corpus, findings = folder / 'corpus' / fuzzer.name, folder / 'findings'
     for needed in (corpus, findings):
         needed.mkdir(parents=True, exist_ok=True)
     outcome = Outcome(fuzzer.name)
     begin = time.monotonic()
-    while (left := seconds - (time.monotonic() - begin)) > 1 and len(outcome.findings) < MOST_FINDINGS:
+    while (left := seconds - (time.monotonic() - begin)) > 1 and len(outcome.findings) < MAX_FINDINGS:
         command = [fuzzer, corpus, SOURCES / 'corpus' / fuzzer.name,
                    f'-max_total_time={int(left)}', f'-timeout={SECONDS_A_FILE}',
                    f'-rss_limit_mb={MEMORY_MB}', f'-malloc_limit_mb={ALLOCATION_MB}',
@@ -63,7 +63,7 @@ def run_target(fuzzer: Path, folder: Path, seconds: float) -> Outcome:
         (folder / f'{fuzzer.name}.log').write_text(log)
         known = len(outcome.findings)
         outcome.add(log)
-        if run.returncode != 0 and len(outcome.findings) == known:  # the same again, or none
+        if run.returncode != 0 and len(outcome.findings) == known:  # the same finding again, or none
             outcome.findings += [] if known else [f'see {folder}/{fuzzer.name}.log']
             break
     outcome.seconds = time.monotonic() - begin
@@ -83,9 +83,10 @@ def print_table(outcomes: list[Outcome]) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog='run fuzz', description=__doc__)
-    parser.add_argument('--minutes', type=float, default=20.0, help='for all targets together (%(default)g)')
+    parser.add_argument('--minutes', type=float, default=20.0,
+                        help='minutes for all targets together (default: %(default)g)')
     parser.add_argument('--build', type=Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument('targets', nargs='*', help='all, if none is named')
+    parser.add_argument('targets', nargs='*', help='targets to run (default: all)')
     arguments = parser.parse_args()
     known = {f.name: f for f in sorted((arguments.build / 'fuzz' / 'fuzzers').iterdir())}
     for target in arguments.targets:

@@ -9,7 +9,7 @@
 
 #include "fem/assembly/cell_function.h"
 #include "fem/assembly/cell_load.h"
-#include "fem/elements/chosen_points.h"
+#include "fem/elements/adaptive_quadrature.h"
 #include "smoothing/base/parallel.h"
 
 namespace smoothfem {
@@ -26,7 +26,8 @@ void for_parts(std::size_t n_cells, const Work& work) {
   });
 }
 
-/// In the order in which Eigen adds: a cell has the same bits as one that is alone in a register.
+/// Adds in Eigen's order, so that a cell in a register gives results bitwise identical to those of
+/// a single cell.
 inline Lanes dot_as_eigen(Vector2<Lanes> a, Vector2<Lanes> b) {
   return dot(a, b);
 }
@@ -34,7 +35,8 @@ inline Lanes dot_as_eigen(Vector3<Lanes> a, Vector3<Lanes> b) {
   return a.x * b.x + (a.y * b.y + a.z * b.z);
 }
 
-/// Adds what the energy's derivatives in the vertices have from |grad u|^2; one cell in each lane.
+/// Adds the contribution of |grad u|^2 to the energy's derivatives by the vertices; one cell in
+/// each lane.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 [[gnu::flatten]] void add_dirichlet_term(const CellFunction<dim, n_dofs, n_vertices, Lanes>& u,
                                          const QuadratureTable& table,
@@ -51,7 +53,7 @@ template <int dim, std::size_t n_dofs, std::size_t n_vertices>
   }
 }
 
-/// Adds the same from A grad u . grad u, for one cell.
+/// Adds the contribution of A grad u . grad u for one cell.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 void add_diffusion_term(const CellFunction<dim, n_dofs, n_vertices>& u,
                         const QuadratureTable& table, const ManufacturedSolution<dim>& solution,
@@ -74,7 +76,7 @@ void add_diffusion_term(const CellFunction<dim, n_dofs, n_vertices>& u,
   }
 }
 
-/// The same from f u; weighted_f: of each lane, at the table's points.
+/// Adds the contribution of f u; weighted_f: of each lane, at the table's points.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 [[gnu::flatten]] void add_load_term(const CellFunction<dim, n_dofs, n_vertices, Lanes>& u,
                                     const QuadratureTable& table,
@@ -88,8 +90,8 @@ template <int dim, std::size_t n_dofs, std::size_t n_vertices>
   }
 }
 
-/// Calls add(function, its cells, sums) for the cells of a list, n_lanes at a time; `sums` are the
-/// lanes of what `of_cells` has, and go back there.
+/// Calls add(function, its cells, sums) for the cells of a list, n_lanes at a time. `sums` holds
+/// the lanes' entries of `of_cells`, which are written back.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices, class Add>
 void add_in_lanes(const ElementCells& group, std::span<const std::size_t> cells,
                   const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
@@ -112,7 +114,8 @@ void add_in_lanes(const ElementCells& group, std::span<const std::size_t> cells,
   }
 }
 
-/// Elements whose functions have one gradient: the integrals of f phi_i say all about f.
+/// Elements whose functions have a constant gradient: the integrals of f phi_i contain all they
+/// need of f.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 constexpr bool is_linear = n_dofs == n_vertices&& n_vertices == dim + 1;
 
@@ -132,9 +135,9 @@ Energy<dim>::Energy(std::shared_ptr<const FiniteElementSpace<dim>> space,
   const auto& groups = space_->groups;
   const auto n_missing =
       static_cast<std::size_t>(std::count_if(groups.begin(), groups.end(), is_missing));
-  if (space_->ranks.sum(n_missing) > 0)  // one rank alone may have them
+  if (space_->ranks.sum(n_missing) > 0)  // one rank alone may have such cells
     throw InputError(
-        "the energy of a solution is not available on pyramids and prisms; take a mesh of "
+        "the energy of a solution is not available on pyramids and prisms; use a mesh of "
         "tetrahedra or hexahedra");
   for (const auto& group : groups) {
     const std::size_t n_cells = group.n_cells();
@@ -172,7 +175,7 @@ void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x) {
         std::size_t level = 0;
         while (!is_settled && level + 1 < rules.size()) {
           const CellLoad<n_dofs> finer(rules[++level], vertices, solution_, weighted_f.data());
-          is_settled = integrals.is_near(finer, chosen_points::tolerance);
+          is_settled = integrals.is_near(finer, adaptive_quadrature::tolerance);
           integrals = finer;
         }
         load.levels[cell] = static_cast<std::uint8_t>(level);
@@ -229,7 +232,7 @@ void Energy<dim>::add_load_terms(const ElementCells& group, const GroupLoad& loa
                                  const std::vector<Point<dim>>& x, const Eigen::VectorXd& u,
                                  std::vector<std::array<Point<dim>, n_vertices>>& of_cells) const {
   const auto& rules = load.rules.load;
-  // A cell's values follow those of the cells before it in its part.
+  // The values of a cell follow those of the earlier cells in its part.
   std::vector<const double*> weighted_f;
   const double* next = load.weighted_f[part].data();
   for (const std::size_t cell : cells) {

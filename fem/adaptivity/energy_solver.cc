@@ -17,16 +17,17 @@ namespace smoothfem {
 
 namespace {
 
-/// One rule for all cells of a type: then J and its gradient are those of one function.
+/// One rule for all cells of a type, so that J and its gradient belong to one function.
 constexpr TensorPoints tensor_points{.quadrilateral = 5, .hexahedron = 4};
 
-/// Systems with the matrices of one pattern. Collective.
+/// Solves systems with matrices of one pattern. Collective.
 class LinearSolver {
  public:
   template <int dim>
   LinearSolver(const FiniteElementSpace<dim>& space, const SparseMatrix& matrix)
       : n_free_(space.n_free) {
-    constexpr std::size_t few = 3000;  // multigrid is slower than factors of so few rows in space
+    // For so few rows in space, factorization is faster than multigrid.
+    constexpr std::size_t few = 3000;
     const bool is_small = space.n_free < few;
     if (space.ranks.size() == 1 && (dim == 2 || is_small)) {
       cholesky_ = std::make_unique<Cholesky>();
@@ -37,7 +38,7 @@ class LinearSolver {
     if (!is_small) multigrid_ = std::make_unique<TrilinosMatrix>(space);
   }
 
-  /// Returns whether there is a solution. x gets this rank's columns.
+  /// Returns true if there is a solution. x gets this rank's columns.
   bool solve(const SparseMatrix& matrix, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     if (cholesky_) {
       cholesky_->factorize(matrix);
@@ -50,7 +51,7 @@ class LinearSolver {
       multigrid_->set_values(matrix);
       multigrid_->set_up_multigrid();
     }
-    constexpr double tolerance = 1e-9;  // its square is what the energy sees
+    constexpr double tolerance = 1e-9;  // the energy has its square as error
     const auto cg = conjugate_gradients(
         *sliced_, b, x,
         {.tolerance = tolerance, .max_iterations = 10 * n_free_, .stop_if_indefinite = true},
@@ -73,16 +74,18 @@ class LinearSolver {
   std::unique_ptr<TrilinosMatrix> multigrid_;
 };
 
-/// Brings functions on several ranks to the root, which then has the whole mesh once more, on its
-/// own. Dofs are known by the nodes whose mean is their position. All calls are collective.
+/// Gathers functions of several ranks on the root, which then has a second copy of the mesh,
+/// undivided. Dofs are identified by the nodes whose mean is their position. All calls are
+/// collective.
 template <int dim>
-class WholeSpace {
+class GatheredSpace {
  public:
   /// mesh: on the root.
-  WholeSpace(const std::optional<Mesh<dim>>& mesh, const FiniteElementSpace<dim>& part,
-             const std::vector<std::string>& natural_groups)
+  GatheredSpace(const std::optional<Mesh<dim>>& mesh, const FiniteElementSpace<dim>& part,
+                const std::vector<std::string>& natural_groups)
       : part_(part) {
-    std::vector<NodeIndex> nodes;  // of each of this rank's dofs how many, and which
+    // Numbers of nodes of each of this rank's dofs, each followed by these nodes.
+    std::vector<NodeIndex> nodes;
     for_each_own_dof([&](std::size_t dof) {
       const auto of_dof = sorted_nodes(part, dof);
       nodes.push_back(static_cast<NodeIndex>(of_dof.size()));
@@ -102,8 +105,8 @@ class WholeSpace {
   }
 
   /// u: at the part's dofs. coordinates: of the mesh, on the root.
-  WholeFunction<dim> function(const std::vector<Point<dim>>& coordinates,
-                              const Eigen::VectorXd& u) {
+  GatheredFunction<dim> function(const std::vector<Point<dim>>& coordinates,
+                                 const Eigen::VectorXd& u) {
     std::vector<double> values;
     for_each_own_dof([&](std::size_t dof) { values.push_back(u[static_cast<Eigen::Index>(dof)]); });
     const auto of_ranks = part_.ranks.gather(values);
@@ -121,7 +124,7 @@ class WholeSpace {
     for (std::size_t dof = 0; dof < part_.n_own_boundary; ++dof) visit(part_.n_columns + dof);
   }
 
-  /// By their numbers in the mesh.
+  /// Returns the nodes by their numbers in the mesh.
   static std::vector<NodeIndex> sorted_nodes(const FiniteElementSpace<dim>& space,
                                              std::size_t dof) {
     std::vector<NodeIndex> nodes;
@@ -132,7 +135,7 @@ class WholeSpace {
 
   const FiniteElementSpace<dim>& part_;
   std::shared_ptr<const FiniteElementSpace<dim>> space_;  ///< on the root
-  std::vector<std::uint32_t> dofs_;                       ///< its dof of each that is gathered
+  std::vector<std::uint32_t> dofs_;                       ///< the root's dof of each gathered one
   std::vector<Point<dim>> x_;
   Eigen::VectorXd u_;
 };
@@ -162,7 +165,7 @@ class RankEnergySolver final : public EnergySolver<dim> {
     energy_.add_load(system_.right_hand_side);
     Eigen::VectorXd free_values;
     if (!linear_.solve(system_.matrix, system_.right_hand_side, free_values)) return none;
-    u_ = system_.exact;  // of which the boundary values stay
+    u_ = system_.exact;  // its boundary values stay
     u_.head(free_values.size()) = free_values;
     return energy();
   }
@@ -175,10 +178,11 @@ class RankEnergySolver final : public EnergySolver<dim> {
     return gradient;
   }
 
-  WholeFunction<dim> function() override {
+  GatheredFunction<dim> function() override {
     if (space_->ranks.size() == 1) return {*space_, x_, u_};
-    if (!whole_) whole_ = std::make_unique<WholeSpace<dim>>(mesh_, *space_, natural_groups_);
-    return whole_->function(coordinates_, u_);
+    if (!gathered_)
+      gathered_ = std::make_unique<GatheredSpace<dim>>(mesh_, *space_, natural_groups_);
+    return gathered_->function(coordinates_, u_);
   }
 
  private:
@@ -205,9 +209,9 @@ class RankEnergySolver final : public EnergySolver<dim> {
   Energy<dim> energy_;
   PoissonSystem system_;
   LinearSolver linear_;
-  std::vector<Point<dim>> coordinates_, x_;  ///< of the last solve: the mesh's and the space's
+  std::vector<Point<dim>> coordinates_, x_;  ///< of the last solve: of the mesh and of the space
   Eigen::VectorXd u_;                        ///< at the dofs
-  std::unique_ptr<WholeSpace<dim>> whole_;   ///< made when first needed
+  std::unique_ptr<GatheredSpace<dim>> gathered_;  ///< made at its first use
 };
 
 }  // namespace

@@ -10,39 +10,42 @@
 
 namespace smoothfem {
 
-/// A finite element function on a whole mesh, as one process has it.
+/// A finite element function on an undivided mesh, on one process.
 template <int dim>
-struct WholeFunction {
+struct GatheredFunction {
   const FiniteElementSpace<dim>& space;
   const std::vector<Point<dim>>& x;  ///< of the space's nodes
   const Eigen::VectorXd& u;          ///< at the space's dofs
 };
 
-/// Solves -div(A grad u) = f on meshes of one topology for the energy J = a(u_h, u_h) - 2 (f, u_h)
-/// and its gradient in node positions (see Energy): planar meshes by a Cholesky factorization on
-/// one process, all others by CG with algebraic multigrid, both far below the error.
+/// Solves -div(A grad u) = f on meshes of one topology. Computes the energy J = a(u_h, u_h) - 2 (f,
+/// u_h) and its gradient in node positions (see Energy). Planar meshes on one process use a
+/// Cholesky factorization, all others CG with algebraic multigrid. Both errors are far below the
+/// discretization error.
 template <int dim>
 class EnergySolver {
  public:
   virtual ~EnergySolver() = default;
 
-  /// coordinates: of all nodes of a mesh of the topology, all of whose cells are valid. Returns J,
-  /// up to a constant; infinity if there is no solution, as on hexahedra that are folded inside:
-  /// what follows must not be asked for then.
+  /// Solves on a mesh. coordinates: of all nodes of a mesh of the topology with valid cells.
+  /// Returns J, up to a constant. Returns infinity if there is no solution, for example on
+  /// hexahedra that are folded inside; the functions below must not be called then.
   virtual double solve(std::span<const Point<dim>> coordinates) = 0;
 
-  /// Of each node of the mesh, for the last solve; of use where the boundary does not move with it.
+  /// Returns the gradient for each node of the mesh, of the last solve. Meaningful if the boundary
+  /// does not move.
   virtual std::vector<Point<dim>> gradient() = 0;
 
-  /// u_h of the last solve. It refers to this solver, until its next solve.
-  virtual WholeFunction<dim> function() = 0;
+  /// Returns u_h of the last solve. It refers to this solver and is valid until its next solve.
+  virtual GatheredFunction<dim> function() = 0;
 };
 
-/// mesh: any mesh of the topology, on the root; null elsewhere. Several ranks share the work of
-/// solves and gradients: all calls are collective then, with coordinates on the root and with
-/// results there (J on all ranks); `function`, which the root alone may look at, brings u_h to it.
-/// solution: has to outlive the solver. natural_groups: see make_finite_element_space. Throws
-/// InputError on all ranks as that does, and as Energy does.
+/// Makes an energy solver. mesh: any mesh of the topology, on the root; null elsewhere. solution:
+/// must outlive the solver. natural_groups: see make_finite_element_space.
+///
+/// Several ranks share the work of solves and gradients. All calls are then collective, with
+/// coordinates and results on the root (J on all ranks). `function` gathers u_h on the root, which
+/// alone may read it. Throws InputError on all ranks, as make_finite_element_space and Energy do.
 template <int dim>
 std::unique_ptr<EnergySolver<dim>> make_energy_solver(
     const Mesh<dim>* mesh, int degree, const ManufacturedSolution<dim>& solution,

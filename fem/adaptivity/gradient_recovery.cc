@@ -9,7 +9,7 @@ namespace smoothfem {
 
 namespace {
 
-/// The function on one cell that is linear, as the mapping is, with the same values at the nodes.
+/// The linear function (linear like the mapping) on one cell with the same values at the nodes.
 template <int dim, std::size_t n_vertices>
 struct LinearInterpolant {
   std::array<Vector<dim, double>, n_vertices> vertices;
@@ -106,7 +106,7 @@ std::vector<CellTensor<dim>> GradientRecovery<dim>::difference_tensors() const {
   return mean_squares(
       zero, [&](const Point<dim>& d, const Point<dim>& position) -> CellTensor<dim> {
         const CellTensor<dim> square =
-            d * d.transpose();  // exactly symmetric, as that times a weight need not be
+            d * d.transpose();  // exactly symmetric, while that times a weight may not be
         if (!solution_.diffusivity || !(square.trace() > 0.0)) return square;
         return solution_.energy_of(d, position) / square.trace() * square;
       });

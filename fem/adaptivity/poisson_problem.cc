@@ -24,7 +24,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
     if (topology_ == mesh.shared_topology() && degree_ == degree) return;
     check(mesh.topology());
     topology_.reset();
-    energy_.reset();  // before there is another
+    energy_.reset();  // frees memory before the next one is made
     energy_ = make_energy_solver_(mesh, degree, number_);
     topology_ = mesh.shared_topology();
     degree_ = degree;
@@ -68,7 +68,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   SolveEffort effort() const override { return effort_; }
 
  private:
-  /// What `measure` says of the recovered gradient.
+  /// Evaluates `measure` on the recovered gradient.
   template <class Measure>
   auto of_cells(const Measure& measure) const {
     const auto [space, x, u] = energy_->function();
@@ -79,11 +79,11 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
     for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
       if (topology.on_boundary()[i] && !topology.is_fixed(i))
         throw InputError("node " + std::to_string(i) +
-                         " of the boundary is not fixed, as methods that move nodes by the "
-                         "solution need it; fix the boundary");
+                         " of the boundary is not fixed, as solution-adaptive methods need it; "
+                         "fix the boundary");
   }
 
-  /// Of the mesh, what the space has in its own.
+  /// Reorders values of the space's cells to the order of the mesh's cells.
   template <class T>
   std::vector<T> in_order_of_cells(const FiniteElementSpace<dim>& space,
                                    const std::vector<T>& of_space) const {
@@ -93,7 +93,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
     return of_cells;
   }
 
-  /// The mesh's cell of each of the space's, by its nodes.
+  /// Finds the mesh's cell of each of the space's cells, by its nodes.
   void number_cells(const FiniteElementSpace<dim>& space) const {
     for (const auto& group : space.groups)
       for (std::size_t first = 0; first < group.vertices.size();
@@ -115,7 +115,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   std::shared_ptr<const Topology> topology_;
   int degree_ = 0;
   std::unique_ptr<EnergySolver<dim>> energy_;
-  mutable std::vector<CellIndex> cells_;  ///< of the mesh, group after group; when first needed
+  mutable std::vector<CellIndex> cells_;  ///< of the mesh, group after group; made at first use
   std::vector<Point<dim>> solved_;        ///< nodes of the last solve
   double value_ = 0.0;
   SolveEffort effort_;

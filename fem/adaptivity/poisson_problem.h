@@ -11,17 +11,17 @@
 
 namespace smoothfem {
 
-/// -div(A grad u) = f for smoothers that move nodes by its solution. Of the manufactured solution
-/// they get A, f and the boundary values only. How it is solved: see EnergySolver. natural_groups:
-/// see make_finite_element_space. Its solvers throw InputError, when they are prepared, for
-/// boundary nodes that are not fixed, and as make_energy_solver does.
+/// The problem -div(A grad u) = f for solution-adaptive smoothers, which get only A, f and the
+/// boundary values of the manufactured solution. For the method of solution see EnergySolver.
+/// natural_groups: see make_finite_element_space. When its solvers are prepared they throw
+/// InputError for boundary nodes that are not fixed, and as make_energy_solver does.
 template <int dim>
 std::shared_ptr<const Problem<dim>> make_poisson_problem(
     ManufacturedSolution<dim> solution, std::vector<std::string> natural_groups = {});
 
-/// Several of these on the same mesh, whose solutions count alike: see combined_solver. Each has a
-/// matrix of its own, and is assembled and solved by itself. solutions: at least one; with one it
-/// is the problem above.
+/// Several such problems on the same mesh with equal weights of their solutions (see
+/// combined_solver). Each has its own matrix and is assembled and solved separately. solutions: at
+/// least one; with one it is the problem above.
 template <int dim>
 std::shared_ptr<const Problem<dim>> make_poisson_problem(
     std::vector<ManufacturedSolution<dim>> solutions, std::vector<std::string> natural_groups = {});
@@ -32,7 +32,8 @@ template <int dim>
 using MakeEnergySolver = std::function<std::unique_ptr<EnergySolver<dim>>(
     const Mesh<dim>& mesh, int degree, std::size_t solution)>;
 
-/// The same by solvers that come from elsewhere, as from several ranks, whose root asks.
+/// Makes the problem with given solvers, for example those of several ranks, which the root
+/// controls.
 template <int dim>
 std::shared_ptr<const Problem<dim>> make_poisson_problem(
     std::vector<ManufacturedSolution<dim>> solutions, MakeEnergySolver<dim> make);

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t grain = 256;
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Vertices of a cell's facets, in deal.II's order of vertices; those of a face one after the other
-/// around it, the last one of a triangle repeated.
+/// Vertices of a cell's facets, in deal.II's order of vertices. Those of a face run around it; a
+/// triangle repeats its last one.
 using LocalFacet = std::array<std::uint8_t, 4>;
 
 std::span<const LocalFacet> local_facets(ElementType type) {
@@ -39,14 +39,14 @@ std::span<const LocalFacet> local_facets(ElementType type) {
   }
 }
 
-/// A facet as one of its cells sees it.
+/// A facet of one of its cells.
 struct CellFacet {
-  std::array<NodeIndex, 4> nodes;   ///< around it, the last one of fewer repeated
-  std::array<NodeIndex, 4> sorted;  ///< the same for both cells
+  std::array<NodeIndex, 4> nodes;   ///< around it; shorter facets repeat the last one
+  std::array<NodeIndex, 4> sorted;  ///< equal for both cells
   std::size_t group, cell, number;  ///< of the cell: in its group and among all
 };
 
-/// |F| n, one way or the other.
+/// |F| n, in either direction.
 Point<2> area_vector(const std::array<NodeIndex, 4>& nodes, const std::vector<Point<2>>& x) {
   const Point<2> along = x[nodes[1]] - x[nodes[0]];
   return {along.y(), -along.x()};
@@ -63,9 +63,9 @@ double diameter(const Nodes& nodes, const std::vector<PointType>& x) {
   return largest;
 }
 
-/// Weight of a facet's dof in the integral over the facet, whose size is 1: exact for polynomials
-/// of degree 1, or for squares of those that gradients of degree 2 are there. n_nodes: of the
-/// facet; n_of_dof: whose mean is its place.
+/// Weight of a facet's dof in the integral over the facet, whose size is 1. Exact for polynomials
+/// of degree 1; for elements of degree 2, exact for squares of their gradients on the facet.
+/// n_nodes: of the facet; n_of_dof: number of nodes whose mean is the dof's position.
 double facet_weight(int degree, std::size_t n_nodes, std::size_t n_of_dof) {
   if (degree == 1) return 1.0 / static_cast<double>(n_nodes);
   if (n_nodes == 3) return n_of_dof == 1 ? 0.0 : 1.0 / 3.0;
@@ -91,7 +91,7 @@ class Residuals {
   }
 
  private:
-  /// h_K^2 |f + div A grad u|^2, and A grad u at the dofs, which the jumps need.
+  /// Adds h_K^2 |f + div A grad u|^2, and computes A grad u at the dofs for the jumps.
   void add_cells() {
     fluxes_.resize(space_.groups.size());
     for_each_smooth_group(space_, [&]<std::size_t n_dofs, std::size_t n_vertices>(
@@ -139,7 +139,7 @@ class Residuals {
     return sum;
   }
 
-  /// A grad u at a dof; adds the mean eigenvalue of A to `scale`.
+  /// Returns A grad u at a dof; adds the mean eigenvalue of A to `scale`.
   template <std::size_t n_dofs, std::size_t n_vertices>
   Point<dim> flux(const MappedPoint<dim, double>& mapped,
                   const CellFunction<dim, n_dofs, n_vertices>& function,
@@ -154,7 +154,7 @@ class Residuals {
     return a * gradient;
   }
 
-  /// All facets, the two sides of inner ones one after the other.
+  /// Returns all facets; the two sides of inner ones are adjacent.
   std::vector<CellFacet> facets() const {
     std::vector<CellFacet> all;
     std::size_t number = 0;
@@ -167,7 +167,7 @@ class Residuals {
             facet.nodes[k] = group.vertices[cell * group.element.n_vertices + local[k]];
           facet.sorted = facet.nodes;
           std::sort(facet.sorted.begin(), facet.sorted.end());
-          // Repeated nodes out of the way: the two cells need not repeat the same one.
+          // Removes repeated nodes: the two cells need not repeat the same one.
           const auto end = std::unique(facet.sorted.begin(), facet.sorted.end());
           std::fill(end, facet.sorted.end(), none);
           all.push_back(facet);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr auto absent = FiniteElementSpace<2>::absent;
 
-/// Adds a cell's integrals to the equations of this rank that it is part of; `lane`: which of the
-/// batch's cells.
+/// Adds a cell's integrals to the equations of this rank that they contribute to. lane: the cell's
+/// position in the batch.
 template <int dim, std::size_t n_dofs>
 void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, std::size_t cell,
               const CellIntegrals<n_dofs, Lanes>& integrals, std::size_t lane,
@@ -40,8 +40,8 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
   }
 }
 
-/// Adds the integrals of the cells of one element, those whose points are chosen rule by rule:
-/// what becomes of a cell does not depend on the others.
+/// Adds the integrals of the cells of one element whose rule is chosen cell by cell. The result for
+/// a cell does not depend on the others.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices, class AnyDiffusivity>
 class CellAssembly {
  public:
@@ -80,8 +80,8 @@ class CellAssembly {
         const std::size_t cell = batch.cells[l];
         const bool is_folded = !(fine.smallest_determinant[l] > 0.0);
         const std::size_t n_rules = group_.element.n_rules();
-        const double tolerance = chosen_points::tolerance_at(level, n_rules);
-        // Even determinants say nothing of a diffusivity.
+        const double tolerance = adaptive_quadrature::tolerance_at(level, n_rules);
+        // A nearly constant determinant does not bound the variation of a diffusivity.
         const bool is_settled = is_folded || (level == 0 ? is_constant && is_even(fine, l)
                                                          : is_near(coarse, fine, l, tolerance));
         if (!is_settled && level + 1 < n_rules) {
@@ -99,7 +99,7 @@ class CellAssembly {
 
   static bool is_even(const Integrals& integrals, std::size_t lane) {
     return integrals.largest_determinant[lane] <=
-           chosen_points::even_determinants * integrals.smallest_determinant[lane];
+           adaptive_quadrature::even_determinants * integrals.smallest_determinant[lane];
   }
 
   static bool is_near(const Integrals& coarse, const Integrals& fine, std::size_t lane,
@@ -123,7 +123,7 @@ class CellAssembly {
   PoissonSystem& system_;
 };
 
-/// b_i += integral of f phi_i over the cells of one element.
+/// Computes b_i += integral of f phi_i over the cells of one element.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCells& group,
                          const std::vector<Point<dim>>& x,
@@ -136,7 +136,7 @@ void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCell
     std::size_t level = 0;
     while (!is_settled && level + 1 < element.n_rules()) {
       const CellLoad<n_dofs> finer(element.rule(++level), vertices, solution);
-      is_settled = load.is_near(finer, chosen_points::tolerance_at(level, element.n_rules()));
+      is_settled = load.is_near(finer, adaptive_quadrature::tolerance_at(level, element.n_rules()));
       load = finer;
     }
     if (element.n_rules() > 1 && cell < group.n_own) system.points.note(level, is_settled);

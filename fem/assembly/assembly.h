@@ -3,32 +3,32 @@
 
 #include <Eigen/Core>
 
-#include "fem/elements/chosen_points.h"
+#include "fem/elements/adaptive_quadrature.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"
 
 namespace smoothfem {
 
-/// How the right-hand side b comes from f.
+/// Computation of the right-hand side b from f.
 enum class Load {
-  nodal,       ///< b = M f_h, f_h the nodal interpolant of f: what the thesis prints
-  quadrature,  ///< b_i = integral of f phi_i: the textbook's Galerkin load
-  none         ///< f is left out: for whoever adds it
+  nodal,       ///< b = M f_h, with the nodal interpolant f_h of f; used in the thesis
+  quadrature,  ///< b_i = integral of f phi_i, the Galerkin load of textbooks
+  none         ///< f is left out; the caller adds it
 };
 
-/// The Poisson problem's linear system for this rank's free dofs; boundary values are eliminated.
+/// The linear system of the Poisson problem for this rank's free dofs; boundary values are
+/// eliminated.
 struct PoissonSystem {
-  SparseMatrix matrix;              ///< the pattern's: of a symmetric positive definite matrix
+  SparseMatrix matrix;              ///< symmetric positive definite, with the space's pattern
   Eigen::VectorXd right_hand_side;  ///< n_own
-  Eigen::VectorXd exact;            ///< u at all local dofs; where they are not free, the boundary
-                                    ///< values
-  /// Cells of this rank whose mapping is folded at a quadrature point: the corners of a hexahedron
-  /// may all be fine while its inside is not, and then the matrix may be indefinite.
+  Eigen::VectorXd exact;  ///< u at all local dofs; the boundary values at dofs that are not free
+  /// Cells of this rank whose mapping is folded at a quadrature point. A hexahedron can be valid at
+  /// all corners and folded inside; the matrix may then be indefinite.
   std::size_t n_folded_cells = 0;
-  chosen_points::Use points{};  ///< of this rank's hexahedra
+  adaptive_quadrature::Use points{};  ///< of this rank's hexahedra
 };
 
-/// A system with the space's pattern, to be filled again and again.
+/// Makes a system with the space's pattern, to be filled repeatedly.
 template <int dim>
 PoissonSystem make_system(const FiniteElementSpace<dim>& space);
 

@@ -9,7 +9,7 @@
 
 namespace smoothfem {
 
-/// The diffusivity A of cells' stiffness matrices: the identity, which costs nothing.
+/// The identity as diffusivity A of cells' stiffness matrices; it costs nothing.
 struct IdentityDiffusivity {
   struct Tensor {
     template <class AnyVector>
@@ -23,7 +23,7 @@ struct IdentityDiffusivity {
   }
 };
 
-/// Or a function of the position.
+/// A diffusivity that is a function of the position.
 template <int dim>
 struct VariableDiffusivity {
   template <class Real>
@@ -39,7 +39,7 @@ struct VariableDiffusivity {
 
   const std::function<Diffusivity<dim>(const Point<dim>&)>& function;
 
-  /// In each lane.
+  /// Returns the tensor in each lane.
   Tensor<Lanes> at(const Vector<dim, Lanes>& position) const {
     Tensor<Lanes> tensor;
     for (std::size_t l = 0; l < n_lanes; ++l) {

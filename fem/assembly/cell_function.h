@@ -8,7 +8,7 @@
 
 namespace smoothfem {
 
-/// A finite element function on one cell, or on one in each lane.
+/// A finite element function on one cell, or on one cell in each lane.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices, class Real = double>
 struct CellFunction {
   std::array<Vector<dim, Real>, n_vertices> vertices;

@@ -12,7 +12,7 @@
 
 namespace smoothfem {
 
-/// The columns of a Jacobian, its determinant, and the rows of the inverse: the gradient of a
+/// The columns of a Jacobian, its determinant, and the rows of the inverse. The gradient of a
 /// function with the reference gradient r is the sum of r_k dual_k.
 template <int dim, class Real>
 struct Jacobian {
@@ -66,14 +66,14 @@ inline MappedPoint<dim, Real> map_point(const QuadratureTable& table, std::size_
   return {position, jacobian, table.weights[q] * jacobian.determinant};
 }
 
-/// A cell's stiffness matrix, upper triangle row by row, and its load: the mass matrix times the
+/// A cell's stiffness matrix (upper triangle row by row) and its load: the mass matrix times the
 /// values of f at the dofs.
 template <std::size_t n_dofs, class Real>
 struct CellIntegrals {
   static constexpr std::size_t n_entries = n_dofs * (n_dofs + 1) / 2;
   std::array<Real, n_entries> stiffness;
   std::array<Real, n_dofs> load;
-  /// Of the mapping, at the points where they were taken.
+  /// Smallest and largest determinant of the mapping at the evaluated points.
   Real smallest_determinant, largest_determinant;
 
   /// level: of the element's rules.
@@ -117,7 +117,7 @@ struct CellIntegrals {
       }
   }
 
-  /// Other cells, and where the diffusivity varies: by quadrature.
+  /// Other cells, and varying diffusivity: by quadrature.
   template <int dim, std::size_t n_vertices, class AnyDiffusivity>
   void compute_by_quadrature(const QuadratureTable& table,
                              const std::array<Vector<dim, Real>, n_vertices>& vertices,
@@ -134,12 +134,12 @@ struct CellIntegrals {
       largest_determinant = determinant > largest_determinant ? determinant : largest_determinant;
       const double* shape = &table.shape[q * n_dofs];
       std::array<Vector<dim, Real>, n_dofs> gradients;
-      Real f_here{};
+      Real f_at_point{};
       for (std::size_t i = 0; i < n_dofs; ++i) {
         gradients[i] = mapped.jacobian.gradient(&table.shape_gradient[dim * (q * n_dofs + i)]);
-        f_here += shape[i] * f[i];
+        f_at_point += shape[i] * f[i];
       }
-      const Real weighted_f = mapped.weight * f_here;
+      const Real weighted_f = mapped.weight * f_at_point;
       const auto tensor = diffusivity.at(mapped.position);
       for (std::size_t i = 0, p = 0; i < n_dofs; ++i) {
         const auto weighted_gradient = tensor * (mapped.weight * gradients[i]);
@@ -165,8 +165,7 @@ std::array<Vector<dim, Lanes>, n_vertices> cell_vertices(
   return vertices;
 }
 
-/// Up to n_lanes cells of a list, from the position `first` on; the last one stands in for those
-/// that are missing.
+/// Up to n_lanes cells of a list, from the position `first` on; the last one fills missing lanes.
 inline std::array<std::size_t, n_lanes> cells_in_lanes(std::span<const std::size_t> cells,
                                                        std::size_t first) {
   std::array<std::size_t, n_lanes> in_lanes;
@@ -175,7 +174,7 @@ inline std::array<std::size_t, n_lanes> cells_in_lanes(std::span<const std::size
   return in_lanes;
 }
 
-/// Up to n_lanes cells of one element, worked on together; missing ones repeat the last.
+/// Up to n_lanes cells of one element, processed together; missing lanes repeat the last one.
 template <int dim, std::size_t n_dofs, std::size_t n_vertices>
 struct ElementBatch {
   std::array<std::size_t, n_lanes> cells;
@@ -197,7 +196,7 @@ struct ElementBatch {
   }
 };
 
-/// A cell's vertices, one cell at a time.
+/// Returns a cell's vertices, one cell at a time.
 template <int dim, std::size_t n_vertices>
 std::array<Vector<dim, double>, n_vertices> cell_vertices(const ElementCells& group,
                                                           std::size_t cell,
@@ -208,7 +207,7 @@ std::array<Vector<dim, double>, n_vertices> cell_vertices(const ElementCells& gr
   return vertices;
 }
 
-/// Calls visit.operator()<n_dofs, n_vertices>(group) for the cells of each element there are.
+/// Calls visit.operator()<n_dofs, n_vertices>(group) for the cells of each available element.
 template <int dim, class Visit>
 void for_each_group(const FiniteElementSpace<dim>& space, const Visit& visit) {
   constexpr std::size_t n_simplex = dim + 1, n_tensor = dim == 2 ? 4 : 8;

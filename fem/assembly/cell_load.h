@@ -8,12 +8,13 @@
 
 namespace smoothfem {
 
-/// The integrals of f phi_i over a cell, and those of |f phi_i|.
+/// The integrals of f phi_i over a cell, and of |f phi_i|.
 template <std::size_t n_dofs>
 struct CellLoad {
   std::array<double, n_dofs> values{}, scales{};
 
-  /// weighted_f: gets f times the mapped weight of each of the table's points, unless it is null.
+  /// weighted_f: receives f times the mapped weight of each of the table's points, unless it is
+  /// null.
   template <int dim, std::size_t n_vertices>
   CellLoad(const QuadratureTable& table,
            const std::array<Vector<dim, double>, n_vertices>& vertices,

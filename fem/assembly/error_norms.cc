@@ -11,8 +11,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Integrals over cells of squares: of the values and the gradients of I_h u - u_h, of u - u_h, and
-/// of u_h.
+/// Integrals over cells of the squares of the values and gradients of I_h u - u_h, u - u_h and u_h.
 struct SquareSums {
   std::array<double, 6> sums{};
 
@@ -44,7 +43,7 @@ struct FunctionAtPoint {
   }
 };
 
-/// What the norms are of, and their integrals over cells.
+/// Functions of the norms, and their integrals over cells.
 template <int dim>
 struct Errors {
   const FiniteElementSpace<dim>& space;
@@ -52,7 +51,7 @@ struct Errors {
   const ManufacturedSolution<dim>& solution;
   const Eigen::VectorXd &exact, &discrete;
 
-  /// Those of a cell, by one of the element's rules.
+  /// Returns the sums of a cell, by one of the element's rules.
   template <std::size_t n_dofs, std::size_t n_vertices>
   void add_cell(const ElementCells& group, std::size_t cell, const QuadratureTable& table,
                 SquareSums& sums) const {
@@ -85,9 +84,9 @@ struct Errors {
   }
 };
 
-/// Whether a finer rule changes a cell's share of each sum little, relatively to the share itself
-/// or to the mean of those of all cells: then it changes the sum over all cells little, too. Errors
-/// of the size of rounding are not looked at.
+/// True if a finer rule changes a cell's share of each sum little, relative to that share or to the
+/// mean share of all cells. The sum over all cells then changes little, too. Errors of the size of
+/// rounding are ignored.
 bool is_near(const SquareSums& coarse, const SquareSums& fine, const SquareSums& mean,
              double tolerance) {
   constexpr double rounding = 1e-24;  // of the squares
@@ -101,10 +100,10 @@ bool is_near(const SquareSums& coarse, const SquareSums& fine, const SquareSums&
   return true;
 }
 
-/// The cells of this rank whose points are chosen. Collective.
+/// Handles the cells of this rank whose rule is chosen. Collective.
 template <int dim>
 void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
-                               chosen_points::Use& points) {
+                               adaptive_quadrature::Use& points) {
   SquareSums mean;
   std::vector<SquareSums> of_cells;  // by the first rule
   for_each_group(
@@ -129,13 +128,13 @@ void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
             return errors.template of_cell<n_dofs, n_vertices>(group, cell, table);
           };
           SquareSums sums = *next++;
-          bool is_settled =
-              is_near(sums_by(group.element.check), sums, mean, chosen_points::check_tolerance);
+          bool is_settled = is_near(sums_by(group.element.check), sums, mean,
+                                    adaptive_quadrature::check_tolerance);
           std::size_t level = 0;
           while (!is_settled && level + 1 < group.element.n_rules()) {
             const SquareSums finer = sums_by(group.element.rule(++level));
             is_settled = is_near(sums, finer, mean,
-                                 chosen_points::tolerance_at(level, group.element.n_rules()));
+                                 adaptive_quadrature::tolerance_at(level, group.element.n_rules()));
             sums = finer;
           }
           points.note(level, is_settled);
@@ -154,7 +153,7 @@ ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<P
   const auto at_dofs = (exact.head(n_own) - discrete.head(n_own)).cwiseAbs();
   const Errors<dim> errors{space, x, solution, exact, discrete};
   SquareSums squares;
-  chosen_points::Use points;
+  adaptive_quadrature::Use points;
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
     if (group.element.n_rules() > 1) return;
     for (std::size_t cell = 0; cell < group.n_own; ++cell)

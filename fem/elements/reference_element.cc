@@ -11,16 +11,17 @@
 #include <array>
 #include <memory>
 
-#include "fem/elements/chosen_points.h"
+#include "fem/elements/adaptive_quadrature.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 
 namespace {
 
-/// deal.II would start as many threads as the machine has, for tables that take no time, whatever
-/// --threads says. What runs in parallel here does so on threads of our own.
-void keep_deal_ii_on_this_thread() {
+/// Keeps deal.II on this thread. For its tables, which take no time, it would start as many threads
+/// as the machine has, whatever --threads sets. Parallel loops of this program use their own
+/// threads.
+void keep_deal_ii_single_threaded() {
   [[maybe_unused]] static const bool once = [] {
     dealii::MultithreadInfo::set_thread_limit(1);
     return true;
@@ -57,7 +58,7 @@ template <int dim>
 QuadratureTable make_table(const dealii::FiniteElement<dim>& element,
                            const dealii::FiniteElement<dim>& geometry,
                            const dealii::Quadrature<dim>& rule) {
-  // deal.II 9.4 gives empty rules for degrees it does not know, without a word in Release.
+  // For unknown degrees deal.II 9.4 returns empty rules, in Release without an error.
   if (rule.size() == 0) throw std::logic_error("empty quadrature rule");
   QuadratureTable table;
   table.n_points = rule.size();
@@ -95,16 +96,16 @@ AffineTable make_affine_table(const QuadratureTable& table, std::size_t n_dofs, 
   return affine;
 }
 
-/// Of degree 5: exact for products of two shape functions of degree 2.
+/// Rule of degree 5: exact for products of two shape functions of degree 2.
 template <int dim>
 dealii::Quadrature<dim> matrix_rule() {
   return dealii::QGaussSimplex<dim>(3);
 }
 
-/// On cells that are no simplices: Gauss points in each direction, in those of pyramid and prism
-/// from a cube that is squeezed to the cell. There the factor by which it is squeezed takes one
-/// point more, with which the rule is exact for the same polynomials as on a cube. (The gradients
-/// of the pyramid's rational shape functions are polynomials in the cube's coordinates.)
+/// Rule on cells that are not simplices: Gauss points in each direction. On pyramid and prism they
+/// come from a cube that is collapsed to the cell. The direction of the collapse has one more
+/// point, so that the rule is exact for the same polynomials as on a cube. (The gradients of the
+/// pyramid's rational shape functions are polynomials in the cube's coordinates.)
 template <int dim>
 dealii::Quadrature<dim> gauss_rule(ElementType type, unsigned int n_points) {
   if constexpr (dim == 3) {
@@ -141,7 +142,7 @@ dealii::Quadrature<dim> error_rule(int degree) {
     return dealii::QWitherdenVincentSimplex<3>(degree == 1 ? 3 : 4);  // degree 5 or 7
 }
 
-/// Geometry shape functions at the support points of the element's dofs.
+/// Values of the geometry shape functions at the support points of the element's dofs.
 template <int dim>
 std::vector<double> support_of(const dealii::FiniteElement<dim>& element,
                                const dealii::FiniteElement<dim>& geometry) {
@@ -173,19 +174,20 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
                              gauss_rule<dim>(type, static_cast<unsigned int>(n_points)));
     };
     const bool is_chosen = n_tensor_points == 0;
-    reference.matrices = table(is_chosen ? chosen_points::ladder.front() : n_tensor_points);
+    reference.matrices =
+        table(is_chosen ? adaptive_quadrature::rule_sequence.front() : n_tensor_points);
     reference.errors = reference.matrices;
     if (is_chosen) {
-      reference.check = table(chosen_points::check_points);
-      for (std::size_t level = 1; level < chosen_points::ladder.size(); ++level)
-        reference.finer.push_back(table(chosen_points::ladder[level]));
+      reference.check = table(adaptive_quadrature::check_points);
+      for (std::size_t level = 1; level < adaptive_quadrature::rule_sequence.size(); ++level)
+        reference.finer.push_back(table(adaptive_quadrature::rule_sequence[level]));
     }
   }
   return reference;
 }
 
-/// Corners of the simplices that a reference simplex falls into when its edges are halved, as
-/// multiples of 1/2: at each corner one, and in space four of the octahedron between (Bey 1995).
+/// Corners of the simplices that result from halving the edges of a reference simplex, as multiples
+/// of 1/2: one at each corner, and in space four of the octahedron in between (Bey 1995).
 template <int dim>
 std::vector<std::array<dealii::Point<dim>, dim + 1>> halved_simplices() {
   std::array<dealii::Point<dim>, dim + 1> corners;
@@ -209,7 +211,7 @@ std::vector<std::array<dealii::Point<dim>, dim + 1>> halved_simplices() {
   return halved;
 }
 
-/// The rule on each of these.
+/// The rule on each of these simplices.
 template <int dim>
 dealii::Quadrature<dim> on_halved_simplices(const dealii::Quadrature<dim>& rule) {
   const auto simplices = halved_simplices<dim>();
@@ -226,7 +228,8 @@ dealii::Quadrature<dim> on_halved_simplices(const dealii::Quadrature<dim>& rule)
   return {points, weights};
 }
 
-/// Of degrees 5, 7 and 11 on triangles, 3, 5 and 7 on tetrahedra, then on halved cells.
+/// Rules of degrees 5, 7 and 11 on triangles, 3, 5 and 7 on tetrahedra, followed by those on halved
+/// cells.
 template <int dim>
 std::vector<dealii::Quadrature<dim>> load_rules(ElementType type) {
   std::vector<dealii::Quadrature<dim>> rules;
@@ -288,24 +291,24 @@ FacetElement make_facet(bool simplex, int degree) {
 }  // namespace
 
 FacetElement make_facet_element(std::size_t n_vertices, int degree) {
-  keep_deal_ii_on_this_thread();
+  keep_deal_ii_single_threaded();
   return n_vertices == 2 ? make_facet<1>(false, degree) : make_facet<2>(n_vertices == 3, degree);
 }
 
 QuadratureTable make_support_table(ElementType type, int degree) {
-  keep_deal_ii_on_this_thread();
+  keep_deal_ii_single_threaded();
   return dimension_of(type) == 2 ? make_table_at_support<2>(type, degree)
                                  : make_table_at_support<3>(type, degree);
 }
 
 EnergyRules make_energy_rules(ElementType type, int degree) {
-  keep_deal_ii_on_this_thread();
+  keep_deal_ii_single_threaded();
   return dimension_of(type) == 2 ? make_rules_of_energy<2>(type, degree)
                                  : make_rules_of_energy<3>(type, degree);
 }
 
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points) {
-  keep_deal_ii_on_this_thread();
+  keep_deal_ii_single_threaded();
   return dimension_of(type) == 2 ? make_element<2>(type, degree, n_tensor_points)
                                  : make_element<3>(type, degree, n_tensor_points);
 }

@@ -9,7 +9,7 @@
 namespace smoothfem {
 
 /// Values at the points of one quadrature rule on a reference cell. All arrays run over the points
-/// first, then over the dofs (or vertices); gradients have an entry for each dimension.
+/// first, then over the dofs (or vertices). Gradients have an entry for each dimension.
 struct QuadratureTable {
   std::size_t n_points = 0;
   std::vector<double> weights;
@@ -17,12 +17,12 @@ struct QuadratureTable {
   std::vector<double> geometry, geometry_gradient;  ///< of the straight-sided mapping (degree 1)
 };
 
-/// Integrals over the reference simplex: its mapping is affine, so those over a cell are
+/// Integrals over the reference simplex. Its mapping is affine, so that integrals over a cell are
 /// combinations of them. Upper triangles, row by row.
 struct AffineTable {
   std::vector<double> mass;  ///< of phi_i phi_j
-  /// For each pair of directions a <= b, in the order 00, 01, 11 or 00, 01, 02, 11, 12, 22: of
-  /// d_a phi_i d_b phi_j, and where a < b of d_b phi_i d_a phi_j too.
+  /// Integrals for each pair of directions a <= b, in the order 00, 01, 11 or 00, 01, 02, 11, 12,
+  /// 22: of d_a phi_i d_b phi_j and, if a < b, also of d_b phi_i d_a phi_j.
   std::vector<double> stiffness;
 };
 
@@ -31,15 +31,17 @@ struct ReferenceElement {
   ElementType type;
   std::size_t n_vertices = 0;
   std::size_t n_dofs = 0;
-  /// Geometry shape functions at the dofs' support points, n_dofs x n_vertices: where a dof is.
+  /// Geometry shape functions at the dofs' support points, n_dofs x n_vertices: the positions of
+  /// the dofs.
   std::vector<double> support;
-  AffineTable affine;        ///< simplices: stiffness, mass and load
-  QuadratureTable matrices;  ///< other cells: stiffness, mass and load; all: load by quadrature
-  QuadratureTable errors;    ///< for norms and errors
-  /// Rules for both with more and more points, for cells that need them (chosen_points.h); empty:
-  /// one rule is for all cells.
+  AffineTable affine;  ///< simplices: stiffness, mass and load
+  QuadratureTable
+      matrices;            ///< other cells: stiffness, mass and load; all cells: load by quadrature
+  QuadratureTable errors;  ///< for norms and errors
+  /// Finer and finer rules for both, for cells that need them (adaptive_quadrature.h); empty: one
+  /// rule for all cells.
   std::vector<QuadratureTable> finer{};
-  QuadratureTable check{};  ///< where there are finer ones: a coarser rule, to judge the first by
+  QuadratureTable check{};  ///< with finer rules: a coarser rule that checks the first one
 
   std::size_t n_rules() const { return 1 + finer.size(); }
   /// In the order of their points; only 0 for simplices.
@@ -48,30 +50,31 @@ struct ReferenceElement {
   }
 };
 
-/// A facet of cells as an element of its own: what the cells' shape functions are on it.
+/// A facet of cells as a separate element, with the cells' shape functions on it.
 struct FacetElement {
   std::size_t n_vertices = 0;  ///< 2: an edge; 3, 4: a triangle or quadrilateral in space
   std::size_t n_dofs = 0;
-  std::vector<double> support;  ///< as that of ReferenceElement
+  std::vector<double> support;  ///< as in ReferenceElement
   QuadratureTable rule;         ///< 8 Gauss points per direction; degree 11 on triangles
 };
 
-/// Degree 1 or 2 on triangles (3/6 nodes), quadrilaterals (4/9), tetrahedra (4/10) or hexahedra
-/// (8/27), degree 1 on pyramids and prisms. Simplices: matrices exact; errors by a rule of degree
-/// 11 on triangles, of degree 5 (for elements of degree 1) or 7 (degree 2) on tetrahedra. Other
-/// cells: tensor Gauss rule with n_tensor_points per direction for all; the stiffness of a
-/// distorted cell is rational, so no rule is exact; pyramids and prisms: the same squeezed. 0
-/// points: those of chosen_points::ladder, of which each cell takes what it needs.
+/// Makes an element of degree 1 or 2 on triangles (3/6 nodes), quadrilaterals (4/9), tetrahedra
+/// (4/10) or hexahedra (8/27), or of degree 1 on pyramids and prisms.
+///
+/// Simplices: exact matrices; errors by a rule of degree 11 on triangles, and of degree 5 (elements
+/// of degree 1) or 7 (degree 2) on tetrahedra. Other cells: a tensor Gauss rule with
+/// n_tensor_points in each direction for both; on pyramids and prisms it is collapsed. No rule is
+/// exact, as the stiffness of a distorted cell is rational. 0 points: the rules of
+/// adaptive_quadrature::rule_sequence, of which each cell uses what it needs.
 ReferenceElement make_reference_element(ElementType type, int degree, int n_tensor_points);
 
-/// Values at the support points of the element's dofs, in their order; without weights.
+/// Makes the values at the support points of the element's dofs, in their order; without weights.
 QuadratureTable make_support_table(ElementType type, int degree);
 
-/// What the energy of a solution on an element needs besides its matrices
-/// (fem/adaptivity/energy.h).
+/// Additional rules of an element for the energy of a solution (fem/adaptivity/energy.h).
 struct EnergyRules {
-  QuadratureTable gradients;          ///< of simplices: exact for products of two gradients
-  std::vector<QuadratureTable> load;  ///< for f, finer and finer: up to halved cells, twice
+  QuadratureTable gradients;          ///< on simplices: exact for products of two gradients
+  std::vector<QuadratureTable> load;  ///< for f, finer and finer: up to cells that are halved twice
 };
 
 /// type: triangle, quadrilateral, tetrahedron or hexahedron.

@@ -20,10 +20,10 @@ std::vector<std::string> names_of_functions() {
   return names;
 }
 
-/// GiNaC would work out huge powers of numbers digit by digit.
+/// GiNaC would compute huge powers of numbers digit by digit.
 constexpr int largest_exponent = 300;
 
-/// Recursive descent, one function for each rank of operators.
+/// Recursive descent parser with one function for each precedence of operators.
 class FormulaParser {
  public:
   FormulaParser(const std::string& text, int dim) : text_(text), dim_(dim) {}
@@ -123,7 +123,7 @@ class FormulaParser {
   static ex power(const ex& base, const ex& exponent) {
     if (GiNaC::is_exactly_a<GiNaC::numeric>(exponent) &&
         GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(exponent)) > largest_exponent)
-      fail("exponents go to " + std::to_string(largest_exponent) + " only");
+      fail("exponents are at most " + std::to_string(largest_exponent));
     return GiNaC::pow(base, exponent);
   }
 
@@ -140,7 +140,7 @@ class FormulaParser {
     fail_at(position_, "'" + std::string(1, first) + "'");
   }
 
-  /// Decimals as fractions: derivatives are then exact.
+  /// Reads decimals as fractions, so that derivatives are exact.
   ex number() {
     const std::size_t begin = position_;
     const auto digits = [&] {
@@ -164,7 +164,7 @@ class FormulaParser {
       const auto next = static_cast<std::size_t>(end - text_.c_str());
       if (next == position_ + 1) fail_at(position_, "'" + text_.substr(position_, 1) + "'");
       if (std::abs(power) > largest_exponent)
-        fail("exponents go to " + std::to_string(largest_exponent) + " only");
+        fail("exponents are at most " + std::to_string(largest_exponent));
       exponent += power;
       position_ = next;
     }
@@ -195,7 +195,7 @@ class FormulaParser {
                ", not " + std::to_string(arguments.size()));
         return name == "pow" ? power(arguments[0], arguments[1]) : function.make(arguments);
       }
-      fail(where + " is no function; " + choose_one_of(names_of_functions(), name));
+      fail(where + " is not a function; " + choose_one_of(names_of_functions(), name));
     }
     std::vector<std::string> names;
     for (int d = 0; d < dim_; ++d) {
@@ -205,7 +205,7 @@ class FormulaParser {
     }
     if (name == "pi") return GiNaC::Pi;
     names.emplace_back("pi");
-    fail(where + " is no variable; " + choose_one_of(names, name));
+    fail(where + " is not a variable; " + choose_one_of(names, name));
   }
 
   const std::string& text_;
@@ -227,8 +227,8 @@ ex parse_formula(const std::string& text, int dim) {
     return FormulaParser(text, dim).parse();
   } catch (const InputError&) {
     throw;
-  } catch (const std::exception&) {  // GiNaC's
-    throw InputError("it divides by zero, or takes a function where it has no value");
+  } catch (const std::exception&) {  // exceptions of GiNaC
+    throw InputError("it divides by zero, or evaluates a function where it has no value");
   }
 }
 

@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-// With GiNaC's headers: for sources of this folder only.
+// Includes GiNaC's headers: for sources of this folder only.
 
 namespace smoothfem {
 
-/// The variables of formulas: x, y and, in space, z; always the same ones.
+/// Returns the variables of formulas: x, y and, in space, z. They are the same objects in every
+/// call.
 const std::vector<GiNaC::symbol>& formula_variables();
 
-/// A formula as GiNaC's expression, from the syntax of muParser: + - * / ^, comparisons, && || and
-/// !, `c ? a : b`, the functions of formula_functions(), pi; numbers are taken exactly. dim: how
-/// many variables there are. Throws InputError with what is not understood and where, to stand in
-/// brackets in a sentence.
+/// Parses a formula with the syntax of muParser: + - * / ^, comparisons, && || and !, `c ? a : b`,
+/// the functions of formula_functions(), pi. Numbers are exact. dim: number of variables. Throws
+/// InputError with the unknown part and its position; the text fits into parentheses of a sentence.
 GiNaC::ex parse_formula(const std::string& text, int dim);
 
 }  // namespace smoothfem

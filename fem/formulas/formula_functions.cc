@@ -42,7 +42,7 @@ ex if_else(const ex& condition, const ex& a, const ex& b) {
 
 namespace {
 
-/// The least or the largest of all; the comparison says which.
+/// Returns the smallest or the largest of all; the comparison decides which.
 template <class TakesSecond>
 ex extreme(const exvector& of, const TakesSecond& difference) {
   ex result = of.front();

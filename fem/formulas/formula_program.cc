@@ -16,7 +16,7 @@ using GiNaC::ex;
 using GiNaC::ex_to;
 using GiNaC::is_exactly_a;
 
-/// Turns expressions into steps.
+/// Compiles expressions to steps.
 class FormulaCompiler {
  public:
   explicit FormulaCompiler(FormulaProgram& program) : program_(program) {}
@@ -35,8 +35,8 @@ class FormulaCompiler {
   using Operation = FormulaProgram::Operation;
   using Step = FormulaProgram::Step;
 
-  /// The operands of a sum or a product in an order that does not depend on GiNaC's: it writes
-  /// (x - y)^2 in one run and (y - x)^2 in another, so signs count last.
+  /// Returns the operands of a sum or a product in an order that does not depend on GiNaC's. GiNaC
+  /// writes (x - y)^2 in one run and (y - x)^2 in another, so that signs count last.
   std::vector<ex> sorted_operands(const ex& e) {
     std::vector<std::pair<std::pair<std::string, std::string>, ex>> operands;
     for (const ex& operand : e)
@@ -48,7 +48,8 @@ class FormulaCompiler {
     return sorted;
   }
 
-  /// The same text for the same expression in every run; with or without the signs of numbers.
+  /// Returns the same text for the same expression in every run, with or without the signs of
+  /// numbers.
   std::string name_of(const ex& e, bool with_signs) {
     if (is_exactly_a<GiNaC::numeric>(e)) {
       std::ostringstream text;
@@ -112,12 +113,12 @@ class FormulaCompiler {
     if (is_exactly_a<GiNaC::numeric>(exponent)) {
       const auto& number = ex_to<GiNaC::numeric>(exponent);
       if (number.is_integer())
-        return append({.operation = Operation::whole_power, .a = a, .exponent = number.to_int()});
+        return append({.operation = Operation::integer_power, .a = a, .exponent = number.to_int()});
       if ((2 * number).is_integer() && number.is_real()) {
         const std::uint32_t root =
             append({.operation = Operation::function, .a = a, .function = std::sqrt});
         return append(
-            {.operation = Operation::whole_power, .a = root, .exponent = (2 * number).to_int()});
+            {.operation = Operation::integer_power, .a = root, .exponent = (2 * number).to_int()});
       }
     }
     const std::uint32_t b = step_of(exponent);
@@ -163,8 +164,8 @@ FormulaProgram::FormulaProgram(const std::vector<GiNaC::ex>& formulas) {
 
 namespace {
 
-/// By squaring: std::pow takes some twenty times as long.
-double whole_power(double base, int exponent) {
+/// Computes a power by squaring: std::pow takes about twenty times as long.
+double integer_power(double base, int exponent) {
   double result = 1.0;
   for (unsigned int rest = static_cast<unsigned int>(std::abs(exponent)); rest > 0; rest /= 2) {
     if (rest % 2 == 1) result *= base;
@@ -194,8 +195,8 @@ void FormulaProgram::evaluate(const double* coordinates, double* values) const {
       case Operation::multiply:
         value[k] = value[s.a] * value[s.b];
         break;
-      case Operation::whole_power:
-        value[k] = whole_power(value[s.a], s.exponent);
+      case Operation::integer_power:
+        value[k] = integer_power(value[s.a], s.exponent);
         break;
       case Operation::function:
         value[k] = s.function(value[s.a]);

@@ -12,16 +12,17 @@ class ex;
 
 namespace smoothfem {
 
-/// Several formulas as a list of steps that computes them together; parts that they share are
-/// computed once. The steps do not depend on the order that GiNaC happens to keep terms in, which
-/// changes from run to run: results have the same bits in each. Safe to call from several threads.
+/// Several formulas, compiled to a list of steps that computes them together. Common parts are
+/// computed once. The steps do not depend on GiNaC's order of terms, which changes from run to run:
+/// results are bitwise identical in every run. Safe to call from several threads.
 class FormulaProgram {
  public:
-  /// formulas: in the variables of formula_variables(). Throws InputError, with a text to stand in
-  /// brackets in a sentence, for what has no real value.
+  /// formulas: in the variables of formula_variables(). Throws InputError for formulas without real
+  /// values; the text fits into parentheses of a sentence.
   explicit FormulaProgram(const std::vector<GiNaC::ex>& formulas);
 
-  /// coordinates: x, y and, if a formula has it, z. values: one for each formula.
+  /// Evaluates the formulas. coordinates: x, y and, if a formula has it, z. values: one for each
+  /// formula.
   void evaluate(const double* coordinates, double* values) const;
 
  private:
@@ -31,17 +32,17 @@ class FormulaProgram {
     coordinate,
     add,
     multiply,
-    whole_power,
+    integer_power,
     function,
     function_of_two,
-    below_zero,  ///< b where a is below zero, else c; and so on
+    below_zero,  ///< b if a is below zero, otherwise c; similarly below
     at_most_zero,
     equal_to_zero
   };
-  /// Its value is kept under its number in the list.
+  /// A step of the program. Its value is stored under its number in the list.
   struct Step {
     Operation operation = Operation::number;
-    std::uint32_t a = 0, b = 0, c = 0;  ///< steps before this one; a coordinate's number
+    std::uint32_t a = 0, b = 0, c = 0;  ///< earlier steps; a coordinate's number
     int exponent = 0;
     double number = 0.0;
     double (*function)(double) = nullptr;

@@ -13,7 +13,7 @@ namespace smoothfem {
 
 namespace {
 
-/// What Spectra asks of a linear operator.
+/// Interface of linear operators for Spectra.
 template <class Apply>
 class Operator {
  public:
@@ -30,7 +30,7 @@ class Operator {
   Apply apply_;
 };
 
-/// A start vector that is the same on every machine and has a part in every eigenvector.
+/// Start vector: the same on every machine, with a component along every eigenvector.
 Eigen::VectorXd start_vector(Eigen::Index size) {
   std::mt19937_64 random(1);
   Eigen::VectorXd v(size);
@@ -38,9 +38,9 @@ Eigen::VectorXd start_vector(Eigen::Index size) {
   return v;
 }
 
-/// Eigenvector of the operator's largest eigenvalue by restarted Lanczos; `vector`: start and
-/// result. A start that is nearly an eigenvector would stay at its eigenvalue even where that is
-/// not the largest, so callers mix in a part of every eigenvector.
+/// Computes the eigenvector of the operator's largest eigenvalue by restarted Lanczos; `vector`:
+/// start and result. A start close to an eigenvector would stay at its eigenvalue even if that is
+/// not the largest. So callers mix in a component along every eigenvector.
 template <class Apply>
 void largest_eigenvector(Eigen::Index size, const Apply& apply, Eigen::Index subspace,
                          Eigen::VectorXd& vector) {
@@ -77,8 +77,8 @@ ConditionNumber CholeskyConditionNumber::compute(const SparseMatrix& matrix) {
   largest_eigenvector(
       n, [&](const auto& v) -> Eigen::VectorXd { return factorization_.solve(v); }, 12,
       smallest_vector);
-  // One more inverse iteration: parts along large eigenvalues weigh more in A's residual than in
-  // that of A^-1.
+  // One more inverse iteration: components along large eigenvalues weigh more in A's residual than
+  // in that of A^-1.
   smallest_vector = factorization_.solve(smallest_vector).normalized();
   result.lambda_max_residual = relative_residual(matrix, largest_vector, result.lambda_max);
   result.lambda_min_residual = relative_residual(matrix, smallest_vector, result.lambda_min);

@@ -15,7 +15,7 @@ inline double sum_of(Lanes a) {
   return (a[0] + a[1]) + (a[2] + a[3]);
 }
 
-// One pass over the memory for what one iteration does with its vectors.
+// Each function handles the vectors of one iteration in one pass over the memory.
 
 /// x += alpha p, r -= alpha q; returns r . r.
 double update_solution(std::size_t n, double alpha, const double* p, const double* q, double* x,

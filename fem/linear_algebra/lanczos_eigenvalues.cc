@@ -4,7 +4,7 @@
 #include <cmath>
 
 extern "C" {
-/// LAPACK: chosen eigenvalues and vectors of a symmetric tridiagonal matrix, by bisection and
+/// LAPACK: selected eigenvalues and vectors of a symmetric tridiagonal matrix, by bisection and
 /// inverse iteration.
 void dstevx_(const char* jobz, const char* range, const int* n, double* d, double* e,
              const double* vl, const double* vu, const int* il, const int* iu, const double* abstol,
@@ -24,10 +24,10 @@ RitzValue ritz_value(const LanczosMatrix& matrix, int index) {
   const auto size = static_cast<std::size_t>(n);
   std::vector<double> vector(size), work(5 * size), values(size);
   std::vector<int> integers(5 * size), failed(size);
-  const double unused = 0.0, most_accurate = 0.0;
+  const double unused = 0.0, best_accuracy = 0.0;
   int n_found = 0, info = 0;
   dstevx_("V", "I", &n, diagonal.data(), off_diagonal.data(), &unused, &unused, &index, &index,
-          &most_accurate, &n_found, values.data(), vector.data(), &n, work.data(), integers.data(),
+          &best_accuracy, &n_found, values.data(), vector.data(), &n, work.data(), integers.data(),
           failed.data(), &info);
   if (n_found != 1) return {};
   const double last = matrix.off_diagonal.back() * vector.back();

@@ -8,12 +8,12 @@ namespace smoothfem {
 /// An eigenvalue of a Lanczos matrix.
 struct RitzValue {
   double value = 0.0;
-  /// |A x - value x| / value of the vector that belongs to it, as far as the Lanczos process is
-  /// exact: the eigenvalue next to it is no further away than this fraction.
+  /// |A x - value x| / value of the corresponding vector, for an exact Lanczos process. The
+  /// distance to the nearest eigenvalue is at most this fraction.
   double residual = 0.0;
 };
 
-/// The smallest and the largest one; matrix: of at least one step.
+/// The smallest and the largest Ritz value; matrix: of at least one step.
 struct ExtremeRitzValues {
   RitzValue smallest, largest;
 };

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t padding = UINT32_MAX;
 
-/// Rows in their order, but sorted by length within windows: slices of similar lengths that still
-/// keep neighbours together.
+/// Returns the rows in their order, but sorted by length within windows. Slices then have similar
+/// lengths and still keep neighbours together.
 std::vector<std::uint32_t> rows_by_length(const SparseMatrix& matrix) {
   constexpr std::size_t window = 256;
   const int* starts = matrix.outerIndexPtr();

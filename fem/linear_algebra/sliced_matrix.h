@@ -10,11 +10,11 @@
 
 namespace smoothfem {
 
-/// This rank's rows of a square sparse matrix laid out for fast products: n_lanes rows of similar
-/// length at a time (sliced ELLPACK). Rows of finite element matrices are so short that a product
-/// row by row waits for its own sums; on one core this one is 1.2 (degree 2, hexahedra) to 1.8
-/// times (degree 1, tetrahedra) as fast (fem_bench, product). It adds up each row in the order of
-/// its columns.
+/// This rank's rows of a square sparse matrix in a layout for fast products: n_lanes rows of
+/// similar length at a time (sliced ELLPACK). Rows of finite element matrices are so short that a
+/// product row by row waits for its sums. On one core this layout is 1.2 times (degree 2,
+/// hexahedra) to 1.8 times (degree 1, tetrahedra) as fast (fem_bench, product). Each row is added
+/// up in the order of its columns.
 class SlicedMatrix {
  public:
   /// Takes pattern and values. matrix: rows of this rank, with the columns of `halo`.
@@ -29,8 +29,8 @@ class SlicedMatrix {
   const Halo& halo() const { return halo_; }
   const Eigen::VectorXd& diagonal() const { return diagonal_; }
 
-  /// y = A x; x: n_columns entries, of which those of other ranks are fetched here; y: n_rows, no
-  /// overlap. Returns this rank's part of x . y. Collective.
+  /// Computes y = A x. x: n_columns entries; those of other ranks are fetched here. y: n_rows
+  /// entries, no overlap. Returns this rank's part of x . y. Collective.
   double multiply(Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
  private:
@@ -40,9 +40,9 @@ class SlicedMatrix {
   Halo halo_;
   Eigen::Index n_rows_, n_columns_;
   std::vector<std::uint32_t> rows_;     ///< the rows of each slice; padding repeats the last row
-  std::vector<std::size_t> offsets_;    ///< where each slice begins in the arrays below
-  std::vector<std::uint32_t> columns_;  ///< lane by lane; padding points at column 0
-  std::vector<std::uint32_t> entries_;  ///< which of the matrix' values each is, or `padding`
+  std::vector<std::size_t> offsets_;    ///< begin of each slice in the arrays below
+  std::vector<std::uint32_t> columns_;  ///< lane by lane; padding refers to column 0
+  std::vector<std::uint32_t> entries_;  ///< position of each in the matrix' values, or `padding`
   std::vector<double> values_;          ///< padding is zero
   Eigen::VectorXd diagonal_;
 };

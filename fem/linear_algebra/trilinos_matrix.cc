@@ -64,7 +64,7 @@ void TrilinosMatrix::set_values(const SparseMatrix& matrix) {
   int *starts = nullptr, *columns = nullptr;
   double* values = nullptr;
   trilinos_->matrix.ExtractCrsDataPointers(starts, columns, values);
-  // Rows and columns have the same order in both, so the values have too.
+  // Rows and columns have the same order in both, and so do the values.
   std::copy(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), values);
 }
 
@@ -72,13 +72,13 @@ void TrilinosMatrix::set_up_multigrid() {
   Teuchos::ParameterList parameters;
   ML_Epetra::SetDefaults("SA", parameters);
   parameters.set("ML output", 0);
-  // Gauss-Seidel, the default, works on each rank for itself; the cycle then depends on their
-  // number, and need not be positive definite.
+  // Gauss-Seidel, the default, works on each rank separately. The cycle would then depend on the
+  // number of ranks, and might not be positive definite.
   parameters.set("smoother: type", "Chebyshev");
   parameters.set("smoother: sweeps", 2);
   trilinos_->hierarchy.reset();
-  // Estimates of eigenvalues start from random vectors; one sequence of numbers for all matrices
-  // would make the hierarchy depend on those before.
+  // Estimates of eigenvalues start from random vectors. With a common sequence of random numbers,
+  // the hierarchy would depend on the earlier matrices.
   ML_set_random_seed(1);
   trilinos_->hierarchy =
       std::make_unique<ML_Epetra::MultiLevelPreconditioner>(trilinos_->matrix, parameters, true);
@@ -96,7 +96,7 @@ using Vectors = Epetra_MultiVector;
 using Operator = Epetra_Operator;
 using Problem = Anasazi::BasicEigenproblem<double, Vectors, Operator>;
 
-/// A part in every eigenvector; the same for every number of ranks.
+/// Vector with a component along every eigenvector; the same for every number of ranks.
 Vectors generic_vector(const Epetra_CrsMatrix& matrix) {
   Vectors vector(matrix.RowMap(), 1);
   for (int i = 0; i < vector.MyLength(); ++i)
@@ -104,8 +104,9 @@ Vectors generic_vector(const Epetra_CrsMatrix& matrix) {
   return vector;
 }
 
-/// A start that is nearly an eigenvector would stay at its eigenvalue even where that is not the
-/// wanted one any more (another cell has become the worst), so it gets a part of `generic`.
+/// Makes an eigenvalue problem. A start close to an eigenvector would stay at its eigenvalue even
+/// after another one has become extreme (another cell is the worst now). So the start gets a
+/// component along `generic`.
 Teuchos::RCP<Problem> make_problem(const Epetra_CrsMatrix& matrix, const Eigen::VectorXd& start,
                                    const Vectors& generic) {
   constexpr double generic_fraction = 1e-2;
@@ -123,7 +124,7 @@ Teuchos::RCP<Problem> make_problem(const Epetra_CrsMatrix& matrix, const Eigen::
   return problem;
 }
 
-/// Anasazi has been seen to report convergence that was not there: the vector tells.
+/// Checks a pair by its vector, as Anasazi sometimes reports convergence wrongly.
 Eigenpair checked(const Epetra_CrsMatrix& matrix, const Problem& problem) {
   Eigenpair pair;
   const auto& solution = problem.getSolution();
@@ -147,7 +148,7 @@ Eigenpair checked(const Epetra_CrsMatrix& matrix, const Problem& problem) {
 Eigenpair TrilinosMatrix::smallest_eigenpair(const Eigen::VectorXd& start, double tolerance) const {
   constexpr int max_iterations = 5000;  // distorted meshes take hundreds
   const Vectors rough = generic_vector(trilinos_->matrix);
-  Vectors generic(rough);  // smooth, as the wanted eigenvector is
+  Vectors generic(rough);  // smooth, like the wanted eigenvector
   trilinos_->hierarchy->ApplyInverse(rough, generic);
   const auto problem = make_problem(trilinos_->matrix, start, generic);
   const Epetra_InvOperator inverse(trilinos_->hierarchy.get());

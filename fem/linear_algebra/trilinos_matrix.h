@@ -7,15 +7,15 @@
 
 namespace smoothfem {
 
-/// An eigenvalue, with a vector that shows that it is one.
+/// An eigenvalue with a vector that verifies it.
 struct Eigenpair {
   double value = 0.0;
   double residual = 1.0;   ///< |A x - value x| / (value |x|), recomputed from the vector
   Eigen::VectorXd vector;  ///< this rank's entries
 };
 
-/// Trilinos' copies of matrices that share one pattern, for what it does best: algebraic multigrid
-/// (smoothed aggregation, ML) and eigenvalues (Anasazi). All collective.
+/// Trilinos' copies of matrices that share one pattern, for algebraic multigrid (smoothed
+/// aggregation, ML) and eigenvalues (Anasazi). All functions are collective.
 class TrilinosMatrix {
  public:
   template <int dim>
@@ -26,14 +26,14 @@ class TrilinosMatrix {
   /// Takes the values of a matrix with the space's pattern.
   void set_values(const SparseMatrix& matrix);
 
-  /// Builds the hierarchy of grids anew: it depends on the present values alone.
+  /// Rebuilds the hierarchy of grids; it depends on the present values alone.
   void set_up_multigrid();
-  /// z = M^-1 r by one V-cycle; r, z: this rank's entries.
+  /// Computes z = M^-1 r by one V-cycle; r, z: this rank's entries.
   void apply_multigrid(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
 
-  /// By LOBPCG with multigrid, which has been set up, as preconditioner, or by the Krylov-Schur
-  /// method. start: a guess of the eigenvector, or empty. The result's residual tells how good it
-  /// is; it is above the tolerance where the iteration did not get there.
+  /// Return an eigenpair by LOBPCG with multigrid as preconditioner (set it up before), or by the
+  /// Krylov-Schur method. start: a guess of the eigenvector, or empty. The result's residual
+  /// measures its quality; it is above the tolerance if the iteration did not converge.
   Eigenpair smallest_eigenpair(const Eigen::VectorXd& start, double tolerance) const;
   Eigenpair largest_eigenpair(const Eigen::VectorXd& start, double tolerance) const;
 

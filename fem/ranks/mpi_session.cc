@@ -12,9 +12,9 @@
 namespace smoothfem {
 namespace {
 
-/// What Open MPI has to know about a process by itself. Its session directory is that of every
-/// other such process of the user, and one that ends would take it from one that begins.
-constexpr std::array<std::pair<const char*, const char*>, 2> kByItself = {
+/// Settings of Open MPI for a single process. Its session directory would be shared by all such
+/// processes of the user, and one that ends would remove it from one that begins.
+constexpr std::array<std::pair<const char*, const char*>, 2> single_process_settings = {
     {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_orte_create_session_dirs", "0"}}};
 
 }  // namespace
@@ -25,10 +25,11 @@ bool started_by_mpirun() {
 }
 
 void begin_mpi() {
-  // Only until MPI has read them: a Python that uses this library may start programs by mpirun.
+  // Removed again after MPI has read them: a Python that uses this library may start programs by
+  // mpirun.
   std::vector<const char*> added;
   if (!started_by_mpirun())
-    for (const auto& [name, value] : kByItself)
+    for (const auto& [name, value] : single_process_settings)
       if (std::getenv(name) == nullptr && ::setenv(name, value, 1) == 0) added.push_back(name);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);

@@ -8,7 +8,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Counts and offsets are then in items, not in bytes: an int holds them for longer.
+/// MPI type of an item. Counts and offsets are then in items instead of bytes, so that an int holds
+/// larger arrays.
 class ItemType {
  public:
   explicit ItemType(std::size_t size) {
@@ -24,7 +25,7 @@ class ItemType {
   MPI_Datatype type_{};
 };
 
-/// Where each rank's items begin.
+/// Returns the offsets of each rank's items.
 std::vector<int> offsets_of(const std::vector<int>& counts) {
   std::vector<int> offsets(counts.size());
   std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
@@ -59,10 +60,10 @@ double Ranks::max(double value) const {
   return value;
 }
 
-std::size_t Ranks::sum_before(std::size_t value) const {
+std::size_t Ranks::exclusive_scan(std::size_t value) const {
   std::size_t before = 0;
   if (size_ > 1) MPI_Exscan(&value, &before, 1, MPI_UINT64_T, MPI_SUM, communicator_);
-  return is_root() ? 0 : before;  // MPI leaves the root's undefined
+  return is_root() ? 0 : before;  // MPI leaves the root's value undefined
 }
 
 void Ranks::broadcast_bytes(void* bytes, std::size_t n_bytes) const {

@@ -12,8 +12,8 @@
 
 namespace smoothfem {
 
-/// The processes that work together on one finite element problem. One process alone needs no MPI:
-/// nothing is called, so that several threads may each have their own.
+/// The processes that work together on one finite element problem. A single process makes no MPI
+/// calls, so that several threads may each have their own object.
 class Ranks {
  public:
   /// This process alone.
@@ -24,23 +24,23 @@ class Ranks {
   int size() const { return size_; }
   int rank() const { return rank_; }
   bool is_root() const { return rank_ == 0; }
-  /// MPI_COMM_SELF for one process.
+  /// Returns MPI_COMM_SELF for one process.
   MPI_Comm communicator() const { return communicator_; }
 
-  /// Sums and the largest over all ranks, the same on each.
+  /// Compute sums and the largest value over all ranks, the same on each.
   void sum(std::span<double> values) const;
   double sum(double value) const;
   std::size_t sum(std::size_t value) const;
   double max(double value) const;
-  /// Sum over the ranks before this one.
-  std::size_t sum_before(std::size_t value) const;
-  /// The root's value to all.
+  /// Returns the sum over the ranks before this one.
+  std::size_t exclusive_scan(std::size_t value) const;
+  /// Sends the root's value to all ranks.
   template <class T>
   void broadcast(T& value) const {
     static_assert(std::is_trivially_copyable_v<T>);
     broadcast_bytes(&value, sizeof(T));
   }
-  /// The root's values, as many as it has, to all.
+  /// Sends the root's values to all ranks, which need not know their number.
   template <class T>
   void broadcast(std::vector<T>& values) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -49,7 +49,7 @@ class Ranks {
     values.resize(n_values);
     broadcast_bytes(values.data(), n_values * sizeof(T));
   }
-  /// All ranks' values one after the other, on the root; empty elsewhere.
+  /// Returns all ranks' values one after the other, on the root; empty elsewhere.
   template <class T>
   std::vector<T> gather(const std::vector<T>& values) const {
     if (size_ == 1) return values;
@@ -58,7 +58,7 @@ class Ranks {
     gather_items(values.data(), counts, sizeof(T), all.data(), values.size());
     return all;
   }
-  /// The reverse: from the root's values, one rank's after the other's, n_values for this one.
+  /// Distributes the root's values, one rank's after the other's, n_values for this one.
   template <class T>
   std::vector<T> scatter(const std::vector<T>& all, std::size_t n_values) const {
     if (size_ == 1) return all;
@@ -69,7 +69,7 @@ class Ranks {
 
  private:
   void broadcast_bytes(void* bytes, std::size_t n_bytes) const;
-  /// Every rank's count, on the root.
+  /// Returns every rank's count, on the root.
   std::vector<int> gather_counts(std::size_t n_values) const;
   void gather_items(const void* values, const std::vector<int>& counts, std::size_t item_size,
                     void* all, std::size_t n_values) const;
@@ -80,8 +80,8 @@ class Ranks {
   int size_ = 1, rank_ = 0;
 };
 
-/// How the entries of a distributed vector are shared: each rank holds its own ones, and behind
-/// them copies of those of other ranks that its equations contain.
+/// Distribution of a vector's entries. Each rank holds its own entries, followed by copies of other
+/// ranks' entries that its equations contain.
 class Halo {
  public:
   /// One process: nothing to exchange.

@@ -27,25 +27,25 @@ class PieceCheck {
     for (CellIndex c = 0; c < topology.n_cells(); ++c) {
       const auto nodes = topology.cell_nodes(c);
       for_each_edge(dim, nodes.size(), [&](std::size_t i, std::size_t j) {
-        look_along(nodes[i], nodes[j]);
-        look_along(nodes[j], nodes[i]);
+        check_edge(nodes[i], nodes[j]);
+        check_edge(nodes[j], nodes[i]);
       });
     }
   }
 
  private:
-  /// From one node to the other; where pieces meet just there, and the mesh goes on behind, a
-  /// little further.
-  void look_along(NodeIndex from, NodeIndex to) const {
+  /// Checks an edge from one node to the other. If pieces meet exactly at its end and the mesh
+  /// continues there, checks a little further.
+  void check_edge(NodeIndex from, NodeIndex to) const {
     const Point<dim> a = mesh_.coordinates()[from], b = mesh_.coordinates()[to];
     const Point<dim> behind = b + 1e-6 * (b - a);
     for (std::size_t k = 0; k < conditions_[from].size(); ++k) {
       const double here = conditions_[from][k], there = conditions_[to][k];
       if (here < 0.0 && there > 0.0)
-        look_between(a, b, k);
+        check_jumps(a, b, k);
       else if (here != 0.0 && there == 0.0 && !mesh_.topology().on_boundary()[to] &&
                here * s_.conditions(behind)[k] < 0.0)
-        look_between(a, behind, k);
+        check_jumps(a, behind, k);
     }
   }
 
@@ -54,9 +54,9 @@ class PieceCheck {
     return s_.diffusivity ? Point<dim>(s_.diffusivity(p) * gradient) : gradient;
   }
 
-  /// The points are on both sides of the k-th condition. Values are compared near where it changes,
-  /// so near that going from one to the other changes them by far less than what is allowed.
-  void look_between(Point<dim> a, Point<dim> b, std::size_t k) const {
+  /// Compares two points on both sides of the k-th condition. They are so close to its change that
+  /// crossing it changes the values by far less than the tolerance.
+  void check_jumps(Point<dim> a, Point<dim> b, std::size_t k) const {
     constexpr double allowed = 1e-5;
     constexpr int n_halvings = 30;
     const double size = (b - a).norm();
@@ -67,7 +67,7 @@ class PieceCheck {
     }
     const double u_jump = std::abs(s_.value(b) - s_.value(a));
     if (u_jump > allowed * largest_value_)
-      refuse("'u' jumps by " + std::to_string(u_jump), a, "take pieces with the same values there");
+      refuse("'u' jumps by " + std::to_string(u_jump), a, "use pieces with equal values there");
     Point<dim> normal;
     const double h = 1e-4 * size;
     for (int d = 0; d < dim; ++d) {
@@ -76,8 +76,8 @@ class PieceCheck {
     }
     const double flux_jump = std::abs((flux_at(b) - flux_at(a)).dot(normal.normalized()));
     if (normal.norm() > 0.0 && flux_jump > allowed * largest_flux_)
-      refuse("flux across, diffusivity times derivative, jumps by " + std::to_string(flux_jump), a,
-             "take pieces with the same flux there");
+      refuse("normal flux, diffusivity times derivative, jumps by " + std::to_string(flux_jump), a,
+             "use pieces with equal fluxes there");
   }
 
   [[noreturn]] static void refuse(const std::string& what, const Point<dim>& p,

@@ -5,10 +5,10 @@
 
 namespace smoothfem {
 
-/// A solution in pieces solves -div(A grad u) = f only if u and A grad u . n go on from piece to
-/// piece: otherwise f would need a part on the line or surface between them. Looks where edges of
-/// the mesh cross from one to another, and throws InputError that names the first point where one
-/// of the two jumps.
+/// Checks that u and the normal flux A grad u . n are continuous across interfaces between pieces
+/// of a solution. Otherwise f would need a part on the interface. Checks edges of the mesh that
+/// cross from one piece to another. Throws InputError that names the first point where u or the
+/// flux jumps.
 template <int dim>
 void check_pieces(const ManufacturedSolution<dim>& solution, const Mesh<dim>& mesh);
 

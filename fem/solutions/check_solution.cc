@@ -15,7 +15,8 @@ std::string point_text(const Point<dim>& p) {
   return text + ")";
 }
 
-/// Outside of a formula's domain its derivatives say nothing.
+/// Checks that all values are finite; outside of a formula's domain its derivatives are
+/// meaningless.
 template <int dim>
 void check_finite(const ManufacturedSolution<dim>& s, const SolutionKeys& keys,
                   const Point<dim>& p) {
@@ -27,7 +28,7 @@ void check_finite(const ManufacturedSolution<dim>& s, const SolutionKeys& keys,
                                                                      : nullptr;
   if (key != nullptr)
     throw InputError("the solution's " + std::string(key) + " is not a finite number at " +
-                     point_text(p) + ", a node of the mesh: take a formula that is");
+                     point_text(p) + ", a node of the mesh: use a formula that is finite there");
 }
 
 template <int dim>
@@ -43,8 +44,8 @@ void check_diffusivity(const ManufacturedSolution<dim>& s, const Point<dim>& p) 
       Eigen::SelfAdjointEigenSolver<Diffusivity<dim>>(a, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (!(least > rounding * a.norm()))
     throw InputError("the solution's 'diffusivity' is not positive definite" + at +
-                     "its least eigenvalue is " + std::to_string(least) +
-                     " there and has to be above 0");
+                     "its smallest eigenvalue is " + std::to_string(least) +
+                     " there and must be above 0");
 }
 
 /// A grad u
@@ -54,13 +55,14 @@ Point<dim> flux_of(const ManufacturedSolution<dim>& s, const Point<dim>& p) {
   return s.diffusivity ? Point<dim>(s.diffusivity(p) * gradient) : gradient;
 }
 
-/// Central differences at a point: those of u, and minus the divergence of the flux A grad u.
+/// Central differences at a point: of u, and minus the divergence of the flux A grad u.
 template <int dim>
 struct Differences {
   Point<dim> gradient;
   double load = 0.0, round_off;
 
-  /// h: the step. of_flux: differences of the gradient given, for the load; else second ones of u.
+  /// h: the step. of_flux: the load from differences of the given gradient; otherwise from second
+  /// differences of u.
   Differences(const ManufacturedSolution<dim>& s, const Point<dim>& p, double h, bool of_flux) {
     const double u = s.value(p);
     round_off = of_flux ? 0.0 : 1e-15 * std::abs(u) / (h * h);
@@ -82,7 +84,7 @@ struct Differences {
   }
 };
 
-/// Whether a condition changes within h of the point: differences mix the pieces there.
+/// True if a condition changes within h of the point: differences mix the pieces there.
 template <int dim>
 bool is_between_pieces(const ManufacturedSolution<dim>& s, const Point<dim>& p, double h) {
   if (!s.conditions) return false;
@@ -96,8 +98,8 @@ bool is_between_pieces(const ManufacturedSolution<dim>& s, const Point<dim>& p, 
   return false;
 }
 
-/// The error of differences at this step is some 1e-6 of the size of the third and fourth
-/// derivatives; a wrong sign or factor is off by far more.
+/// Step of the differences. Their error is about 1e-6 of the size of the third and fourth
+/// derivatives; a wrong sign or factor gives a far larger one.
 constexpr double step_of_differences = 1e-3;
 
 template <int dim>
@@ -105,16 +107,16 @@ void check_given(const ManufacturedSolution<dim>& s, const Point<dim>& p) {
   const Differences<dim> differences(s, p, step_of_differences, bool(s.diffusivity));
   const std::string at = " at " + point_text(p);
   if (!differences.fits_gradient(s.value_and_gradient(p).gradient))
-    throw InputError("the gradient given for the solution is not that of its value" + at +
+    throw InputError("the solution's gradient is not that of its value" + at +
                      ": correct 'gradient' or 'value'");
   if (!differences.fits_load(s.load(p)))
-    throw InputError(std::string("the load given for the solution is not ") +
+    throw InputError(std::string("the solution's load is not ") +
                      (s.diffusivity ? "-div(diffusivity grad(value))" : "-laplace(value)") + at +
                      ": there it should be near " + std::to_string(differences.load));
 }
 
-/// Derivatives that were derived are right where the differences are: smaller steps for formulas
-/// that change within less.
+/// Checks derived gradient and load: they are correct if they fit the differences at one of the
+/// steps. Formulas that change over shorter lengths need smaller steps.
 template <int dim>
 void check_derived(const ManufacturedSolution<dim>& s, const Point<dim>& p) {
   for (const double h :
@@ -127,7 +129,7 @@ void check_derived(const ManufacturedSolution<dim>& s, const Point<dim>& p) {
   }
   if (!is_between_pieces(s, p, step_of_differences))
     throw InputError("the solution's 'u' changes too fast at " + point_text(p) +
-                     " for its derivatives to be checked: take one that varies less");
+                     " for its derivatives to be checked: use one that varies less");
 }
 
 }  // namespace

@@ -7,15 +7,16 @@
 
 namespace smoothfem {
 
-/// How a study calls the parts of a solution, for messages.
+/// Names of the parts of a solution in a study, for messages.
 struct SolutionKeys {
   const char *value, *gradient, *load;
-  bool is_derived = false;  ///< gradient and load come from the value
+  bool is_derived = false;  ///< gradient and load are derived from the value
 };
 
-/// Throws InputError that names the first point where a part of the solution is not finite, where
-/// gradient and load are not those of the value (against differences of it), or where the
-/// diffusivity is not symmetric and positive definite. sample: nodes of the mesh.
+/// Checks the parts of a solution at sample points (nodes of the mesh). Throws InputError that
+/// names the first point where a part is not finite. Throws it also if gradient and load do not
+/// belong to the value, compared with differences. The diffusivity must be symmetric and positive
+/// definite.
 template <int dim>
 void check_solution(const ManufacturedSolution<dim>& solution, const SolutionKeys& keys,
                     std::span<const Point<dim>> sample);

@@ -21,7 +21,7 @@ auto on_formula(const std::string& key, const std::string& text, const std::stri
     return work();
   } catch (const InputError& error) {
     reason = error.what();
-  } catch (const std::exception&) {  // GiNaC's
+  } catch (const std::exception&) {  // exceptions of GiNaC
     reason = "it cannot be derived";
   }
   throw InputError("the solution's '" + key + "', '" + text + "', cannot be read (" + reason +
@@ -33,7 +33,7 @@ std::string one_formula(int dim) {
          ", such as sin(pi*x)*y^2 or if(x < 0.5, x, y)";
 }
 
-/// Parts between separators that stand outside of all brackets.
+/// Splits a text at separators outside of all brackets.
 std::vector<std::string> split_outside_brackets(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   int depth = 0;

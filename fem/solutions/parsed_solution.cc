@@ -14,8 +14,8 @@ namespace smoothfem {
 
 namespace {
 
-/// What deal.II's parser writes to std::cerr while this lives: it says there, and only there, what
-/// it could not read.
+/// Captures the output of deal.II's parser on std::cerr: only there does it report what it could
+/// not read.
 class CapturedParserMessages {
  public:
   CapturedParserMessages() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
@@ -23,7 +23,8 @@ class CapturedParserMessages {
   CapturedParserMessages(const CapturedParserMessages&) = delete;
   CapturedParserMessages& operator=(const CapturedParserMessages&) = delete;
 
-  /// What is not understood and where, in our words; nothing if that was not said.
+  /// Returns the unknown part and its position in this program's words; empty if the parser did not
+  /// report them.
   std::string reason() const {
     const std::string token = entry("Token"), position = entry("Position");
     const bool is_number =
@@ -31,8 +32,7 @@ class CapturedParserMessages {
     if (entry("Message").starts_with("Unexpected end")) return "it ends too early";
     if (!is_number) return "";
     const std::string where = " at character " + std::to_string(std::stoul(position) + 1);
-    return (token.empty() ? "what stands" + where : "'" + token + "'" + where) +
-           " is not understood";
+    return (token.empty() ? "the text" + where : "'" + token + "'" + where) + " is not understood";
   }
 
  private:
@@ -50,7 +50,7 @@ class CapturedParserMessages {
 };
 
 /// One expression (or several, separated by semicolons) in x and y, in space also in z. The parser
-/// keeps state while it evaluates, so one evaluation at a time.
+/// keeps state while it evaluates, which allows one evaluation at a time.
 template <int dim>
 class Expression {
  public:

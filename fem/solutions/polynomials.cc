@@ -7,13 +7,13 @@ namespace smoothfem {
 
 namespace {
 
-/// The polynomials below, in space with a part in z.
+/// The polynomials below; in space with an additional part in z.
 template <int dim>
 double z_of(const Point<dim>& p) {
   return dim == 2 ? 0.0 : p[dim - 1];
 }
 
-/// In the plane `xy`; in space with the derivative in z.
+/// In the plane `xy`; in space with the derivative by z.
 template <int dim>
 Point<dim> with_z(const Point<2>& xy, double z) {
   Point<dim> result = Point<dim>::Constant(z);

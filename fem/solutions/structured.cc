@@ -79,8 +79,8 @@ ManufacturedSolution<2> corner_solution() {
           .load = [](const Point<2>&) { return 0.0; }};
 }
 
-/// r^(1/2): its gradient is infinite in the re-entrant corner of seven octants, but not along the
-/// three edges that meet there, where that of solutions with a smooth load is, too.
+/// r^(1/2): its gradient is infinite in the re-entrant corner of seven octants. Unlike solutions
+/// with a smooth load, it is bounded along the three edges that meet there.
 ManufacturedSolution<3> fichera_solution() {
   constexpr double exponent = 0.5;
   const auto value = [=](const Point<3>& p) { return std::pow(p.norm(), exponent); };

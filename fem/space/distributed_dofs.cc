@@ -13,8 +13,8 @@ namespace smoothfem {
 
 namespace {
 
-/// This rank's own cells in parts, one beside the other, each of which grows around a cell until it
-/// is as large as the inner caches.
+/// Divides this rank's own cells into adjacent parts. Each grows around a cell until it is as large
+/// as the inner caches.
 template <int dim>
 auto cells_part_by_part(const dealii::DoFHandler<dim>& dofs) {
   constexpr std::size_t cells_of_part = 2000;
@@ -48,9 +48,9 @@ auto cells_part_by_part(const dealii::DoFHandler<dim>& dofs) {
   return order;
 }
 
-/// In the order of the parts' cells: what a product with the matrix reads of a vector then stays in
-/// the inner caches. The level sets of Cuthill and McKee's algorithm are too wide for that in
-/// space; with quadratic tetrahedra products took twice as long.
+/// Numbers dofs in the order of the parts' cells, so that the parts of a vector in a matrix product
+/// stay in the inner caches. The level sets of Cuthill and McKee's algorithm are too wide for that
+/// in space: with quadratic tetrahedra, products took twice as long.
 template <int dim>
 void renumber_part_by_part(dealii::DoFHandler<dim>& dofs) {
   const auto& own = dofs.locally_owned_dofs();

@@ -3,12 +3,13 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
-// With deal.II's headers: for sources of this folder only.
+// Includes deal.II's headers: for sources of this folder only.
 
 namespace smoothfem {
 
-/// Lagrange elements of a degree on a triangulation of make_triangulation. Dofs are numbered as
-/// cells come in planar meshes, part by part in volume meshes (see FiniteElementSpace). Collective.
+/// Makes Lagrange elements of a degree on a triangulation of make_triangulation. Dofs are numbered
+/// in the order of cells in planar meshes, part by part in volume meshes (see FiniteElementSpace).
+/// Collective.
 template <int dim>
 void distribute_dofs(dealii::DoFHandler<dim>& dofs, int degree);
 

@@ -9,8 +9,7 @@ namespace smoothfem {
 
 namespace {
 
-/// A triangulation with the mesh's cells in the mesh's order, except that planar cells may be
-/// rotated.
+/// Makes a triangulation with the mesh's cells in the mesh's order; planar cells may be rotated.
 template <int dim>
 void fill_triangulation(const Mesh<dim>& mesh, dealii::Triangulation<dim>& triangulation) {
   std::vector<dealii::Point<dim>> vertices;
@@ -35,8 +34,8 @@ void fill_triangulation(const Mesh<dim>& mesh, dealii::Triangulation<dim>& trian
   triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
 }
 
-/// Cells and nodes get other numbers on each rank, but a vertex keeps its coordinates. So each
-/// one's first coordinate becomes its number, before the triangulation is dealt out.
+/// Stores each vertex' number as its first coordinate before the triangulation is distributed. Each
+/// rank renumbers cells and nodes, but a vertex keeps its coordinates.
 template <int dim>
 void write_numbers_into_vertices(dealii::Triangulation<dim>& triangulation) {
   for (const auto& cell : triangulation.active_cell_iterators())

@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto absent = FiniteElementSpace<2>::absent;
 
-/// The nodes around each local dof, from any cell that has it; their weights are all the same.
+/// Nodes around each local dof, from any cell that has it; their weights are all equal.
 template <int dim>
 void locate_dofs(FiniteElementSpace<dim>& space) {
   std::vector<std::vector<NodeIndex>> nodes(space.n_local);
@@ -132,7 +132,7 @@ std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
   if (space->n_free == 0)
     throw InputError(
         "no unknown is left for the finite element solution: every node of the mesh is on its "
-        "boundary, so refine the mesh or take degree 2");
+        "boundary, so refine the mesh or use degree 2");
   space->nodes_of_ranks = ranks.gather(space->nodes);
   locate_dofs(*space);
   find_natural_facets(natural, *space);

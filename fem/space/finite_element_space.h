@@ -12,19 +12,19 @@
 
 namespace smoothfem {
 
-/// Rows compressed, columns ascending.
+/// Compressed rows with ascending columns.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 /// The cells of one element that a process works on; arrays run over the cells first.
 struct ElementCells {
   ReferenceElement element;
-  std::size_t n_own = 0;  ///< these come first; the others belong to other ranks, but touch
+  std::size_t n_own = 0;  ///< these come first; the others belong to other ranks, but contribute to
                           ///< equations of this one
-  std::vector<NodeIndex> vertices;     ///< local nodes in the element's order
-  std::vector<std::uint32_t> dofs;     ///< local dofs in the element's order
-  std::vector<std::uint32_t> entries;  ///< n_dofs x n_dofs each: where in the values of the
-                                       ///< pattern; FiniteElementSpace::absent for rows of other
-                                       ///< ranks and for boundary dofs
+  std::vector<NodeIndex> vertices;  ///< local nodes in the element's order
+  std::vector<std::uint32_t> dofs;  ///< local dofs in the element's order
+  std::vector<std::uint32_t>
+      entries;  ///< n_dofs x n_dofs each: positions in the pattern's values;
+                ///< FiniteElementSpace::absent for rows of other ranks and for boundary dofs
 
   std::size_t n_cells() const { return vertices.size() / element.n_vertices; }
 };
@@ -36,9 +36,9 @@ struct NaturalFacets {
   std::vector<std::uint32_t> dofs{};  ///< local dofs in the element's order
 };
 
-/// Everything about continuous Lagrange elements of degree 1 or 2 on a mesh that does not depend on
-/// coordinates: made once, used for every mesh that smoothing produces. Each rank holds the
-/// equations of its own dofs and all cells that contribute to them. Dofs are numbered locally: the
+/// Data of continuous Lagrange elements of degree 1 or 2 on a mesh that do not depend on
+/// coordinates. Made once and used for every mesh of a smoothing run. Each rank holds the equations
+/// of its own dofs and all cells that contribute to them. Local dofs are numbered in this order:
 /// free ones of this rank's equations, free ones of other ranks in these equations, boundary dofs.
 /// On parts of the boundary with natural conditions dofs are free.
 template <int dim>
@@ -49,12 +49,13 @@ struct FiniteElementSpace {
   Ranks ranks;
   std::size_t n_dofs = 0;  ///< of the whole mesh
   std::size_t n_free = 0;  ///< of the whole mesh: dofs that are not on the boundary
-  std::size_t n_own = 0, n_columns = 0, n_local = 0;  ///< where the three kinds of local dofs end
+  std::size_t n_own = 0, n_columns = 0, n_local = 0;  ///< ends of the three kinds of local dofs
   std::size_t n_own_boundary = 0;  ///< boundary dofs of this rank: the first of their kind
 
   std::vector<ElementCells> groups;
-  std::vector<NaturalFacets> natural_facets;  ///< at least those that equations of this rank have
-  /// Local nodes whose mean is a dof's position: a node, or the ends of an edge, the corners of a
+  std::vector<NaturalFacets>
+      natural_facets;  ///< at least those that contribute to equations of this rank
+  /// Local nodes whose mean is a dof's position: one node, or the ends of an edge, the corners of a
   /// face or of a cell.
   CompressedRows<NodeIndex> dof_nodes;
   std::vector<NodeIndex> nodes;  ///< the mesh's node of each local node
@@ -66,33 +67,36 @@ struct FiniteElementSpace {
   std::vector<std::size_t> column_numbers;  ///< number of each column among all free dofs
   Halo halo;                                ///< for vectors of n_columns entries
 
-  /// coordinates: of the mesh, needed on the root only. Returns those of the local nodes.
+  /// Returns the coordinates of the local nodes. coordinates: of the mesh, needed on the root only.
   /// Collective.
   std::vector<Point<dim>> local_coordinates(std::span<const Point<dim>> coordinates) const;
 
-  /// Coordinates of the local dofs, from those of the local nodes.
+  /// Returns the coordinates of the local dofs from those of the local nodes.
   std::vector<Point<dim>> dof_points(std::span<const Point<dim>> local_coordinates) const;
 };
 
-/// Gauss points per direction: on quadrilaterals eight agree with the print of the thesis to 0.2 %.
+/// Gauss points in each direction. On quadrilaterals, eight agree with the thesis to 0.2 %.
 struct TensorPoints {
   int quadrilateral = 8;
-  int hexahedron = 0;  ///< 0: each takes as many as it needs (chosen_points.h)
+  int hexahedron = 0;  ///< 0: each uses as many as it needs (adaptive_quadrature.h)
 };
 
-/// Throws InputError for planar cells with more than four nodes and, with degree 2, for volume
-/// meshes of anything but tetrahedra or hexahedra alone, naming the first such cell; and for
-/// natural groups that the mesh does not have, or that leave none of the boundary.
+/// Checks a mesh for finite elements. Throws InputError for planar cells with more than four nodes,
+/// naming the first one. With degree 2, throws it for the first cell of a volume mesh that is not
+/// of tetrahedra only or of hexahedra only. Throws it also for natural groups that the mesh does
+/// not have, or that cover the whole boundary.
 template <int dim>
 void require_finite_elements(const Topology& topology, int degree,
                              const std::vector<std::string>& natural_groups = {});
 
-/// mesh: needed on the root only, null elsewhere; its coordinates need not be valid. degree: 1 or
-/// 2. natural_groups: physical tags or names of the facets with natural conditions; elsewhere on
-/// the boundary u is given. Collective. One process numbers dofs as cells come in planar meshes
-/// (CG's counts on badly conditioned matrices depend on rounding, hence on the order, and this one
-/// comes closest to the thesis' counts), and part by part in volume meshes, whose products are
-/// faster then. Throws InputError as require_finite_elements does, and if no dof is free.
+/// Makes a space. mesh: needed on the root only, null elsewhere; its coordinates need not be valid.
+/// degree: 1 or 2. natural_groups: physical tags or names of the facets with natural conditions; on
+/// the rest of the boundary u is given. Collective.
+///
+/// One process numbers dofs in the order of cells in planar meshes. (CG's iteration counts on badly
+/// conditioned matrices depend on rounding, hence on the order; this one comes closest to the
+/// thesis' counts.) In volume meshes dofs are numbered part by part, which makes products faster.
+/// Throws InputError as require_finite_elements does, and if no dof is free.
 template <int dim>
 std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
     const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks = {},

@@ -16,7 +16,7 @@ Facet sorted(Facet facet) {
   return facet;
 }
 
-/// Facets of the boundary that the group labels.
+/// Returns the boundary facets with the label of the group.
 std::vector<Facet> facets_of_group(const Topology& topology, const std::string& group) {
   const MeshLabels& labels = topology.labels();
   std::set<Facet> labelled;
@@ -40,7 +40,7 @@ std::vector<Facet> facets_of_group(const Topology& topology, const std::string& 
 NaturalBoundary::NaturalBoundary(const Topology* topology, const std::vector<std::string>& groups,
                                  const Ranks& ranks) {
   if (groups.empty()) return;
-  std::vector<NodeIndex> numbers;  // of all facets: how many nodes, and which
+  std::vector<NodeIndex> numbers;  // for all facets: number of nodes, followed by the nodes
   if (topology != nullptr)
     for (const auto& group : groups)
       for (const auto& facet : facets_of_group(*topology, group)) {
@@ -74,8 +74,8 @@ void require_natural_groups(const Topology& topology, const std::vector<std::str
   }
   if (natural.size() == topology.boundary_facets().size())
     throw InputError(
-        "the whole boundary has natural conditions, which leave the solution open up to a "
-        "constant: take a group out of 'natural'");
+        "the whole boundary has natural conditions, which determine the solution only up to a "
+        "constant: remove a group from 'natural'");
 }
 
 }  // namespace smoothfem

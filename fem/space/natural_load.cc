@@ -10,7 +10,7 @@ namespace smoothfem {
 
 namespace {
 
-/// The local node of each of the mesh's nodes that facets have.
+/// Maps the mesh's nodes of facets to local nodes.
 template <int dim>
 std::map<NodeIndex, NodeIndex> local_nodes(const NaturalBoundary& natural,
                                            const FiniteElementSpace<dim>& space) {
@@ -22,7 +22,7 @@ std::map<NodeIndex, NodeIndex> local_nodes(const NaturalBoundary& natural,
   return local;
 }
 
-/// The dofs by the nodes whose mean is their position.
+/// Maps the nodes whose mean is a dof's position to the dof.
 template <int dim>
 std::map<std::vector<NodeIndex>, std::uint32_t> dofs_by_nodes(
     const std::map<NodeIndex, NodeIndex>& nodes, const FiniteElementSpace<dim>& space) {
@@ -63,7 +63,8 @@ void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>
       if (const auto found = dofs.find(around); found != dofs.end())
         of_facet.push_back(found->second);
     }
-    // Where dofs are missing the facet's cell is that of another rank, and no equation here has it.
+    // If dofs are missing, the facet's cell belongs to another rank and contributes to no equation
+    // here.
     if (of_facet.size() < group.element.n_dofs) continue;
     group.vertices.insert(group.vertices.end(), vertices.begin(), vertices.end());
     group.dofs.insert(group.dofs.end(), of_facet.begin(), of_facet.end());
@@ -73,8 +74,8 @@ void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>
 
 namespace {
 
-/// The position at a point of the rule, and the outward normal as long as the line or area that a
-/// unit of the reference facet covers there.
+/// Returns the position at a point of the rule, and the outward normal. Its length is that of the
+/// line, or the area, that a unit of the reference facet covers there.
 template <int dim>
 struct FacetPoint {
   Point<dim> position = Point<dim>::Zero(), normal;

@@ -9,12 +9,12 @@
 
 namespace smoothfem {
 
-/// Finds the facets of natural conditions among the nodes and dofs of a space, which are known.
+/// Finds the facets of natural conditions among the known nodes and dofs of a space.
 template <int dim>
 void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>& space);
 
-/// b_i += integral of (A grad u . n) phi_i over the facets of natural conditions, for this rank's
-/// free dofs. x: coordinates of the local nodes.
+/// Computes b_i += integral of (A grad u . n) phi_i over the facets of natural conditions, for this
+/// rank's free dofs. x: coordinates of the local nodes.
 template <int dim>
 void add_natural_load(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
                       const ManufacturedSolution<dim>& solution, Eigen::VectorXd& right_hand_side);

@@ -9,11 +9,12 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 constexpr auto absent = FiniteElementSpace<3>::absent;
-/// How a rank has a node: it is its own, another's, or no cell's.
+/// Status of a node on a rank: owned by another rank, own, or used by no cell.
 constexpr std::uint32_t other = 0, own = 1, unused = 2;
 
-/// Cells level by level around the first one, so that neighbours come near each other.
-std::vector<CellIndex> walk_over(const Topology& topology) {
+/// Returns the cells level by level around the first one, so that neighbours are close to each
+/// other.
+std::vector<CellIndex> breadth_first_cells(const Topology& topology) {
   std::vector<CellIndex> order;
   std::vector<bool> seen(topology.n_cells(), false);
   const auto take = [&](CellIndex cell) {
@@ -28,19 +29,20 @@ std::vector<CellIndex> walk_over(const Topology& topology) {
   return order;
 }
 
-/// What the root tells each rank: numbers of nodes in the mesh and of free dofs, and the cells.
-class Dealer {
+/// Messages of the root to each rank: numbers of nodes in the mesh and of free dofs, and the cells.
+class PartDistributor {
  public:
-  Dealer(const Topology& topology, const NaturalBoundary& natural, std::size_t n_ranks)
-      : topology_(topology), n_ranks_(n_ranks), order_(walk_over(topology)) {
+  PartDistributor(const Topology& topology, const NaturalBoundary& natural, std::size_t n_ranks)
+      : topology_(topology), n_ranks_(n_ranks), order_(breadth_first_cells(topology)) {
     find_owners();
     number_free_nodes(natural);
   }
 
-  /// First number of a free dof; numbers of nodes, of own cells, of cells; for each node its number
-  /// in the mesh, how the rank has it, its number among all free dofs or `absent`; for each cell
-  /// the number of its nodes and which of those they are. The rank's own cells come first. One rank
-  /// alone has all nodes, with their numbers.
+  /// Returns the message for a rank. First the first number of a free dof, and the numbers of
+  /// nodes, of own cells and of cells. Then for each node its number in the mesh, its status on the
+  /// rank, and its number among all free dofs or `absent`. Then for each cell the number of its
+  /// nodes, followed by these. The rank's own cells come first. A single rank has all nodes, with
+  /// their numbers.
   Numbers of_rank(std::size_t rank) const {
     std::vector<CellIndex> cells;
     for (std::size_t k = first_cell(rank); k < first_cell(rank + 1); ++k)
@@ -77,14 +79,14 @@ class Dealer {
  private:
   std::size_t first_cell(std::size_t rank) const { return rank * order_.size() / n_ranks_; }
 
-  /// A cell of another rank needs to be known if it contributes to an equation here.
+  /// True if a cell of another rank contributes to an equation here.
   bool contributes(CellIndex cell, std::size_t rank) const {
     const auto nodes = topology_.cell_nodes(cell);
     return std::any_of(nodes.begin(), nodes.end(),
                        [&](NodeIndex node) { return owner_[node] == rank; });
   }
 
-  /// The first rank that has a cell with it.
+  /// Finds the owner of each node: the first rank that has a cell with it.
   void find_owners() {
     owner_.assign(topology_.n_nodes(), absent);
     for (std::uint32_t rank = 0; rank < n_ranks_; ++rank)
@@ -93,7 +95,7 @@ class Dealer {
           owner_[node] = std::min(owner_[node], rank);
   }
 
-  /// Rank by rank, as its cells come.
+  /// Numbers free nodes rank by rank, in the order of the rank's cells.
   void number_free_nodes(const NaturalBoundary& natural) {
     std::vector<bool> taken(topology_.n_nodes(), false);  // on the boundary, or numbered
     for (std::size_t f = 0; f < topology_.boundary_facets().size(); ++f) {
@@ -126,9 +128,9 @@ Numbers message_of_root(const Topology* topology, const NaturalBoundary& natural
   Numbers all;
   if (topology != nullptr) {
     const auto n_ranks = static_cast<std::size_t>(ranks.size());
-    const Dealer dealer(*topology, natural, n_ranks);
+    const PartDistributor distributor(*topology, natural, n_ranks);
     for (std::size_t rank = 0; rank < n_ranks; ++rank) {
-      const Numbers message = dealer.of_rank(rank);
+      const Numbers message = distributor.of_rank(rank);
       lengths.push_back(message.size());
       all.insert(all.end(), message.begin(), message.end());
     }
@@ -136,7 +138,7 @@ Numbers message_of_root(const Topology* topology, const NaturalBoundary& natural
   return ranks.scatter(all, ranks.scatter(lengths, 1).front());
 }
 
-/// The root's message as a space.
+/// Fills a space from the root's message.
 class SpaceFiller {
  public:
   SpaceFiller(const Numbers& message, FiniteElementSpace<3>& space)
@@ -179,8 +181,8 @@ class SpaceFiller {
       auto& group = group_of(element_type(3, nodes.size()), tensor_points);
       const ElementType type = group.element.type;
       if (type == ElementType::pyramid || type == ElementType::hexahedron)
-        for (std::size_t k = 2; k + 1 < nodes.size(); k += 4)  // deal.II's squares: lexicographic
-          std::swap(nodes[k], nodes[k + 1]);
+        // Deal.II's quadrilaterals: lexicographic.
+        for (std::size_t k = 2; k + 1 < nodes.size(); k += 4) std::swap(nodes[k], nodes[k + 1]);
       group.n_own += c < n_own_cells_;
       for (const NodeIndex node : nodes) group.dofs.push_back(dof_of_node_[node]);
       group.vertices.insert(group.vertices.end(), nodes.begin(), nodes.end());
@@ -192,7 +194,7 @@ class SpaceFiller {
   bool is_unused(std::size_t i) const { return of_nodes_[3 * i + 1] == unused; }
   std::uint32_t number(std::size_t i) const { return of_nodes_[3 * i + 2]; }
 
-  /// Own free dofs, those of others, then the boundary's: own ones first.
+  /// Numbers own free dofs first, then those of others, then boundary dofs with own ones first.
   void number_local_dofs(const Numbers& ghosts) {
     std::size_t next_own = space_.n_columns, next_other = next_own + space_.n_own_boundary;
     for (std::size_t i = 0; i < n_nodes_; ++i) {

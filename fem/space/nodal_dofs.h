@@ -6,9 +6,9 @@
 
 namespace smoothfem {
 
-/// As number_dofs, for elements of degree 1 on volume meshes of any types of cells: dofs are nodes.
-/// topology: on the root, null elsewhere. Several ranks get parts of about as many cells, which
-/// follow each other in a walk over neighbours. Collective.
+/// Does the same as number_dofs, for elements of degree 1 on volume meshes of any types of cells:
+/// dofs are nodes. topology: on the root, null elsewhere. Several ranks get parts with about as
+/// many cells; the parts follow each other in a walk over neighbours. Collective.
 void number_nodal_dofs(const Topology* topology, const TensorPoints& tensor_points,
                        const NaturalBoundary& natural, FiniteElementSpace<3>& space);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr auto absent = FiniteElementSpace<2>::absent;
 
-/// Reads deal.II's numbering into a space.
+/// Copies deal.II's numbering to a space.
 template <int dim>
 class SpaceReader {
  public:
@@ -49,7 +49,7 @@ class SpaceReader {
     return space_.groups[cell->reference_cell().is_simplex() ? simplex_index : tensor_index];
   }
 
-  /// visit(cell, its dofs) for this rank's own cells, or for those around them.
+  /// Calls visit(cell, its dofs) for this rank's own cells, or for those around them.
   template <class Visit>
   void for_each_cell(bool own, const Visit& visit) const {
     std::vector<Index> indices;
@@ -61,13 +61,13 @@ class SpaceReader {
     }
   }
 
-  /// A cell around needs to be known if it contributes to an equation here. (A dof of a boundary
-  /// will do, it only makes the parts overlap a little more.)
+  /// True if a surrounding cell contributes to an equation here. (A boundary dof is enough; it only
+  /// makes the parts overlap a little more.)
   bool contributes(const std::vector<Index>& indices) const {
     return std::any_of(indices.begin(), indices.end(), [&](Index dof) { return is_own(dof); });
   }
 
-  /// The dofs of other ranks on the cells here, ascending.
+  /// Finds the dofs of other ranks on the cells here, ascending.
   void find_others() {
     const auto collect = [&](const Cell&, const std::vector<Index>& indices) {
       std::copy_if(indices.begin(), indices.end(), std::back_inserter(others_),
@@ -81,7 +81,7 @@ class SpaceReader {
     others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
   }
 
-  /// Own dofs first, then the others.
+  /// Returns the position of a dof: own dofs first, then the others.
   std::size_t position(Index dof) const {
     if (is_own(dof)) return dof - first_;
     return n_own_dofs_ +
@@ -89,7 +89,8 @@ class SpaceReader {
                                     others_.begin());
   }
 
-  /// The cell's dofs in one of its faces: those whose position is a mean of the face's vertices.
+  /// Returns the cell's dofs on one of its faces: those whose position is a mean of the face's
+  /// vertices.
   static std::vector<unsigned int> face_dofs(const ReferenceElement& element, const Cell& cell,
                                              unsigned int face) {
     std::vector<bool> in_face(element.n_vertices, false);
@@ -98,7 +99,7 @@ class SpaceReader {
       in_face[reference.face_to_cell_vertices(face, k, 1)] = true;
     std::vector<unsigned int> dofs;
     for (unsigned int i = 0; i < element.n_dofs; ++i) {
-      double support = 0.0;  // of the face; the whole is 1
+      double support = 0.0;  // weight of the face; the total is 1
       for (std::size_t v = 0; v < element.n_vertices; ++v)
         if (in_face[v]) support += element.support[i * element.n_vertices + v];
       if (support > 1.0 - 1e-12) dofs.push_back(i);
@@ -106,7 +107,7 @@ class SpaceReader {
     return dofs;
   }
 
-  /// The mesh's number of a cell's node.
+  /// Returns the mesh's number of a cell's node.
   NodeIndex mesh_node(const Cell& cell, unsigned int v) const {
     return vertices_hold_numbers_ ? static_cast<NodeIndex>(cell->vertex(v)[0])
                                   : static_cast<NodeIndex>(cell->vertex_index(v));
@@ -120,8 +121,8 @@ class SpaceReader {
     return natural_.contains(std::move(nodes));
   }
 
-  /// A cell of another rank may have faces that only seem to be on the boundary, because nothing
-  /// is known behind them; but those have no own dof.
+  /// Flags the own boundary dofs. A cell of another rank may have faces that only appear to be on
+  /// the boundary, because their neighbours are unknown here. Those faces have no own dofs.
   std::vector<bool> own_boundary_dofs() const {
     std::vector<bool> on_boundary(n_own_dofs_, false);
     const auto mark = [&](const Cell& cell, const std::vector<Index>& indices) {
@@ -136,14 +137,14 @@ class SpaceReader {
     return on_boundary;
   }
 
-  /// Free dofs are numbered rank by rank; every rank learns the numbers of those it has.
+  /// Numbers free dofs rank by rank; every rank gets the numbers of its dofs.
   void number_free_dofs() {
     const auto on_boundary = own_boundary_dofs();
     space_.n_own =
         static_cast<std::size_t>(std::count(on_boundary.begin(), on_boundary.end(), false));
     space_.n_own_boundary = n_own_dofs_ - space_.n_own;
     space_.n_free = space_.ranks.sum(space_.n_own);
-    first_number_ = space_.ranks.sum_before(space_.n_own);
+    first_number_ = space_.ranks.exclusive_scan(space_.n_own);
     std::size_t next = first_number_;
     numbers_.resize(static_cast<Eigen::Index>(n_own_dofs_ + others_.size()));
     for (std::size_t dof = 0; dof < n_own_dofs_; ++dof)
@@ -153,7 +154,7 @@ class SpaceReader {
         .update(numbers_);
   }
 
-  /// Own free dofs, free dofs of others (ascending numbers), boundary dofs.
+  /// Numbers own free dofs, free dofs of others (ascending numbers), and boundary dofs.
   void number_local_dofs() {
     auto& columns = space_.column_numbers;
     for (std::size_t i = 0; i < space_.n_own; ++i) columns.push_back(first_number_ + i);
@@ -181,7 +182,8 @@ class SpaceReader {
         Halo(space_.ranks, space_.n_free, first_number_, space_.n_own, {ghosts, columns.end()});
   }
 
-  /// Nodes are taken over with their numbers by one process, and numbered as cells come by several.
+  /// Returns the local number of a cell's node. One process keeps the mesh's numbers; several
+  /// number nodes in the order of cells.
   std::uint32_t local_node(const Cell& cell, unsigned int v) {
     if (!vertices_hold_numbers_) return static_cast<std::uint32_t>(cell->vertex_index(v));
     auto& local = local_nodes_[cell->vertex_index(v)];
@@ -229,7 +231,7 @@ class SpaceReader {
 
 namespace {
 
-/// Whether deal.II can number the dofs: it crashes on volume meshes of several types of cells.
+/// True if deal.II can number the dofs: it crashes on volume meshes of several types of cells.
 template <int dim>
 bool is_for_deal_ii(const Mesh<dim>* mesh, const Ranks& ranks) {
   bool is = true;

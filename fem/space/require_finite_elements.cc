@@ -17,11 +17,11 @@ void require_finite_elements(const Topology& topology, int degree,
     if (degree > 1 && (type == ElementType::pyramid || type == ElementType::prism))
       throw CellError(c, "is a " + std::string(name_of(type)) +
                              "; finite elements of degree 2 are solved on meshes of tetrahedra or "
-                             "of hexahedra only, so take degree 1, or split the cells first");
+                             "of hexahedra only, so use degree 1, or split the cells first");
     if (degree > 1 && dim == 3 && type != topology.cell_type(0))
       throw CellError(c, "is a " + std::string(name_of(type)) +
                              " among cells of another type; finite elements of degree 2 are solved "
-                             "on meshes of tetrahedra or of hexahedra only, so take degree 1");
+                             "on meshes of tetrahedra or of hexahedra only, so use degree 1");
   }
   require_natural_groups(topology, natural_groups);
 }
@@ -41,7 +41,9 @@ void require_on_all_ranks(const Topology* topology, int degree,
   bool refused = error != nullptr;
   ranks.broadcast(refused);
   if (error) std::rethrow_exception(error);
-  if (refused) throw InputError("the mesh cannot be solved on; the first process says why");
+  if (refused)
+    throw InputError(
+        "the problem cannot be solved on the mesh; see the error of the first process");
 }
 
 template void require_on_all_ranks<2>(const Topology*, int, const std::vector<std::string>&,

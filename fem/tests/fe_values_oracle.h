@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// deal.II's own path through FEValues, in its own numbering: the oracle of the kernels.
+// Reference implementation for the kernels: deal.II's FEValues with deal.II's numbering.
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -29,7 +29,7 @@ Point<dim> point_from(const dealii::Point<dim>& p) {
   return result;
 }
 
-/// A manufactured solution as deal.II wants functions.
+/// A manufactured solution in the form of deal.II's functions.
 template <int dim>
 class SolutionFunction : public dealii::Function<dim> {
  public:
@@ -48,8 +48,8 @@ class SolutionFunction : public dealii::Function<dim> {
   const ManufacturedSolution<dim>& solution_;
 };
 
-/// The rules for matrices and for errors. On simplices the former differs from ours: any rule that
-/// is exact does.
+/// The rules for matrices and for errors. On simplices the rule for matrices differs from that of
+/// smoothfem: any exact rule will do.
 template <int dim>
 dealii::Quadrature<dim> oracle_rule(bool simplices, unsigned int degree, bool errors) {
   dealii::Quadrature<dim> rule;
@@ -59,12 +59,12 @@ dealii::Quadrature<dim> oracle_rule(bool simplices, unsigned int degree, bool er
     rule = dealii::QWitherdenVincentSimplex<dim>(errors ? 6 : 5);
   else
     rule = dealii::QWitherdenVincentSimplex<dim>(!errors ? 5 : degree == 1 ? 3 : 4);
-  // For degrees that it does not know deal.II gives empty rules, without a word in Release.
+  // For unknown degrees deal.II returns empty rules, in Release without an error.
   if (rule.size() == 0) throw std::logic_error("empty quadrature rule");
   return rule;
 }
 
-/// A mesh of simplices alone or of tensor cells alone, with its dofs.
+/// A mesh of only simplices or only tensor cells, with its dofs.
 template <int dim>
 class Oracle {
  public:
@@ -92,7 +92,7 @@ class Oracle {
     return points;
   }
 
-  /// visit(values on a cell, numbers of its dofs) for each cell.
+  /// Calls visit(values on a cell, numbers of its dofs) for each cell.
   template <class Visit>
   void for_each_cell(const dealii::Quadrature<dim>& rule, const Visit& visit) const {
     dealii::FEValues<dim> values(*mapping_, *element_, rule,
@@ -110,7 +110,7 @@ class Oracle {
     for_each_cell(oracle_rule<dim>(simplices_, degree_, false), visit);
   }
 
-  /// Norm of u - u_h, u_h from its values at the dofs.
+  /// Norm of u - u_h, with u_h from its values at the dofs.
   double error(const ManufacturedSolution<dim>& solution, const dealii::Vector<double>& discrete,
                dealii::VectorTools::NormType norm) const {
     dealii::Vector<double> of_cells(triangulation_.n_active_cells());

@@ -9,7 +9,7 @@
 
 namespace smoothfem {
 
-/// The gradient of the energy of a solver that is prepared for the mesh is that of differences.
+/// Compares the gradient of the energy of a solver that is prepared for the mesh with differences.
 template <int dim>
 void expect_gradient_of_differences(ProblemSolver<dim>& solver, const Mesh<dim>& mesh) {
   const auto direction = [](NodeIndex i) {

@@ -7,7 +7,7 @@
 
 namespace smoothfem {
 
-/// Entries in [-1, 1], the same ones for each seed every time.
+/// Returns entries in [-1, 1], the same ones for each seed in every run.
 inline Eigen::VectorXd random_vector(Eigen::Index n, std::uint64_t seed) {
   test::Random random(seed);
   Eigen::VectorXd vector(n);

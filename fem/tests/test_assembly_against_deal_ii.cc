@@ -14,7 +14,7 @@
 namespace smoothfem {
 namespace {
 
-/// The oracle's dof at the same point as each of ours.
+/// The oracle's dof at the same point as each dof of smoothfem.
 template <int dim>
 std::vector<unsigned int> same_dofs(const Oracle<dim>& oracle,
                                     const std::vector<Point<dim>>& points) {
@@ -165,14 +165,14 @@ TEST_P(AgainstFEValuesTest, NormsAgreeWithIntegrateDifference) {
   GetParam().on_mesh(4, 3, 0.3, check);
 }
 
-/// integral of x^a y^b z^c over the reference simplex: a! b! c! / (a + b + c + dim)!.
+/// Integral of x^a y^b z^c over the reference simplex: a! b! c! / (a + b + c + dim)!.
 double simplex_monomial(int dim, const std::array<int, 3>& powers) {
   double value = 1.0;
   for (const int power : powers) value *= std::tgamma(power + 1);
   return value / std::tgamma(powers[0] + powers[1] + powers[2] + dim + 1);
 }
 
-/// Every monomial up to a degree; the rules' points are the linear shape functions' values.
+/// Every monomial up to a degree; the rules' points are the values of the linear shape functions.
 void expect_exact(const QuadratureTable& table, int dim, int degree) {
   for (int a = 0; a <= degree; ++a)
     for (int b = 0; a + b <= degree; ++b)

@@ -17,7 +17,7 @@ ManufacturedSolution<dim> solution_of(const std::string& u, const std::string& d
   return derived_solution<dim>(u, diffusivity, {});
 }
 
-/// A solver that has solved, and what it refers to.
+/// A solver after a solve, with the objects that it refers to.
 template <int dim>
 struct Solved {
   std::shared_ptr<const Problem<dim>> problem;
@@ -57,7 +57,7 @@ class CombinedProblem : public testing::TestWithParam<Cells> {
   }
 };
 
-TEST_P(CombinedProblem, OfOneIsThatOne) {
+TEST_P(CombinedProblem, OfOneProblemEqualsThatProblem) {
   on_mesh([]<int dim>(const Mesh<dim>& mesh) {
     const auto solution = two<dim>()[0];
     const auto one = solved<dim>(make_poisson_problem<dim>(solution), mesh),
@@ -72,7 +72,7 @@ TEST_P(CombinedProblem, OfOneIsThatOne) {
   });
 }
 
-TEST_P(CombinedProblem, OfTwoEqualOnesHasTwiceTheEnergyAndTheSameDirections) {
+TEST_P(CombinedProblem, OfTwoEqualProblemsHasTwiceTheEnergyAndEqualDirections) {
   on_mesh([]<int dim>(const Mesh<dim>& mesh) {
     const auto solution = two<dim>()[0];
     const auto one = solved<dim>(std::vector{solution}, mesh),
@@ -91,8 +91,8 @@ TEST_P(CombinedProblem, OfTwoEqualOnesHasTwiceTheEnergyAndTheSameDirections) {
   });
 }
 
-/// A solution a thousand times as large counts no more than the other one, and one that bends the
-/// other way takes nothing from it.
+/// A solution that is a thousand times as large counts no more than the other one. A solution that
+/// bends in the opposite direction cancels nothing.
 TEST_P(CombinedProblem, CountsByRelativeErrors) {
   on_mesh([]<int dim>(const Mesh<dim>& mesh) {
     const auto one = solved<dim>(std::vector{solution_of<dim>("x^3 + y^2")}, mesh);
@@ -106,7 +106,7 @@ TEST_P(CombinedProblem, CountsByRelativeErrors) {
       square += sum[i].squaredNorm();
     }
     EXPECT_NEAR(along / std::sqrt(scale * square), 1.0, 1e-9);
-    // Each of the two has a half of the sum of squares.
+    // Each of the two has one half of the sum of squares.
     const double first = estimated_squared_error(mesh, *one.solver),
                  all = estimated_squared_error(mesh, *both.solver);
     EXPECT_NEAR(all / first, 1.0 + 1e6, 1e-3 * all / first);
@@ -116,7 +116,7 @@ TEST_P(CombinedProblem, CountsByRelativeErrors) {
   });
 }
 
-TEST_P(CombinedProblem, LeavesOutWhatHasNoError) {
+TEST_P(CombinedProblem, SkipsSolutionsWithoutError) {
   on_mesh([]<int dim>(const Mesh<dim>& mesh) {
     const auto curved = two<dim>()[0];
     const auto one = solved<dim>(std::vector{curved}, mesh),
@@ -128,10 +128,10 @@ TEST_P(CombinedProblem, LeavesOutWhatHasNoError) {
   });
 }
 
-TEST_P(CombinedProblem, GradientIsThatOfDifferences) {
+TEST_P(CombinedProblem, GradientAgreesWithDifferences) {
   on_mesh([]<int dim>(const Mesh<dim>& mesh) {
     for (const int degree : {1, 2}) {
-      // Those in the space of degree 2 have loads that rules integrate exactly.
+      // Solutions in the space of degree 2 have loads that rules integrate exactly.
       const std::vector<ManufacturedSolution<dim>> simple{
           solution_of<dim>("x*y + y^2"), solution_of<dim>("40*(x^2 - x*y)", "1 + y")};
       const auto solver = solved<dim>(degree == 1 ? simple : two<dim>(), mesh, degree);
@@ -143,7 +143,8 @@ TEST_P(CombinedProblem, GradientIsThatOfDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Elements, CombinedProblem,
                          testing::Values(Cells::triangles, Cells::quadrilaterals, Cells::tetrahedra,
-                                         Cells::hexahedra));
+                                         Cells::hexahedra),
+                         [](const auto& info) { return std::string(name_of(info.param)); });
 
 }  // namespace
 }  // namespace smoothfem

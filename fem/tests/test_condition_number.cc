@@ -13,7 +13,7 @@
 namespace smoothfem {
 namespace {
 
-/// The system of a unit mesh, and the same for Trilinos with multigrid set up.
+/// The system of a unit mesh, also in Trilinos' form with multigrid set up.
 template <int dim>
 struct Problem {
   std::shared_ptr<const FiniteElementSpace<dim>> space;
@@ -105,7 +105,7 @@ TEST_P(ConditionNumberTest, AStartVectorChangesNothingBeyondTheTolerance) {
     };
     expect_same(dense.eigenvectors().col(0), dense.eigenvectors().col(n - 1));
     expect_same(random_vector(n, 1), random_vector(n, 2));
-    // Exact eigenvectors, but of other eigenvalues: where another cell was the worst before.
+    // Exact eigenvectors of other eigenvalues, as if another cell had been the worst before.
     expect_same(dense.eigenvectors().col(1), dense.eigenvectors().col(n - 2));
   });
 }
@@ -156,7 +156,7 @@ TEST(ConditionNumber, EigenvectorsOfAnotherSizeAreIgnored) {
   EXPECT_EQ(solver.eigenvectors(), vectors);
 }
 
-TEST(ConditionNumber, TheBetterOfTwoIsTakenWhereAPairIsNotVerified) {
+TEST(ConditionNumber, UsesTheBetterValueForUnverifiedPairs) {
   const ConditionNumber lanczos{1.1, 90.0, 1e-3, 1e-4, "cg-lanczos"};
   const ConditionNumber good{1.0, 100.0, 1e-7, 1e-7, "krylov-schur+lobpcg"};
   EXPECT_EQ(better_of(good, lanczos).value(), 100.0);
@@ -165,14 +165,14 @@ TEST(ConditionNumber, TheBetterOfTwoIsTakenWhereAPairIsNotVerified) {
   const auto other = better_of(ConditionNumber{.method = "lanczos+cholesky"}, lanczos);
   EXPECT_EQ(other.value(), lanczos.value());
   EXPECT_EQ(other.residual(), lanczos.residual());
-  // Both lie inside the spectrum, so the extreme one is better.
+  // Both lie inside the spectrum, so that the extreme one is better.
   const ConditionNumber inside{1.2, 95.0, 1e-2, 1e-2, "krylov-schur+lobpcg"};
   const auto mixed = better_of(inside, lanczos);
   EXPECT_EQ(mixed.lambda_min, lanczos.lambda_min);
   EXPECT_EQ(mixed.lambda_min_residual, lanczos.lambda_min_residual);
   EXPECT_EQ(mixed.lambda_max, inside.lambda_max);
   EXPECT_EQ(mixed.lambda_max_residual, inside.lambda_max_residual);
-  // What is not finite is not known.
+  // A value that is not finite is unknown.
   const ConditionNumber broken{std::nan(""), std::nan(""), std::nan(""), std::nan(""), "broken"};
   EXPECT_EQ(better_of(broken, lanczos).value(), lanczos.value());
 }

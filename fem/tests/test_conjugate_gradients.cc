@@ -11,7 +11,7 @@
 namespace smoothfem {
 namespace {
 
-/// Tridiagonal (-1, 2, -1) with a diagonal scaling that Jacobi undoes.
+/// Tridiagonal (-1, 2, -1) with a diagonal scaling that Jacobi removes.
 SparseMatrix scaled_laplacian(int n, double ratio) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto scale = [&](int i) { return std::pow(ratio, static_cast<double>(i) / n); };
@@ -40,7 +40,7 @@ TEST(ConjugateGradients, SolvesToTheToleranceInNoMoreIterationsThanUnknowns) {
   EXPECT_LT((x - Eigen::MatrixXd(matrix).ldlt().solve(b)).norm(), 1e-7 * x.norm());
 }
 
-TEST(ConjugateGradients, StopsOneIterationBeforeItWouldBeTooEarly) {
+TEST(ConjugateGradients, DoesNotStopOneIterationTooEarly) {
   const SparseMatrix matrix = scaled_laplacian(60, 3.0);
   const Eigen::VectorXd b = random_vector(60, 1);
   Eigen::VectorXd x;
@@ -65,7 +65,7 @@ TEST(ConjugateGradients, LanczosNumbersHaveTheExtremeEigenvalues) {
   EXPECT_NEAR(smallest.value / dense.eigenvalues().minCoeff(), 1.0, 1e-8);
 }
 
-TEST(ConjugateGradients, JacobiUndoesADiagonalScaling) {
+TEST(ConjugateGradients, JacobiRemovesADiagonalScaling) {
   const SparseMatrix scaled = scaled_laplacian(50, 1e3), plain = scaled_laplacian(50, 1.0);
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(50);
   Eigen::VectorXd x;
@@ -91,7 +91,7 @@ TEST(ConjugateGradients, ZeroRightHandSideNeedsNoIteration) {
   EXPECT_EQ(x.norm(), 0.0);
 }
 
-TEST(ConjugateGradients, StopsAtItsLimitOfTime) {
+TEST(ConjugateGradients, StopsAtItsTimeLimit) {
   const SparseMatrix matrix = scaled_laplacian(60, 3.0);
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(60);
   Eigen::VectorXd x;
@@ -126,7 +126,7 @@ TEST(ExtremeRitzValues, AgreeWithDenseEigenvaluesOfRandomTridiagonalMatrices) {
 }
 
 TEST(SlicedMatrix, MultipliesAsTheMatrixItWasMadeOf) {
-  // Rows of very different lengths, and a number of rows that is no multiple of the lanes.
+  // Rows of very different lengths, and a number of rows that is not a multiple of the lanes.
   for (const int n : {1, 3, 4, 37, 301}) {
     std::vector<Eigen::Triplet<double>> entries;
     for (int i = 0; i < n; ++i)

@@ -23,7 +23,7 @@ ManufacturedSolution<2> in_plane(const std::string& u, const std::string& diffus
   return derived_solution<2>(u, diffusivity, plane_sample);
 }
 
-TEST(DerivedSolution, HasTheDerivativesOfAFormulaInSpaceByHand) {
+TEST(DerivedSolution, DerivativesInSpaceMatchHandComputation) {
   const auto s = derived_solution<3>("35*sin(2*x+y)*cos(y-3*z)+60", "", space_sample);
   for (const auto& p : space_sample) {
     const double a = 2 * p.x() + p.y(), b = p.y() - 3 * p.z();
@@ -39,7 +39,7 @@ TEST(DerivedSolution, HasTheDerivativesOfAFormulaInSpaceByHand) {
   }
 }
 
-TEST(DerivedSolution, KnowsEachFunctionAndItsDerivative) {
+TEST(DerivedSolution, EvaluatesEachFunctionAndItsDerivative) {
   // f'(t) at t = x + 2 y, which stays between 0.1 and 1 here.
   const std::vector<Point<2>> points{{0.1, 0.2}, {0.3, 0.05}, {0.2, 0.3}};
   struct Known {
@@ -152,7 +152,7 @@ TEST(DerivedSolution, DerivesEachPieceForItself) {
   EXPECT_EQ(root.value_and_gradient({-4.0, 0.0}).gradient.x(), 0.0) << "the other piece is a NaN";
 }
 
-TEST(DerivedSolution, LoadWithADiffusivityIsThatByHand) {
+TEST(DerivedSolution, LoadWithADiffusivityMatchesHandComputation) {
   // u = x^2 y: grad u = (2xy, x^2).
   const auto scalar = in_plane("x^2*y", "1 + x^2");
   // -d/dx((1 + x^2) 2xy) - d/dy((1 + x^2) x^2) = -2y - 6x^2 y
@@ -195,19 +195,20 @@ TEST(DerivedSolution, IsSafeInSeveralThreads) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(DerivedSolution, SaysInOneSentenceWhatCannotBeRead) {
+TEST(DerivedSolution, ReportsUnreadableFormulasInOneSentence) {
   const auto expect = [](const std::string& u, const std::string& part) {
     EXPECT_THAT([&] { in_plane(u); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr("the solution's "), HasSubstr(part))))
         << u;
   };
   expect("", "'u' is empty: it needs a formula in x and y, such as");
-  expect("exq(y)",
-         "'u', 'exq(y)', cannot be read ('exq' at character 1 is no function; did you mean 'exp'? "
-         "choose one of abs,");
+  expect(
+      "exq(y)",
+      "'u', 'exq(y)', cannot be read ('exq' at character 1 is not a function; did you mean 'exp'? "
+      "choose one of abs,");
   expect("x + xx",
-         "('xx' at character 5 is no variable; did you mean 'x'? choose one of x, y, pi)");
-  expect("x*z", "('z' at character 3 is no variable; ");
+         "('xx' at character 5 is not a variable; did you mean 'x'? choose one of x, y, pi)");
+  expect("x*z", "('z' at character 3 is not a variable; ");
   expect("x + y)", "(')' at character 6 is not understood)");
   expect("x +", "(it ends too early)");
   expect("sin(x", "(it ends too early)");
@@ -217,16 +218,16 @@ TEST(DerivedSolution, SaysInOneSentenceWhatCannotBeRead) {
   expect("atan2(x)", "('atan2' at character 1 takes 2 arguments, not 1)");
   expect("sin(x, y)", "('sin' at character 1 takes 1 argument, not 2)");
   expect("max()", "('max' at character 1 takes 1 or more arguments, not 0)");
-  expect("x/0", "(it divides by zero, or takes a function where it has no value)");
+  expect("x/0", "(it divides by zero, or evaluates a function where it has no value)");
   expect("log(-1)*x", "(its values are complex numbers)");
-  expect("x^99999", "(exponents go to 300 only)");
+  expect("x^99999", "(exponents are at most 300)");
   expect(std::string(500, '(') + "x", "(its brackets are nested too deeply)");
   expect("log(x - 5)", "'u' is not a finite number at (0.1");
   expect("sqrt(abs(x - 0.1))", "gradient, derived from 'u', is not a finite number at (0.1");
   expect("sin(1e12*x)", "changes too fast at (");
 }
 
-TEST(DerivedSolution, SaysWhatIsWrongWithADiffusivity) {
+TEST(DerivedSolution, ReportsErrorsOfADiffusivity) {
   const auto expect = [](const std::string& diffusivity, const std::string& part) {
     EXPECT_THAT([&] { in_plane("x^2*y", diffusivity); },
                 ThrowsMessage<InputError>(
@@ -236,14 +237,14 @@ TEST(DerivedSolution, SaysWhatIsWrongWithADiffusivity) {
   expect("1, 2 ; 3", "is neither one formula nor 2 rows of 2 formulas: write it as 'a11, a12 ;");
   expect("1, 0", "is neither one formula nor 2 rows");
   expect("1, 0 ; , 1", "'diffusivity' is empty");
-  expect("1, q ; 0, 1", "('q' at character 2 is no variable");
+  expect("1, q ; 0, 1", "('q' at character 2 is not a variable");
   expect("2, x ; 0, 2", "is not symmetric at (0.1");
   expect("x", "is not positive definite at (-0.4");
   expect("1, 2 ; 2, 1", "is not positive definite at (0.1");
   expect("log(x + 1) + 3 + log(x + 0.4)", "is not a finite number at (-0.4");
 }
 
-TEST(DerivedSolution, PiecesHaveToMeet) {
+TEST(DerivedSolution, RefusesDiscontinuousPieces) {
   const auto mesh = unit_square(7, Cells::quadrilaterals, 0.1);
   const auto aligned = unit_square(8, Cells::triangles, 0.0);  // with nodes where x = 1/2
   const auto refused = [&](const auto& on, const std::string& u, const std::string& a,
@@ -254,8 +255,8 @@ TEST(DerivedSolution, PiecesHaveToMeet) {
   };
   for (const auto* on : {&mesh, &aligned}) {
     refused(*on, "if(x < 0.5, 0, 1)", "", "'u' jumps by 1.000000 at (0.5");
-    refused(*on, "abs(x - 0.5)", "", "flux across, diffusivity times derivative, jumps by 2.000");
-    refused(*on, "x", "if(x < 0.5, 1, 2)", "flux across");
+    refused(*on, "abs(x - 0.5)", "", "normal flux, diffusivity times derivative, jumps by 2.000");
+    refused(*on, "x", "if(x < 0.5, 1, 2)", "normal flux");
     EXPECT_NO_THROW(check_pieces(in_plane("if(x < 0.5, 0, (x-0.5)^2)"), *on));
     EXPECT_NO_THROW(check_pieces(in_plane("abs(x + 1) + abs(y)"), *on)) << "outside";
     // A kink in u goes with a jump of A across, not along it.

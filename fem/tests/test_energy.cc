@@ -26,15 +26,15 @@ std::vector<Case> energy_cases() {
   return cases;
 }
 
-/// Smooth and with a load that no rule integrates exactly.
+/// A smooth solution with a load that no rule integrates exactly.
 template <int dim>
 ManufacturedSolution<dim> smooth_solution() {
   return manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
 }
 
-/// In a medium that varies, by a tensor whose directions do so, too. f is a constant, so that what
-/// rules miss of it is less than what differences see; with degree 2, whose rules miss less, there
-/// is a part more that is not in the space.
+/// A solution in a varying medium, with a tensor whose directions vary, too. f is constant, so that
+/// the quadrature error is below the accuracy of differences. For degree 2, whose rules are better,
+/// it has an additional part that is not in the space.
 template <int dim>
 ManufacturedSolution<dim> in_a_medium(int degree) {
   const std::string more = degree == 1 ? "" : " + sin(3*x)*exp(y)";
@@ -55,8 +55,8 @@ class EnergyTest : public testing::TestWithParam<Case> {
     return solver;
   }
 
-  /// Mesh and problem moved together: energy and indicators stay, the gradient moves as directions
-  /// do.
+  /// Mesh and problem move together: energy and indicators stay, and the gradient turns like
+  /// directions.
   template <int dim>
   static void expect_alike_after_motion(const Mesh<dim>& mesh, const auto& forward,
                                         const auto& back, const auto& forward_direction) {
@@ -78,7 +78,7 @@ class EnergyTest : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(EnergyTest, GradientIsThatOfDifferences) {
+TEST_P(EnergyTest, GradientAgreesWithDifferences) {
   GetParam().on_mesh(6, 4, 0.15, []<int dim>(const Mesh<dim>& mesh) {
     for (const auto& solution : {smooth_solution<dim>(), in_a_medium<dim>(GetParam().degree)}) {
       const auto problem = make_poisson_problem<dim>(solution);
@@ -87,8 +87,8 @@ TEST_P(EnergyTest, GradientIsThatOfDifferences) {
   });
 }
 
-/// A constant tensor is a change of coordinates, and the identity none at all.
-TEST_P(EnergyTest, TakesTheIdentityForADiffusivity) {
+/// A constant tensor is equivalent to a change of coordinates, and the identity to no change.
+TEST_P(EnergyTest, AcceptsTheIdentityAsDiffusivity) {
   GetParam().on_mesh(5, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
     const auto plain = make_poisson_problem<dim>(derived_solution<dim>("exp(x)*y + y^3", {}, {}));
     const auto given = make_poisson_problem<dim>(derived_solution<dim>("exp(x)*y + y^3", "1", {}));
@@ -106,7 +106,7 @@ TEST_P(EnergyTest, TakesTheIdentityForADiffusivity) {
   });
 }
 
-/// Where all fluxes are k times as large, energies are, and squares of all indicators.
+/// If all fluxes are k times as large, so are energies and the squares of all indicators.
 TEST_P(EnergyTest, ScalesWithTheDiffusivity) {
   GetParam().on_mesh(5, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
     const auto once = make_poisson_problem<dim>(derived_solution<dim>("exp(x)*y", "1 + x", {}));
@@ -126,7 +126,7 @@ TEST_P(EnergyTest, ScalesWithTheDiffusivity) {
   });
 }
 
-/// |grad(u - u_h)|^2 = J + const: two meshes with the same boundary differ in both by the same.
+/// |grad(u - u_h)|^2 = J + const: between two meshes with the same boundary both change equally.
 TEST_P(EnergyTest, ChangesAsTheSquareOfTheTrueErrorDoes) {
   GetParam().on_mesh(6, 4, 0.15, []<int dim>(const Mesh<dim>& mesh) {
     const auto solution = smooth_solution<dim>();
@@ -160,7 +160,7 @@ TEST_P(EnergyTest, FollowsTheProblemWhereItMoves) {
   });
 }
 
-/// By a quarter of a turn about the z axis, which rounds nothing.
+/// A quarter of a turn about the z axis, which causes no rounding.
 TEST_P(EnergyTest, TurnsWithTheProblem) {
   GetParam().on_mesh(5, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
     const auto turned = [](Point<dim> p, double sign) {
@@ -215,8 +215,8 @@ TEST_P(EnergyTest, HasNoGradientWhereTheSolutionIsExact) {
   });
 }
 
-/// Indicators and the error of degree 1 fall together when the mesh is refined.
-TEST_P(EnergyTest, RecoveryTellsTheSizeOfTheError) {
+/// Indicators and the error of degree 1 fall at the same rate under refinement.
+TEST_P(EnergyTest, RecoveryEstimatesTheSizeOfTheError) {
   if (GetParam().cells == Cells::mixed) GTEST_SKIP() << "cells of two sizes";
   with_dimension(dimension_of(GetParam().cells), []<int dim>() {
     const auto solution = smooth_solution<dim>();
@@ -243,9 +243,9 @@ TEST_P(EnergyTest, RecoveryTellsTheSizeOfTheError) {
   });
 }
 
-/// Their traces are the indicators' squares; where the solution changes along x alone, and the mesh
-/// is one of a product, the gradient errs along x alone.
-TEST_P(EnergyTest, RecoveryTensorsTellTheDirectionOfTheError) {
+/// Their traces are the squares of the indicators. If the solution changes along x alone on a
+/// product mesh, the gradient's error points along x.
+TEST_P(EnergyTest, RecoveryTensorsHaveTheDirectionOfTheError) {
   if (GetParam().cells == Cells::mixed) GTEST_SKIP() << "cells of two sizes";
   with_dimension(dimension_of(GetParam().cells), []<int dim>() {
     const auto mesh = unit_mesh<dim>(6, GetParam().cells, 0.1);
@@ -268,7 +268,7 @@ TEST_P(EnergyTest, RecoveryTensorsTellTheDirectionOfTheError) {
 INSTANTIATE_TEST_SUITE_P(Elements, EnergyTest, testing::ValuesIn(energy_cases()),
                          [](const auto& info) { return name_of(info.param); });
 
-TEST(Energy, CountsSolvesAndNotThoseOfTheSameMesh) {
+TEST(Energy, CountsSolvesOncePerMesh) {
   const auto mesh = unit_square(4, Cells::triangles, 0.1);
   const auto problem = make_poisson_problem<2>(smooth_solution<2>());
   const auto solver = problem->make_solver();
@@ -282,7 +282,7 @@ TEST(Energy, CountsSolvesAndNotThoseOfTheSameMesh) {
   EXPECT_EQ(solver->effort().n_solves, 2u);
 }
 
-/// A load that a rule of few points does not see: within a cell it goes up and down.
+/// A load that rules with few points miss: it oscillates within a cell.
 TEST(Energy, ResolvesSharpLoads) {
   ManufacturedSolution<2> sharp = manufactured_solution<2>("sine");
   sharp.value = [](const Point<2>&) { return 0.0; };
@@ -296,11 +296,11 @@ TEST(Energy, ResolvesSharpLoads) {
     solver->prepare(mesh, 2);
     return solver->solve(mesh.coordinates());
   };
-  // With the load missed by a half the energy would be a quarter.
+  // With half of the load missing the energy would be a quarter.
   EXPECT_NEAR(energy_on(8), energy_on(32), 0.2 * std::abs(energy_on(32)));
 }
 
-TEST(Energy, RefusesWhatItDoesNotKnow) {
+TEST(Energy, RefusesUnsupportedInput) {
   const auto mesh = unit_square(3, Cells::triangles, 0.1);
   auto diffusive = smooth_solution<2>();
   diffusive.diffusivity = [](const Point<2>&) -> Diffusivity<2> {

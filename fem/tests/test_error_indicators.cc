@@ -28,10 +28,10 @@ ManufacturedSolution<dim> without_load() {
 }
 
 /// Four squares with sides of 1/2 and the hat function of the node between them. Across x = 1/2,
-/// below, its normal derivative goes from 4 y to -4 y: the facet's dofs see jumps of 0 and 4, and
-/// h_F |[du/dn]|^2 / 2 is 1/2 1/2 (0 + 16) / 2 1/2 = 1. Each cell has two such facets, and a size
-/// of 1/4.
-TEST(ResidualIndicator, OfAHatFunctionIsTheOneByHand) {
+/// for y below 1/2, its normal derivative goes from 4 y to -4 y: the facet's dofs have jumps of 0
+/// and 4. So h_F |[du/dn]|^2 / 2 is 1/2 1/2 (0 + 16) / 2 1/2 = 1. Each cell has two such facets,
+/// and a size of 1/4.
+TEST(ResidualIndicator, OfAHatFunctionMatchesHandComputation) {
   const auto mesh = unit_square(2, Cells::quadrilaterals, 0.0);
   const auto space = make_finite_element_space<2>(&mesh, 1, {});
   Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space->n_local));
@@ -97,7 +97,7 @@ class ErrorIndicatorTest : public testing::TestWithParam<Case> {
   }
 };
 
-/// The polynomials of the element's degree leave no residual, with cells of any shape.
+/// Polynomials of the element's degree leave no residual, on cells of any shape.
 TEST_P(ErrorIndicatorTest, ResidualIsZeroWhereTheSolutionIsExact) {
   GetParam().on_mesh(4, 3, 0.15, []<int dim>(const Mesh<dim>& mesh) {
     const std::string u = GetParam().degree == 1 ? "1 + 2*x - y" : "x*x + 3*x*y - 2*y*y + x";
@@ -110,8 +110,8 @@ TEST_P(ErrorIndicatorTest, ResidualIsZeroWhereTheSolutionIsExact) {
   });
 }
 
-/// It falls as the error does when the mesh is refined.
-TEST_P(ErrorIndicatorTest, ResidualTellsTheSizeOfTheError) {
+/// It falls at the rate of the error under refinement.
+TEST_P(ErrorIndicatorTest, ResidualEstimatesTheSizeOfTheError) {
   if (GetParam().cells == Cells::mixed) GTEST_SKIP() << "cells of two sizes";
   with_dimension(dimension_of(GetParam().cells), []<int dim>() {
     const auto solution = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
@@ -134,7 +134,7 @@ TEST_P(ErrorIndicatorTest, ResidualTellsTheSizeOfTheError) {
   });
 }
 
-/// On a regular mesh the recovered gradient of a polynomial of degree 2 is its own inside.
+/// On a regular mesh the recovered gradient of a polynomial of degree 2 is exact inside.
 TEST_P(ErrorIndicatorTest, HessiansAreThoseOfPolynomials) {
   if (GetParam().cells == Cells::mixed) GTEST_SKIP() << "averages are exact on regular meshes only";
   GetParam().on_mesh(6, 4, 0.0, []<int dim>(const Mesh<dim>& mesh) {

@@ -60,7 +60,7 @@ TEST(ManufacturedSolutions, VolumeHasThePrintedFormula) {
   EXPECT_DOUBLE_EQ(volume.value({3.14159265358979323846 / 4.0, 0.0, 0.0}), 95.0);
 }
 
-TEST(ManufacturedSolutions, UnknownNameListsTheKnownOnes) {
+TEST(ManufacturedSolutions, UnknownNameListsTheAvailableOnes) {
   EXPECT_THAT([] { manufactured_solution<2>("gaer"); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("gaer"), HasSubstr("gear"))));
 }
@@ -107,7 +107,7 @@ TEST(ParsedSolution, IsSafeInSeveralThreads) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(ParsedSolution, SaysWhatIsWrong) {
+TEST(ParsedSolution, ReportsErrors) {
   EXPECT_THAT([] { parsed_solution<2>("sin(", "0 ; 0", "0", sample); },
               ThrowsMessage<InputError>(HasSubstr("sin(")));
   EXPECT_THAT([] { parsed_solution<2>("x*x", "x ; 0", "-2", sample); },
@@ -122,7 +122,7 @@ TEST(ParsedSolution, SaysWhatIsWrong) {
               ThrowsMessage<InputError>(HasSubstr("'value' is not a finite number at (")));
 }
 
-TEST(ParsedSolution, SaysInOneSentenceWhatTheParserCouldNotRead) {
+TEST(ParsedSolution, ReportsUnreadableExpressionsInOneSentence) {
   testing::internal::CaptureStderr();
   EXPECT_THAT([] { parsed_solution<2>("exq(y)", "0 ; 0", "0", sample); },
               ThrowsMessage<InputError>(

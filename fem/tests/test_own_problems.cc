@@ -19,7 +19,7 @@ ManufacturedSolution<dim> formula(const std::string& u, const std::string& diffu
   return derived_solution<dim>(u, diffusivity, {});
 }
 
-/// An own problem for meshes of each dimension.
+/// A user-defined problem for meshes of each dimension.
 struct Problem {
   std::string planar_u, planar_diffusivity, volume_u, volume_diffusivity;
 
@@ -94,8 +94,8 @@ TEST_P(OwnProblemTest, ErrorsFallWithTheExpectedOrders) {
   expect_orders(smooth, {"right", "side"});
 }
 
-/// On a mesh stretched by 2 in x, u(x/2, y) with the tensor diag(4, 1) is the problem of the
-/// identity on the mesh as it was, whose matrix is half as large.
+/// A mesh stretched by 2 in x, with u(x/2, y) and the tensor diag(4, 1), corresponds to the problem
+/// of the identity on the original mesh. That problem's matrix is half as large.
 TEST_P(OwnProblemTest, TensorOnAStretchedMeshIsTheIdentityOnTheMesh) {
   GetParam().on_mesh(6, 4, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
     Mesh<dim> stretched = mesh;
@@ -133,7 +133,7 @@ TEST_P(OwnProblemTest, DofsWithNaturalConditionsAreFree) {
       const auto record = solve(mesh, manufactured_solution<dim>("linear"), natural, false);
       return record.n_dofs - record.n_free;
     };
-    // What is left of the boundary is a side of the square or cube, with its own boundary.
+    // The remaining boundary is a side of the square or cube, with its own boundary.
     const auto n_on_left = [&] {
       const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
       const auto points = space->dof_points(mesh.copied_coordinates());
@@ -161,7 +161,7 @@ TEST(OwnProblem, NaturalGroupsAreThoseOfTheMesh) {
       [&] {
         make({"left", "right", "side"});
       },
-      ThrowsMessage<InputError>(HasSubstr("take a group out of 'natural'")));
+      ThrowsMessage<InputError>(HasSubstr("remove a group from 'natural'")));
   const auto plain = unit_square(3, Cells::mixed, 0.1);
   EXPECT_THAT([&] { PoissonSolver<2>(&plain, {.natural_groups = {"left"}}); },
               ThrowsMessage<InputError>(HasSubstr("the mesh has no labelled boundary groups")));

@@ -36,8 +36,8 @@ class PoissonSolverTest : public testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(Elements, PoissonSolverTest, testing::ValuesIn(all_cases()),
                          [](const auto& info) { return name_of(info.param); });
 
-/// Dofs of degree 2 on the boundary, counted from its facets: their nodes, edges and, where they
-/// are quadrilaterals, insides. Degree 1: the nodes alone.
+/// Number of dofs on the boundary. Degree 2: counted from its facets by their nodes, edges and, for
+/// quadrilaterals, insides. Degree 1: the nodes alone.
 std::size_t n_boundary_dofs(const Topology& topology, int degree) {
   std::set<NodeIndex> nodes;
   std::set<std::pair<NodeIndex, NodeIndex>> edges;
@@ -53,7 +53,8 @@ std::size_t n_boundary_dofs(const Topology& topology, int degree) {
   return degree == 1 ? nodes.size() : nodes.size() + edges.size() + n_quadrilaterals;
 }
 
-/// Degree 1: V. Degree 2: V + E, and for tensor cells their insides and quadrilateral faces.
+/// Number of dofs. Degree 1: V. Degree 2: V + E, and for tensor cells their insides and
+/// quadrilateral faces.
 std::size_t n_lagrange_dofs(const Topology& topology, int degree) {
   if (degree == 1) return topology.n_nodes();
   std::size_t n_tensor_cells = 0;
@@ -109,8 +110,8 @@ TEST_P(PoissonSolverTest, TrueErrorsFallWithTheExpectedOrders) {
       l2.push_back(record.l2_error);
       h1.push_back(record.h1_error);
     });
-  // In the coarsest mixed volume mesh a fifth of the layers are tetrahedra, in the next one twice
-  // as many, in the last one hardly more.
+  // In the coarsest mixed volume mesh a fifth of the layers are tetrahedra. In the next one their
+  // fraction is twice as large, in the last one hardly larger.
   const std::size_t first = GetParam().cells == Cells::mixed_volume ? 1 : 0;
   for (std::size_t i = first; i + 1 < l2.size(); ++i) {
     EXPECT_NEAR(std::log2(l2[i] / l2[i + 1]), degree + 1, 0.3);
@@ -158,7 +159,7 @@ TEST_P(PoissonSolverTest, PreconditionersLeadToTheSameSolutionInFewerIterations)
       EXPECT_LE(result.iterations, iterations);
       EXPECT_LT((other - plain).norm(), 1e-9 * plain.norm());
     };
-    // The diagonal hardly varies here, so Jacobi gains nothing.
+    // The diagonal hardly varies here, so that Jacobi gains nothing.
     expect_same(jacobi_preconditioner(sliced), cg.iterations + cg.iterations / 5);
     expect_same(multigrid, cg.iterations / 2);
 
@@ -173,7 +174,7 @@ TEST_P(PoissonSolverTest, PreconditionersLeadToTheSameSolutionInFewerIterations)
   });
 }
 
-TEST_P(PoissonSolverTest, SolvingMovedMeshesAgainGivesTheSameBitsAsAFreshSolver) {
+TEST_P(PoissonSolverTest, ReusedSolverIsBitwiseIdenticalToANewOne) {
   GetParam().on_mesh(6, 5, 0.3, [&]<int dim>(const Mesh<dim>& first) {
     Mesh<dim> second = first;
     for (const NodeIndex i : second.topology().free_nodes())
@@ -183,7 +184,7 @@ TEST_P(PoissonSolverTest, SolvingMovedMeshesAgainGivesTheSameBitsAsAFreshSolver)
     const auto& solution = manufactured_solution<dim>("sine");
     PoissonSolver<dim> used(&first, options);
     used.solve(first.coordinates(), solution);
-    used.set_eigenvectors({});  // the start of the next ones
+    used.set_eigenvectors({});  // the next solves start from these
     PoissonSolver<dim> copy(used), fresh(&second, options);
     const auto again = used.solve(second.coordinates(), solution);
     for (const auto& other : {fresh.solve(second.coordinates(), solution),
@@ -208,7 +209,7 @@ TEST_P(PoissonSolverTest, NormsOfTheConstantOneAreThoseOfTheArea) {
                     Eigen::VectorXd::Constant(n, 1.0), Eigen::VectorXd::Zero(n));
     EXPECT_NEAR(norms.e_l2, 1.0, 1e-14);
     EXPECT_NEAR(norms.e_h1, 1.0, 1e-12);
-    // u = 1 + 2x - 3y (+ z/2): over the unit square (cube) its mean is 1/2 (3/4), its variance a
+    // u = 1 + 2x - 3y (+ z/2): over the unit square (cube) its mean is 1/2 (3/4). Its variance is a
     // twelfth of |grad u|^2, which is 13 (13.25).
     const double mean = dim == 2 ? 0.5 : 0.75, gradient = dim == 2 ? 13.0 : 13.25;
     const double square = mean * mean + gradient / 12.0;
@@ -237,7 +238,7 @@ TEST_P(PoissonSolverTest, NodalErrorsAreThoseAtTheMeshNodes) {
   });
 }
 
-TEST_P(PoissonSolverTest, LimitsAreAStatusNotASilentCut) {
+TEST_P(PoissonSolverTest, LimitsAreReportedInTheStatus) {
   GetParam().on_mesh(8, 6, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto solve = [&](const PoissonOptions& options) {
       return PoissonSolver<dim>(&mesh, options)
@@ -257,7 +258,7 @@ TEST_P(PoissonSolverTest, LimitsAreAStatusNotASilentCut) {
   });
 }
 
-TEST(PoissonSolver, StartsNoThreadsUnasked) {
+TEST(PoissonSolver, StartsNoThreads) {
   const auto threads = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
   };
@@ -268,9 +269,9 @@ TEST(PoissonSolver, StartsNoThreadsUnasked) {
   EXPECT_EQ(threads(), before);
 }
 
-TEST(PoissonSolver, SquareOfFourQuadrilateralsByHand) {
-  // One free node in the middle of a 2 x 2 grid of squares: the bilinear stiffness is 8/3, so the
-  // condition number is 1, and the solution follows from one equation.
+TEST(PoissonSolver, SquareOfFourQuadrilateralsMatchesHandComputation) {
+  // One free node in the middle of a 2 x 2 grid of squares. The bilinear stiffness is 8/3, so that
+  // the condition number is 1, and the solution follows from one equation.
   const auto mesh = unit_square(2, Cells::quadrilaterals, 0.0);
   PoissonOptions options;
   const auto record = PoissonSolver<2>(&mesh, options)
@@ -282,7 +283,7 @@ TEST(PoissonSolver, SquareOfFourQuadrilateralsByHand) {
   EXPECT_LE(record.cg_iterations, 1U);
 }
 
-TEST(PoissonSolver, CubeOfEightHexahedraByHand) {
+TEST(PoissonSolver, CubeOfEightHexahedraMatchesHandComputation) {
   // One free node in the middle of 2 x 2 x 2 cubes of edge h = 1/2: eight times the integral of
   // |grad phi|^2, 3 (1/h) (h/3) (h/3).
   const auto mesh = unit_cube(2, Cells::hexahedra, 0.0);
@@ -293,9 +294,9 @@ TEST(PoissonSolver, CubeOfEightHexahedraByHand) {
   EXPECT_NEAR(record.condition_number, 1.0, 1e-14);
 }
 
-/// Chosen Gauss points on hexahedra beside twenty per direction, on a badly distorted box and on
-/// one that is hardly distorted: every recorded number to 1e-4.
-TEST(PoissonSolver, ChosenGaussPointsAgreeWithTwentyADirectionOnHexahedra) {
+/// Compares chosen Gauss points on hexahedra with twenty points in each direction, on a badly and
+/// on a hardly distorted box: every recorded number agrees to 1e-4.
+TEST(PoissonSolver, ChosenRulesAgreeWithTwentyPointsOnHexahedra) {
   for (const double distortion : {0.1, 0.5})
     for (const int degree : {1, 2})
       for (const bool galerkin : {false, true}) {
@@ -329,8 +330,9 @@ TEST(PoissonSolver, ChosenGaussPointsAgreeWithTwentyADirectionOnHexahedra) {
       }
 }
 
-/// Of each cell alone, also of those that are taken for even and so see no second rule.
-TEST(PoissonSolver, StiffnessOfHexahedraWithChosenPointsIsThatOfTwentyADirection) {
+/// Checks each cell separately, also cells whose determinant counts as constant and which skip the
+/// second rule.
+TEST(PoissonSolver, StiffnessOfHexahedraWithChosenRulesAgreesWithTwentyPoints) {
   for (const double distortion : {0.15, 0.3, 0.6})
     for (const int degree : {1, 2}) {
       const auto mesh = unit_cube(4, Cells::hexahedra, distortion);
@@ -368,7 +370,7 @@ TEST(PoissonSolver, RefusesPolygonsDegreesAndMeshesWithoutUnknowns) {
                 ThrowsMessage<InputError>(HasSubstr("no unknown")));
 }
 
-TEST(PoissonSolver, NamesTheCellsThatItCannotBeSolvedOn) {
+TEST(PoissonSolver, NamesUnsupportedCells) {
   const auto make = [](test::BoxCells kind) {
     const auto mesh = test::box_mesh(2, 2, 4, kind);
     const PoissonSolver<3> solver(&mesh, PoissonOptions{.degree = 2});
@@ -382,7 +384,7 @@ TEST(PoissonSolver, NamesTheCellsThatItCannotBeSolvedOn) {
 
 TEST(PoissonSolver, NamesTheFirstCellOfAnotherType) {
   // A cube, and on its top a tetrahedron over half of the face: quadratic tetrahedra and hexahedra
-  // do not go together.
+  // do not fit together.
   auto mesh = test::box_mesh(1, 1, 1, test::BoxCells::hexahedra);
   auto points = mesh.copied_coordinates();
   points.emplace_back(2.0, 2.0, 2.0);

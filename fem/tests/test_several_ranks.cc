@@ -25,7 +25,7 @@ const Ranks& all_ranks() {
   return ranks;
 }
 
-/// What the root passes.
+/// Arguments of the root.
 template <int dim>
 const Mesh<dim>* on_root(const Mesh<dim>& mesh) {
   return all_ranks().is_root() ? &mesh : nullptr;
@@ -72,7 +72,7 @@ class SeveralRanksTest : public testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(Elements, SeveralRanksTest, testing::ValuesIn(all_cases()),
                          [](const auto& info) { return name_of(info.param); });
 
-TEST_P(SeveralRanksTest, RecordAndNodalErrorsAreThoseOfOneProcess) {
+TEST_P(SeveralRanksTest, RecordAndNodalErrorsEqualThoseOfOneProcess) {
   for (const bool galerkin : {false, true})
     GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
       const auto& solution = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
@@ -94,7 +94,7 @@ TEST_P(SeveralRanksTest, RecordAndNodalErrorsAreThoseOfOneProcess) {
     });
 }
 
-TEST_P(SeveralRanksTest, OwnProblemsAreThoseOfOneProcess) {
+TEST_P(SeveralRanksTest, UserProblemsEqualThoseOfOneProcess) {
   GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& plain) {
     const auto mesh = with_groups(plain);
     const auto solution = dim == 2
@@ -121,7 +121,7 @@ TEST_P(SeveralRanksTest, AllRanksHaveTheSameRecord) {
   });
 }
 
-TEST_P(SeveralRanksTest, EigenvectorsSurviveTheWayThroughTheRoot) {
+TEST_P(SeveralRanksTest, EigenvectorsSurviveGatheringOnTheRoot) {
   GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
     PoissonSolver<dim> solver(on_root(mesh), options(), all_ranks());
     const auto& solution = manufactured_solution<dim>("sine");
@@ -141,7 +141,7 @@ TEST_P(SeveralRanksTest, EigenvectorsSurviveTheWayThroughTheRoot) {
   });
 }
 
-/// As far as CG converges.
+/// Within the convergence of CG.
 template <int dim>
 void expect_same_energy(const Mesh<dim>& mesh, const ManufacturedSolution<dim>& solution,
                         const std::vector<std::string>& natural_groups) {
@@ -174,12 +174,12 @@ void expect_same_energy(const Mesh<dim>& mesh, const ManufacturedSolution<dim>& 
   }
 }
 
-TEST_P(SeveralRanksTest, EnergyAndItsGradientAreThoseOfOneProcess) {
+TEST_P(SeveralRanksTest, EnergyAndItsGradientEqualThoseOfOneProcess) {
   GetParam().on_mesh(14, 7, 0.2, [&]<int dim>(const Mesh<dim>& plain) {
     const auto& smooth = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
     const Cells cells = GetParam().cells;
     if (cells == Cells::pyramids || cells == Cells::prisms || cells == Cells::mixed_volume) {
-      // Refused by all, whoever has such cells.
+      // All ranks refuse them, whichever has such cells.
       EXPECT_THROW(make_energy_solver(on_root(plain), 1, smooth, {}, all_ranks()), InputError);
       return;
     }
@@ -205,7 +205,7 @@ TEST(SeveralRanks, NoRankHasAnEnergyWhereACellIsFolded) {
 }
 
 TEST(SeveralRanks, FewDofsAreEnoughForEachRank) {
-  // More ranks than make sense: some have no free dof.
+  // More ranks than useful: some have no free dof.
   const auto mesh = unit_cube(2, Cells::hexahedra, 0.0);
   const auto record = PoissonSolver<3>(on_root(mesh), PoissonOptions{}, all_ranks())
                           .solve(mesh.coordinates(), manufactured_solution<3>("quadratic"));
@@ -214,7 +214,7 @@ TEST(SeveralRanks, FewDofsAreEnoughForEachRank) {
   EXPECT_EQ(record.condition_method, "dense");
 }
 
-TEST(SeveralRanks, LimitOfTimeStopsAllRanksTogether) {
+TEST(SeveralRanks, TimeLimitStopsAllRanksTogether) {
   const auto mesh = unit_cube(6, Cells::hexahedra, 0.2);
   PoissonOptions options;
   options.max_cg_seconds = 0.0;
@@ -224,7 +224,7 @@ TEST(SeveralRanks, LimitOfTimeStopsAllRanksTogether) {
   EXPECT_THAT(record.status, HasSubstr("CG stopped at its limit of time"));
 }
 
-TEST(SeveralRanks, AllRanksRefuseTogether) {
+TEST(SeveralRanks, RefusesOnAllRanks) {
   const auto make = [](const VolumeMesh& mesh, int degree,
                        const std::vector<std::string>& natural = {}) {
     const PoissonOptions options{.degree = degree, .natural_groups = natural};

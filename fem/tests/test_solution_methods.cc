@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What every method has to hold that moves nodes by the solution of a problem. Those properties of
-/// the conformance tests that make sense with one: similarities and regular patches do not, as the
-/// problem is that of a place.
+/// Requirements for every solution-adaptive method: the conformance tests that apply to them.
+/// Similarities and regular patches are left out, as the problem is fixed in space.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +33,7 @@ std::vector<Mesh<dim>> distorted_meshes() {
     return {unit_cube(5, Cells::tetrahedra, 0.3), unit_cube(5, Cells::hexahedra, 0.3)};
 }
 
-/// With a layer that GETMe's mesh does not resolve.
+/// A solution with a layer that GETMe's mesh does not resolve.
 template <int dim>
 ManufacturedSolution<dim> layer() {
   return derived_solution<dim>("exp(-10*x)*cos(y) + x*y", {}, {});
@@ -74,8 +73,8 @@ TEST_P(EveryMethodWithAProblem, LowersTheTrueErrorBelowThatOfItsStart) {
   });
 }
 
-/// One layer along each axis, the second one much larger, in a medium that varies.
-TEST_P(EveryMethodWithAProblem, LowersTheErrorOfEachSolutionThatTheMeshIsFor) {
+/// Two solutions with a layer along each axis, the second one much larger, in a varying medium.
+TEST_P(EveryMethodWithAProblem, LowersTheErrorOfEachSolution) {
   in_every_dimension([]<int dim>() {
     const std::vector<ManufacturedSolution<dim>> solutions{
         layer<dim>(), derived_solution<dim>("300*exp(-10*y)*cos(x)", "1 + x + y", {})};
@@ -113,7 +112,7 @@ TEST_P(EveryMethodWithAProblem, MovesFreeNodesOnlyAndKeepsCellsValid) {
   });
 }
 
-TEST_P(EveryMethodWithAProblem, TellsItsSolvesAndKeepsToItsBudget) {
+TEST_P(EveryMethodWithAProblem, ReportsItsSolvesAndKeepsItsBudget) {
   in_every_dimension([]<int dim>() {
     auto mesh = distorted_meshes<dim>()[0];
     auto made = method<dim>();
@@ -173,14 +172,14 @@ TEST_P(EveryMethodWithAProblem, RefusesTangledMeshes) {
   EXPECT_THROW(smooth(mesh, made), InputError);
 }
 
-TEST_P(EveryMethodWithAProblem, RefusesToDoWithoutOne) {
+TEST_P(EveryMethodWithAProblem, RefusesToRunWithoutAProblem) {
   auto mesh = unit_square(4, Cells::triangles, 0.2);
   auto made = make_method<2>(GetParam());
   EXPECT_THAT([&] { smooth(mesh, made); },
               ThrowsMessage<InputError>(AllOf(HasSubstr(GetParam()), HasSubstr("problem"))));
 }
 
-TEST_P(EveryMethodWithAProblem, BeginsWithTheMethodThatItIsGiven) {
+TEST_P(EveryMethodWithAProblem, StartsWithTheGivenMethod) {
   const auto mesh = unit_square(8, Cells::triangles, 0.3);
   const auto started = [&](const std::string& start) {
     Mesh<2> result = mesh;
@@ -210,7 +209,7 @@ TEST(MethodsWithAProblem, AreNotAmongAll) {
               testing::IsSupersetOf({"energy-descent", "indicator-weighted", "indicator-aligned"}));
 }
 
-/// Where the solution has a layer, cells become thin across it and keep their length along it.
+/// In the solution's layer cells become thin across it and keep their length along it.
 TEST(MethodsWithAProblem, IndicatorAlignedMakesCellsThinAcrossALayer) {
   const auto mesh = unit_square(24, Cells::quadrilaterals, 0.0);
   const auto extents = [&](const std::string& name) {
@@ -235,8 +234,8 @@ TEST(MethodsWithAProblem, IndicatorAlignedMakesCellsThinAcrossALayer) {
   EXPECT_NEAR(aligned[1], 1.0, 0.1);
 }
 
-/// Nodes of the sides stay on them, corners where they are, and the error falls further.
-TEST(MethodsWithAProblem, LetBoundaryNodesSlide) {
+/// Nodes of the sides stay on them, corners do not move, and the error falls further.
+TEST(MethodsWithAProblem, CanSlideBoundaryNodes) {
   for (const std::string method : {"indicator-weighted", "indicator-aligned", "indicator-getme",
                                    "indicator-mmpde", "indicator-mmpde-descent"})
     for (const Cells cells : {Cells::triangles, Cells::quadrilaterals}) {
@@ -270,7 +269,7 @@ TEST(MethodsWithAProblem, LetBoundaryNodesSlide) {
 }
 
 /// The residual leads to small cells in the same places.
-TEST(MethodsWithAProblem, TakeTheResidualForAnIndicator) {
+TEST(MethodsWithAProblem, CanUseTheResidualIndicator) {
   for (const std::string method : {"indicator-weighted.weights", "indicator-getme.sizes"}) {
     const auto dot = method.find('.');
     for (const auto& mesh : distorted_meshes<2>()) {
@@ -292,8 +291,8 @@ TEST(MethodsWithAProblem, TakeTheResidualForAnIndicator) {
   }
 }
 
-/// The energy falls by less and less; where the last solve's share of all is small enough it is
-/// over.
+/// The energy falls by less and less. The stage ends when the last solve's share of the total is
+/// small enough.
 TEST(MethodsWithAProblem, EnergyDescentStopsByTheGainOfASolve) {
   const auto solves_with = [](const char* gain) {
     auto mesh = unit_square(12, Cells::triangles, 0.2);

@@ -22,8 +22,9 @@ constexpr int dimension_of(Cells cells) {
   return cells >= Cells::tetrahedra ? 3 : 2;
 }
 
-/// n x n squares on [0, 1]^2, each one quadrilateral or two triangles (mixed: every other square).
-/// Inner nodes are moved by `amount` edge lengths in directions that vary from node to node.
+/// Makes n x n squares on [0, 1]^2, each one quadrilateral or two triangles (mixed: every other
+/// square). Inner nodes are moved by `amount` edge lengths in directions that vary from node to
+/// node.
 inline PlanarMesh unit_square(std::size_t n, Cells kind, double amount) {
   std::vector<Point<2>> points;
   const double h = 1.0 / static_cast<double>(n);
@@ -51,9 +52,9 @@ inline PlanarMesh unit_square(std::size_t n, Cells kind, double amount) {
   return {std::make_shared<Topology>(2, n_nodes, std::move(cells)), std::move(points)};
 }
 
-/// n x n x n cubes on [0, 1]^3, each one hexahedron, six tetrahedra or pyramids, or two prisms;
-/// mixed: layers of each. Inner nodes are moved at random, by up to `amount` edge lengths in each
-/// direction.
+/// Makes n x n x n cubes on [0, 1]^3, each one hexahedron, six tetrahedra or pyramids, or two
+/// prisms; mixed: layers of each. Inner nodes are moved at random, by up to `amount` edge lengths
+/// in each direction.
 inline VolumeMesh unit_cube(std::size_t n, Cells kind, double amount) {
   const auto size = static_cast<std::uint32_t>(n);
   using test::BoxCells;
@@ -68,7 +69,7 @@ inline VolumeMesh unit_cube(std::size_t n, Cells kind, double amount) {
   return mesh;
 }
 
-/// dim: that of the cells.
+/// dim: dimension of the cells.
 template <int dim>
 Mesh<dim> unit_mesh(std::size_t n, Cells kind, double amount) {
   if constexpr (dim == 2)
@@ -77,8 +78,8 @@ Mesh<dim> unit_mesh(std::size_t n, Cells kind, double amount) {
     return unit_cube(n, kind, amount);
 }
 
-/// The same mesh with each facet of the boundary in a group: "left" where x = 0, "right" where
-/// x = 1, else "side", with the tags 1, 2 and 3.
+/// Returns the mesh with each boundary facet in a group: "left" at x = 0, "right" at x = 1,
+/// otherwise "side", with the tags 1, 2 and 3.
 template <int dim>
 Mesh<dim> with_groups(const Mesh<dim>& mesh) {
   const Topology& topology = mesh.topology();
@@ -99,13 +100,13 @@ Mesh<dim> with_groups(const Mesh<dim>& mesh) {
           mesh.copied_coordinates()};
 }
 
-/// An element of finite elements, for tests with this parameter.
+/// An element type and degree, as a test parameter.
 struct Case {
   Cells cells;
   int degree;
 
   /// Calls body.operator()<dim>(mesh) with the unit mesh of these cells: n_planar or n_volume of
-  /// them per direction.
+  /// them in each direction.
   template <class Body>
   void on_mesh(std::size_t n_planar, std::size_t n_volume, double amount, const Body& body) const {
     with_dimension(dimension_of(cells), [&]<int dim>() {
@@ -114,17 +115,24 @@ struct Case {
   }
 };
 
-/// For ParamInfo, and for what a failure prints.
+inline const char* name_of(Cells cells) {
+  constexpr const char* names[] = {"triangles", "quadrilaterals", "mixed",  "tetrahedra",
+                                   "hexahedra", "pyramids",       "prisms", "mixed_volume"};
+  return names[static_cast<int>(cells)];
+}
+inline void PrintTo(Cells cells, std::ostream* out) {
+  *out << name_of(cells);
+}
+
+/// Name for ParamInfo and failure messages.
 inline std::string name_of(const Case& c) {
-  const char* cells[] = {"triangles", "quadrilaterals", "mixed",  "tetrahedra",
-                         "hexahedra", "pyramids",       "prisms", "mixed_volume"};
-  return std::string(cells[static_cast<int>(c.cells)]) + "_degree_" + std::to_string(c.degree);
+  return std::string(name_of(c.cells)) + "_degree_" + std::to_string(c.degree);
 }
 inline void PrintTo(const Case& c, std::ostream* out) {
   *out << name_of(c);
 }
 
-/// Every kind of cells with every degree that it can have.
+/// Returns every kind of cells with each of its degrees.
 inline std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const Cells cells :
@@ -135,7 +143,7 @@ inline std::vector<Case> all_cases() {
   return cases;
 }
 
-/// Those of volume meshes.
+/// Returns the cases of volume meshes.
 inline std::vector<Case> volume_cases() {
   auto cases = all_cases();
   std::erase_if(cases, [](const Case& c) { return dimension_of(c.cells) == 2; });

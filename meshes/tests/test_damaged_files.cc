@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damaged{"vtu_node", ".vtu", Vtu{.nodes = "0 1 -9000000000"}.text(),
                 "cell 0 names point -9000000000"},
         Damaged{"vtu_cell_type", ".vtu", Vtu{.types = "300"}.text(),
-                "the array 'types' has 300, which is no type of VTK's cells"},
+                "the array 'types' has 300, which is not a VTK cell type"},
         Damaged{"vtu_unknown_cell_type", ".vtu", Vtu{.types = "250"}.text(), "the VTK type 250"},
         Damaged{"vtu_no_base64", ".vtu", Vtu{.points = "A?==", .format = "binary"}.text(),
                 "the array 'Points' has no header"},

@@ -66,9 +66,9 @@ class VtkEncodings : public FileTest {
  protected:
   /// The mesh in VTK's form, with attributes that are not read.
   vtkSmartPointer<vtkUnstructuredGrid> grid_of(const VolumeMesh& mesh) {
-    write_mesh(file("ours.vtu"), mesh);
+    write_mesh(file("written.vtu"), mesh);
     vtkNew<vtkXMLUnstructuredGridReader> reader;
-    reader->SetFileName(file("ours.vtu").c_str());
+    reader->SetFileName(file("written.vtu").c_str());
     reader->Update();
     vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
     add_attributes(*grid->GetPointData(), grid->GetNumberOfPoints());

@@ -45,10 +45,10 @@ void require_same_types(const fs::path& library) {
   const std::string_view mark(plugin_abi.mark.data(), plugin_abi.mark.size());
   bool is_plugin = false;
   for (auto at = content.find(mark); at != std::string::npos; at = content.find(mark, at + 1)) {
-    PluginAbi theirs;
-    if (content.size() - at < sizeof(theirs)) break;
-    std::memcpy(&theirs, content.data() + at, sizeof(theirs));
-    if (theirs == plugin_abi) return;
+    PluginAbi found;
+    if (content.size() - at < sizeof(found)) break;
+    std::memcpy(&found, content.data() + at, sizeof(found));
+    if (found == plugin_abi) return;
     is_plugin = true;
   }
   throw InputError(library.string() +

@@ -27,9 +27,9 @@ class NodeConstraints {
   virtual ~NodeConstraints() = default;
 
   /// Returns the position of a node that is at `from` and should move to `wanted`: the nearest
-  /// point of the node's part of the surface. A node off the surface moves to `wanted` itself. A
-  /// corner stays, and so does any node with wanted == from. The closer `from` is, the faster the
-  /// search.
+  /// point of the node's part of the surface. A node that is not of the surface moves to `wanted`
+  /// itself. A corner stays, and so does any node with wanted == from. The search is faster if
+  /// `from` is closer.
   virtual Point<3> project(NodeIndex node, const Point<3>& from, const Point<3>& wanted) const = 0;
 
   /// Returns the distance of a point from the surface.

@@ -29,7 +29,7 @@ inline std::filesystem::path shared_mesh(const std::string& name) {
 /// Returns the reason for a skipped test and how to get its mesh.
 inline std::string how_to_get(const std::string& name) {
   return "SKIPPED: the mesh " + name +
-         " is not part of the repository and not at hand; name its folder by SMOOTHFEM_MESHES, or "
+         " is not part of the repository and was not found; set SMOOTHFEM_MESHES to its folder, or "
          "fetch the published gears by ./run study gear --published";
 }
 

@@ -419,8 +419,8 @@ class Spoiler final : public Smoother<2> {
 /// Makes no better mesh until a given iteration, which undoes the spoiler's change.
 class Idler final : public Smoother<2> {
  public:
-  explicit Idler(int patience_below_start, int mends_at = 0)
-      : patience_below_start_(patience_below_start), mends_at_(mends_at) {}
+  explicit Idler(int patience_below_start, int repairs_at = 0)
+      : patience_below_start_(patience_below_start), repairs_at_(repairs_at) {}
   std::string_view name() const override { return "idler"; }
   SmootherTraits traits() const override {
     return {.quality_use = QualityUse::loop, .result = ResultMesh::best_q_star_min};
@@ -431,13 +431,13 @@ class Idler final : public Smoother<2> {
             .patience_below_start = patience_below_start_};
   }
   StepReport step(SmoothingState<2>& state) override {
-    if (++n_ == mends_at_)
+    if (++n_ == repairs_at_)
       state.mesh.coordinates()[state.mesh.topology().free_nodes()[0]].x() -= 0.3;
     return {};
   }
 
  private:
-  int patience_below_start_, mends_at_, n_ = 0;
+  int patience_below_start_, repairs_at_, n_ = 0;
 };
 
 TEST(Loop, ReportsWhenPatienceBelowTheStartApplied) {

@@ -156,7 +156,7 @@ TEST(MeshFunctional, OfItsReferenceMatchesHandComputation) {
   });
 }
 
-TEST(MeshFunctional, GradientIsThatOfDifferences) {
+TEST(MeshFunctional, GradientAgreesWithDifferences) {
   for_all_cells([]<int dim>(bool simplices) {
     const auto mesh = bent_mesh<dim>(simplices, 0.1);
     MeshFunctional<dim> functional(regular_mesh<dim>(simplices));

@@ -85,7 +85,7 @@ class VtuReader {
         types, piece.n_cells, [&] { cells.types.reserve(piece.n_cells); },
         [&](std::int64_t type) {
           if (type < 0 || type > 255)
-            file_.fail(types, "has " + std::to_string(type) + ", which is no type of VTK's cells");
+            file_.fail(types, "has " + std::to_string(type) + ", which is not a VTK cell type");
           cells.types.push_back(static_cast<std::uint8_t>(type));
         });
     return cells;

@@ -91,7 +91,7 @@ bool XmlTags::next() {
     fail_at(at_, "a tag has no end; the file is truncated or damaged");
   tag_.past_last = at_;
   if (tag_.begins && open_.empty() && n_roots_++ > 0)
-    fail("the file has a second element besides the first one; it is damaged");
+    fail("the file has a second root element; it is damaged");
   if (tag_.begins && !tag_.ends) open_.push_back(tag_.name);
   if (tag_.ends && !tag_.begins) {
     if (open_.empty() || open_.back() != tag_.name)

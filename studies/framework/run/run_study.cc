@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "fem/adaptivity/poisson_problem.h"
-#include "fem/elements/chosen_points.h"
+#include "fem/elements/adaptive_quadrature.h"
 #include "fem/solutions/check_pieces.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
@@ -237,7 +237,7 @@ class StudyRun {
     for (const auto& mesh : data_.meshes)
       for (const auto& [degree, most] : mesh.most_points)
         progress_.say("Cells of " + mesh.description.name + ", degree " + std::to_string(degree) +
-                      ": " + std::to_string(chosen_points::ladder.front()) + " to " +
+                      ": " + std::to_string(adaptive_quadrature::rule_sequence.front()) + " to " +
                       std::to_string(most) +
                       " Gauss points per direction, each cell as many as it needs.");
   }

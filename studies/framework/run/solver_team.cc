@@ -84,7 +84,7 @@ class TeamEnergySolver final : public EnergySolver<3> {
     tell(Task::energy_gradient);
     return all_or_nothing(ranks_, [&] { return part_->gradient(); });
   }
-  WholeFunction<3> function() override {
+  GatheredFunction<3> function() override {
     tell(Task::energy_function);
     return all_or_nothing(ranks_, [&] { return part_->function(); });
   }
