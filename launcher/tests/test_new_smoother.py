@@ -87,9 +87,9 @@ class NewSmoother(unittest.TestCase):
 
     def test_names_that_cannot_be(self):
         (self.folder / "here").mkdir()
-        self.assertIn("take small letters", self.refused("new-smoother", "Ab_cd"))
-        self.assertIn("already", self.refused("new-smoother", "here"))
-        self.assertIn("there is a method 'laplace' already", self.refused("new-smoother", "laplace"))
+        self.assertIn("use lower-case letters", self.refused("new-smoother", "Ab_cd"))
+        self.assertIn("'here' exists here", self.refused("new-smoother", "here"))
+        self.assertIn("a method 'laplace' exists", self.refused("new-smoother", "laplace"))
 
     def test_plugins_that_are_none(self):
         self.assertIn("there is no plugin none.so", self.refused("list", "--plugin", "none.so"))

@@ -80,23 +80,25 @@ void smoothfem_add_generate_command(CLI::App& app) {
   command->add_option("--to", arguments->to, "format of standard output: msh, vtu, ...");
   command->add_option("--elements", arguments->elements,
                       joined(element_names()) + "; default: the domain's first (see list)");
-  command->add_option("--edge-scale", arguments->edge_scale, "edges longer by this factor");
-  command->add_option("--distort-to", arguments->distort_to, "mean quality to distort to");
+  command->add_option("--edge-scale", arguments->edge_scale,
+                      "multiply edge lengths by this factor, at least 1 (default: 1)");
+  command->add_option("--distort-to", arguments->distort_to,
+                      "distort the mesh to this mean quality (default: not distorted)");
   command
       ->add_option("--distortion", arguments->distortion,
-                   "how nodes are moved: " + std::string(distortion_kind_names[0]) +
-                       " (unless given) or " + distortion_kind_names[1])
+                   "how distortion moves nodes: " + std::string(distortion_kind_names[0]) + " or " +
+                       distortion_kind_names[1])
       ->check(CLI::IsMember(
           std::vector<std::string>(distortion_kind_names.begin(), distortion_kind_names.end())));
   command
       ->add_option("--distortion-sweeps", arguments->sweeps,
-                   "times all nodes are moved (1 unless given)")
+                   "how often all nodes are moved (default: 1)")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--distortion-least-quality", arguments->min_quality,
-                   "mean ratio that distortion leaves every cell (0 unless given)")
+                   "lowest mean ratio that distortion may leave (default: 0)")
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--seed", arguments->seed, "seed of generation and distortion")
+  command->add_option("--seed", arguments->seed, "seed of generation and distortion (default: 1)")
       ->check(CLI::NonNegativeNumber);
   add_examples(*command,
                {"smoothfem generate gear --elements quadrilaterals --distort-to 0.418 -o gear.msh",

@@ -21,7 +21,7 @@ namespace smoothfem {
 namespace {
 
 struct Arguments {
-  std::filesystem::path studies;  ///< empty: those that come with the program
+  std::filesystem::path studies;  ///< empty: the built-in studies
   bool study_keys = false;
   std::string columns;  ///< CSV file; empty: all
 };
@@ -108,7 +108,7 @@ void smoothfem_add_list_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = add_subcommand(app, "list");
   command->add_option("--studies", arguments->studies,
-                      "folder with study files (those that come with the program unless given)");
+                      "folder with study files (default: the built-in studies)");
   command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");
   const auto* columns =
       command

@@ -60,13 +60,13 @@ void make_folder(const Arguments& arguments) {
   static const std::regex allowed("[a-z][a-z0-9]*(-[a-z0-9]+)*");
   if (!std::regex_match(arguments.name, allowed))
     throw InputError("a smoother cannot be called '" + arguments.name +
-                     "'; take small letters, digits and '-', as in half-laplace");
+                     "'; use lower-case letters, digits and '-', as in half-laplace");
   if (fs::exists(arguments.name))
-    throw InputError("there is a file or folder '" + arguments.name +
-                     "' here already; take another name, or another folder");
+    throw InputError("a file or folder '" + arguments.name +
+                     "' exists here; choose another name or another folder");
   for (const auto& info : method_catalogue(true))
     if (info.name == arguments.name)
-      throw InputError("there is a method '" + arguments.name + "' already; take another name");
+      throw InputError("a method '" + arguments.name + "' exists; choose another name");
   const char* kind = arguments.python ? "python" : arguments.command ? "command" : "cpp";
   const fs::path templates = data_folder() / "launcher" / "new_smoother" / kind;
   if (!fs::is_directory(templates))
@@ -88,11 +88,12 @@ void make_folder(const Arguments& arguments) {
 void add_new_smoother_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = add_subcommand(app, "new-smoother");
-  command->add_option("name", arguments->name, "its name, such as half-laplace")->required();
-  auto* python = command->add_flag("--python", arguments->python, "in Python; in C++ unless given");
+  command->add_option("name", arguments->name, "name of the smoother, for example half-laplace")
+      ->required();
+  auto* python = command->add_flag("--python", arguments->python, "in Python (default: in C++)");
   command
       ->add_flag("--command", arguments->command,
-                 "as a program of its own that reads a mesh file and writes one")
+                 "as an external program that reads a mesh file and writes another")
       ->excludes(python);
   add_examples(*command,
                {"smoothfem new-smoother half-laplace", "smoothfem new-smoother mine --python"});

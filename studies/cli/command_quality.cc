@@ -245,7 +245,7 @@ void report_quality(Arguments arguments) {
     throw InputError("--below is " + std::to_string(arguments.below) +
                      ", but a mean ratio lies between 0 and 1");
   if (arguments.mark.empty() && arguments.below > 0.0)
-    throw InputError("--below says which cells --mark marks; name a file with --mark");
+    throw InputError("--below needs --mark FILE, which writes the marked mesh");
   if (!arguments.mark.empty()) require_mesh_path(arguments.mark);
   (void)metrics_named(arguments.metrics);  // throws before a large mesh is read
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
@@ -267,13 +267,14 @@ void add_quality_command(CLI::App& app) {
   command->add_option("--mark", arguments->mark,
                       "write the mesh to this file with its bad cells marked (cell field 'bad'), "
                       "and list the worst");
-  command->add_option("--below", arguments->below,
-                      "bad are invalid cells (unless given), and those of lower mean ratio than "
-                      "this");
+  command->add_option(
+      "--below", arguments->below,
+      "bad cells are invalid cells and cells with a lower mean ratio than this (default: 0)");
   command
-      ->add_option("--metrics", arguments->metrics,
-                   "other metrics, too: their range, mean and percentiles over the cells; names "
-                   "separated by commas, or all of them")
+      ->add_option(
+          "--metrics", arguments->metrics,
+          "also other metrics: range, mean and percentiles over the cells; names separated by "
+          "commas, or all")
       ->expected(0, 1)
       ->default_str("all");
   command->add_flag("--json", arguments->json, "as JSON");

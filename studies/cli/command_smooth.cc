@@ -25,7 +25,7 @@ Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
   for (const auto& setting : arguments.settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos)
-      throw InputError("--set needs key=value, but is given as '" + setting + "'");
+      throw InputError("--set needs key=value, not '" + setting + "'");
     method.set(setting.substr(0, equals), setting.substr(equals + 1));
   }
   check_parameters(method);
@@ -66,8 +66,8 @@ Mesh<dim, spacedim> with_rule(Mesh<dim, spacedim> mesh, const std::string& rule)
 
 /// --only-below: the nodes that are not near a bad cell are fixed, too.
 template <int dim, int spacedim>
-Mesh<dim, spacedim> with_bad_places_free(Mesh<dim, spacedim> mesh,
-                                         const SmoothArguments& arguments) {
+Mesh<dim, spacedim> fix_nodes_away_from_bad_cells(Mesh<dim, spacedim> mesh,
+                                                  const SmoothArguments& arguments) {
   if (!arguments.only_below) return mesh;
   auto fixed = fixed_away_from_bad_cells(mesh, *arguments.only_below, arguments.rings);
   return with_fixed_nodes(std::move(mesh), std::move(fixed));
@@ -125,12 +125,12 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
-  mesh = with_bad_places_free(std::move(mesh), arguments);
+  mesh = fix_nodes_away_from_bad_cells(std::move(mesh), arguments);
   const MeshQuality before = mesh_quality(mesh);
   Recorder recorder(arguments);
   const Outcome outcome =
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
-  look_at_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
+  warn_about_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Files do not say that a boundary is one to slide on: its nodes are fixed there.
@@ -153,7 +153,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
   if constexpr (dim == 3)
     if (const auto* constraints = mesh.constraints())
-      std::printf("the boundary lies within %.3g of the initial one (at most %.3g)\n",
+      std::printf("distance from the initial boundary: %.3g (limit: %.3g)\n",
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
 }
 
@@ -200,35 +200,41 @@ void add_smooth_command(CLI::App& app) {
                       "parameters of an experiment (see 'list'); --set comes after it");
   command->add_option("--set", arguments->settings, "parameter of the method: key=value")
       ->allow_extra_args(false);
-  command->add_option("--fix", arguments->fix,
-                      "nodes that stay: boundary, file, free or group=NAME[,NAME] (as in the file, "
-                      "or the boundary, unless given)");
-  command->add_option("--feature-angle", arguments->feature_angle,
-                      "edges of a surface, or of a sliding boundary, whose facets make more than "
-                      "this angle are kept (degrees; 40 unless given)");
+  command->add_option(
+      "--fix", arguments->fix,
+      "nodes that stay: boundary, file, free or group=NAME[,NAME] (default: as in the file, "
+      "otherwise the boundary)");
+  command->add_option(
+      "--feature-angle", arguments->feature_angle,
+      "keep edges of a surface or of a sliding boundary whose facets make more than this "
+      "angle (degrees; default: 40)");
   command
-      ->add_option("--boundary", arguments->boundary,
-                   "boundary nodes of volume meshes: fixed (unless given), or slide on the "
-                   "initial boundary, along its edges, corners staying; those of planar "
-                   "meshes slide with --untangle")
+      ->add_option(
+          "--boundary", arguments->boundary,
+          "boundary nodes of volume meshes: fixed (default), or slide on the initial boundary, "
+          "along its edges; corners stay. Boundary nodes of planar meshes slide with "
+          "--untangle")
       ->check(CLI::IsMember({"fixed", "slide"}));
-  command->add_option("--slide-distance", arguments->slide_distance,
-                      "facets of a sliding boundary come off the initial one by no more than this "
-                      "fraction of its mean edge length (0.1 unless given; inf: no bound)");
-  command->add_flag("--untangle", arguments->untangle,
-                    "make a tangled mesh valid first; with --boundary slide also by sliding nodes");
-  command->add_option("--threads", arguments->n_threads, "threads (all cores unless given)")
+  command->add_option(
+      "--slide-distance", arguments->slide_distance,
+      "maximum distance of a sliding boundary from the initial one, as a fraction of its "
+      "mean edge length (default: 0.1; inf: no bound)");
+  command->add_flag(
+      "--untangle", arguments->untangle,
+      "make a tangled mesh valid first; with --boundary slide boundary nodes slide, too");
+  command->add_option("--threads", arguments->n_threads, "number of threads (default: all cores)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--log", arguments->log, "CSV file with one row per iteration");
   command->add_option("--series", arguments->series, "VTU series (.pvd) with every iteration");
   command
       ->add_option(
           "--only-below", arguments->only_below,
-          "smooth only where cells have a lower mean ratio than this; all other nodes stay")
+          "smooth only around cells with a lower mean ratio than this; all other nodes stay")
       ->check(CLI::Range(0.0, 1.0));
   command
-      ->add_option("--rings", arguments->rings,
-                   "with --only-below: rings of cells around the bad ones whose nodes move, too")
+      ->add_option(
+          "--rings", arguments->rings,
+          "with --only-below: rings of cells around bad cells whose nodes also move (default: 2)")
       ->check(CLI::Range(0, 1000));
   command->add_flag("--fail-if-invalid", arguments->fail_if_invalid,
                     "write nothing and exit with 2 if the smoothed mesh has invalid cells");

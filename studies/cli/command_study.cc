@@ -121,34 +121,36 @@ void smoothfem_add_study_command(CLI::App& app) {
                                    "study file (.prm), or name of a built-in study");
   command->add_flag("--list", arguments->list, "only list the built-in studies")->excludes(name);
   command->add_option("--out", arguments->options.out,
-                      "folder for the results (results/NAME unless given)");
+                      "folder for the results (default: results/NAME)");
   command->add_option("--mesh-dir", arguments->options.mesh_dir,
                       "folder with the published meshes that the study names");
   command->add_flag("--published", arguments->published,
                     "fetch the published meshes that the study names, once, and run on them");
   command
       ->add_option("--threads", arguments->options.n_threads,
-                   "threads for the finite elements of planar meshes (all cores unless given)")
+                   "threads for the finite elements of planar meshes (default: all cores)")
       ->check(CLI::Range(1, 1024));
   command
       ->add_option("--smoothing-threads", arguments->options.smoothing_threads,
-                   "threads for smoothing; one gives times that compare with the thesis'")
+                   "threads for smoothing (default: 1, for times that compare with the thesis)")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--scale", arguments->scale,
-                      "one of the study's scales: other sizes, other records");
+  command->add_option(
+      "--scale", arguments->scale,
+      "one of the study's scales, for example quick or paper: other mesh sizes and records");
   command->add_flag("--quick", arguments->quick, "the same as --scale quick");
-  command->add_option("--shard", arguments->options.shard,
-                      "of a collection only the k-th of n parts, as 3/10; 'smoothfem merge' puts "
-                      "their results together");
+  command->add_option(
+      "--shard", arguments->options.shard,
+      "run only part K of N of a collection, for example 3/10; 'smoothfem merge' merges the "
+      "results");
   command->add_flag("--force", arguments->options.force,
-                    "start anew; the folder of an earlier run is kept under another name");
+                    "start anew; keep the folder of an earlier run under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress, no results on the screen");
   command->add_flag("--verbose", arguments->verbose, "print all tables and the paths of all files");
   // For the launcher, which draws; this program never does.
   command->add_flag("--no-figures", arguments->no_figures, "make tables, but draw nothing")
       ->envname("SMOOTHFEM_NO_FIGURES");
   command->add_flag("--dry-run", arguments->options.dry_run,
-                    "only say what would run, about how long, and what memory and disk it takes");
+                    "only show what would run, the estimated time, memory and disk space");
   command->add_flag("--print-plan", arguments->print_plan)->group("");  // for the launcher
   command->add_option("--task-socket", arguments->options.task_socket)->group("");  // not shown
   add_plugin_option(*command);
@@ -160,7 +162,7 @@ void smoothfem_add_study_command(CLI::App& app) {
       throw InputError("--quick asks for the scale quick, --scale for " + arguments->scale +
                        "; give one of them");
     if (arguments->study.empty())
-      throw InputError("which study? 'smoothfem study --list' shows those there are");
+      throw InputError("which study? 'smoothfem study --list' shows the available ones");
     if (arguments->print_plan) return print_plan(*arguments);
     // The launcher fetches, and passes on the folder.
     if (arguments->published && arguments->options.mesh_dir.empty())

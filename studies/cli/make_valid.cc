@@ -54,7 +54,7 @@ template <int dim>
   throw InputError(arguments.in + ": " + what +
                    (hopeless ? " have only fixed nodes, so that nothing can mend them"
                              : " are left after untangling") +
-                   where + "; " + advice + ", or mend them by hand");
+                   where + "; " + advice + ", or repair them in the mesh generator");
 }
 
 /// In the plane: along the boundary as it is, corners and what --fix names staying.

@@ -22,20 +22,21 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
     const bool many = 20 * stage.n_last_reset > n_free_nodes;
     if (many)
       std::printf(
-          "  in its last iteration %zu of %zu free nodes were put back, as cells around "
-          "them became invalid\n",
+          "  its last iteration reset %zu of %zu free nodes, because cells around them became "
+          "invalid\n",
           stage.n_last_reset, n_free_nodes);
   }
   if (result.result_record == 0)
-    std::printf("the result is the initial mesh: no iteration has made a better one\n");
+    std::printf("the result is the initial mesh: no iteration made a better one\n");
 }
 
-void look_at_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,
-                           std::size_t n_cells) {
+void warn_about_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,
+                              std::size_t n_cells) {
   if (n_invalid == 0) return;
   const std::string what = std::to_string(n_invalid) + " of " + std::to_string(n_cells) +
                            " cells of the smoothed mesh are invalid";
-  const std::string method = "take a method that keeps cells valid, such as smart-laplace or getme";
+  const std::string method =
+      "choose a method that keeps cells valid, for example smart-laplace or getme";
   if (arguments.fail_if_invalid)
     throw InputError(what + ", so " + arguments.out + " is not written; " + method);
   std::fprintf(stderr, "smoothfem: warning: %s; %s, and --fail-if-invalid to make it an error\n",

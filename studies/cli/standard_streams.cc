@@ -21,7 +21,8 @@ namespace {
 std::unique_ptr<TemporaryFile> temporary_for(const std::string& stream, const std::string& format,
                                              const std::string& option) {
   if (format.empty() || format.find('/') != std::string::npos)
-    throw InputError("'-' is standard " + stream + ", whose format no name tells; say " + option +
+    throw InputError("'-' is standard " + stream +
+                     ", which has no file extension; give the format by " + option +
                      " msh, vtu or another one of 'smoothfem list'");
   return std::make_unique<TemporaryFile>("standard-" + stream +
                                          (format.starts_with(".") ? format : "." + format));
