@@ -113,7 +113,7 @@ function(smoothfem_list_test name label serial shards)
     endif()
     math(EXPR index "${shard} - 1")
     add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1)
-    set_tests_properties(${entry} PROPERTIES LABELS "${label};${library};compiled" RUN_SERIAL "${serial}"
+    set_tests_properties(${entry} PROPERTIES LABELS "${label};${library};compiled" RUN_SERIAL "${serial}" COST ${shards}
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
   endforeach()
 endfunction()
