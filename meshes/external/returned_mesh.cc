@@ -71,10 +71,11 @@ void require_same_cells(const Topology& given, const Topology& returned, const N
     throw SmootherFailure("its mesh has " + count_text(returned.n_cells(), "cell") +
                           " in place of " + std::to_string(given.n_cells()) +
                           ": only nodes may move");
-  const auto given = sorted_keys(given, [](NodeIndex i) { return i; });
-  const auto returned = sorted_keys(returned, [&](NodeIndex i) { return map[i]; });
+  const auto given_keys = sorted_keys(given, [](NodeIndex i) { return i; });
+  const auto returned_keys = sorted_keys(returned, [&](NodeIndex i) { return map[i]; });
   std::size_t n_changed = 0;
-  for (auto a = given.begin(), b = returned.begin(); a != given.end() && b != returned.end();)
+  for (auto a = given_keys.begin(), b = returned_keys.begin();
+       a != given_keys.end() && b != returned_keys.end();)
     if (*a == *b) {
       ++a;
       ++b;
@@ -84,7 +85,7 @@ void require_same_cells(const Topology& given, const Topology& returned, const N
     } else {
       ++b;
     }
-  if (given != returned)
+  if (given_keys != returned_keys)
     throw SmootherFailure("its mesh has other cells (" +
                           count_text(std::max<std::size_t>(1, n_changed), "cell") +
                           " changed): only nodes may move, edges and faces must not be swapped");

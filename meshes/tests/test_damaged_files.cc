@@ -217,7 +217,7 @@ TEST_F(FileTest, ReadsManySetsOfManyNodesQuickly) {
   EXPECT_EQ(read.mesh.topology().labels().cell_tags[1], 1);
 }
 
-// --- What every format refuses -------------------------------------------------------------------
+// --- Input that every format refuses -------------------------------------------------------------
 
 /// Triangles, or tetrahedra, as a text file.
 std::string file_of(const std::string& extension, const std::vector<std::string>& points,

@@ -132,7 +132,7 @@ void add_block_derivatives(const Topology& topology, const Point<dim>* x, const 
       });
 }
 
-/// For each unknown those it shares a cell with.
+/// Returns for each unknown the unknowns it shares a cell with.
 CompressedRows<std::uint32_t> coupled_unknowns(const Topology& topology,
                                                const std::vector<std::uint32_t>& unknown) {
   const auto& free_nodes = topology.free_nodes();

@@ -11,7 +11,7 @@
 namespace smoothfem::test {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t max_nodes = 12;  ///< of the polygons of tests
+constexpr std::size_t max_nodes = 12;  ///< of the test polygons
 
 /// Makes a polygon with nodes uniform in the square from -1 - i to 1 + i.
 inline Polygon random_polygon(std::size_t n, Random& random) {

@@ -94,7 +94,7 @@ TEST_P(SlidingBoundary, KeepsNodesOnACurvedBoundaryAndMeasuresFacetDistances) {
   if (test::claims_validity(made)) {
     EXPECT_EQ(mesh_quality(result).n_invalid, 0u);
   }
-  // Of a chord between points of the outer side half a circle's division apart, at most.
+  // Largest sag of a chord between points of the outer side that are half a division apart.
   constexpr double outer_sag = 2.0 * (1.0 - 0.9914448613738104);  // cos(7.5 degrees)
   EXPECT_LT(facet_distance(mesh), 1e-13);
   EXPECT_LT(facet_distance(result), 2.0 * outer_sag);

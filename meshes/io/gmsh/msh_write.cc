@@ -47,7 +47,7 @@ class MshWriter {
   }
 
  private:
-  // --- What the file's records are made of ------------------------------------------------------
+  // --- Parts of the file's records --------------------------------------------------------------
 
   std::size_t node_number(NodeIndex node) const {
     return labels_.node_ids.empty() ? std::size_t{node} + 1 : labels_.node_ids[node];
