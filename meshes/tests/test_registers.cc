@@ -51,7 +51,7 @@ void add_hashes(Mesh<dim, spacedim> mesh, const std::string& name, double q_mean
     distort(mesh, {.target_q_mean = q_mean, .n_candidates = default_candidates(dim)});
   hashes[name] = hash_of(mesh);
   const auto catalogue = method_catalogue();
-  for (const std::string& method : methods_that_take<dim, spacedim>()) {
+  for (const std::string& method : methods_supporting<dim, spacedim>()) {
     const bool runs_alone =
         std::any_of(catalogue.begin(), catalogue.end(),
                     [&](const MethodInfo& info) { return info.name == method; });
