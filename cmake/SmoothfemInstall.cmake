@@ -3,18 +3,20 @@
 # development), and the Debian packages of both components.
 include(CMakePackageConfigHelpers)
 
-set(libraries smoothfem_smoothing smoothfem_meshes smoothfem_fem)
+set(libraries smoothfem_smoothing smoothfem_meshes smoothfem_domains smoothfem_fem)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/smoothfem)
 install(TARGETS ${libraries} EXPORT smoothfem
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_COMPONENT development)
-install(TARGETS smoothfem_studies
+install(TARGETS smoothfem_results smoothfem_studies
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_SKIP)
 foreach(arch IN LISTS SMOOTHFEM_OTHER_ARCHS)
   install(TARGETS smoothfem_smoothing-${arch}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/${arch} COMPONENT program NAMELINK_SKIP)
 endforeach()
 file(RELATIVE_PATH libexec_to_lib /${CMAKE_INSTALL_LIBEXECDIR}/smoothfem /${CMAKE_INSTALL_LIBDIR})
-set_target_properties(smoothfem PROPERTIES INSTALL_RPATH $ORIGIN/${libexec_to_lib})
+set(modules smoothfem_generate_command smoothfem_study_commands)
+set_target_properties(smoothfem ${modules} PROPERTIES INSTALL_RPATH $ORIGIN/${libexec_to_lib})
+install(TARGETS ${modules} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
 install(TARGETS smoothfem RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/smoothfem COMPONENT program)
 if(SMOOTHFEM_BUILD_PYTHON)
   file(RELATIVE_PATH python_to_lib /${SMOOTHFEM_PYTHON_PACKAGE} /${CMAKE_INSTALL_LIBDIR})
@@ -58,7 +60,7 @@ foreach(folder base geometry getme laplacian loop mesh optimization polygons qua
 endforeach()
 foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/mesh_file.h
         meshes/io/mesh_view.h meshes/io/vtu_series.h fem/space/finite_element_space.h fem/solutions/manufactured_solution.h
-        fem/poisson_solver.h fem/ranks/ranks.h fem/elements/reference_element.h)
+        fem/poisson_solver.h fem/solution_record.h fem/ranks/ranks.h fem/elements/reference_element.h)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)
 endforeach()
