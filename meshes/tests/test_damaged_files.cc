@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damaged{"vtu_tags_cross", ".vtu", "<VTKFile type=\"UnstructuredGrid\"><a><b></a></b>\n",
                 "1: </a> ends no element"},
         Damaged{"vtu_two_meshes", ".vtu", Vtu().text() + Vtu().text(),
-                ":10: the file has a second element"},
+                ":10: the file has a second root element"},
         Damaged{"vtu_cut_in_a_tag", ".vtu", "<VTKFile type=\"UnstructuredGrid",
                 "the attribute 'type' is not in quotes"}),
     [](const auto& info) { return info.param.name; });

@@ -15,6 +15,7 @@ namespace {
 struct Variant {
   std::string name;
   MeshWriteOptions options;
+  friend void PrintTo(const Variant& parameter, std::ostream* out) { *out << parameter.name; }
 };
 
 const auto variants = ::testing::Values(Variant{"v41_binary", {MshVersion::v4_1, true}},

@@ -208,7 +208,7 @@ TEST_P(EveryMethod, ReportsEveryIterationToTheObserverAndGivesTheSameMeshWithout
 
 TEST_P(EveryMethod, KeepsTheMeshValidIfItPromisesTo) {
   in_every_dimension([]<int dim>() {
-    if (!claims_validity<dim>()) GTEST_SKIP() << "does not claim it";
+    if (!claims_validity<dim>()) GTEST_SKIP() << "the method does not promise valid meshes";
     for (auto& [name, mesh] : distorted_meshes<dim>()) {
       test::distort(mesh, 0.9, 11);
       auto made = method<dim>();
