@@ -26,9 +26,9 @@ def timed(*command):
     return time.monotonic() - start
 
 
-def readme_smoother(source):
-    """The smoother that README.md shows."""
-    return (source / "README.md").read_text(encoding="utf-8").split("```cpp\n")[1].split("```")[0]
+def documented_smoother(source):
+    """The smoother in docs/how-to/smoother-in-cpp.md."""
+    return (source / "docs" / "how-to" / "smoother-in-cpp.md").read_text(encoding="utf-8").split("```cpp\n")[1].split("```")[0]
 
 
 def after_change(build, path, text):
@@ -71,7 +71,7 @@ def main(source, options):
     mean_ratio = source / "smoothing" / "quality" / "mean_ratio.h"
     rows.append(("a new smoother to the program",
                  after_change(build, source / "smoothing" / "smoothers" / f"{SMOOTHER}.cc",
-                              readme_smoother(source))))
+                              documented_smoother(source))))
     rows.append(("a change in `mean_ratio.h` to the program",
                  after_change(build, mean_ratio,
                               mean_ratio.read_text(encoding="utf-8") + "\n// changed\n")))

@@ -64,7 +64,8 @@ void list_methods() {
     list_parameters(info.name);
   }
   std::printf(
-      "\nA smoother written in Python is a method, too: python:FILE:CLASS, as the tutorial shows.\n");
+      "\nA smoother written in Python is a method, too: python:FILE:CLASS, as the tutorial "
+      "shows.\n");
   std::printf("\nPRESETS (smooth --preset NAME)\n\n");
   for (const auto& preset : presets())
     std::printf("  %-16s %s. Source: %s.\n", preset.name.c_str(), preset.description.c_str(),

@@ -22,7 +22,8 @@ Json read_columns() {
   std::ifstream file(path);
   Json json = Json::parse(file, nullptr, false);
   if (json.is_discarded())
-    throw InputError(path.string() + ": the file is missing or damaged; install the program again.");
+    throw InputError(path.string() +
+                     ": the file is missing or damaged; install the program again.");
   return json;
 }
 

@@ -5,7 +5,8 @@
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/study_tests.h"
 
-// The smoother of docs/how-to/smoother-in-cpp.md is compiled into this executable, and a second one.
+// The smoother of docs/how-to/smoother-in-cpp.md is compiled into this executable, and a second
+// one.
 
 namespace smoothfem {
 namespace {
