@@ -25,9 +25,10 @@ def timed(*command):
     return time.monotonic() - start
 
 
-def readme_smoother(source):
-    """Returns the smoother that README.md shows."""
-    return (source / "README.md").read_text(encoding="utf-8").split("```cpp\n")[1].split("```")[0]
+def documented_smoother(source):
+    """Returns the smoother in docs/how-to/smoother-in-cpp.md."""
+    page = source / "docs" / "how-to" / "smoother-in-cpp.md"
+    return page.read_text(encoding="utf-8").split("```cpp\n")[1].split("```")[0]
 
 
 def after_change(build, path, text):
@@ -59,7 +60,7 @@ def main(source, options):
     shutil.rmtree(build, ignore_errors=True)
     build.mkdir(parents=True)
     os.environ["SMOOTHFEM_TIMING_LOG"] = str(log)
-    launcher = source / "cmake" / "timed_compiler.py"
+    launcher = source / "tools" / "timed_compiler.py"
     rows = []
     configured = timed("cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                        f"-DCMAKE_CXX_COMPILER_LAUNCHER={sys.executable};{launcher}", *options)
@@ -70,7 +71,7 @@ def main(source, options):
     mean_ratio = source / "smoothing" / "quality" / "mean_ratio.h"
     rows.append(("a new smoother to the program",
                  after_change(build, source / "smoothing" / "smoothers" / f"{SMOOTHER}.cc",
-                              readme_smoother(source))))
+                              documented_smoother(source))))
     rows.append(("a change in `mean_ratio.h` to the program",
                  after_change(build, mean_ratio,
                               mean_ratio.read_text(encoding="utf-8") + "\n// changed\n")))

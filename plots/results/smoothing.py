@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads a results folder: CSV rows, provenance, names of mesh files.
 
-Columns are documented in results/README.md.
+Columns are documented in studies/columns.json.
 """
 
 from dataclasses import dataclass, replace

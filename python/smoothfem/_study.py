@@ -66,7 +66,7 @@ class Results:
 
     @functools.cached_property
     def iterations(self):
-        """A row for each mesh, method, degree and recorded iteration; results/README.md has the columns."""
+        """A row for each mesh, method, degree and recorded iteration; `smoothfem list --columns` describes the columns."""
         return self.table("iterations")
 
     @functools.cached_property

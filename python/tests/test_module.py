@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Python module: quality, smoothing, finite elements, what is there to choose; README's lines."""
+"""The Python module: quality, smoothing, finite elements, what is there to choose; the manual's lines."""
 
 import contextlib
 import io
@@ -223,16 +223,16 @@ class Solving(unittest.TestCase):
             smoothfem.solve(mesh, "gear")
 
 
-class Readme(unittest.TestCase):
+class Manual(unittest.TestCase):
     def test_lines_do_what_they_say(self):
-        text = (SOURCE / "README.md").read_text(encoding="utf-8")
+        text = (SOURCE / "docs" / "how-to" / "python.md").read_text(encoding="utf-8")
         code = next(code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "import smoothfem" in code)
         self.addCleanup(os.chdir, os.getcwd())
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             names = {}
             with contextlib.redirect_stdout(io.StringIO()) as told:
-                exec(compile(code, "README.md", "exec"), names)  # the text is the repository's own
+                exec(compile(code, "python.md", "exec"), names)  # the text is the repository's own
             np.testing.assert_array_equal(smoothfem.read("out.vtu").points, names["mesh"].points)
         self.assertRegex(told.getvalue(), r"^\d+/\d+ Quality\(q_min=0\.\d")
 

@@ -49,6 +49,6 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes);
 /// Warns if a method without quality control has left invalid cells. Throws InputError instead if
 /// --fail-if-invalid asks for it.
 void warn_about_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,
-                           std::size_t n_cells);
+                              std::size_t n_cells);
 
 }  // namespace smoothfem

@@ -83,7 +83,7 @@ struct ThresholdRow {
 std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
                                            const std::string& reference, double margin);
 
-/// The tables as text; columns, units and order are a contract (results/README.md).
+/// The tables as text; columns, units and order are a contract (studies/columns.json).
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows);
 std::string refined_csv(const std::string& study, const std::vector<RefinedRow>& rows);
 std::string solutions_csv(const std::string& study, const std::vector<SolutionRow>& rows);

@@ -15,8 +15,8 @@ inline constexpr const char *member_open = "open", *member_meshed = "meshed",
                             *member_smoothed = "smoothed", *member_complete = "complete",
                             *member_failed = "failed";
 
-/// A row of members.csv, by its columns (results/README.md): what is known of a member. Each member
-/// has its own in its folder, so that folders can be put together.
+/// A row of members.csv, by its columns (studies/columns.json): what is known of a member. Each
+/// member has its own in its folder, so that folders can be put together.
 using MemberRow = std::map<std::string, std::string>;
 
 /// Columns of members.csv, and those of them that stand before the columns of the members' tables

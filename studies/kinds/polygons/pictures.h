@@ -5,7 +5,7 @@
 
 #include "studies/kinds/polygons/polygon_study.h"
 
-/// The tables that figures are drawn from, as CSV texts (columns: results/README.md).
+/// The tables that figures are drawn from, as CSV texts (columns: studies/columns.json).
 namespace smoothfem {
 
 std::string decomposition_csv(const PolygonStudy& study);  ///< Fig. 2.10

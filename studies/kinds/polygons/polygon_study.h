@@ -40,7 +40,7 @@ PolygonStudy read_polygon_study(const std::filesystem::path& file, const std::st
 std::string polygon_study_template();
 
 /// What the study writes, for run_table_study: theorems.csv, classification.csv, decomposition.csv,
-/// domains.csv, limits.csv, sequences.csv and side_ratios.csv (columns: results/README.md).
+/// domains.csv, limits.csv, sequences.csv and side_ratios.csv (columns: studies/columns.json).
 std::vector<StudyTable> polygon_tables(const PolygonStudy& study);
 
 }  // namespace smoothfem

@@ -24,7 +24,7 @@ RegularizationStudy read_regularization_study(const std::filesystem::path& file,
 /// A commented study file with every key and its default.
 std::string regularization_study_template();
 
-/// regularization.csv and validity.csv (results/README.md).
+/// regularization.csv and validity.csv (studies/columns.json).
 std::vector<StudyTable> regularization_tables(const RegularizationStudy& study);
 
 }  // namespace smoothfem
