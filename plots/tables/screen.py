@@ -8,6 +8,7 @@ from .number_format import MISSING
 
 MAX_ROWS = 40  # of all meshes and degrees together; the tables have the others
 BEST = "*"
+FINE = ("ok", "not solved")  # statuses of methods that can be the best
 
 
 def best_of(values, choose):
@@ -79,16 +80,17 @@ def block_lines(results, mesh, degree, rows, columns):
     failed = {method for name, method in results.failures if name == mesh}
     methods = [method for method in (INITIAL, *results.methods) if method in rows and method not in failed]
     numbers = {method: [column.value(rows[method], initial) for column in columns] for method in methods}
-    best = [best_of((numbers[method][i] for method in methods if method != INITIAL), column.best) if column.best else None
+    judged = [method for method in methods if method != INITIAL and rows[method].get("status", "ok") in FINE]
+    best = [best_of((numbers[method][i] for method in judged), column.best) if column.best else None
             for i, column in enumerate(columns)]
     width = max(len(results.title(method)) for method in (*methods, INITIAL))
     title = results.title(mesh) + (f", degree {degree}" if degree else "")
     lines = [title, " " * (width + 2) + " ".join(f"{column.heading:>10}" for column in columns)]
     for method in methods:
-        cells = [cell(value, column, method != INITIAL and value == best[i])
+        cells = [cell(value, column, method in judged and value == best[i])
                  for i, (value, column) in enumerate(zip(numbers[method], columns))]
         status = rows[method].get("status", "ok")
-        lines.append(f"  {results.title(method):<{width}}" + " ".join(cells) + ("" if status in ("ok", "not solved") else f"  {status}"))
+        lines.append(f"  {results.title(method):<{width}}" + " ".join(cells) + ("" if status in FINE else f"  {status}"))
     return lines
 
 

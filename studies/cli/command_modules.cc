@@ -18,7 +18,7 @@ constexpr const char* generate_command = "smoothfem_generate_command.so";
 /// them.
 void (*added_by_module(const Command& command))(CLI::App&) {
   const auto file = std::filesystem::canonical("/proc/self/exe").parent_path() / command.module;
-  void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL);
   void* add =
       module ? dlsym(module, ("smoothfem_add_" + command.name + "_command").c_str()) : nullptr;
   if (!add) throw InputError(std::string(dlerror()) + "; install the program anew");
