@@ -22,7 +22,7 @@ struct DistortedDomain {
 
 /// One of each kind of mesh and element.
 constexpr DistortedDomain distorted_domains[]{
-    {"gear", "triangles", 6, 0.4},      {"gear", "quadrilaterals", 6, 0.45},
+    {"gear", "triangles", 6, 0.4},      {"gear", "quadrilaterals", 3, 0.45},
     {"roof", "quadrilaterals", 5, 0.6}, {"sphere", "tetrahedra", 1.5, 0.5},
     {"ring", "mixed", 4, 0.6},          {"nonuniform-grid", "hexahedra", 3, 0}};
 

@@ -69,7 +69,7 @@ UntangleResult untangle_with_sliding_boundary(const SmoothArguments& arguments, 
   const UntangleResult result = untangle(sliding, {}, &lines);
   mesh.set_coordinates(sliding.coordinates());
   if (!arguments.quiet && result.valid && result.n_invalid_before > 0)
-    std::printf("the boundary lies within %.3g of the initial one (at most %.3g)\n",
+    std::printf("distance from the initial boundary: %.3g (limit: %.3g)\n",
                 lines.edge_distance(mesh.coordinates()), lines.edge_bound());
   return result;
 }

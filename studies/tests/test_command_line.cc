@@ -316,17 +316,29 @@ TEST_F(CommandLine, QualityWritesAHistogramOfEachCellType) {
   }
 }
 
-TEST_F(CommandLine, QualityWritesNoPictures) {
+TEST_F(CommandLine, QualityDrawsItsHistogramAndRefusesUnknownEndings) {
   write_mesh(file("in.vtu"), shaken_grid(4, 0.1));
-  for (const std::string name : {"a.png", "a.bmp", "a"}) {
+  const Outcome drawn = smoothfem({"quality", "in.vtu", "--histogram=a.svg"});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_NE(content_of(file("a.svg")).find("<svg"), std::string::npos);
+  for (const std::string name : {"a.bmp", "a"}) {
     const Outcome outcome = smoothfem({"quality", "in.vtu", "--histogram", name});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(outcome.err.find("the histogram " + name + " must end with .csv"), std::string::npos)
         << outcome.err;
-    EXPECT_NE(outcome.err.find("./run quality"), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(file(name)));
   }
+}
+
+TEST_F(CommandLine, SmoothsByGetmeIntoAFileNextToTheMeshByDefault) {
+  write_mesh(file("part.vtu"), shaken_grid(4, 0.3));
+  const Outcome outcome = smoothfem({"smooth", "part.vtu"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("GETMe: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("written to part_smoothed.vtu"), std::string::npos) << outcome.out;
+  ASSERT_EQ(smoothfem({"smooth", "part.vtu", "-m", "getme", "-o", "same.vtu"}).exit_code, 0);
+  EXPECT_EQ(content_of(file("part_smoothed.vtu")), content_of(file("same.vtu")));
 }
 
 TEST_F(CommandLine, QualityOfAnInvalidMeshIsShownBeforeItIsRefused) {

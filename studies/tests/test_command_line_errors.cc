@@ -217,8 +217,9 @@ TEST_F(BadInput, OptionOrCommandThatIsNotThere) {
   expect_refused({"study", "good.prm", "--threads", "-1"}, {"--threads"});
   expect_refused({"study", "good.prm", "--threads", "many"}, {"many"});
   expect_refused({}, {});
-  expect_refused({"smooth", "good.mesh", "-o", "out.mesh"}, {"--method"});
-  expect_refused({"smooth", "good.mesh", "-m", "laplace"}, {"--out"});
+  expect_refused({"smooth"}, {"in is required"});
+  expect_refused({"generate", "gear"}, {"-o gear.vtu"});
+  expect_refused({"generate", "-o", "a.vtu"}, {"which domain?"});
 }
 
 TEST_F(BadInput, FilesThatWouldTakeThePlaceOfMeshes) {

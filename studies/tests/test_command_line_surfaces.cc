@@ -92,7 +92,8 @@ TEST_F(CommandLine, SlidesTheBoundaryOfAVolumeMesh) {
     const Outcome outcome =
         smoothfem({"smooth", "in.msh", "-m", "getme", "-o", "out.msh", "--boundary", boundary});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(outcome.out.find("within") != std::string::npos, boundary == "slide");
+    EXPECT_EQ(outcome.out.find("distance from the initial boundary") != std::string::npos,
+              boundary == "slide");
     return std::get<VolumeMesh>(read_mesh(file("out.msh")).mesh);
   };
   const VolumeMesh fixed = smoothed("fixed"), sliding = smoothed("slide");
@@ -123,7 +124,7 @@ TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
       return position == std::string::npos ? -1.0
                                            : std::stod(outcome.out.substr(position + words.size()));
     };
-    return std::pair(number_after("within "), number_after("at most "));
+    return std::pair(number_after("initial boundary: "), number_after("limit: "));
   };
   const auto [free, infinite] = distance_and_bound("inf");
   const auto [bounded, bound] = distance_and_bound("0.005");

@@ -152,8 +152,8 @@ TEST_F(CommandMethod, KeepsItsLogAndSaysWhereItComesFrom) {
 
 TEST_F(CommandMethod, FailuresAreRowsWithTheReason) {
   const std::pair<std::string, std::string> commands[] = {
-      {"no-such-program {in} {out}", "there is no program 'no-such-program' here"},
-      {"./mine {in} {out}", "there is no program './mine' here"},
+      {"no-such-program {in} {out}", "there is no program 'no-such-program'"},
+      {"./mine {in} {out}", "there is no program './mine'"},
       {"sh -c 'echo disk broken; exit 7' {in}",
        "it ended with exit code 7; the last it printed: 'disk broken'"},
       {"sh -c 'kill -9 $$' {in}", "it was killed by signal 9"},

@@ -405,7 +405,8 @@ TEST_F(RunStudy, AFormulaWithDiffusivityAndNaturalConditionsIsFoundToRoundOff) {
   };
   EXPECT_THAT(refused("set natural = nowhere\n"),
               testing::HasSubstr("the mesh has the groups 1 (left), 2 (rest)"));
-  EXPECT_THAT(refused("set natural = left, rest\n"), testing::HasSubstr("out of 'natural'"));
+  EXPECT_THAT(refused("set natural = left, rest\n"),
+              testing::HasSubstr("remove a group from 'natural'"));
   EXPECT_THAT(refused("set diffusivity = if(x < 2.5, 1, 2)\n"), testing::HasSubstr("normal flux"));
   EXPECT_THAT(refused("set diffusivity = x - 2\n"), testing::HasSubstr("not positive definite"));
   EXPECT_EQ(files_in(file("refused")), std::set<std::string>{});

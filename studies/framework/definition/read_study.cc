@@ -270,7 +270,8 @@ MeshDimensions read_dimensions(ParameterHandler& p, const StudyText& text,
                                const std::vector<std::string>& meshes) {
   const std::string cells = p.get("dimension"), surface = p.get("surface");
   if (cells == "3" && surface == "true")
-    throw InputError("surface meshes have 'dimension = 2', not 3; leave it out");
+    throw InputError(text.file().string() +
+                     ": surface meshes have 'dimension = 2', not 3; leave it out");
   if (surface == "true") return {2, 3};
   if (cells == "3") return {3, 3};
   if (cells == "2" && surface == "false") return {2, 2};
