@@ -316,8 +316,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
   declare_lists(lists);
   parse_study(lists, text, true);
   const auto meshes = split_list(lists.get("meshes"));
-  const MeshDimensions dimensions =
-      in_file(file, [&] { return read_dimensions(lists, text, meshes); });
+  const MeshDimensions dimensions = read_dimensions(lists, text, meshes);
   in_file(file, [&] {
     for (const std::filesystem::path plugin : split_list(lists.get("plugins")))
       load_plugin(plugin.is_relative() ? file.parent_path() / plugin : plugin);
