@@ -27,7 +27,7 @@ from plots.results.rows import packed, read_provenance
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv")
 COLLECTIONS = ("field", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their usual scale
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")
-TABLES = "*.md"  # tables of collections, which need iterations.csv and metrics.csv: too large to be kept
+TABLES = ("*.md", "*.csv")  # tables of collections, which need iterations.csv and metrics.csv: too large to be kept
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME; what they are is in their files
 PUBLISHED = ("gear", "energy", "reasons/gear-mesquite", "reasons/gear-rounding")  # which are of the published meshes
 SCALE = "subsection scale paper"
@@ -95,7 +95,7 @@ def keep(results, reference, study):
             packed(new / name).write_bytes(lzma.compress((results / name).read_bytes(), preset=9))
     if study in COLLECTIONS:
         (new / "tables").mkdir()
-        for table in (results / "tables").glob(TABLES):
+        for table in (path for pattern in TABLES for path in (results / "tables").glob(pattern)):
             shutil.copy2(table, new / "tables")
     shutil.rmtree(reference / study, ignore_errors=True)
     new.rename(reference / study)

@@ -56,7 +56,7 @@ LISTINGS = {
 }
 # What the session of a page prints.
 EXPECTED = {
-    "readme": r"(?s)CG iterations",
+    "readme": r"(?s)true errors, as factors.*report\.html",
     "tutorials/first-study": r"(?s)Nothing has been written.*iterations\.csv.*\.pdf.*Smart Laplace.*Peak resident memory",
     "tutorials/your-mesh-your-problem": r"Smart Laplace",
     "tutorials/smoother-in-python": r"(?s)To centroids.*mine",

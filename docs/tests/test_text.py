@@ -40,7 +40,8 @@ class Text(unittest.TestCase):
         self.assertGreater(n_links, 50)
 
     def test_options_exist(self):
-        known = (SOURCE / "run").read_text(encoding="utf-8") + (SOURCE / "fuzz" / "run_fuzzers.py").read_text(encoding="utf-8")
+        scripts = (SOURCE / "run", *(SOURCE / "tools").glob("*.py"), *(SOURCE / "tools" / "commands").iterdir())
+        known = "".join(path.read_text(encoding="utf-8") for path in scripts)
         known += "".join(run(SMOOTHFEM, command, "--help").stdout for command in (*COMMANDS, *DRAWING))
         options = {option for text in texts().values() for option in re.findall(r"`(?:\./run \w+ )?(--[a-z][a-z-]*)", text)}
         self.assertGreater(len(options), 15)

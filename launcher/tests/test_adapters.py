@@ -90,7 +90,7 @@ class Debian(Study):
     def test_planar_quadrilaterals(self):
         summary, rows = self.study(
             {"sfepy": adapter("sfepy_taubin.py {in} {out} {iterations}", "vtk", 4)},
-            dimension=2, domain="gear", elements="quadrilaterals", scale=4, quality=0.8, solution="gear")
+            dimension=2, domain="gear", elements="quadrilaterals", scale=3, quality=0.8, solution="gear")
         self.check(summary, rows, "sfepy", ["0", "1", "2", "4"])
 
     def test_volume(self):
@@ -98,7 +98,7 @@ class Debian(Study):
             {"gmsh": adapter("gmsh_optimize.py {in} {out} Relocate3D {iterations}", "msh", 2),
              "swaps": adapter("gmsh_optimize.py {in} {out} default {iterations}", "msh", 1),
              "sfepy": adapter("sfepy_taubin.py {in} {out} {iterations}", "vtk", 2)},
-            dimension=3, domain="flange", elements="tetrahedra", scale=6, quality=0.7, solution="volume")
+            dimension=3, domain="flange", elements="tetrahedra", scale=4, quality=0.7, solution="volume")
         self.check(summary, rows, "gmsh", ["0", "1", "2"])
         self.check(summary, rows, "sfepy", ["0", "1", "2"])
         self.assertRegex(summary["swaps"]["status"], r"^ok$|^failed: its mesh has ")
@@ -113,12 +113,12 @@ class Debian(Study):
         run(*words, "-O0", folder=self.folder)
         summary, rows = self.study(
             {"netgen": adapter(f"{self.folder / 'netgen_driver'} {{in}} {{out}} {{iterations}}", "vtk", 4)},
-            dimension=3, domain="flange", elements="tetrahedra", scale=6, quality=0.5, solution="volume")
+            dimension=3, domain="flange", elements="tetrahedra", scale=4, quality=0.5, solution="volume")
         self.check(summary, rows, "netgen", ["0", "1", "2", "4"])
         self.assertGreater(float(summary["netgen"]["q_mean"]), 0.7)
 
 
-FLANGE = {"dimension": 3, "domain": "flange", "elements": "tetrahedra", "scale": 6, "quality": 0.5,
+FLANGE = {"dimension": 3, "domain": "flange", "elements": "tetrahedra", "scale": 4, "quality": 0.5,
           "solution": "volume"}
 HEXAHEDRA = {**FLANGE, "elements": "hexahedra", "quality": 0.3}
 GEAR = {"dimension": 2, "domain": "gear", "elements": "triangles", "scale": 4, "quality": 0.6, "solution": "gear"}

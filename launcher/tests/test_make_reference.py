@@ -17,7 +17,7 @@ SOURCE = Path(__file__).resolve().parents[2]
 
 def run_script(source, work, *words):
     """The script, finished, with words behind the paths, as ./run has them."""
-    command = [sys.executable, "-B", SOURCE / "launcher" / "make_reference.py", source, "no-program", work, *words]
+    command = [sys.executable, "-B", SOURCE / "tools" / "make_reference.py", source, "no-program", work, *words]
     return subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, "PYTHONPATH": str(SOURCE)})
 
 

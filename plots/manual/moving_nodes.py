@@ -4,11 +4,12 @@
 import csv
 import io
 import re
+from functools import lru_cache
 
 from ..results.data_folder import data_folder
 from ..results.rows import ResultsError, read_rows
 from ..results.smoothing import read_results
-from ..tables.energy import factor_table, orders_table
+from ..tables.energy import factor_table, make_energy_tables, orders_table
 from ..tables.formats import as_csv
 from ..tables.number_format import MISSING
 from .blocks import table
@@ -32,6 +33,12 @@ VARIANTS = {"`indicator-weighted`, indicator averaged 4 times": "Weights, averag
 AFTER = "H1 after solves 20"
 
 
+@lru_cache(maxsize=None)
+def energy_tables(folder):
+    """The energy tables of a study's results, by name."""
+    return {table.name: table for table in make_energy_tables(read_results(folder))}
+
+
 def by_key(rows):
     """(mesh, degree, method) -> record of a table, as printed."""
     return {(row["Mesh"], row["d"], row["Method"]): row for row in rows}
@@ -44,8 +51,8 @@ class Tables:
         self.reference = reference
 
     def of(self, study, name):
-        """A table of a study."""
-        return by_key(read_rows(self.reference / study / "tables" / f"{name}.csv", ("Mesh", "d", "Method")).records())
+        """Returns a table of a study, made from its rows."""
+        return by_key(csv.DictReader(io.StringIO(as_csv(energy_tables(self.reference / study)[name]))))
 
     def of_reason(self, name, make):
         """A table that is made from the results of an ablation, which has no table in the reference."""

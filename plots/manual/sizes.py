@@ -14,7 +14,7 @@ def max_dofs(path):
 
 def largest(reference):
     """The largest system, and the time and size of the volume study, as Markdown."""
-    dofs = max(max_dofs(path) for path in reference.glob("*/summary.csv"))
+    dofs = max(max_dofs(path.parent / "summary.csv") for path in reference.glob("*/provenance.json"))
     run = read_provenance(reference / "volume" / "provenance.json")
     hours = sum(run["seconds"].values()) / 3600
     return (f"The largest system in `results/reference` has {dofs:,} degrees of freedom. The reference run of `volume` at the "

@@ -73,7 +73,7 @@ class Installed(InFolder):
         self.assertEqual(main([str(expected), "--quiet", *chosen_figures]), 0)
         with chosen(None):
             environment = {**os.environ, "PYTHONPATH": str(shared), "PYTHONDONTWRITEBYTECODE": "1"}
-        done = subprocess.run([sys.executable, "-m", "plots", "r", *chosen_figures], cwd=elsewhere, env=environment,
+        done = subprocess.run([sys.executable, "-m", "plots", "r", "--verbose", *chosen_figures], cwd=elsewhere, env=environment,
                               capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("wrote r/tables/claims.md", done.stdout)

@@ -41,7 +41,7 @@ class Figures(InFolder):
         folder = write_results(self.folder / "r", "slab", ("a", "b", "c"), ("own", "other", "laplace"))
         (folder / "meshes" / "b_own.vtu").unlink()
         with mock.patch("plots.figures.style.DPI", 40):
-            output, errors = self.run_main(folder, "--format", "png")
+            output, errors = self.run_main(folder, "--format", "png", "--verbose")
         self.assertIn("b_own.vtu", errors)
         self.assertIn("figures/model.png", output)
         self.assertTrue((folder / "figures" / "history_log_time.png").exists())

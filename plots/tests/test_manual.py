@@ -88,9 +88,9 @@ class Columns(unittest.TestCase):
     def test_constants_are_those_of_the_program(self):
         rows = source("fem/linear_algebra/condition_number.h", r"dense_limit = (\d+)")
         self.assertIn(f"matrices of up to {rows} rows", self.meaning("condition_method"))
-        tolerance = source("studies/gear.prm", r"cg tolerance *= (\S+)")
+        tolerance = source("studies/catalogue/thesis/gear.prm", r"cg tolerance *= (\S+)")
         self.assertIn(f"<= {tolerance} |b|", self.meaning("cg_iterations"))
-        margin = float(source("studies/gear.prm", r"margin *= (\S+)"))
+        margin = float(source("studies/catalogue/thesis/gear.prm", r"margin *= (\S+)"))
         self.assertEqual(self.json["columns"]["threshold"]["source"], f"Table 6.4: {100 * margin:.0f} %")
 
     def test_residuals_of_eigenvalues_are_below_the_bound(self):

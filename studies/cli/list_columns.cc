@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "smoothing/base/data_folder.h"
 #include "smoothing/base/find_named.h"
 #include "smoothing/base/input_error.h"
-#include "studies/framework/definition/find_study.h"
 
 namespace smoothfem {
 
@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json read_columns() {
-  const auto path = built_in_studies() / "columns.json";
+  const auto path = data_folder() / "studies" / "columns.json";
   std::ifstream file(path);
   Json json = Json::parse(file, nullptr, false);
   if (json.is_discarded())
