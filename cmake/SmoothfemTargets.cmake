@@ -76,7 +76,7 @@ endif()
 # smoothfem_add_test(NAME label [SERIAL] [SHARDS n] SOURCES source... LIBRARIES library...): a GoogleTest program, which
 # is one entry of ctest, or n of them that share its cases. A program a case would start 2,000 processes, each of which
 # loads up to 225 libraries; NAME --gtest_filter=CASE in the folder tests runs one. The labels are unit, integration or
-# long, the library of the calling folder, and compiled. SERIAL: nothing else runs meanwhile. Tests find the repository
+# long, the library of the calling folder, and compiled. Waiting threads sleep, as other tests run meanwhile. SERIAL: nothing else runs meanwhile. Tests find the repository
 # and the meshes that are not part of it.
 function(smoothfem_add_test name label)
   if(NOT SMOOTHFEM_BUILD_TESTS)
@@ -114,7 +114,7 @@ function(smoothfem_list_test name label serial shards)
     math(EXPR index "${shard} - 1")
     add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1)
     set_tests_properties(${entry} PROPERTIES LABELS "${label};${library};compiled" RUN_SERIAL "${serial}" COST ${shards}
-      ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};OMP_WAIT_POLICY=passive")
   endforeach()
 endfunction()
 

@@ -7,7 +7,7 @@ namespace {
 
 class SmallResume : public Resume {
  protected:
-  SmallResume() : Resume("1", 3) {}
+  SmallResume() : Resume("1", 4) {}
 };
 
 TEST_F(SmallResume, RowsOnTwoRanksAreThoseOfOneProcess) {
