@@ -71,7 +71,7 @@ EXPECTED = {
     "how-to/pandas": r"(?m)^tri +1 ",
     "how-to/python": r"(?sm)^\d+/\d+ Quality\(q_min=0\.\d.*getme",
     "how-to/restart-and-mpi": r"volume",
-    "explanation/reducing-the-error": r"(?s)energy-descent.*Moving mesh and descent",
+    "explanation/reducing-the-error": r"(?s)energy-descent.*\| moving \|",
 }
 # Files that have to be there after the session.
 MADE = {
