@@ -11,6 +11,7 @@
 #include "meshes/tests/mesh_tests.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/simd/registers.h"
+#include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
 namespace {
@@ -22,9 +23,9 @@ struct DistortedDomain {
 
 /// One of each kind of mesh and element.
 constexpr DistortedDomain distorted_domains[]{
-    {"gear", "triangles", 6, 0.4},      {"gear", "quadrilaterals", 3, 0.45},
-    {"roof", "quadrilaterals", 5, 0.6}, {"sphere", "tetrahedra", 1.5, 0.5},
-    {"ring", "mixed", 4, 0.6},          {"nonuniform-grid", "hexahedra", 3, 0}};
+    {"gear", "triangles", 6, 0.4},          {"gear", "quadrilaterals", 3, 0.45},
+    {"roof", "quadrilaterals", 3, 0.6},     {"sphere", "tetrahedra", 1, 0.5},
+    {"nonuniform-grid", "hexahedra", 1, 0}, {"random-planar", "mixed", 1, 0.5}};
 
 constexpr const char* variable_of_copy =
     "SMOOTHFEM_HASHES";  ///< names the file that the copy writes
@@ -69,6 +70,7 @@ std::map<std::string, std::string> all_hashes() {
     std::visit([&, name = std::string(domain) + "." + elements,
                 target = q_mean](auto mesh) { add_hashes(std::move(mesh), name, target, hashes); },
                find_domain(domain).generate({.elements = elements, .edge_scale = edge_scale}));
+  add_hashes(test::box_mesh(4, 4, 6, test::BoxCells::mixed), "box.mixed", 0.6, hashes);
   return hashes;
 }
 
