@@ -44,11 +44,12 @@ quietly() {
                          fail "the build failed; the whole log is $log"; }
 }
 
-# Configures once: after that the build notices by itself when a CMakeLists.txt changes. In CI warnings are errors.
+# Configures once: after that the build notices by itself when a CMakeLists.txt changes. In CI warnings are errors,
+# and no compilation is taken from a cache.
 configure() {
   [ -f "$build/build.ninja" ] && [ -z "${CI:-}" ] && return
   local options=()
-  [ -n "${CI:-}" ] && options+=(-DSMOOTHFEM_WARNINGS_AS_ERRORS=ON)
+  [ -n "${CI:-}" ] && options+=(-DSMOOTHFEM_WARNINGS_AS_ERRORS=ON -DSMOOTHFEM_CCACHE=OFF)
   quietly configure cmake -S "$root" --preset release \
     -DSMOOTHFEM_PYTHON="$("$root/launcher/find_python")" "${options[@]}"
 }
