@@ -11,7 +11,7 @@ BEST = "*"
 
 
 def best_of(values, choose):
-    """The best of the numbers; NaN if there is none."""
+    """The best of the numbers; NaN for an empty list."""
     return choose((value for value in values if not math.isnan(value)), default=math.nan)
 
 
