@@ -54,7 +54,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def is_figure(path):
-    """Whether a path, if there is one, is to be a figure."""
+    """True if the path has the suffix of a figure; False for None."""
     return path is not None and path.suffix[1:] in FORMATS
 
 
@@ -128,7 +128,7 @@ def parse_report(arguments):
 
 
 def warn(sentence):
-    """Says what is left out."""
+    """Prints a sentence on something that is left out."""
     print(sentence, file=sys.stderr)
 
 
@@ -197,7 +197,8 @@ def summary_of(paths, folder):
 
 
 def own_names(names, stem):
-    """File names for figures by a stem: for one the stem, for several with what tells them apart behind it."""
+    """Returns file names for figures: the stem for one figure; for several, the stem followed by the part that
+    differs."""
     if len(names) == 1:
         return [stem]
     words = [name.split("_") for name in names]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is made of the results of each kind of study: the key `kind` of its study file."""
+"""Tables, texts and figures that are made of the results of each kind of study: the key `kind` of its study file."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -29,9 +29,9 @@ NO_CLAIMS = "No claims.md: the thesis says nothing about this study."
 
 @dataclass(frozen=True)
 class Outputs:
-    """Tables, texts (file name without suffix -> content) to stand beside them, and what plans the
-    figures: `plan` those that need no meshes, `plan_of_meshes` the others; that takes a function for
-    sentences on what has to be left out."""
+    """Tables, texts (file name without suffix -> content) next to them, and functions that plan the figures: `plan`
+    plans figures that need no meshes, `plan_of_meshes` the others. The latter takes a function for sentences on figures
+    that are left out."""
 
     folder: Path
     study_title: str
@@ -58,12 +58,12 @@ class Outputs:
 
     @property
     def names(self):
-        """Of tables and texts."""
+        """Names of tables and texts."""
         return [table.name for table in self.tables] + list(self.texts)
 
 
 def smoothing_outputs(folder, request):
-    """Of a study of smoothing methods."""
+    """Outputs of a study of smoothing methods."""
     whole = read_results(folder)
     results = whole.restricted(request.methods, request.meshes)
     printed = read_printed_tables(results.thesis_study, results.provenance)
@@ -89,7 +89,7 @@ def smoothing_outputs(folder, request):
 
 
 def polygon_outputs(folder, request):
-    """Of a study of polygon transformations."""
+    """Outputs of a study of polygon transformations."""
     results = read_polygon_results(folder)
 
     def plan():
@@ -100,7 +100,7 @@ def polygon_outputs(folder, request):
 
 
 def regularization_outputs(folder, request):
-    """Of a study of the regularization of volume elements."""
+    """Outputs of a study of the regularization of volume elements."""
     results = read_regularization_results(folder)
 
     def plan():
@@ -111,7 +111,7 @@ def regularization_outputs(folder, request):
 
 
 def collection_outputs(folder, request):
-    """Of a collection."""
+    """Outputs of a collection."""
     results = read_collection_results(folder)
     tables, findings = make_collection_tables(results)
 
@@ -138,7 +138,7 @@ def kind_of(folder):
 
 
 def outputs_of(folder, request=Request()):
-    """Reads a results folder of any kind; raises ResultsError with one sentence on what is wrong."""
+    """Reads a results folder of any kind; raises ResultsError with one sentence on the fault."""
     kind = kind_of(folder)
     if kind not in KINDS:
         raise ResultsError(f"{folder}: a study of the unknown kind `{kind}`; known are "

@@ -32,7 +32,7 @@ LEAST_Q = 0.5
 
 @dataclass(frozen=True)
 class Rule:
-    """Which numbers of a method count, and how much time it may take."""
+    """The numbers of a method that count, and the time it may take."""
 
     title: str
     numbers: object  # (results, mesh, method) -> {column: a number for each degree}
@@ -50,12 +50,12 @@ class Candidate:
 
     @property
     def error(self):
-        """Of both errors."""
+        """The geometric mean of both errors."""
         return geometric_mean([self.ratios[name] for name in ERRORS])
 
     @property
     def is_allowed(self):
-        """Whether it may win, whatever its errors."""
+        """True if it may win, independent of its errors."""
         return (self.n_invalid == 0 and self.ratios["smoothing_seconds"] <= self.most_time
                 and self.ratios["q_star_min"] >= LEAST_Q)
 
@@ -80,7 +80,7 @@ RULES = (Rule("At the end", at_end, most_time=1.1), Rule("At equal time", at_equ
 
 
 def geometric_mean(values):
-    """0 if one of them is 0, NaN if one of them is none."""
+    """The geometric mean; 0 if a number is 0, NaN if a number is NaN."""
     values = np.asarray(values, dtype=float)
     return float(np.exp(np.mean(np.log(values)))) if (values > 0).all() else float(np.min(values))
 
@@ -110,12 +110,12 @@ def candidates(results, meshes, rule):
 
 
 def winner(found):
-    """The candidate with the lowest errors of those that may win."""
+    """The candidate with the lowest errors among those that may win."""
     return min((c for c in found if c.is_allowed and not math.isnan(c.error)), key=lambda c: c.error)
 
 
 def report(results):
-    """What both rules find, as Markdown."""
+    """The results of both rules, as Markdown."""
     first, second = (", ".join(half) for half in halves(results.meshes))
     lines = [f"# {results.study_title}", "",
              f"Found on: {first}. Confirmed on: {second}. Seeds: {', '.join(map(str, results.seeds)) or 1}. "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the results on the published gears agree with the thesis: a table of the manual."""
+"""Agreement of the results on the published gears with the thesis: a table of the manual."""
 
 from ..results.printed_values import read_printed_tables
 from ..results.smoothing import INITIAL, read_results
@@ -10,7 +10,7 @@ ERRORS = ("e_max", "e_mean", "e_l2", "e_h1")
 
 
 def agreement(folder):
-    """The results in the folder beside Tables 6.1 to 6.4, as lines of Markdown."""
+    """Compares the results in the folder with Tables 6.1 to 6.4; returns lines of Markdown."""
     results = read_results(folder)
     printed = read_printed_tables(results.thesis_study, results.provenance)
 
@@ -44,7 +44,8 @@ def agreement(folder):
 
 
 def paired(records, printed, columns):
-    """(printed row, our field, printed field) wherever the print has a number in one of the columns."""
+    """Returns (printed row, measured field, printed field) wherever the thesis prints a number in one of the
+    columns."""
     found = []
     for row in printed:
         keys = [key for key in ("mesh", "degree", "method") if key in row]
@@ -54,14 +55,14 @@ def paired(records, printed, columns):
 
 
 def same(pairs):
-    """How many of our numbers are the printed ones in all printed digits."""
+    """Counts the measured numbers that have all digits of the printed ones."""
     n_same = sum(ours == theirs or ("/" not in theirs and as_printed(float(ours), theirs) == theirs)
                  for _, ours, theirs in pairs)
     return f"{n_same} of {len(pairs)}"
 
 
 def within(pairs, chosen):
-    """The largest relative difference of the chosen rows beyond what rounding the print explains."""
+    """The largest relative difference of the chosen rows beyond the rounding of the printed values."""
     largest = max(max(0.0, abs(float(ours) - float(theirs)) - half_a_unit(theirs)) / float(theirs)
                   for row, ours, theirs in pairs if chosen(row))
     return f"within {100 * largest:.1f} %"

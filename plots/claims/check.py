@@ -44,7 +44,7 @@ class Outcome:
 
     @property
     def is_beside(self):
-        """Whether it judges a claim once more, by a later criterion that stands beside the first one."""
+        """True if it judges a claim once more, by a later criterion in addition to the first one."""
         return "beside" in self.claim
 
 
@@ -92,7 +92,7 @@ def with_tests(outcome, theirs):
 
 
 def check_claim(claim, ours, theirs):
-    """The outcome of one claim: it holds if all of its checks hold. ours: of each seed."""
+    """Returns the outcome of one claim: it holds if all of its checks hold. measured: values of each seed."""
     if not claim["checks"]:
         return Outcome(claim, UNKNOWN, claim.get("printed", MISSING), claim["reason"])
     verdicts, printed, own, all_met, chance = [], [], [], [], []
@@ -131,12 +131,12 @@ def median_of(quantity, case, values):
 
 
 def varies(quantity, case, values):
-    """Whether the quantity is another number for one of the seeds."""
+    """True if one of the seeds gives another number for the quantity."""
     return len({number_of(quantity, case, of_seed) for of_seed in values}) > 1
 
 
 def divides_by_zero(check, values):
-    """Whether a quantity of the check is a quotient by zero, for one of the seeds in one of its cases."""
+    """True if a quantity of the check is a quotient by zero, for one of the seeds in one of its cases."""
     def divides(case, of_seed):
         try:
             evaluate(check["quantity"], case, of_seed)
@@ -169,7 +169,7 @@ def number_of(quantity, case, values):
 
 
 def met_in(check, found, printed):
-    """Whether the condition is met, case by case; None where a number for it is missing."""
+    """Evaluates the condition case by case; None where a number for it is missing."""
     def met(value, theirs):
         names = {"value": value, "printed": theirs}
         if value is None or (theirs is None and "printed" in check["condition"]):
@@ -179,7 +179,8 @@ def met_in(check, found, printed):
 
 
 def verdict_of(met, wanted):
-    """Whether so many cases meet the condition; unknown if missing numbers could still decide."""
+    """Returns the verdict on whether so many cases meet the condition; unknown if missing numbers could still
+    decide."""
     if met.count(True) >= wanted:
         return HOLDS
     return FAILS if met.count(True) + met.count(None) < wanted else UNKNOWN
@@ -206,7 +207,7 @@ def shown(numbers, cases, met):
 
 
 def label(name, value):
-    """What a case is called in the table."""
+    """The name of a case in the table."""
     return (f"d = {value}" if name == "degree" else str(value)) + ":"
 
 

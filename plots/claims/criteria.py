@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""When the criterion of each claim was written: studies/thesis/criteria.csv."""
+"""Dates on which the criterion of each claim was written: studies/thesis/criteria.csv."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ class Criterion:
 
     @property
     def is_as_it_should_be(self):
-        """Whether it was written before our results were looked at, and not changed after."""
+        """True if it was written before the results were known, and not changed afterwards."""
         return not self.changed and not self.results_known
 
     def __str__(self):

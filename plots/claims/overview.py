@@ -64,7 +64,7 @@ def overview(folders):
 
 
 def without_claims(found, folders):
-    """The other runs there are results of, those that test reasons last, as studies without claims of their own."""
+    """The other runs with results, as studies without claims; runs that test reasons come last."""
     names = {path.parent.relative_to(folders).as_posix() for path in folders.rglob("provenance.json")}
     names -= {study.name for study in found}
     return [Study(name, name, [], read_provenance(folders / name / "provenance.json"))
@@ -72,7 +72,7 @@ def without_claims(found, folders):
 
 
 def runs(found, folders):
-    """Which run each study's results are of, as lines of a Markdown table."""
+    """The run that each study's results come from, as lines of a Markdown table."""
     everything = [*found, *without_claims(found, folders)]
     again = read_records(folders)
     commits = {commit for study in everything for commit in commits_of(study)}
@@ -92,7 +92,8 @@ def runs(found, folders):
 
 
 def again_cell(row, run):
-    """Where a study was run again, and in how many rows of its tables that differs; or which commit has the same program."""
+    """Describes where a study was run again, and how many rows of its tables differ; or names the commit with the same
+    program."""
     if not is_of(row, run):
         return MISSING
     if not row["rows"]:
@@ -115,8 +116,8 @@ def most_covered(found, again):
 
 
 def commits_of(study):
-    """The commits of the program of a run's sessions, in short, and whether there were changes beside
-    them; empty if there are no results."""
+    """The short commits of the program of a run's sessions, and whether there were uncommitted changes; empty if there
+    are no results."""
     sessions = (study.provenance or {}).get("sessions", [])
     return list(dict.fromkeys(session["commit"][:SHORT_COMMIT] + ("+" if session["uncommitted_changes"] else "")
                               for session in sessions))

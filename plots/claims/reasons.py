@@ -24,5 +24,5 @@ def results_of_test(test):
 
 @lru_cache(maxsize=None)
 def results_of(folder):
-    """As read_results; several claims ask for one folder."""
+    """Calls read_results, cached, since several claims use one folder."""
     return read_results(folder)

@@ -36,7 +36,7 @@ def criterion_of(claim):
 
 
 def totals(outcomes):
-    """How many claims hold by their first criterion, and how many by a later one beside it."""
+    """Counts the claims that hold by their first criterion, and those that hold by a later one."""
     # At the scale `quick` one verdict stands in place of another.
     left_out = FAILS if any(o.verdict == COARSE for o in outcomes) else COARSE
 
@@ -56,7 +56,7 @@ def verdict_cell(outcome):
 
 
 def of_seeds(outcome):
-    """Of how many seeds alone the claim holds; nothing where there is one seed."""
+    """Counts the single seeds for which the claim holds; empty for one seed."""
     return f" (holds for {outcome.seeds})" if outcome.seeds else ""
 
 
@@ -66,7 +66,7 @@ def emphasized(verdict):
 
 
 def of_chance(outcome):
-    """What other seeds say of chance as a reason; nothing where there is one seed."""
+    """Describes whether other seeds point to chance as a reason; empty for one seed."""
     if not outcome.seeds:
         return ""
     if not outcome.chance:
@@ -76,7 +76,7 @@ def of_chance(outcome):
 
 
 def of_test(test, tested, outcome):
-    """What the test of a reason has shown of a claim's outcome; tested: the claim's on the study that changes the one
+    """Describes the result of the test of a reason. tested: the claim's outcome in the study that changes the one
     thing, or None."""
     if tested is None:
         return as_guess(test["reason"])
@@ -95,7 +95,7 @@ def of_test(test, tested, outcome):
 
 
 def known_reasons(outcomes):
-    """What is known, and what is guessed, of why claims do not hold: lines below the table."""
+    """Known and supposed reasons why claims do not hold: lines below the table."""
     found = {}
     for outcome in outcomes:
         if outcome.verdict == FAILS:
@@ -108,7 +108,7 @@ def known_reasons(outcomes):
 
 
 def caveats(results):
-    """What a reader has to know before comparing the numbers, as sentences."""
+    """Warnings that a reader needs before comparing the numbers, as sentences."""
     found = [results.note] if results.note else []
     found += ["All numbers come from the CSV files of this folder; printed ones from the tables and the "
               "text of the thesis. A dash is a number that is not there."]

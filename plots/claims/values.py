@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What claims can ask for: columns of summary.csv and thresholds.csv by name, and the functions of
-iterations.csv below. The same names give the printed values where the thesis prints them."""
+"""Values that claims can use: columns of summary.csv and thresholds.csv by name, and the functions of iterations.csv
+below. The same names give the printed values where the thesis prints them."""
 
 import numpy as np
 
@@ -114,12 +114,12 @@ def total(rows, column, mesh, method, stage=None):
 
 
 def valid_iterations(rows, mesh, method):
-    """How many recorded iterations left no cell invalid."""
+    """The number of recorded iterations without invalid cells."""
     return np.count_nonzero(counts_of_invalid(rows, mesh, method) == 0)
 
 
 def invalid_iterations(rows, mesh, method):
-    """How many recorded iterations left invalid cells."""
+    """The number of recorded iterations with invalid cells."""
     return np.count_nonzero(counts_of_invalid(rows, mesh, method) > 0)
 
 
@@ -147,7 +147,7 @@ def seconds_until(rows, column, mesh, method, value):
 
 
 def seconds_until_below(rows, column, mesh, method, value):
-    """The same until it is at most a value."""
+    """Seconds until the number is at most a value."""
     rows, first = first_row(rows, column, mesh, method, lambda numbers: numbers <= float(value))
     return np.inf if first is None else rows.number("smoothing_seconds")[first]
 
@@ -169,13 +169,13 @@ def seconds_per_iteration(rows, mesh, method):
 
 
 def counts_of_invalid(rows, mesh, method):
-    """Invalid cells after each recorded iteration; the mesh before smoothing is none."""
+    """Invalid cells after each recorded iteration, without the mesh before smoothing."""
     rows = of_one_degree(rows, mesh, method)
     return rows.number("n_invalid")[rows.text("stage") != INITIAL]
 
 
 def in_first_stage(rows):
-    """Which rows belong to the first stage of smoothing."""
+    """A mask of the rows that belong to the first stage of smoothing."""
     stages = rows.text("stage")
     return stages == next((stage for stage in stages if stage != INITIAL), "")
 

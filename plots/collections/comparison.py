@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which method is better, and whether smoothing pays: on all problems, at equal budgets of time."""
+"""Comparison of methods on all problems, at equal budgets of time: which is better, and whether smoothing pays."""
 
 from dataclasses import dataclass
 
@@ -29,7 +29,7 @@ class Rank:
 
 @dataclass(frozen=True)
 class Payoff:
-    """What a method gains and costs in a family at a degree, in geometric means over its problems."""
+    """Gains and costs of a method in a family at a degree, as geometric means over its problems."""
 
     family: str
     degree: str
@@ -115,8 +115,8 @@ def payoffs(problems, methods):
 
 
 def error_in_time(error, seconds, split_error, split_seconds):
-    """What a mesh has after a time in all, by the power law through its error as it is and with every cell split or
-    refined otherwise; NaN unless that is better and dearer."""
+    """Estimates the error after a given total time. The power law goes through the error on the mesh and the error with
+    every cell split or refined otherwise. NaN unless the second is smaller and takes longer."""
     if not (split_error < error and split_seconds > seconds):
         return lambda time: np.nan
     order = np.log(error / split_error) / np.log(split_seconds / seconds)
@@ -124,7 +124,7 @@ def error_in_time(error, seconds, split_error, split_seconds):
 
 
 def payoff(family, degree, method, change, values):
-    """Of one family; its meshes are what intervals draw."""
+    """Computes the payoff in one family; intervals are drawn from its meshes."""
     meshes, errors, times, at_equal_time = (np.array(column) for column in zip(*values))
     meshes, known = meshes.astype(str), np.isfinite(at_equal_time)
     return Payoff(family, degree, method, change, geometric_mean(errors),
@@ -135,5 +135,5 @@ def payoff(family, degree, method, change, values):
 
 
 def geometric_mean(values):
-    """Of positive numbers."""
+    """The geometric mean of positive numbers."""
     return float(np.exp(np.mean(np.log(np.maximum(values, 1e-300)))))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How methods compare over all problems of a collection, as curves."""
+"""Comparison of methods over all problems of a collection, as curves."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,7 +17,7 @@ DIAGRAMS = {"profile": "performance profiles", "runtime": "runtime to targets", 
 
 @dataclass(frozen=True)
 class Curve:
-    """Of one method; arrays of the same length, x ascending. lower, upper: quartiles, where there are some."""
+    """The curve of one method; arrays of the same length, x ascending. lower, upper: quartiles, or None."""
 
     method: str
     x: np.ndarray
@@ -38,7 +38,7 @@ class Diagram:
 
 @lru_cache(maxsize=1)
 def diagrams(results):
-    """Those of DIAGRAMS that have curves: name -> Diagram."""
+    """The DIAGRAMS that have curves: name -> Diagram."""
     problems = problems_of(results)
     found = {"profile": profile(problems, results.methods), "runtime": runtime(problems),
              "anytime": errors_so_far(problems, results.methods)}

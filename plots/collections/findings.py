@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a collection shows, in sentences: each has its number and the interval of it."""
+"""Findings on a collection, as sentences: each has its number and the interval of it."""
 
 import math
 from collections import Counter
@@ -32,7 +32,7 @@ def findings_as_markdown(results, problems, predictions, thresholds, ranks, payo
 
 
 def bracket(low_high, form=".2f"):
-    """ (0.12 to 0.34); nothing where there is no interval."""
+    """Writes an interval as (0.12 to 0.34); empty without an interval."""
     low, high = low_high
     return f" ({low:{form}} to {high:{form}})" if math.isfinite(low) else " (no interval: one mesh only)"
 
@@ -79,7 +79,7 @@ def what_is_enough(thresholds):
 
 
 def which_method(results, ranks):
-    """The first method, those that cannot be told from it, and the others."""
+    """The first method, the methods that cannot be distinguished from it, and the others."""
     if not ranks:
         return []
     best, others = ranks[0], ranks[1:]
@@ -95,8 +95,8 @@ def which_method(results, ranks):
 
 
 def what_pays(results, payoffs):
-    """Smoothing beside the next degree and split cells on the unsmoothed mesh, for each family and degree; then the error
-    at equal time in all."""
+    """Compares smoothing with the next degree and with split cells on the unsmoothed mesh, for each family and degree;
+    then the error at equal total time."""
     sentences, gains = [], []
     for family, degree in sorted({(p.family, p.degree) for p in payoffs}):
         here = {(p.method, p.change): p for p in payoffs if (p.family, p.degree) == (family, degree)}
@@ -127,7 +127,7 @@ def what_pays(results, payoffs):
 
 
 def verdict(smoothed, other, name):
-    """Whether smoothing or the other way has the lower error in no more time."""
+    """Says whether smoothing or the alternative has the lower error in no more time."""
     if smoothed.error <= other.error and smoothed.time <= other.time:
         return "smoothing pays"
     if other.error <= smoothed.error and other.time <= smoothed.time:
@@ -136,7 +136,7 @@ def verdict(smoothed, other, name):
 
 
 def what_got_worse(results, problems):
-    """How often a method ends with a larger error than it began with."""
+    """Reports how often a method ends with a larger error than it began with."""
     sentences = []
     for method in results.methods:
         with_it = [problem for problem in problems if method in problem.curves]
@@ -151,7 +151,7 @@ def what_got_worse(results, problems):
 
 
 def share(test, problems):
-    """Of problems, in how many the test is true: "23 % (4 to 51) of 972 problems"."""
+    """The share of problems for which the test is true: "23 % (4 to 51) of 972 problems"."""
     percent = np.array([100.0 * test(problem) for problem in problems])
     between = interval(lambda rows: np.mean(percent[rows]), np.array([problem.group for problem in problems], dtype=str))
     return f"{np.mean(percent):.0f} %{bracket(between, '.0f')} of {len(problems)} problems"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which quality number predicts the error, and how good is good enough."""
+"""Prediction of the error by quality numbers, and thresholds of a good quality."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -63,7 +63,7 @@ def samples_of(results):
 
 
 def relative_to_least(values, members):
-    """Positive numbers divided by the least of the same member; NaN where there is none."""
+    """Positive numbers divided by the smallest one of the same member; NaN where that is missing."""
     values = np.where(values > 0, values, np.nan)
     _, inverse = np.unique(members.astype(str), return_inverse=True)
     least = np.full(inverse.max(initial=-1) + 1, np.inf)
@@ -73,7 +73,7 @@ def relative_to_least(values, members):
 
 @lru_cache(maxsize=1)
 def predictions(results):
-    """Every quality with every outcome, for each sample; those that nothing is known of are left out."""
+    """Predictions of every outcome by every quality, for each sample; unknown ones are left out."""
     found = []
     for sample in samples_of(results):
         intervals = across_intervals(sample)

@@ -80,7 +80,7 @@ def draw_extremes(results):
 
 
 def draw_diagram(results, diagram):
-    """A line for each method; nothing where there is no diagram."""
+    """Draws a line for each method; returns None without a diagram."""
     if diagram is None:
         return None
     styles = style.method_styles(results.methods)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What diagrams of several methods have in common: sizes, a legend above them, markers."""
+"""Common parts of diagrams of several methods: sizes, a legend above them, markers."""
 
 import math
 
@@ -29,8 +29,8 @@ def styles_in_order(results):
 
 
 def draw_legend(figure, results, styles, markers=True, remarks=None, more=()):
-    """The legend of all panels, above them, in as few lines as fit; returns its height in inches.
-    `remarks` maps methods to words behind their titles, `more` are handles of what is no method."""
+    """Draws the legend of all panels, above them, in as few lines as fit; returns its height in inches. `remarks` maps
+    methods to words behind their titles, `more` are handles of lines that do not belong to a method."""
     handles = []
     for method, look in styles.items():
         handle = Line2D([], [], color=look.colour, marker=(look.marker or None) if markers else None,

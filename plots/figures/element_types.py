@@ -16,7 +16,7 @@ WHITE_FRACTION = 0.35  # of the colours: lighter ones let edges be seen
 
 
 def is_mixed(grid):
-    """Whether a mesh has cells of more than one type."""
+    """True if a mesh has cells of more than one type."""
     return len(np.unique(grid.types)) > 1
 
 

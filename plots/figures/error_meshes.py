@@ -14,8 +14,9 @@ MOST_COLUMNS = 3
 
 
 def error_blocks(results, grids):
-    """Mesh -> (title, [(caption, grid)]): the initial one, the one by the first method that does not solve, and the
-    one with the least true H1 error by those that do; nothing where there are no such methods."""
+    """Returns mesh -> (title, [(caption, grid)]): the initial mesh, the one by the first method that does not solve,
+    and the one with the smallest true H1 error among the solution-adaptive methods. A mesh without such methods is left
+    out."""
     solving = [method for method in results.methods if solves_itself(results.iterations.select(method=method))]
     others = [method for method in results.methods if method not in solving]
     blocks = {}

@@ -9,9 +9,8 @@ from .style import sequential_name
 
 
 def read_grids(results, report):
-    """(mesh, method) -> grid for all meshes that are there, in the order of the study: the planar
-    ones, those of volume cells, and surfaces in space. `report` takes a sentence for whatever is left
-    out; that is everything where there is no VTK."""
+    """Returns (mesh, method) -> grid for all available meshes, in the order of the study: planar, volume and surface
+    meshes. `report` takes a sentence for each mesh that is left out; without VTK, all are."""
     try:
         return sorted_grids(results, report)
     except NoVtk as error:
@@ -20,7 +19,7 @@ def read_grids(results, report):
 
 
 def sorted_grids(results, report):
-    """The same; raises NoVtk."""
+    """Like read_grids, but raises NoVtk."""
     planar, volume, surface, missing, unknown = {}, {}, {}, [], []
     for mesh in results.meshes:
         for method in (INITIAL, *results.methods):
@@ -45,8 +44,8 @@ def sorted_grids(results, report):
 
 
 def same_as_sequential(grid, found, mesh, method):
-    """Whether this is the mesh of a parallel run that is bit for bit the one of the sequential run:
-    that is shown once."""
+    """True if the mesh of a parallel run is bitwise identical to the one of the sequential run: then it is shown
+    once."""
     twin = found.get((mesh, sequential_name(method)))
     return (method != sequential_name(method) and twin is not None
             and np.array_equal(twin.points, grid.points))

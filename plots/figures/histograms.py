@@ -83,13 +83,13 @@ def panels(results, meshes, qualities, markers):
 
 
 def dashes_of(method, look):
-    """The dash pattern of a method's line; the initial mesh is no method."""
+    """The dash pattern of a method's line; the initial mesh has a pattern of its own."""
     return INITIAL_DASHES if method == INITIAL else look.dashes
 
 
 def counts_of(values, n_bins):
-    """How many cells lie in each of equal parts of [0, 1]; invalid ones, whose mean ratio may be
-    negative, count as 0."""
+    """Counts the cells in each of equal parts of [0, 1]. Invalid cells, whose mean ratio may be negative, count as
+    0."""
     return np.histogram(np.clip(values, 0, 1), n_bins, (0, 1))[0]
 
 

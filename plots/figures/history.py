@@ -126,7 +126,7 @@ def draw_panel(ax, lines, styles, extent):
 
 
 def words_on(results, lines, extent):
-    """What the axis does not show: where a method that goes on beyond its end comes to."""
+    """Words on things that the axis does not show, such as the end of a method that runs beyond the axis."""
     line = lines.get(extent.dominant)
     if line is None or not line.shown.any():
         return []

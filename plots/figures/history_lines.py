@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a panel of a history shows, before it is drawn: a line for each method, and the range of its
-horizontal axis."""
+"""Content of a panel of a history, before it is drawn: a line for each method, and the range of its horizontal axis."""
 
 from dataclasses import dataclass
 from typing import Optional
@@ -36,7 +35,7 @@ class Line:
 
     @property
     def shown(self):
-        """Which records can be drawn."""
+        """A mask of the records that can be drawn."""
         return np.isfinite(self.x) & np.isfinite(self.y)
 
     @property
@@ -47,7 +46,7 @@ class Line:
 
     @property
     def is_never_valid(self):
-        """Whether no mesh is valid but, perhaps, the initial one."""
+        """True if no mesh is valid except, perhaps, the initial one."""
         return not (self.valid[1:] if len(self.valid) > 1 else self.valid).any()
 
 
@@ -72,7 +71,7 @@ def panel_lines(results, name, mesh, degree, x=TIME):
 
 @dataclass(frozen=True)
 class Range:
-    """What a horizontal axis shows."""
+    """The range of a horizontal axis."""
 
     low: float
     high: float
@@ -81,14 +80,14 @@ class Range:
     dominant: str = ""  # the one method that goes on beyond the end
 
     def placed(self, x):
-        """Where numbers are on the axis; NaN where they have no place."""
+        """Positions of numbers on the axis; NaN for numbers that the axis cannot show."""
         if not self.logarithmic:
             return x
         place = np.nan if self.zero is None else self.zero
         return np.where(x == 0, place, np.where(x > 0, x, np.nan))
 
     def holds(self, x):
-        """Which of the placed numbers are before the end."""
+        """A mask of the placed numbers that lie before the end."""
         with np.errstate(invalid="ignore"):
             return ~(x > self.high)
 

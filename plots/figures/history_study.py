@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which histories belong to a study, and what they are called."""
+"""Selection and names of the histories of a study."""
 
 from dataclasses import replace
 
@@ -19,7 +19,7 @@ SOLVES = "n_solves"  # column of iterations.csv
 
 
 def main_columns(results):
-    """What the history shows unless other columns are asked for."""
+    """The default columns of the history."""
     return ("q_min", "q_mean", "e_max", "e_mean") if results.degrees else ("q_star_min", "q_mean", "w_mean")
 
 

@@ -86,7 +86,7 @@ def draw_blocks(blocks, columns, aspect, draw_panel, draw_free=None, draw_foot=N
 
 
 def rows_of_panels(panels, columns):
-    """How many rows a block of panels takes."""
+    """The number of rows that a block of panels takes."""
     return math.ceil(len(panels) / columns)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which meshes of a study are drawn in one figure, so that it fits a page."""
+"""Selection of meshes that are drawn in one figure, so that it fits a page."""
 
 from . import style
 from .meshes import rows_of_panels
@@ -26,7 +26,7 @@ def pages(meshes, fits):
 
 
 def fits_as_columns(meshes):
-    """Whether a column of diagrams for each mesh can be read on one page."""
+    """True if a column of diagrams for each mesh is readable on one page."""
     return len(meshes) <= style.columns_that_fit(MESHES_OF_A_PAGE)
 
 

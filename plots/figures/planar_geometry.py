@@ -117,7 +117,7 @@ def window_of(grid, centre, width, aspect):
 
 
 def cells_in(grid, window):
-    """Which cells have their bounding boxes meet the window, shape (n_cells,)."""
+    """A mask of the cells whose bounding boxes meet the window, shape (n_cells,)."""
     points = grid.points[grid.connectivity, :2]
     low = np.minimum.reduceat(points, grid.offsets[:-1], axis=0)
     high = np.maximum.reduceat(points, grid.offsets[:-1], axis=0)

@@ -17,7 +17,7 @@ NORMALS = {"x": (1, 0, 0), "y": (0, -1, 0), "z": (0, 0, 1)}
 
 
 def is_coarse(grid):
-    """Whether a mesh has so few cells that a cut along them is far from a plane."""
+    """True if a mesh has so few cells that a cut along them is far from a plane."""
     return len(grid.types) <= MOST_CELLS
 
 

@@ -21,8 +21,8 @@ class PlannedFigure:
 
 
 def save_figures(planned, study_title, folder, formats, report):
-    """Draws figures into files in a folder; returns the paths. `report` takes a sentence on those that
-    cannot be drawn here."""
+    """Draws figures into files in a folder; returns the paths. `report` takes a sentence on each figure that cannot be
+    drawn here."""
     paths, failure = [], None
     for plan in planned:
         if plan.rendered and failure is not None:

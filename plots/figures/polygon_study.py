@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which figures belong to a polygon study, and what they are called."""
+"""Selection and names of the figures of a polygon study."""
 
 from .domains import draw_domains
 from .planned import plan_numbered

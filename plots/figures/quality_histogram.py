@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many cells of one mesh have which mean ratio."""
+"""A histogram of the mean ratios of one mesh."""
 
 from pathlib import Path
 

@@ -50,8 +50,8 @@ class Scene:
 
 
 def render(scenes):
-    """The pictures as arrays (height, width, 3) of uint8, background white; NoDisplay with one
-    sentence if there is no VTK, no Xvfb, or VTK ends in the middle."""
+    """Renders scenes as arrays (height, width, 3) of uint8 on a white background. Raises NoDisplay with one sentence if
+    VTK or Xvfb is missing or VTK ends early."""
     try:
         vtk_module("vtkRenderingOpenGL2")
     except NoVtk as error:

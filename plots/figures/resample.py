@@ -9,9 +9,9 @@ MOST_SAMPLES = 1 << 22  # at a time: what they need of memory
 
 
 def resampled(grid, values, width):
-    """An array of so many columns over the bounding box of a mesh, the first row at the bottom, with
-    the values in the middles of its pixels: linear on triangles, into which other cells are split;
-    outside of the mesh NaN, but for the pixels beside it, which have the values of their neighbours."""
+    """Samples values in the middles of the pixels of an array of so many columns over the bounding box of a mesh, the
+    first row at the bottom. Values are linear on triangles, into which other cells are split. Outside of the mesh they
+    are NaN, but pixels next to it have the values of their neighbours."""
     x_min, y_min, x_max, y_max = bounding_box(grid)
     scale = width / (x_max - x_min)
     picture = np.full((max(1, round(scale * (y_max - y_min))), width), np.nan)

@@ -12,7 +12,7 @@ PAD, LABEL_HEIGHT = 0.06, 0.18
 
 
 def spans_magnitudes(values):
-    """Whether finite numbers ask for a logarithmic axis."""
+    """True if finite numbers need a logarithmic axis."""
     return len(values) > 0 and values.min() > 0 and values.max() > LOGARITHMIC_FROM * values.min()
 
 
@@ -58,7 +58,7 @@ def make_room_for_labels(figure, axes, right=0.1):
 
 
 def width_of_tick_labels(ax, renderer):
-    """How far the labels of the vertical axis reach to the left of a panel, in pixels."""
+    """The distance in pixels by which labels of the vertical axis extend to the left of a panel."""
     ax.yaxis.label.set_visible(False)
     box = ax.yaxis.get_tightbbox(renderer)
     ax.yaxis.label.set_visible(True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a plane cuts the cells of a volume mesh."""
+"""Sections of the cells of a volume mesh by a plane."""
 
 import numpy as np
 

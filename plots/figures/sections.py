@@ -97,8 +97,8 @@ def pixels_of(columns, aspect):
 
 
 def shows_edges(grid, cut, view, pixels):
-    """Whether cells are large enough in the picture for edges; decided once for all panels of a
-    block, so that they can be compared."""
+    """True if cells are large enough in the picture to show edges; decided once for all panels of a block, so that they
+    can be compared."""
     return bool(cut.seen_spacing(grid) * pixels[0] / view.width >= PIXELS_FOR_EDGES)
 
 
@@ -115,7 +115,7 @@ def section_scene(grid, cut, view, pixels, edges, colours):
 
 
 def show(axes, picture, boxed):
-    """A rendered picture as it is, or a word where there is none."""
+    """Shows a rendered picture, or a word if it is missing."""
     axes.set(xticks=(), yticks=())
     axes.grid(False)
     for spine in axes.spines.values():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How fast the ratio of two sides of a triangle tends to one (thesis, Propositions 2.1 and 2.3)."""
+"""Convergence of the ratio of two sides of a triangle to one (thesis, Propositions 2.1 and 2.3)."""
 
 import math
 

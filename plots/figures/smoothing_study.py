@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which figures of meshes belong to a study, what they are called, and what they need."""
+"""Selection and names of the figures of meshes of a study, and the data they need."""
 
 from ..results.smoothing import INITIAL
 from .element_types import draw_element_types, is_mixed
@@ -44,8 +44,7 @@ def plan_mesh_figures(results, report):
 
 
 def plan_histograms(results, grids, plan):
-    """How many cells of which quality there are, with linear and logarithmic counts, and what
-    distortion changes in that."""
+    """Plans histograms of the mean ratio with linear and logarithmic counts, and of the change by distortion."""
     qualities = {key: grid.cell_data["mean_ratio"] for key, grid in grids.items()}
     meshes = [mesh for mesh in results.meshes if any(mesh == name for name, _ in qualities)]
     pairs = [(mesh, mesh + DISTORTED_SUFFIX) for mesh in meshes if mesh + DISTORTED_SUFFIX in meshes]
@@ -62,7 +61,7 @@ def plan_histograms(results, grids, plan):
 
 
 def solved_grid(results, grids, report):
-    """The mesh that shows the exact solution best; None if there is none."""
+    """The mesh that shows the exact solution best; None without one."""
     solved = [(mesh, grid) for (mesh, _), grid in grids.items() if "exact_solution" in grid.point_data]
     if not solved:
         if not results.degrees:
@@ -106,7 +105,7 @@ def plan_planar_figures(results, grids, plan, report):
 
 
 def plan_volume_figures(results, grids, plan, report, suffix):
-    """The same for volume meshes, cut open, and the types of their cells where they are mixed."""
+    """Plans the figures of volume meshes, cut open, and of the types of their cells in mixed meshes."""
     normal = figure_settings(results).get("cut_normal")
     # Methods without any mesh have no panel; one that is missing of some meshes has an empty one.
     methods = [m for m in (INITIAL, *results.methods) if any(m == method for _, method in grids)]

@@ -125,7 +125,7 @@ def width_of(narrower):
 
 
 def columns_that_fit(usual):
-    """How many columns of panels there may be, where there may be so many at the usual width."""
+    """The number of columns of panels that fit, if `usual` columns fit at the usual width."""
     return max(1, int(usual * full_width() / FULL_WIDTH + 0.5))
 
 

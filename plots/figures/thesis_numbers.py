@@ -26,8 +26,8 @@ HISTORY_DEGREES = {"volume": "2"}
 
 
 def figure_name(study, kind, variant=""):
-    """The file name without suffix: figure_6_4_history_log_time, or history_log_time for a study that
-    is none of the thesis; `study` as in Results.thesis_study."""
+    """The file name without suffix: figure_6_4_history_log_time, or history_log_time for a study that is not in the
+    thesis; `study` as in Results.thesis_study."""
     numbers = THESIS_NUMBERS.get(study)
     if numbers is None:
         return kind + variant

@@ -28,12 +28,12 @@ class View:
         return replace(self, centre=tuple(centre), width=width, height=width / aspect)
 
     def fitted(self, aspect):
-        """The same view with a margin on two sides, so that width / height is `aspect`."""
+        """Returns this view with a margin on two sides, so that width / height is `aspect`."""
         return replace(self, width=max(self.width, self.height * aspect),
                        height=max(self.height, self.width / aspect))
 
     def flattened(self, points):
-        """Where points in space (n, 3) are in the picture, shape (n, 2), in units of the mesh."""
+        """Projects points in space (n, 3) into the picture, shape (n, 2), in units of the mesh."""
         right = np.cross(self.up, self.towards)
         return np.asarray(points) @ np.column_stack([right, self.up])
 
@@ -81,11 +81,11 @@ class Cut:
     normal: tuple
 
     def kept(self, grid):
-        """Which cells stay, shape (n_cells,): whole ones, so that the cut shows their faces."""
+        """A mask of the cells that stay, shape (n_cells,): whole ones, so that the cut shows their faces."""
         return (cell_centres(grid) - self.origin) @ unit(self.normal) <= 0
 
     def crossed(self, grid):
-        """Which cells the plane crosses, shape (n_cells,); where it runs between cells, those that it
+        """A mask of the cells that the plane crosses, shape (n_cells,). If it runs between cells: the cells that it
         bounds on one side."""
         heights = ((grid.points - self.origin) @ unit(self.normal))[grid.connectivity]
         low = np.minimum.reduceat(heights, grid.offsets[:-1])
@@ -104,8 +104,8 @@ class Cut:
         return float(np.median(self.edge_lengths(grid)))
 
     def seen_spacing(self, grid):
-        """The length of edges that cells on nine tenths of the cut's area exceed: on graded meshes
-        most of what is seen are a few large cells."""
+        """The length of edges that cells on nine tenths of the cut's area exceed: in pictures of graded meshes a few
+        large cells cover most of the area."""
         lengths = np.sort(self.edge_lengths(grid))
         fractions = np.cumsum(lengths**2) / np.sum(lengths**2)
         return float(lengths[np.searchsorted(fractions, 0.1)])
@@ -134,15 +134,15 @@ class Cut:
 
 
 def widest_cut(grid):
-    """Of the planes through the middle of the bounding box across x, y and z, the one that crosses
-    most cells; normals point to where the views of the model come from."""
+    """Returns, of the planes through the middle of the bounding box across x, y and z, the one that crosses most cells;
+    normals point to where the views of the model come from."""
     origin = 0.5 * (grid.points.min(axis=0) + grid.points.max(axis=0))
     cuts = [Cut(tuple(origin), normal) for normal in ((0, -1, 0), (-1, 0, 0), (0, 0, 1))]
     return max(cuts, key=lambda cut: np.count_nonzero(cut.crossed(grid)))
 
 
 def same_box(grid, other, tolerance=0.01):
-    """Whether the bounding boxes of two grids are as good as equal: meshes of the same solid."""
+    """True if the bounding boxes of two grids are almost equal: meshes of the same solid."""
     boxes = [np.array([g.points.min(axis=0), g.points.max(axis=0)]) for g in (grid, other)]
     size = np.max(boxes[0][1] - boxes[0][0])
     return bool(np.abs(boxes[0] - boxes[1]).max() <= tolerance * size)

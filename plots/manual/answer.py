@@ -12,7 +12,7 @@ PERCENT = 100
 
 
 def geometric_mean(values):
-    """Of positive numbers."""
+    """The geometric mean of positive numbers."""
     return float(np.exp(np.mean(np.log(values))))
 
 
@@ -95,7 +95,7 @@ def levels(field):
 
 
 def good_meshes(field):
-    """How often smoothing of a mesh as generated gains next to nothing."""
+    """Reports how often smoothing of a generated mesh gains next to nothing."""
     one, two = (field.ratio("h1_error", "", degree) for degree in "12")
     return (f"On {PERCENT * np.mean(one > 0.98):.0f} % of the meshes as generated, the H1 error falls by less than 2 % (degree 1). On "
             f"{PERCENT * np.mean(one > 1.001):.0f} % of them it rises by more than 0.1 % (degree 2: {PERCENT * np.mean(two > 1.001):.0f} %).")
@@ -128,7 +128,7 @@ def bad_meshes(reference):
 
 
 def methods(field, reference):
-    """How much the methods differ."""
+    """Reports how much the methods differ."""
     spread, n_valid = field.spread()
     gear = of_study(reference, "gear")
     worst = max((1 / factor(gear, mesh, degree, "h1_error", "smart-laplace", "getme"), mesh, degree)
@@ -178,7 +178,7 @@ def cost(reference):
 
 
 def moving(reference):
-    """What solution-adaptive methods gain, at degree 1."""
+    """Gains of solution-adaptive methods at degree 1."""
     rows = read_rows(reference / "energy-field" / "tables" / "table_energy_gains.csv").records()
     medians = sorted(float(row["H1 median"]) for row in rows if row["d"] == "1")
     return (f"Solution-adaptive methods lower the true H1 error further than GETMe: {medians[0]:.1f} to {medians[-1]:.1f} times (medians, "

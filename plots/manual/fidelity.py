@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the thesis is reproduced: claims by kind of mesh and by cause (studies/thesis/causes.csv), and the tables of the
+"""Agreement with the thesis: claims by kind of mesh and by cause (studies/thesis/causes.csv), and the tables of the
 published gears."""
 
 from ..claims.agreement import agreement
@@ -34,7 +34,7 @@ def failing(found):
 
 
 def kind_of(study):
-    """Which meshes a study has."""
+    """The kind of meshes that a study has."""
     meshes = entries(study.provenance or {}, "meshes")
     if any(mesh.get("published") for mesh in meshes):
         return "published by the authors"

@@ -77,7 +77,7 @@ def blocks(reference):
 
 
 def pays(tables):
-    """In how many cases a method has an error that no alternative has in the same time."""
+    """Counts the cases in which a method has an error that no alternative has in the same time."""
     rows = []
     for study in STUDIES:
         cells = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which pages have which generated blocks."""
+"""The pages with generated blocks, and their blocks."""
 
 from ..claims.reasons import reference
 from ..results.data_folder import data_folder

@@ -50,5 +50,5 @@ def kind_data(sample, found, qualities, outcomes):
 
 
 def rounded(values):
-    """To four digits, which is more than can be seen; None for what is not known, as JSON has no NaN."""
+    """Rounds to four digits, more than can be seen; None for unknown numbers, as JSON has no NaN."""
     return [float(f"{value:.4g}") if np.isfinite(value) else None for value in values]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands in a report, as data: curves, rows of tables, meshes, claims, a comparison with another folder."""
+"""Content of a report, as data: curves, rows of tables, meshes, claims, a comparison with another folder."""
 
 import math
 
@@ -21,7 +21,7 @@ COMPARED = ("smoothing_seconds", "q_min", "q_mean", "condition_number", "cg_iter
 
 
 def number_or_none(value):
-    """For JSON, which has no NaN."""
+    """Replaces NaN and infinity by None, as JSON has neither."""
     return float(value) if math.isfinite(value) else None
 
 
@@ -47,7 +47,7 @@ def summary_table(results):
 
 
 def cell(name, field, results):
-    """What a reader sees of a field, and the number it is sorted by, if it is one."""
+    """The displayed text of a field, and the number it is sorted by, if it is one."""
     if name in ("mesh", "method"):
         return {"text": results.title(field)}
     try:
@@ -58,8 +58,8 @@ def cell(name, field, results):
 
 
 def comparison(results, against):
-    """Ratios of this folder's numbers to another's, row by row of those in both. Raises ResultsError if there is
-    no such row."""
+    """Divides this folder's numbers by another's, row by row of those in both. Raises ResultsError if there is no
+    common row."""
     other = read_results(against)
     theirs = {tuple(row[key] for key in KEYS): row for row in other.summary.records()}
     rows = []
@@ -76,7 +76,7 @@ def comparison(results, against):
 
 
 def ratio(ours, theirs):
-    """Ours by theirs, `=` where both are the same number to the last digit."""
+    """Returns the quotient of both numbers, `=` if they are bitwise identical."""
     try:
         ours, theirs = float(ours or "nan"), float(theirs or "nan")
     except ValueError:

@@ -23,7 +23,7 @@ def library(path, package):
 
 
 def minified(path, package):
-    """The same without blanks and comments."""
+    """Returns the content of a file without blanks and comments."""
     library(path, package)
     if not shutil.which("esbuild"):
         raise NoLibrary("No report.html: esbuild is missing; install the Debian package esbuild.")

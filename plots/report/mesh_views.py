@@ -40,7 +40,7 @@ class Faces:
 
 
 def seen_of(grid, chosen=None):
-    """What is seen of a grid's cells, all of them or those of a mask, from outside."""
+    """The outside of a grid's cells, of all of them or of those of a mask."""
     to_numpy = vtk_module("util.numpy_support").vtk_to_numpy
     surface = surface_of(vtk_grid(grid, chosen))
     nodes, offsets = faces_of(surface)
@@ -89,8 +89,8 @@ def parts_of(grid):
 
 
 def mesh_view(results, mesh):
-    """What the page needs to draw a mesh before and after each method; None without files of the initial mesh,
-    without VTK, or where there is too much to draw."""
+    """Data that the page needs to draw a mesh before and after each method; None without files of the initial mesh,
+    without VTK, or if there is too much to draw."""
     try:
         initial = read_vtu(results.mesh_file(mesh, INITIAL))
     except (ResultsError, NoVtk):

@@ -43,7 +43,7 @@ def html_table(table, caption, identifier, filters=()):
 
 
 def claims_section(outcomes):
-    """What holds of the thesis; empty for a study that it says nothing about."""
+    """The verdicts on claims of the thesis; empty for a study without claims."""
     if not outcomes:
         return ""
     rows = [[{"text": text} for text in (o.claim["id"], o.claim["section"], o.claim["statement"], criterion_of(o.claim),
@@ -64,7 +64,7 @@ def against_section(results, against):
 
 
 def provenance_section(study, provenance):
-    """Where the numbers come from, and the command that makes them again."""
+    """The source of the numbers, and the command that reproduces them."""
     program, machine = provenance.get("program", {}), provenance.get("machine", {})
     scale = provenance.get("scale", "default")
     command = f"smoothfem study {shlex.quote(study)}" + ("" if scale == "default" else f" --scale {scale}")
@@ -81,12 +81,13 @@ def provenance_section(study, provenance):
 
 
 def file_text(name):
-    """Of a file beside this one."""
+    """Returns the text of a file next to this one."""
     return (HERE / name).read_text(encoding="utf-8")
 
 
 def html_page(title, main, facts="", script_file=None):
-    """A whole page. main, facts: HTML. script_file: beside this one, of a page with plots. Raises NoLibrary."""
+    """Returns a whole page. main, facts: HTML. script_file: next to this one, of a page with plots. Raises
+    NoLibrary."""
     return Template(file_text("page.html")).substitute(
         title=escape(title), facts=facts, main=main, style=file_text("report.css"),
         libraries="".join(map(script, scripts(with_plots=script_file is not None))), common=script(file_text("page.js")),

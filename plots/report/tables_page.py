@@ -64,7 +64,7 @@ def figures_section(folder, planned):
 
 
 def plots_section(plots):
-    """What can be drawn anew in the page."""
+    """The section with plots that the reader can redraw."""
     return Template(file_text("collection.html")).substitute(data=json_in_page(plots))
 
 

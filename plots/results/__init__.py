@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is in a results folder and beside it: CSV rows, meshes, printed values. Knows no other room."""
+"""Reads the content of a results folder and the printed values: CSV rows, meshes. Imports no other folder of plots."""

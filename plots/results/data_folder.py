@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the data are that come with the program: printed values and claims of the thesis."""
+"""Location of the data that come with the program: printed values and claims of the thesis."""
 
 import os
 from pathlib import Path
@@ -11,10 +11,9 @@ THESIS = Path("studies", "thesis")  # what the folder has
 
 
 def data_folder():
-    """The folder above studies/thesis: that which the environment variable SMOOTHFEM_DATA names, else
-    the one above this package (the repository, or share/smoothfem of an installation), else
-    share/smoothfem of the prefix that this package is installed under. Raises ResultsError if there is
-    none."""
+    """The folder above studies/thesis. The environment variable SMOOTHFEM_DATA can name it; otherwise it is the one
+    above this package (the repository, or share/smoothfem of an installation), else share/smoothfem of the prefix that
+    this package is installed under. Raises ResultsError if it does not exist."""
     chosen = os.environ.get("SMOOTHFEM_DATA")
     if chosen:
         if not (Path(chosen) / THESIS).is_dir():

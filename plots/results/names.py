@@ -13,8 +13,7 @@ PREFIX = re.compile(r"^(figure|table)_((\d+_\d+-?)+_)?")
 
 
 def no_such_name(what, wanted, names, nearest=None):
-    """The error that refuses a name, in the words of the program's own. nearest: of the names; found
-    unless given."""
+    """The error for an unknown name, in the words of the program. nearest: one of the names (default: found here)."""
     if not names:
         return ResultsError(f"there is no {what} '{wanted}'; there is none to choose.")
     nearest = nearest or next(iter(difflib.get_close_matches(wanted, names, 1)), None)

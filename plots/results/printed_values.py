@@ -57,7 +57,7 @@ def as_guess(reason):
 
 
 def is_chosen(entry, study, chosen):
-    """Whether an entry of the index belongs to a study that names the `chosen` tables or paths."""
+    """True if an entry of the index belongs to a study that names the `chosen` tables or paths."""
     if chosen is None:
         return entry["study"] == study
     if not isinstance(chosen, list):
@@ -70,8 +70,8 @@ def is_chosen(entry, study, chosen):
 
 
 def comparison_notes(table, results):
-    """What the printed values were measured on, whether ours were as well, and what the study says
-    about that: a list of notes."""
+    """Notes on the meshes of the printed values, whether the study used these meshes, and the study's own remark: a
+    list."""
     measured = [row["mesh"] for row in table.rows]
     stand_ins = [mesh for mesh in results.meshes if mesh in measured and not results.is_published(mesh)]
     note = f"Printed values: Table {table.number}, measured on the {table.measured_on}."

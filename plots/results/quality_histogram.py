@@ -16,7 +16,7 @@ TYPE = "cell_type"
 
 @dataclass(frozen=True)
 class QualityHistogram:
-    """Numbers of cells by mean ratio and type of cell, and what stands beside them."""
+    """Numbers of cells by mean ratio and type of cell, and the data next to them."""
 
     title: str
     lower: np.ndarray  # (n_bins,) mean ratios at which the bins begin
@@ -54,6 +54,6 @@ def read_quality_histogram(path, title, q_min=None, q_mean=None, n_invalid=0):
 
 
 def refuse_unless(condition, rows, what):
-    """Raises ResultsError with what is wrong with a file."""
+    """Raises ResultsError with the fault of a file."""
     if not condition:
         raise ResultsError(f"{rows.path}: the file {what}.")

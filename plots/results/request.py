@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a user asks for instead of all that there is."""
+"""A user's request for some of the tables and figures."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ class Request:
 
     @property
     def has_history(self):
-        """Whether a history other than those of every study is asked for."""
+        """True if the user asks for a history that is not drawn by default."""
         return bool(self.x or self.y or self.log_x or self.log_y)
 
     @property

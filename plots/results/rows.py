@@ -48,7 +48,7 @@ class Rows:
                                    "run the study again.")
 
     def without_number(self, name):
-        """In how many rows a column holds a word for what is no number (nan, inf)."""
+        """Counts the rows in which a column holds a word that is not a number (nan, inf)."""
         return int(np.count_nonzero(np.isnan(self.number(name)) & (self.text(name) != "")))
 
     def where(self, chosen):
@@ -117,14 +117,14 @@ SOLVING = ("assembly_seconds", "cg_seconds", "jacobi_cg_seconds", "amg_setup_sec
 
 
 def solving_seconds(rows):
-    """What a solution costs, shape (rows,): assembly, where the rows have it, and the fastest solver that was run: CG
-    alone, with the diagonal, or with multigrid and its setup. NaN where none is known."""
+    """The cost of a solution, shape (rows,): assembly, where the rows have it, and the fastest solver that was run: CG
+    alone, with the diagonal, or with multigrid and its setup. NaN where no time is known."""
     assembly, alone, jacobi, setup, multigrid = map(rows.number, SOLVING)
     return np.nan_to_num(assembly) + np.fmin(np.fmin(alone, jacobi), setup + multigrid)
 
 
 def solves_itself(rows):
-    """Whether iterations of a method have solved the problem by themselves."""
+    """True if iterations of a method have solved the problem themselves."""
     return bool((rows.text("n_solves") != "").any())
 
 
@@ -138,7 +138,7 @@ def groups_of(rows, *names):
 
 
 def read_provenance(path):
-    """Reads provenance.json; an empty dictionary if there is none."""
+    """Reads provenance.json; an empty dictionary if the file does not exist."""
     try:
         provenance = json.loads(Path(path).read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -151,8 +151,8 @@ def read_provenance(path):
 
 
 def is_built_in(provenance):
-    """Whether the study is one of the program's own, word for word: only then what the thesis says is
-    about it. Results from before this was recorded are taken for what their name says."""
+    """True if the study is identical to a built-in one; only then do statements of the thesis apply to it. Results from
+    before this was recorded are judged by their name."""
     return provenance.get("built_in", True) is not False
 
 

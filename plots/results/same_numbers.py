@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a study that was run again has the numbers of its reference: every column of its CSV files to the last
-digit but for times and memory, which are the machine's. What was found is kept in results/reference/again.csv, and which
-references need not be run again, as they were made by a program with the same sources."""
+"""Compares a study that was run again with its reference: every column of its CSV files to the last digit, except times
+and memory, which depend on the machine. Results of comparisons are kept in results/reference/again.csv. It also holds
+the references that need not be run again, as a program with the same sources made them."""
 
 import csv
 import io
@@ -18,7 +18,7 @@ OF_THE_MACHINE = ("seconds", "_gib", "speedup")  # how the names of such columns
 
 
 def table_of(path):
-    """The rows of a CSV file, packed or not; none if there is no such file."""
+    """The rows of a CSV file, packed or not; an empty list if the file does not exist."""
     if not is_there(path):
         return []
     with open_rows(path) as lines:
@@ -26,15 +26,15 @@ def table_of(path):
 
 
 def changed(before, after):
-    """The columns that differ in two rows; not those of the machine, nor those that only one of them has, which are of
-    another version of the program."""
+    """The columns that differ in two rows. Columns that depend on the machine do not count, nor columns of only one
+    row, which come from another version of the program."""
     return [name for name in before
             if not name.endswith(OF_THE_MACHINE) and name in after and before[name] != after[name]]
 
 
 def differences(reference, results):
-    """Of two folders of a study: the number of the reference's rows, and what differs, a line for each row. Tables that only
-    the results have are of another version, too."""
+    """Compares two folders of a study; returns the number of the reference's rows, and the differences, a line for each
+    row. Tables that only the results have come from another version, too."""
     n_rows, found = 0, []
     for table in TABLES:
         old = table_of(reference / table)
@@ -50,13 +50,13 @@ def differences(reference, results):
 
 
 def read_records(reference):
-    """What is kept of studies that were run again: study -> row of again.csv."""
+    """Reads the records of studies that were run again: study -> row of again.csv."""
     path = reference / FILE
     return {row["study"]: row for row in read_rows(path, COLUMNS).records()} if path.exists() else {}
 
 
 def is_of(record, provenance):
-    """Whether what is kept of a study is of the reference there is."""
+    """True if a study's record belongs to the current reference."""
     return record.get("commit") == provenance.get("program", {}).get("commit", "")
 
 

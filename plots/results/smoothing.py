@@ -74,7 +74,7 @@ class Results:
 
     @property
     def is_quick(self):
-        """Whether the meshes are too coarse to judge anything by them."""
+        """True if the meshes are too coarse for conclusions."""
         return self.provenance.get("scale") == QUICK
 
     @property
@@ -96,7 +96,7 @@ class Results:
 
     @property
     def note(self):
-        """What the study says about comparing its numbers with the thesis; may be empty."""
+        """The study's remark about comparing its numbers with the thesis; may be empty."""
         return str(self.provenance.get("note") or "")
 
     def title(self, name):
@@ -122,9 +122,9 @@ class Results:
                        repetitions=tuple(other.restricted(methods, meshes) for other in self.repetitions))
 
     def result_record(self, rows):
-        """Which of the rows of one mesh, method and degree is the record of the method's resulting
-        mesh: the first one with its quality numbers. None if there is none: not every iteration is
-        recorded. (The result need not be the last one, see `result_record` of the program.)"""
+        """Returns, of the rows of one mesh, method and degree, the record of the method's resulting mesh: the first one
+        with its quality numbers. None if it was not recorded: not every iteration is. (The result need not be the last
+        one, see `result_record` of the program.)"""
         names = [name for name in FINGERPRINT
                  if name in rows.columns and name in self.summary.columns]
         results = self.summary.select(mesh=rows.text("mesh")[0], method=rows.text("method")[0])
@@ -134,14 +134,14 @@ class Results:
         return int(np.argmax(same)) if same.any() else None
 
     def is_published(self, mesh):
-        """Whether the provenance calls the mesh one of the published ones."""
+        """True if the provenance calls the mesh one of the published ones."""
         return any(entry.get("name") == mesh and entry.get("published") is True
                    for entry in entries(self.provenance, "meshes"))
 
 
 def read_results(folder):
-    """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv, solutions.csv,
-    refined.csv and provenance.json may be absent. Raises ResultsError with one sentence on what is wrong."""
+    """Reads a results folder. summary.csv and iterations.csv must be there; thresholds.csv, solutions.csv, refined.csv
+    and provenance.json may be absent. Raises ResultsError with one sentence on the fault."""
     folder = Path(folder)
     if not folder.is_dir():
         raise ResultsError(f"{folder}: there is no such folder.")
@@ -167,15 +167,14 @@ def read_results(folder):
 
 
 def read_if_there(path):
-    """The same for a file that may be absent: then it has no rows."""
+    """The rows of a file; no rows if the file is absent."""
     if is_there(path):
         return read_checked(path)
     return Rows(path, {name: np.array([], dtype=object) for name in REQUIRED_COLUMNS[path.name]})
 
 
 def read_checked(path):
-    """The rows of one of the files; raises ResultsError if something in them is no number that has to
-    be one."""
+    """The rows of one of the files; raises ResultsError if something in them has to be a number and is not."""
     rows = read_rows(path, REQUIRED_COLUMNS[path.name])
     rows.require_numbers(*REQUIRED_NUMBERS[path.name])
     for name in number_columns(rows):
@@ -189,8 +188,8 @@ def number_columns(rows):
 
 
 def left_out(results):
-    """A sentence for each column that holds something that is no finite number: there, tables have a
-    dash and lines a gap."""
+    """A sentence for each column that holds something that is not a finite number: there, tables have a dash and lines
+    a gap."""
     counted = [(rows, name, rows.without_number(name))
                for rows in (results.iterations, results.summary) for name in number_columns(rows)]
     return [f"{rows.path}: `{name}` is no finite number in {count} of {len(rows)} rows; there, lines have "

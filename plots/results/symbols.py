@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a reader sees for the columns of the CSV files."""
+"""Displayed names of the columns of the CSV files."""
 
 from dataclasses import dataclass
 

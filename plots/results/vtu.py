@@ -30,22 +30,22 @@ class UnstructuredGrid:
 
     @property
     def is_planar(self):
-        """Whether every cell is a triangle, quadrilateral or polygon, of one plane."""
+        """True if every cell is a triangle, quadrilateral or polygon, of one plane."""
         return self.has_polygons and bool((self.points[:, 2] == self.points[0, 2]).all())
 
     @property
     def is_surface(self):
-        """The same in space."""
+        """True if every cell is a triangle, quadrilateral or polygon, not all of one plane."""
         return self.has_polygons and not self.is_planar
 
     @property
     def has_polygons(self):
-        """Whether every cell is a triangle, quadrilateral or polygon."""
+        """True if every cell is a triangle, quadrilateral or polygon."""
         return bool(np.isin(self.types, list(PLANAR_CELL_TYPES)).all())
 
     @property
     def is_volume(self):
-        """Whether every cell is a tetrahedron, hexahedron, prism or pyramid."""
+        """True if every cell is a tetrahedron, hexahedron, prism or pyramid."""
         return bool(np.isin(self.types, list(VOLUME_CELL_TYPES)).all())
 
     def cells(self):

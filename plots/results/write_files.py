@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def write_atomically(path, content):
-    """Writes bytes or text to a temporary file beside `path` and renames it; makes the folder."""
+    """Writes bytes or text to a temporary file next to `path` and renames it; makes the folder."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     # Beside the target: renaming is atomic only within one file system.

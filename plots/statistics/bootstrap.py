@@ -17,7 +17,7 @@ def interval(statistic, groups, n_samples=N_SAMPLES, level=LEVEL, seed=1):
 
 
 def intervals(statistics, n_statistics, groups, n_samples=N_SAMPLES, level=LEVEL, seed=1):
-    """The same of several statistics that are computed together, from the same draws. statistics: takes indices of
+    """Intervals of several statistics that are computed together, from the same draws. statistics: takes indices of
     rows, returns n_statistics numbers."""
     groups = np.asarray(groups)
     _, inverse = np.unique(groups, return_inverse=True)
@@ -38,9 +38,10 @@ def intervals(statistics, n_statistics, groups, n_samples=N_SAMPLES, level=LEVEL
 
 
 def paired_test(a, b, groups=None, n_samples=10000, seed=1):
-    """Probability of a mean difference of pairs as large as that of a and b, in absolute value, if which of a
-    pair is whose were chance (sign flips; all of them for up to 13 that differ). 1 if none differs. a, b: shape
-    (n,), finite. groups: shape (n,), pairs of a group are swapped together; each is its own unless given."""
+    """Probability of a mean difference of pairs as large as that of a and b, in absolute value, if chance decided which
+    of a pair belongs to a and which to b (sign flips; all of them for up to 13 that differ). 1 if no pair differs. a,
+    b: shape (n,), finite. groups: shape (n,), pairs of a group are swapped together (default: each pair is its own
+    group)."""
     difference = np.asarray(a, dtype=float) - np.asarray(b, dtype=float)
     if groups is not None:
         _, inverse = np.unique(np.asarray(groups), return_inverse=True)

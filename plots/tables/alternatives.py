@@ -24,7 +24,7 @@ ERROR = "h1_error"
 
 @dataclass(frozen=True)
 class Way:
-    """A way to a solution: what is done, the true H1 error, and seconds in all; NaN: not known."""
+    """An alternative way to a solution: its name, the true H1 error, and total seconds; NaN: not known."""
 
     title: str
     error: float
@@ -32,7 +32,8 @@ class Way:
 
 
 def alternatives_table(results):
-    """For each method that solves the best that one has without it in no more time; None where there are no others."""
+    """Returns, for each solution-adaptive method, the best alternative without it in no more time; None where there are
+    no others."""
     reference = reference_method(results)
     rows = [(key, others, beside(results, key, others)) for key, _ in solving_groups(results)
             for others in [ways_without(results, key[0], key[1], reference)] if len(others) > 0]
@@ -112,7 +113,7 @@ def method_solve_seconds(results, key):
 
 
 def verdict(ours, best):
-    """In words."""
+    """The verdict in words."""
     if math.isnan(ours.error) or math.isnan(ours.seconds):
         return MISSING
     return PAYS if best is None or ours.error < best.error else DOES_NOT_PAY

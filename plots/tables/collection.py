@@ -28,7 +28,7 @@ def make_collection_tables(results):
 
 
 def members_table(results):
-    """How many members of each family are complete."""
+    """Counts the complete members of each family."""
     families = groups_of(results.members, "family")
     counts = [(len(rows), len(rows.select(status="complete")), len(rows.select(status="failed")))
               for _, rows in families]
@@ -59,7 +59,7 @@ def prediction_table(results, found):
 
 
 def threshold_table(results, found):
-    """How good is good enough."""
+    """Thresholds of a good quality."""
     return table_of(
         results, "table_good_enough", "quality beyond which the H1 error falls by less than 5 %",
         [("Elements", [text_cell(elements) for elements, *_ in found]),
@@ -88,7 +88,7 @@ def ranking_table(results, found):
 
 
 def way_of(results, p):
-    """What is done instead of solving on the unsmoothed mesh as it is."""
+    """The alternative to solving on the unsmoothed mesh."""
     besides = {NEXT_DEGREE: ", degree d + 1", SPLIT: ", cells split"}.get(p.change, "")
     return ("unsmoothed" if p.method == INITIAL_MESH else results.title(p.method)) + besides
 

@@ -9,7 +9,7 @@ from .table import Group, Table, number_cell, text_cell
 
 
 def number(value, form=".2f"):
-    """A cell of a number; a dash where there is none."""
+    """Returns the cell of a number; a dash if it is missing."""
     return number_cell(format(value, form) if math.isfinite(value) else MISSING)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands in each table, as data. A new table is a new entry of TABLES; no code belongs to it."""
+"""Content of each table, as data. A new table is a new entry of TABLES; it needs no code."""
 
 import math
 from dataclasses import dataclass
@@ -24,8 +24,8 @@ class Measure:
     ranks_methods: bool = True  # whether the methods' order by it is compared with the printed one
 
     def numbers(self, fields):
-        """The fields of a column of a CSV file as numbers (None if they are shown as they stand) and
-        as the table shows them. Raises ResultsError if one is no number."""
+        """Returns the fields of a column of a CSV file as numbers (None if they are shown as they stand) and as the
+        table shows them. Raises ResultsError if one is not a number."""
         if self.format is None:
             return None, [field or form.MISSING for field in fields]
         try:

@@ -28,15 +28,15 @@ NEVER = "never"
 
 
 def make_energy_tables(results):
-    """All tables, those that have a row."""
+    """All tables that have rows."""
     tables = [factor_table(results), alternatives_table(results), pays_table(results), many_table(results),
               orders_table(results)]
     return [table for table in tables if table is not None]
 
 
 def row_at(rows, n_solves):
-    """The number of the first row with so many solves, or of the last one of a method that has stopped before; None if
-    there is none."""
+    """The number of the first row with so many solves, or of the last one of a method that has stopped before; None
+    without rows."""
     solves = {k: n for k, n in enumerate(rows.number("n_solves")) if rows.text("stage")[k] != START}
     if solves and max(solves.values()) < n_solves:
         return max(solves)
@@ -81,7 +81,7 @@ def factor_table(results):
 
 
 def pays_table(results):
-    """Errors and times beside those of the refined mesh, and whether the method pays."""
+    """Compares errors and times with those of the refined mesh; says whether the method pays."""
     reference = reference_method(results)
     rows = [(key, compared(results, key, reference)) for key, _ in solving_groups(results)]
     rows = [(key, both) for key, both in rows if both is not None]
@@ -118,8 +118,8 @@ def pays_table(results):
 
 
 def many_table(results):
-    """Of meshes that are made for several solutions: mean errors and times in all beside those of the refined mesh that
-    has the same errors."""
+    """Compares meshes that are made for several solutions with the refined mesh of the same errors: mean errors and
+    total times."""
     reference = reference_method(results)
     rows = [(key, compared_for_all(results, key, reference)) for key, _ in solving_groups(results)]
     rows = [(key, three) for key, three in rows if three is not None]
@@ -179,7 +179,8 @@ def orders_table(results):
 
 
 def orders(results, key, lengths):
-    """Of the H1 and the L2 error; NaN where one of the sizes has none. lengths: of the edges, by mesh."""
+    """Orders of the H1 and the L2 error; NaN where an error is missing at one of the sizes. lengths: of the edges, by
+    mesh."""
     mesh, degree, method = key
     rows = [results.summary.select(mesh=mesh + size, degree=degree, method=method) for size in SIZES]
     if not all(len(each) for each in rows):
@@ -194,8 +195,8 @@ def numbers(heading, headings, texts):
 
 
 def compared(results, key, reference):
-    """(here, refined, unrefined): error, seconds of smoothing, of one solution and of both, and unknowns of the method's
-    result and of the reference method's on the refined mesh and on this one; None where there is no refined mesh."""
+    """Returns (here, refined, unrefined): error, seconds of smoothing, of one solution and of both, and unknowns of the
+    method's result and of the reference method's on the refined mesh and on this one; None without a refined mesh."""
     mesh, degree, method = key
     three = [results.summary.select(mesh=name, degree=degree, method=which)
              for name, which in ((mesh, method), (mesh + REFINED, reference), (mesh, reference))]
@@ -208,15 +209,15 @@ def compared(results, key, reference):
 
 
 def solutions_for(results, method):
-    """Labels of those that the method's mesh is made for: if it does not say, the first of all."""
+    """Labels of the solutions that the method's mesh is made for (default: the first of all)."""
     said = next((entry.get("smooth_for") for entry in entries(results.provenance, "methods")
                  if entry["name"] == method), None)
     return said or list(dict.fromkeys(results.solutions.text("solution")))[:1]
 
 
 def compared_for_all(results, key, reference):
-    """As compared(), over the solutions that the method's mesh is made for: errors are geometric means over those of the
-    reference method here, and a solution is all of them, one after the other."""
+    """Like compared(), over the solutions that the method's mesh is made for: errors are geometric means over those of
+    the reference method here, and a solution is all of them, one after the other."""
     mesh, degree, method = key
     three = compared(results, key, reference)
     if three is None:
@@ -274,8 +275,9 @@ def refinement_with_same_error(here, refined, unrefined):
 
 
 def solves_to_pay(here, refined, unrefined):
-    """How many solutions on one mesh make the method cheaper than refinement with its error; infinite if a solution there
-    is no dearer; NaN unless refinement lowers errors, or where times are not known."""
+    """The number of solutions on one mesh from which on the method is cheaper than refinement with its error. Infinite
+    if a solution on the refined mesh takes no longer. NaN unless refinement lowers errors, or if times are not
+    known."""
     once, each = refinement_with_same_error(here, refined, unrefined)
     more_once, less_each = here["smoothing"] - once, each - here["solution"]
     if math.isnan(more_once) or math.isnan(less_each):
@@ -286,7 +288,7 @@ def solves_to_pay(here, refined, unrefined):
 
 
 def verdict(here, refined):
-    """In words."""
+    """The verdict in words."""
     if any(math.isnan(value) for each in (here, refined) for value in each.values()):
         return MISSING
     pays = here["error"] <= refined["error"] and here["seconds"] <= refined["seconds"]
@@ -294,7 +296,7 @@ def verdict(here, refined):
 
 
 def verdict_of(seconds, others):
-    """The same where errors are the same, by seconds in all."""
+    """The verdict at equal errors, by total seconds."""
     if math.isnan(seconds) or math.isnan(others):
         return MISSING
     return PAYS if seconds <= others else DOES_NOT_PAY

@@ -111,8 +111,8 @@ def column_headings(table):
 
 
 def as_csv(table):
-    """The table for programs: one line of headings, keys in every row, no commas between thousands, empty fields
-    where there is no number. Caption and notes are in the Markdown only."""
+    """Returns the table for programs: one line of headings, keys in every row, no commas between thousands, empty
+    fields for missing numbers. Caption and notes are in the Markdown only."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(column_headings(table))

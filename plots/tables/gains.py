@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What methods that know the solution gain over many meshes, seeds and levels of distortion, and how sure that is."""
+"""Gains of solution-adaptive methods over many meshes, seeds and levels of distortion, and their intervals."""
 
 import numpy as np
 
@@ -47,7 +47,7 @@ def errors_of(rows):
 
 
 def factors(rows, others):
-    """Of each error an array: over all members where both are known."""
+    """Returns an array for each error: over all members where both are known."""
     ours = errors_of(rows)
     both = [(others.get(key, (np.nan,) * len(ERRORS)), errors) for key, errors in ours.items()]
     found = [np.array([other[which] / own[which] for other, own in both if own[which] > 0]) for which in range(len(ERRORS))]

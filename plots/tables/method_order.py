@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether the methods of a table stand in the printed order, mesh by mesh and number by number."""
+"""Compares the order of the methods of a table with the printed order, mesh by mesh and number by number."""
 
 import math
 from collections import Counter
@@ -12,7 +12,7 @@ from .number_format import grouped
 
 @dataclass(frozen=True)
 class Entry:
-    """A number of one method: ours and the printed one, as values and as the table shows them."""
+    """A number of one method: measured and printed, as values and as the table shows them."""
 
     method: str  # its title
     ours: float
@@ -72,7 +72,7 @@ def entries_of(measure, description, pairs, results):
 
 
 def number_or_nan(text):
-    """The number in a field of the print, which may be absent, empty or a word."""
+    """The number in a field of the printed table, which may be absent, empty or a word."""
     try:
         return float(text)
     except (TypeError, ValueError):
@@ -85,7 +85,7 @@ def our_sign(one, other):
 
 
 def printed_sign(one, other):
-    """The same for the printed ones."""
+    """The sign for the printed numbers."""
     return (one.printed > other.printed) - (one.printed < other.printed)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which notes on known deviations a table has, and which of its cells they belong to."""
+"""Notes on known deviations below a table, and the cells they belong to."""
 
 
 class Notes:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How numbers are written in tables: ours with fixed digits, and their difference from the print."""
+"""Format of numbers in tables: measured numbers with fixed digits, and their difference from the printed values."""
 
 import math
 import re
@@ -45,7 +45,7 @@ def format_factor(values):
 
 
 def format_memory(values):
-    """Two decimals: one more than the thesis prints, since its meshes are larger than most of ours."""
+    """Writes two decimals: one more than the thesis prints, since its meshes are larger than most of smoothfem's."""
     return formatted(values, ".2f")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of a regularization study: numbers of the thesis' Chapter 3, ours beside them."""
+"""Tables of a regularization study: numbers of the thesis' Chapter 3 next to measured ones."""
 
 import numpy as np
 

@@ -12,7 +12,7 @@ FINE = ("ok", "not solved")  # statuses of methods that can be the best
 
 
 def best_of(values, choose):
-    """The best of the numbers; NaN if there is none."""
+    """The best of the numbers; NaN for an empty list."""
     return choose((value for value in values if not math.isnan(value)), default=math.nan)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What chance does: median and range, over the seeds of a study, of the numbers of its other tables."""
+"""Influence of chance: median and range, over the seeds of a study, of the numbers of its other tables."""
 
 import math
 import statistics
@@ -68,7 +68,7 @@ def seed_group(measure, fields):
 
 
 def median_and_range(numbers):
-    """Median, least and greatest of some numbers; NaN if one of them is none."""
+    """Median, smallest and largest of some numbers; NaN if one of them is NaN."""
     if any(math.isnan(number) for number in numbers):
         return math.nan, math.nan, math.nan
     return statistics.median(numbers), min(numbers), max(numbers)

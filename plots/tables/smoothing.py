@@ -70,7 +70,7 @@ def make_table(description, results, printed):
 
 
 def has_what_it_needs(description, rows):
-    """Whether the rows have something in the column without which the table would say nothing."""
+    """True if the rows have something in the column that the table depends on."""
     return not description.needs or any(row.get(description.needs) for row in rows)
 
 
@@ -152,8 +152,8 @@ def unreached(rows, results):
 
 
 def make_group(measure, pairs, notes, if_printed):
-    """The columns of one measure, or None if there is nothing in them worth showing; with
-    `if_printed` that is where the print has none."""
+    """The columns of one measure, or None if they have nothing worth showing; with `if_printed` also if the thesis
+    prints no value."""
     fields = [ours.get(measure.column, "") for ours, _ in pairs]
     # None: the print has no such row or column; empty: it has, and leaves it empty.
     prints = [printed.get(measure.column) for _, printed in pairs]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tables of methods that solve by themselves share: which these are, the first columns, words."""
+"""Common parts of the tables of solution-adaptive methods: their selection, the first columns, words."""
 
 from ..results.rows import groups_of, solves_itself
 from ..results.smoothing import INITIAL
@@ -20,7 +20,7 @@ def solving_groups(results):
 
 
 def key_cells(keys, results):
-    """Of mesh, degree and method, empty where they repeat; and where a mesh begins."""
+    """Cells of mesh, degree and method, empty where they repeat; and where a mesh begins."""
     cells, rules, before = [], [], (None, None, None)
     for number, key in enumerate(keys):
         mesh, degree, method = key
@@ -40,7 +40,7 @@ def reference_method(results):
 
 
 def smoothing_seconds(rows):
-    """Of the first row, with what comes before the main loops; 0 for the initial mesh."""
+    """Seconds at the first row, including the time before the main loops; 0 for the initial mesh."""
     if rows.text("method")[0] == INITIAL:
         return 0.0
     return rows.number("smoothing_seconds")[0] + rows.number("preparation_seconds")[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a table is, whatever its format: cells, groups of columns, notes."""
+"""Tables, independent of the format: cells, groups of columns, notes."""
 
 from dataclasses import dataclass
 

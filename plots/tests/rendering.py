@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which tests need that something can be rendered."""
+"""Conditions of tests that need rendering."""
 
 import importlib.util
 import shutil

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Claims: their arithmetic, their verdicts, and that the criteria fit what is printed."""
+"""Claims: their arithmetic, their verdicts, and the agreement of the criteria with the printed values."""
 
 import csv
 import json

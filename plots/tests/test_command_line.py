@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can be asked for, what is said where it is not there, and that nothing is half made."""
+"""Requests, messages for things that are missing, and no half-made output."""
 
 import contextlib
 import csv
@@ -46,7 +46,7 @@ class CommandLine(InFolder):
         return {path.name for path in out.glob("*/*")}, out
 
     def refused(self, *arguments):
-        """The one sentence on what is wrong; nothing is made."""
+        """Returns the one sentence on the fault; nothing is made."""
         before = sorted(self.results.rglob("*"))
         code, output, errors = self.run_main(self.results, *arguments)
         self.assertEqual((code, output, errors.count("\n")), (2, "", 1), errors)

@@ -16,7 +16,7 @@ HOW_TO = "commit the claim, then write the commit's name and date to studies/the
 
 
 def git(*arguments):
-    """What git prints about the repository; raises CalledProcessError or OSError."""
+    """Output of git about the repository; raises CalledProcessError or OSError."""
     return subprocess.run(["git", "-C", str(thesis_folder()), *arguments], capture_output=True, text=True,
                           check=True).stdout.strip()
 
@@ -35,7 +35,7 @@ def claims_at(commit):
 
 
 def judged_by(claim):
-    """What decides about a claim, in words and for the program."""
+    """The parts of a claim that decide about it, in words and for the program."""
     return claim["criterion"], claim["checks"]
 
 
@@ -96,7 +96,7 @@ class History(unittest.TestCase):
 
 
 class Words(unittest.TestCase):
-    """What is said of claims that do not hold."""
+    """Words on claims that do not hold."""
 
     # Numbers that are no measurements: sections, degrees, claims, what the thesis' text prints.
     NAMES = re.compile(r"\{[^{}]*\}|Sections? \d[\d.]*|Chapter \d|Fig\. [\d.]+|d = [12]|\b[A-Z]\d+b?\b|"

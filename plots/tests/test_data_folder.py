@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the printed values are found, and that a package away from the repository makes the same."""
+"""Location of the printed values; a package away from the repository makes the same."""
 
 import contextlib
 import io
@@ -27,7 +27,7 @@ def chosen(folder):
 
 class DataFolder(InFolder):
     def with_data(self, *parts):
-        """A folder that has what is looked for."""
+        """Makes a folder with the files that are searched for."""
         folder = self.folder.joinpath(*parts)
         (folder / THESIS).mkdir(parents=True)
         return folder

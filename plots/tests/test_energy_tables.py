@@ -87,7 +87,8 @@ class EnergyTables(InFolder):
         self.assertEqual(texts(pays.groups[2])[0], ["–", "64.0", "–"])
 
     def beside(self, name, here, ways):
-        """Cells of the first row beside ways: (file, mesh, method, degree) -> (error, seconds of smoothing, of solving)."""
+        """Cells of the first row compared with ways: (file, mesh, method, degree) -> (error, seconds of smoothing, of
+        solving)."""
         folder = self.folder / name
         write_solves(folder, here=here)
         rows = rows_of(folder / "summary.csv")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What histories show: where methods become invalid, which record is the result, and their axes."""
+"""Content of histories: where methods become invalid, which record is the result, and their axes."""
 
 import itertools
 
@@ -37,11 +37,11 @@ class Histories(InFolder):
         self.addCleanup(style.pyplot.close, "all")
 
     def results(self, **methods):
-        """Of the one mesh `m`."""
+        """Results of the one mesh `m`."""
         return write_history(self.folder / "r", {("m", name): values for name, values in methods.items()})
 
     def marks(self, axes, marker):
-        """Where marks of a kind are: a list of (x, y)."""
+        """Positions of marks of a kind: a list of (x, y)."""
         return [tuple(line.get_xydata()[0]) for line in axes.get_lines()
                 if line.get_marker() == marker and line.get_linestyle() == "None"]
 

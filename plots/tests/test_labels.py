@@ -23,7 +23,8 @@ SQUARES = ([0, 1, 4, 3], [1, 2, 5, 4])
 
 
 def write_labelled(path, points, cells):
-    """A mesh of (type of VTK, nodes) in this order; a mean ratio of 0 for what is no cell of a mesh."""
+    """Writes a mesh of (type of VTK, nodes) in this order; the mean ratio is 0 for cells that are not cells of a
+    mesh."""
     top = max(kind for kind, _ in cells)
     ratios = np.array([0.5 + 0.1 * i if kind == top else 0.0 for i, (kind, _) in enumerate(cells)])
     nodes = [np.asarray(nodes) for _, nodes in cells]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said about the order of the methods beside the printed one."""
+"""Notes on the order of the methods compared with the printed one."""
 
 import itertools
 import re
@@ -20,7 +20,7 @@ RESULTS = SimpleNamespace(title=lambda name: name)
 
 
 def pairs_of(column, numbers, mesh="tri", **keys):
-    """Rows of a mesh: method -> (ours, printed); None for a printed row that is not there."""
+    """Rows of a mesh: method -> (measured, printed); None for a printed row that does not exist."""
     return [({"mesh": mesh, "method": method, column: ours, **keys},
              {} if printed is None else {"mesh": mesh, "method": method, column: printed, **keys})
             for method, (ours, printed) in numbers.items()]

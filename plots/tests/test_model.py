@@ -37,7 +37,7 @@ def rectangle(n_x, n_y, width, height):
 
 
 def distance_to_map(pixels):
-    """How far each colour (n, 3) from 0 to 255 is from the nearest one of the colour map."""
+    """Distances of colours (n, 3), from 0 to 255, from the nearest colour of the colour map."""
     colours = colormaps[style.SOLUTION_MAP](np.arange(256))[:, :3] * 255
     return np.array([np.abs(colours - pixel).max(axis=1).min() for pixel in pixels])
 
@@ -94,7 +94,7 @@ class Model(unittest.TestCase):
 
 class Windows(unittest.TestCase):
     def filled(self, grid, window):
-        """How much of a window cells fill."""
+        """The part of a window that cells fill."""
         low, high = np.reshape(window, (2, 2))
         inside = ((centroids(grid) > low) & (centroids(grid) < high)).all(axis=1)
         return areas(grid)[inside].sum() / np.prod(high - low)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of volume meshes by planes: areas by hand, and the same plane through other cells."""
+"""Sections of volume meshes by planes: areas from formulas, and the same plane through other cells."""
 
 import unittest
 

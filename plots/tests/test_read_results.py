@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reading of CSV files, and what is said about broken ones."""
+"""Reading of CSV files, and messages about broken ones."""
 
 import contextlib
 import io

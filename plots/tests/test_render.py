@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a rendered picture shows, the server it is drawn with, and what is said where there is none."""
+"""Content of a rendered picture, the server it is drawn with, and messages without a server."""
 
 import os
 import shutil
@@ -40,14 +40,13 @@ render.render([1])
 
 
 def answers(number):
-    """Whether an X server listens on this display. Linux has its socket by name even where nobody
-    may make the file."""
+    """True if an X server listens on this display. Linux has its socket by name even where nobody may make the file."""
     with socket.socket(socket.AF_UNIX) as connection:
         return connection.connect_ex(f"\0/tmp/.X11-unix/X{number}") == 0
 
 
 def runs(process):
-    """Whether there is a process of this number; one that nobody has waited for does not run."""
+    """True if there is a process of this number; one that nobody has waited for does not run."""
     try:
         return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except FileNotFoundError:
@@ -55,7 +54,7 @@ def runs(process):
 
 
 def comes_true(condition):
-    """Whether a condition is met within some seconds."""
+    """True if a condition is met within some seconds."""
     end = time.monotonic() + SECONDS_TO_END
     while not condition() and time.monotonic() < end:
         time.sleep(0.02)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What notes below the gear's tables say about rounding is what its study found."""
+"""Notes on rounding below the gear's tables agree with the results of its study."""
 
 import unittest
 
@@ -22,7 +22,7 @@ class Rounding(unittest.TestCase):
         cls.found = read_rows(reference() / "reasons" / "gear-rounding" / "iterations.csv").records()
 
     def numbers(self, mesh, degree, column):
-        """Of the mesh as it is, then of the changed ones."""
+        """Numbers of the original mesh, then of the changed ones."""
         return [float(row[column]) for row in self.found if (row["mesh"], row["degree"]) == (mesh, degree)]
 
     @staticmethod

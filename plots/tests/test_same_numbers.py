@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said of a study that was run again: which of its numbers differ from those of its reference."""
+"""Comparison of a study that was run again with the numbers of its reference."""
 
 import lzma
 import tempfile

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Statistics against scipy, against other ways to compute them, and against cases done by hand."""
+"""Statistics against scipy, against other ways to compute them, and against cases computed manually."""
 
 import unittest
 
@@ -54,7 +54,7 @@ class Correlation(unittest.TestCase):
 
 class Bootstrap(unittest.TestCase):
     def test_interval_of_a_mean_covers_it(self):
-        """Of 200 intervals at 90 % some 180 hold the true mean; bounds of a binomial at 1e-4."""
+        """Of 200 intervals at 90 % about 180 contain the true mean; bounds of a binomial at 1e-4."""
         random, held = np.random.default_rng(3), 0
         for trial in range(200):
             x = random.normal(size=40)

@@ -15,7 +15,7 @@ from plots.tests.rendering import needs_rendering
 
 class Surfaces(unittest.TestCase):
     def grid(self, height, quality=(0.1, 0.95)):
-        """Two squares beside each other, bent by `height`."""
+        """Two squares next to each other, bent by `height`."""
         points = np.array([[0, 0, 0], [1, 0, height], [2, 0, 0], [0, 1, 0], [1, 1, height], [2, 1, 0]],
                           dtype=float)
         return UnstructuredGrid(points=points, connectivity=np.array([0, 1, 4, 3, 1, 2, 5, 4]),

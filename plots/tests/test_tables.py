@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ours beside the printed numbers, in all formats."""
+"""Measured numbers next to the printed ones, in all formats."""
 
 import csv
 import math

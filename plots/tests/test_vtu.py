@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes as VTK reads them, and what is said about broken files."""
+"""Reading of meshes by VTK, and messages about broken files."""
 
 import contextlib
 import io
