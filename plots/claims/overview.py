@@ -4,7 +4,7 @@
 import re
 from dataclasses import dataclass
 
-from ..results.data_folder import data_folder, study_files
+from ..results.data_folder import study_files
 from ..results.printed_values import read_printed_tables
 from ..results.same_numbers import is_of, read_records
 from ..results.smoothing import read_provenance, read_results

@@ -115,7 +115,7 @@ def payoffs(problems, methods):
 
 
 def error_in_time(error, seconds, split_error, split_seconds):
-    """Estimates the error after a given total time. The power law goes through the error on the mesh and the error with
+    """Returns the error as a function of the total time. The power law goes through the error on the mesh and the error with
     every cell split or refined otherwise. NaN unless the second is smaller and takes longer."""
     if not (split_error < error and split_seconds > seconds):
         return lambda time: np.nan

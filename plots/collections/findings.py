@@ -32,7 +32,7 @@ def findings_as_markdown(results, problems, predictions, thresholds, ranks, payo
 
 
 def bracket(low_high, form=".2f"):
-    """Writes an interval as (0.12 to 0.34); empty without an interval."""
+    """Writes an interval as (0.12 to 0.34), or says why there is none."""
     low, high = low_high
     return f" ({low:{form}} to {high:{form}})" if math.isfinite(low) else " (no interval: one mesh only)"
 

@@ -32,8 +32,8 @@ class Way:
 
 
 def alternatives_table(results):
-    """Returns, for each solution-adaptive method, the best alternative without it in no more time; None where there are
-    no others."""
+    """The table of the best alternative, in no more time, to each solution-adaptive method; None without
+    alternatives."""
     reference = reference_method(results)
     rows = [(key, others, beside(results, key, others)) for key, _ in solving_groups(results)
             for others in [ways_without(results, key[0], key[1], reference)] if len(others) > 0]
