@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # What ./run and the scripts in tools/commands share. The caller sets root.
 build=$root/build/release
 

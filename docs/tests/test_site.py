@@ -9,7 +9,6 @@ import sys
 import threading
 import unittest
 from html.parser import HTMLParser
-from pathlib import Path
 from urllib.parse import unquote, urldefrag, urljoin
 
 from launcher.tests.build_folder import BUILD, SOURCE
