@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures build times in a separate folder (build/timing): a fresh build of the program and of the
-tests, the largest translation units, and builds after two typical changes. Prints the table of
-CONTRIBUTING.md. Usage: measure_build.py SOURCE [CMAKE_OPTION...]; run it on a quiet machine."""
+tests, the largest translation units, and builds after two typical changes. Prints the tables of
+docs/how-to/develop.md. Usage: measure_build.py SOURCE [CMAKE_OPTION...]; run it on a quiet machine."""
 
 import os
 import shutil
@@ -75,15 +75,15 @@ def main(source, options):
     rows.append(("a change in `mean_ratio.h` to the program",
                  after_change(build, mean_ratio,
                               mean_ratio.read_text(encoding="utf-8") + "\n// changed\n")))
-    print("| what | seconds |\n|---|---|")
+    print("| step | seconds |\n|---|---|")
     for name, seconds in rows:
         print(f"| {name} | {seconds:.0f} |")
-    print("\n| largest translation units | seconds of a core | MB |\n|---|---|---|")
+    print("\n| largest translation units | CPU seconds | MB |\n|---|---|---|")
     for processor, memory, name in all_units[:LARGEST]:
         print(f"| `{name}` | {processor:.0f} | {memory} |")
     most = max(all_units, key=lambda unit: unit[1])
-    print(f"\n{len(all_units)} translation units, {sum(u[0] for u in all_units):.0f} s of a core in "
-          f"all; most memory: `{most[2]}`, {most[1]} MB.")
+    print(f"\nThe build has {len(all_units)} translation units and takes {sum(u[0] for u in all_units):.0f} CPU seconds. "
+          f"`{most[2]}` needs the most memory, {most[1]} MB.")
 
 
 if __name__ == "__main__":

@@ -40,6 +40,9 @@ SHORTER = {
                                                 "smoothfem study half-laplace.prm --quiet",
     "cmake -S . -B build": "cmake -S . -B build -DCMAKE_BUILD_TYPE=None",
 }
+# Commands above that are run whole with the long tests: minutes, not hours.
+WHOLE = ("smoothfem study gear --published", "smoothfem study subdivision --scale quick --quiet", "smoothfem study polygons --quick --quiet",
+         "smoothfem study energy-layer --scale quick")
 NEED_PUBLISHED = ("--published", "--mesh-dir")
 # `console` blocks are not run: {page: reason}.
 CONSOLE = {
@@ -95,6 +98,20 @@ def session(name, path):
     return lines
 
 
+def published(test, lines, folder):
+    """The environment for lines that need the published meshes; takes these lines away if the meshes are not here."""
+    wanted = [line for line in lines if any(option in line for option in NEED_PUBLISHED)]
+    if not wanted:
+        return {}
+    if not all((SHARED / name).is_file() for name in PUBLISHED):
+        print(f"SKIPPED: the published meshes are not in {SHARED} (SMOOTHFEM_MESHES): {'; '.join(wanted)}")
+        lines[:] = [line for line in lines if line not in wanted]
+        return {}
+    server = Server({name: (SHARED / name).read_bytes() for name in PUBLISHED})
+    test.addCleanup(server.close)
+    return {"SMOOTHFEM_PUBLISHED_URL": server.url, "XDG_CACHE_HOME": folder / ".cache", "no_proxy": "*"}
+
+
 class Pages(unittest.TestCase):
     """One test for each page with commands, made below."""
 
@@ -116,7 +133,7 @@ class Pages(unittest.TestCase):
                     (folder / block.file).write_text(block.text, encoding="utf-8")
                     if block.text.startswith("#!"):
                         (folder / block.file).chmod(0o755)
-            more = self.published(lines, folder)
+            more = published(self, lines, folder)
             more["SMOOTHFEM_NO_FIGURES"] = "1"  # those that a page shows are drawn by `plot`
             shown = run("bash", "-c", "\n".join(lines), folder=folder, HOME=folder, SMOOTHFEM_SOURCE=SOURCE, SMOOTHFEM_BUILD=BUILD,
                         PATH=os.pathsep.join((str(BUILD / "bin"), str(tools), os.environ["PATH"])),
@@ -124,19 +141,6 @@ class Pages(unittest.TestCase):
             self.assertRegex(shown, EXPECTED.get(name.lower(), "^"))
             for made in MADE.get(name.lower(), ()):
                 self.assertTrue((folder / made).exists(), made)
-
-    def published(self, lines, folder):
-        """The environment for lines that need the published meshes; takes these lines away if the meshes are not here."""
-        wanted = [line for line in lines if any(option in line for option in NEED_PUBLISHED)]
-        if not wanted:
-            return {}
-        if not all((SHARED / name).is_file() for name in PUBLISHED):
-            print(f"SKIPPED: the published meshes are not in {SHARED} (SMOOTHFEM_MESHES): {'; '.join(wanted)}")
-            lines[:] = [line for line in lines if line not in wanted]
-            return {}
-        server = Server({name: (SHARED / name).read_bytes() for name in PUBLISHED})
-        self.addCleanup(server.close)
-        return {"SMOOTHFEM_PUBLISHED_URL": server.url, "XDG_CACHE_HOME": folder / ".cache", "no_proxy": "*"}
 
 
 def add_test(name, path):
@@ -150,6 +154,23 @@ def add_test(name, path):
 for page_name, page_path in pages().items():
     if has_commands(page_path):
         add_test(page_name, page_path)
+
+
+class WholeCommands(unittest.TestCase):
+    def test_commands_that_pages_only_begin(self):
+        """Each command ends, has a row for every method, and draws its figures."""
+        for command in WHOLE:
+            with self.subTest(command), tempfile.TemporaryDirectory() as temporary:
+                folder = Path(temporary)
+                lines = [command]
+                more = published(self, lines, folder)
+                if not lines:
+                    continue
+                run("bash", "-c", command, folder=folder, HOME=folder, PATH=os.pathsep.join((str(BUILD / "bin"), os.environ["PATH"])), **more)
+                results, = (folder / "results").iterdir()
+                self.assertTrue(list((results / "figures").glob("*.pdf")), results)
+                self.assertTrue(list((results / "tables").glob("*.md")), results)
+                self.assertIn('"status": "complete"', (results / "provenance.json").read_text(encoding="utf-8"))
 
 
 class EveryBlock(unittest.TestCase):
@@ -186,6 +207,7 @@ class EveryBlock(unittest.TestCase):
     def test_shorter_commands_are_in_pages(self):
         lines = {re.sub(r" +#.*", "", line) for path in pages().values() for block in blocks(path) if block.language == "sh"
                  for line in block.text.splitlines()}
+        self.assertLessEqual(set(WHOLE), set(SHORTER))
         self.assertLessEqual({*SHORTER, *(command for _, command in SHORTER_ON_PAGE)}, lines)
 
     def test_expectations_are_of_pages(self):
