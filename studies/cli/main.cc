@@ -60,7 +60,7 @@ int run(int argc, char** argv) {
 }
 
 /// A full disk behind standard output shows here at the latest.
-void require_all_printed() {
+void flush_stdout_or_throw() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));
 }
@@ -71,7 +71,7 @@ void require_all_printed() {
 int main(int argc, char** argv) {
   try {
     const int exit_code = smoothfem::run(argc, argv);
-    smoothfem::require_all_printed();
+    smoothfem::flush_stdout_or_throw();
     return exit_code;
   } catch (const smoothfem::InputError& error) {
     std::fprintf(stderr, "smoothfem: %s\n", error.what());

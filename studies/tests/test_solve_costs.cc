@@ -55,7 +55,7 @@ struct SimulatedStudy {
   }
 
   /// The tasks in the order in which studies do them.
-  SimulatedStudy telling_first() const {
+  SimulatedStudy representatives_first() const {
     SimulatedStudy sorted = *this;
     std::vector<Task> others;
     sorted.tasks.clear();
@@ -64,9 +64,9 @@ struct SimulatedStudy {
         return std::tuple(tasks[i].kind.mesh, tasks[i].kind.degree, tasks[i].kind.method);
       };
       while (end < tasks.size() && job(end) == job(begin)) ++end;
-      const auto telling = telling_records(end - begin);
+      const auto representative = representative_records(end - begin);
       for (std::size_t i = begin; i < end; ++i)
-        (i - begin == telling[0] || i - begin == telling[1] ? sorted.tasks : others)
+        (i - begin == representative[0] || i - begin == representative[1] ? sorted.tasks : others)
             .push_back(tasks[i]);
     }
     sorted.tasks.insert(sorted.tasks.end(), others.begin(), others.end());
@@ -100,16 +100,16 @@ TEST(SolveCosts, TimeLeftIsKnownFromAFifthOn) {
 }
 
 TEST(SolveCosts, RecordsThatTellGiveTheMeanOfTheirJob) {
-  EXPECT_EQ(telling_records(1), (std::array<std::size_t, 2>{0, 0}));
-  EXPECT_EQ(telling_records(2), (std::array<std::size_t, 2>{0, 1}));
-  EXPECT_EQ(telling_records(10), (std::array<std::size_t, 2>{2, 7}));
-  EXPECT_EQ(telling_records(28), (std::array<std::size_t, 2>{5, 22}));
+  EXPECT_EQ(representative_records(1), (std::array<std::size_t, 2>{0, 0}));
+  EXPECT_EQ(representative_records(2), (std::array<std::size_t, 2>{0, 1}));
+  EXPECT_EQ(representative_records(10), (std::array<std::size_t, 2>{2, 7}));
+  EXPECT_EQ(representative_records(28), (std::array<std::size_t, 2>{5, 22}));
 }
 
 TEST(SolveCosts, WhatIsUnlikeAllBeforeIsKnownByItsFirstRecords) {
   const SimulatedStudy study(3, 1e-7, 5.0);
   EXPECT_GT(study.worst_factor(0.2), 1.5) << "nothing to be learned";
-  EXPECT_LT(study.telling_first().worst_factor(0.2, 0.99), 1.5);  // then it is one record's
+  EXPECT_LT(study.representatives_first().worst_factor(0.2, 0.99), 1.5);  // then it is one record's
 }
 
 TEST(SolveCosts, RecordsLieBetweenThoseThatAreKnown) {

@@ -45,9 +45,9 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
     return std::make_unique<Patterns::Anything>();
   if (!std::holds_alternative<int*>(parameter.value))
     return std::make_unique<Patterns::Double>(parameter.lower, parameter.upper);
-  constexpr double most = std::numeric_limits<int>::max();
-  return std::make_unique<Patterns::Integer>(static_cast<int>(std::max(parameter.lower, -most)),
-                                             static_cast<int>(std::min(parameter.upper, most)));
+  constexpr double max_int = std::numeric_limits<int>::max();
+  return std::make_unique<Patterns::Integer>(static_cast<int>(std::max(parameter.lower, -max_int)),
+                                             static_cast<int>(std::min(parameter.upper, max_int)));
 }
 
 /// "STAGE: k, STAGE: k".

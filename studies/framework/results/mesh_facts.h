@@ -21,7 +21,7 @@ struct MeshFacts {
   std::string source_sha256;  ///< of the file it was read from; empty if it was generated
   /// By degree: Gauss points per direction of the hexahedron that needed most, where they were
   /// chosen.
-  std::map<int, int> most_points{};
+  std::map<int, int> max_points{};
   std::string sha256;  ///< of its text form in the results; empty until that is written
 };
 

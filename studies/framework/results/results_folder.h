@@ -17,7 +17,7 @@ void require_writable(const std::filesystem::path& folder);
 void require_published_files(const Study& study, const std::filesystem::path& mesh_dir);
 
 /// Renames the folder, if it holds anything, to the first of NAME_1, NAME_2, ... that is not there.
-void rename_existing(const std::filesystem::path& folder);
+void move_old_results(const std::filesystem::path& folder);
 
 /// Makes the folder of a run that has no results yet, and locks it: until then the lock was that of
 /// no folder, or of one that has another name now. Throws InputError if another run was faster.
@@ -25,9 +25,9 @@ void make_results_folder(const std::filesystem::path& folder, std::optional<Fold
 
 /// Throws InputError that says what differs if the run in a folder was one with other settings.
 /// meshes: empty as long as nothing is known of them.
-void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
-                           const std::vector<MeshFacts>& meshes,
-                           const std::vector<StudyMethod>& methods,
-                           const std::filesystem::path& folder);
+void check_settings_match(const EarlierRun& earlier, const StudyHeader& study,
+                          const std::vector<MeshFacts>& meshes,
+                          const std::vector<StudyMethod>& methods,
+                          const std::filesystem::path& folder);
 
 }  // namespace smoothfem

@@ -45,12 +45,12 @@ class StudyRun {
     require_writable(options_.out);
     require_published_files(study_, options_.mesh_dir);
     lock_.emplace(options_.out);
-    if (options_.force) rename_existing(options_.out);
+    if (options_.force) move_old_results(options_.out);
     earlier_ = read_provenance(options_.out / "provenance.json");
-    require_same_settings(earlier_, study_.header, {}, {}, options_.out);
+    check_settings_match(earlier_, study_.header, {}, {}, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
-      require_same_settings(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
+      check_settings_match(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
       if (!study_.degrees.empty()) make_solutions();
     });
     if (earlier_.status == "complete") {
@@ -223,22 +223,22 @@ class StudyRun {
     progress_.begin("Finite elements", data_.tasks.size());
     run_tasks(open);
     progress_.end();
-    tell_points();
+    report_gauss_points();
   }
 
   /// Gauss points of hexahedra, where they were chosen; of all records, those of earlier sessions
   /// too.
-  void tell_points() {
+  void report_gauss_points() {
     for (const auto& task : data_.tasks) {
       if (task.solution.most_points == 0) continue;
-      int& most = data_.meshes[task.job.mesh].most_points[study_.degrees[task.job.degree]];
-      most = std::max(most, task.solution.most_points);
+      int& n_points = data_.meshes[task.job.mesh].max_points[study_.degrees[task.job.degree]];
+      n_points = std::max(n_points, task.solution.most_points);
     }
     for (const auto& mesh : data_.meshes)
-      for (const auto& [degree, most] : mesh.most_points)
+      for (const auto& [degree, n_points] : mesh.max_points)
         progress_.say("Cells of " + mesh.description.name + ", degree " + std::to_string(degree) +
                       ": " + std::to_string(adaptive_quadrature::rule_sequence.front()) + " to " +
-                      std::to_string(most) +
+                      std::to_string(n_points) +
                       " Gauss points per direction, each cell as many as it needs.");
   }
 
@@ -251,12 +251,13 @@ class StudyRun {
     std::vector<SolveTask*> first, others;
     for (auto begin = data_.tasks.begin(); begin != data_.tasks.end();) {
       const SolveJob& job = begin->job;
-      const auto telling = telling_records(job.n_tasks);
+      const auto representative = representative_records(job.n_tasks);
       for (std::size_t i = 0; i < job.n_tasks; ++i, ++begin) {
         if (begin->done) continue;
-        const bool tells =
-            any_order && std::find(telling.begin(), telling.end(), i) != telling.end();
-        (tells ? first : others).push_back(&*begin);
+        const bool is_representative =
+            any_order &&
+            std::find(representative.begin(), representative.end(), i) != representative.end();
+        (is_representative ? first : others).push_back(&*begin);
       }
     }
     first.insert(first.end(), others.begin(), others.end());

@@ -24,7 +24,7 @@ struct SolveKind {
 
 /// Which of a job's n records tell what all of them cost: meshes get better, and cheaper to solve,
 /// fast at first and slowly then, so those of the Gauss rule with two points.
-inline std::array<std::size_t, 2> telling_records(std::size_t n) {
+inline std::array<std::size_t, 2> representative_records(std::size_t n) {
   constexpr double gauss_point = 0.2113248654051871;  // (1 - 1 / sqrt(3)) / 2
   const auto at = static_cast<std::size_t>(gauss_point * static_cast<double>(n));
   return {at, n - 1 - at};

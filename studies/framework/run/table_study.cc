@@ -29,9 +29,9 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
     throw InputError("--mesh-dir is given, but the study " + study.name +
                      " has no meshes; leave it out");
   std::optional<FolderLock> lock(options.out);
-  if (options.force) rename_existing(options.out);
+  if (options.force) move_old_results(options.out);
   const EarlierRun earlier = read_provenance(options.out / "provenance.json");
-  require_same_settings(earlier, study, {}, {}, options.out);
+  check_settings_match(earlier, study, {}, {}, options.out);
 
   Progress progress(options.quiet);
   if (earlier.status == "complete") {

@@ -84,9 +84,9 @@ class CollectionRun {
     team_.emplace(options_.ranks, n_processes_);
     require_writable(options_.out);
     lock_.emplace(options_.out);
-    if (options_.force) rename_existing(options_.out);
+    if (options_.force) move_old_results(options_.out);
     earlier_ = read_provenance(options_.out / "provenance.json");
-    require_same_settings(earlier_, collection_.header, {}, {}, options_.out);
+    check_settings_match(earlier_, collection_.header, {}, {}, options_.out);
     read_rows_of_members();
     if (earlier_.status == "complete" && is_complete()) return report_complete();
     if (earlier_.status.empty()) make_results_folder(options_.out, lock_);

@@ -75,7 +75,7 @@ std::string answer_to(const std::string& task,
 TaskProcess::~TaskProcess() {
   if (process_ < 0) return;
   if (is_busy_) ::kill(process_, SIGKILL);
-  bury();
+  reap();
 }
 
 void TaskProcess::start() {
@@ -119,14 +119,14 @@ std::optional<TaskAnswer> TaskProcess::answer() {
     const auto line = take_line(unread_);
     if (is_alive && !line) continue;
     is_busy_ = false;
-    if (!line) return TaskAnswer{"", "the process that worked on it " + bury()};
+    if (!line) return TaskAnswer{"", "the process that worked on it " + reap()};
     return (*line)[0] == done ? TaskAnswer{line->substr(1), ""} : TaskAnswer{"", line->substr(1)};
   }
   return std::nullopt;
 }
 
 /// Returns how it ended.
-std::string TaskProcess::bury() {
+std::string TaskProcess::reap() {
   ::close(socket_);  // it goes when it sees that
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;

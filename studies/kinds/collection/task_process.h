@@ -37,7 +37,7 @@ class TaskProcess {
 
  private:
   void start();
-  std::string bury();
+  std::string reap();
 
   std::vector<std::string> command_;
   pid_t process_ = -1;

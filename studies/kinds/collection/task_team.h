@@ -24,7 +24,7 @@ class TaskTeam {
   ~TaskTeam();
   TaskTeam(const TaskTeam&) = delete;
 
-  unsigned int size() const { return static_cast<unsigned int>(hands_.size()); }
+  unsigned int size() const { return static_cast<unsigned int>(workers_.size()); }
 
   /// How many of the tasks are worked on at once.
   enum class AtOnce { all, one_on_each_machine };
@@ -37,12 +37,12 @@ class TaskTeam {
            const std::function<void()>& on_wait);
 
  private:
-  class Hand;
-  class OwnHand;
-  class HandOfRank;
+  class Worker;
+  class OwnWorker;
+  class RankWorker;
 
-  std::vector<std::unique_ptr<Hand>> hands_;
-  std::vector<bool> is_first_of_machine_;  ///< of hands_
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<bool> is_first_of_machine_;  ///< of workers_
 };
 
 /// On ranks other than the root: does tasks until the root's team ends. Collective with its making.

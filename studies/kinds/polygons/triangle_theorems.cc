@@ -41,7 +41,7 @@ double defect(double a, double b) {
   return 1.0 - std::min(a, b) / std::max(a, b);
 }
 
-double least_side(const Polygon& triangle) {
+double min_side(const Polygon& triangle) {
   const auto [x, y, z] = sides_of(triangle);
   return std::min({x, y, z});
 }
@@ -81,7 +81,7 @@ void check_no_side_vanishes(const PolygonStudy& study, Step step, const std::str
     const Polygon ends = random_polygon(2, random);
     const double theta = random_angle(random), where = random.uniform();
     for (const Complex third : {ends[0] + where * (ends[1] - ends[0]), ends[0], ends[1]})
-      check.above(least_side(step(unit_sized({ends[0], ends[1], third}), theta)), 0.0);
+      check.above(min_side(step(unit_sized({ends[0], ends[1], third}), theta)), 0.0);
   });
   rows.push_back(check.row());
 }
