@@ -15,7 +15,7 @@ namespace {
 
 constexpr int exit_bad_input = 2;
 
-/// What the parser says, with the nearest name where a command or an option is not known.
+/// Returns the parser's message, with the nearest name if a command or an option is not known.
 std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc,
                           char** argv) {
   std::vector<std::string> names;
@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-/// A full disk behind standard output shows here at the latest.
+/// Throws InputError if standard output cannot be written, for example on a full disk.
 void flush_stdout_or_throw() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));

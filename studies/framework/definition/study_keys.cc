@@ -21,7 +21,7 @@ namespace Patterns = dealii::Patterns;
 constexpr const char* method_type_help =
     "Registered method (see 'list'), or 'python:FILE:CLASS', the file relative to this one.";
 
-/// "a|b|c", as deal.II writes a choice.
+/// Returns "a|b|c", deal.II's form of a choice.
 std::string one_of(const std::vector<std::string>& names) {
   std::string choice;
   for (const auto& name : names) choice += (choice.empty() ? "" : "|") + name;
@@ -35,7 +35,7 @@ std::string hexahedron_points() {
   return one_of(choices);
 }
 
-/// The range of a parameter as deal.II checks it, which knows the line of a bad value.
+/// Returns a parameter's range as a pattern of deal.II, which reports the line of a bad value.
 std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
   if (const auto* choice = std::get_if<Choice>(&parameter.value))
     return std::make_unique<Patterns::Selection>(one_of(choice->names));
@@ -50,7 +50,7 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
                                              static_cast<int>(std::min(parameter.upper, max_int)));
 }
 
-/// "STAGE: k, STAGE: k".
+/// Pattern of "STAGE: k, STAGE: k".
 Patterns::Map stage_numbers() {
   return {Patterns::Anything(), Patterns::Integer(1)};
 }
@@ -120,7 +120,7 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
 }
 
-/// What every method has besides its type and its own parameters.
+/// Declares the keys that every method has in addition to its type and its own parameters.
 void declare_method_header(ParameterHandler& p, const std::string& title) {
   p.declare_entry("title", title, Patterns::Anything(), "Title in tables and figures.");
   p.declare_entry("threads", "0", Patterns::Integer(0, 1024),
@@ -132,14 +132,14 @@ void declare_method_header(ParameterHandler& p, const std::string& title) {
                   "many solves. Empty: the first.");
 }
 
-/// The parameters of a method are those it registers, with the defaults of a preset, if given, or
-/// its own.
+/// Declares the type and parameters of a method. Defaults are those of the preset, if it has the
+/// method, otherwise the method's own.
 void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
                     const std::string& type, const std::string& preset,
                     const std::filesystem::path& folder) {
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), method_type_help);
-  if (type.empty()) {  // what says the type where it is not given
+  if (type.empty()) {  // a command gives the type
     p.declare_entry("command", "", Patterns::Anything());
     return;
   }
