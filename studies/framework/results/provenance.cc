@@ -75,15 +75,15 @@ Json describe_meshes(const RunFacts& facts) {
   return meshes;
 }
 
-/// Numbers as numbers, everything else as its text.
+/// Returns numbers as numbers, and everything else as text.
 Json json_value(const Parameter& parameter) {
   if (const auto* number = std::get_if<double*>(&parameter.value)) return **number;
   if (const auto* number = std::get_if<int*>(&parameter.value)) return **number;
   return value_text(parameter);
 }
 
-/// The type of a method without the folder of its file, if it is in one: where that was found is
-/// the machine's affair, what it holds is not.
+/// Adds the type of a method, without the folder of its file if it is in a file. The folder depends
+/// on the machine; the content does not.
 void describe_type(const StudyMethod& method, Json& json) {
   json["type"] = method.type;
   auto in_file = method_in_file(method.type);
@@ -116,7 +116,7 @@ Json describe_methods(const RunFacts& facts) {
   return methods;
 }
 
-/// The sessions before, and this one.
+/// Returns the earlier sessions and this one.
 Json describe_sessions(const RunFacts& facts) {
   Json sessions =
       facts.earlier_sessions.empty() ? Json::array() : Json::parse(facts.earlier_sessions);

@@ -17,7 +17,7 @@ void return_freed_memory() {
 }
 
 PeakMemory::PeakMemory() {
-  malloc_trim(0);  // what earlier work has freed is not ours
+  malloc_trim(0);  // returns memory that earlier work has freed
   std::ofstream("/proc/self/clear_refs") << 5;
 }
 

@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The first bytes of each file; another number for each other format of the contents.
+/// The first bytes of each file. A new format of the contents needs a new number.
 constexpr std::string_view format = "smoothfem checkpoint 2\n";
 
-/// What precedes the content.
+/// Returns the bytes before the content.
 std::string seal(const std::string& name, std::string_view content) {
   const std::string content_sha256 = sha256(content);
   return std::string(format) +

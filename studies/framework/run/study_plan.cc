@@ -14,7 +14,7 @@ namespace smoothfem {
 
 namespace {
 
-/// How many iterations a method makes is known when it has made them.
+/// The number of iterations of a method is not known before it has run.
 constexpr int assumed_iterations = 40;
 
 double n_dofs_of(const Topology& topology, int degree) {
@@ -30,8 +30,8 @@ double n_dofs_of(const Topology& topology, int degree) {
   return n + edges + inner;
 }
 
-/// A row of a matrix has about as many entries as a dof has neighbours; it is kept in three
-/// layouts.
+/// Estimates the bytes of a matrix. A row has about as many entries as a dof has neighbours. The
+/// matrix is kept in three layouts.
 double matrix_bytes(const Topology& topology, int degree) {
   constexpr double bytes_per_entry = 12.0, n_layouts = 3.0, share_of_own = 0.6;
   double entries = 0.0;
