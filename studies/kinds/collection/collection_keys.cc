@@ -18,12 +18,12 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Goes through the lines of a study file and knows in which subsections they are.
+/// Reads the lines of a study file one by one, and knows the subsection of each.
 class OwnLines {
  public:
   explicit OwnLines(std::vector<std::string> solutions) : solutions_(std::move(solutions)) {}
 
-  /// Whether the next line belongs to the collection alone.
+  /// True if the next line belongs to the collection alone.
   bool operator()(const std::string& line) {
     static const std::regex begin("\\s*subsection\\s+(.*?)\\s*(#.*)?"), end("\\s*end\\s*(#.*)?"),
         set("\\s*set\\s+(.*?)\\s*=.*");
@@ -50,7 +50,7 @@ class OwnLines {
     return !sections_.empty() && sections_.front().starts_with(prefix) &&
            contains(solutions_, sections_.front().substr(prefix.size()));
   }
-  /// Of the file, or of a scale.
+  /// True in the file's top level and in a scale, which may have keys of collections.
   bool has_own_keys() const {
     return sections_.empty() || (sections_.size() == 1 && sections_[0].starts_with("scale "));
   }

@@ -34,10 +34,10 @@ void add_fields(CsvText& csv, const std::vector<std::string>& columns, const Mem
 std::string leading_fields(const MemberRow& row) {
   CsvText csv("");
   add_fields(csv, leading_columns(), row);
-  return csv.text().substr(1);  // without the empty heading
+  return csv.text().substr(1);  // without the empty header
 }
 
-/// One table of all members, one line after the other.
+/// One table of all members, written one line at a time.
 class CollectedTable {
  public:
   CollectedTable(const fs::path& out, const std::string& name) : out_(out), name_(name) {}

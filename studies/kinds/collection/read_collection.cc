@@ -16,8 +16,8 @@ namespace {
 
 using dealii::ParameterHandler;
 
-/// What the members of one dimension have in common: the collection's file read as a study of one
-/// mesh that is never made. A solution of the collection's own takes the place of the one named.
+/// Reads the settings that members of one dimension share. The collection's file is read as a study
+/// of one mesh that is never made. A solution defined in the collection replaces the named one.
 Study read_common(const StudyText& text, const std::string& scale, int dimension,
                   bool has_own_solutions) {
   Study study = study_of_text(
@@ -34,7 +34,8 @@ Study read_common(const StudyText& text, const std::string& scale, int dimension
   return study;
 }
 
-/// Files may be of any dimension, generated meshes are of their domain's.
+/// Reads the shared settings for each dimension that can occur. Files may have any dimension,
+/// generated meshes have their domain's.
 void read_common(Collection& collection, const StudyText& text, const std::string& scale) {
   std::set<int> needed;
   bool any_dimension = false;
@@ -54,7 +55,7 @@ void read_common(Collection& collection, const StudyText& text, const std::strin
   if (collection.common.empty()) throw InputError(collection.refusals.begin()->second);
 }
 
-/// The collection's own parameters before those of its members that it does not have itself.
+/// Returns the collection's own parameters, followed by further ones of its members.
 StudyParameters joined_parameters(const StudyParameters& own, const StudyParameters& common) {
   StudyParameters all = own;
   for (const auto& entry : common)
@@ -68,7 +69,7 @@ StudyParameters joined_parameters(const StudyParameters& own, const StudyParamet
 
 Collection read_collection(const std::filesystem::path& file, const std::string& scale) {
   const StudyText text(file);
-  ParameterHandler lists;  // which subsections there are depends on what the file says
+  ParameterHandler lists;  // the lists determine which subsections exist
   declare_collection(lists);
   parse_study(lists, text, true);
   const auto scales = split_list(lists.get("scales"));

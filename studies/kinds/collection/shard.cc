@@ -8,7 +8,7 @@ namespace smoothfem {
 
 namespace {
 
-/// FNV-1a, which has the same value everywhere, as std::hash need not.
+/// FNV-1a, which has the same value on every machine. std::hash need not.
 std::uint64_t hash_of(const std::string& text) {
   constexpr std::uint64_t basis = 14695981039346656037ULL, prime = 1099511628211ULL;
   std::uint64_t hash = basis;

@@ -11,8 +11,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Between two looks at what has come: without it, waiting would take a processor of those that
-/// work.
+/// Time between two checks for answers. Without it, waiting would take a processor from the
+/// workers.
 constexpr auto pause = std::chrono::milliseconds(2);
 
 enum Tag : int { outcome_tag, failure_tag, task_tag, end_tag };
@@ -26,7 +26,7 @@ struct RankMessage {
   std::string text;
 };
 
-/// What a rank has sent, if anything.
+/// Returns a rank's message, if it has sent one.
 std::optional<RankMessage> receive(const Ranks& ranks, int from) {
   int is_there = 0, size = 0;
   MPI_Status status;
@@ -39,7 +39,7 @@ std::optional<RankMessage> receive(const Ranks& ranks, int from) {
   return RankMessage{static_cast<Tag>(status.MPI_TAG), std::move(text)};
 }
 
-/// Of each rank, on the root: whether it is the first one of its machine. Collective.
+/// Returns for each rank, on the root, if it is the first rank of its machine. Collective.
 std::vector<char> first_of_machines(const Ranks& ranks) {
   if (ranks.size() == 1) return {1};
   MPI_Comm machine = MPI_COMM_NULL;
@@ -58,7 +58,7 @@ class TaskTeam::Worker {
   virtual void give(const std::string& task) = 0;
   virtual std::optional<TaskAnswer> answer() = 0;
 
-  std::optional<std::size_t> task;  ///< number of the one it works on
+  std::optional<std::size_t> task;  ///< number of its present task
 };
 
 class TaskTeam::OwnWorker : public Worker {

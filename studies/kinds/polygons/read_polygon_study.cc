@@ -68,7 +68,7 @@ std::size_t count(ParameterHandler& p, const std::string& key) {
   return static_cast<std::size_t>(p.get_integer(key));
 }
 
-/// "1/16: 0.75" or "1/16: S0".
+/// Reads "1/16: 0.75" or "1/16: S0".
 SequenceParameters sequence(const std::string& text, std::size_t n) {
   double above = 0.0, below = 0.0, lambda = 0.0;
   char bar = ' ', colon = ' ';

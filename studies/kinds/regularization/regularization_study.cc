@@ -12,7 +12,7 @@ namespace {
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
-/// What is transformed, and how: Fig. 3.4 has the first, Fig. 3.8 the others.
+/// An element type and its transformation. Fig. 3.4 shows the first, Fig. 3.8 the others.
 struct Subject {
   ElementType element_type;
   const char* transformation;
