@@ -43,7 +43,7 @@ TEST_F(CommandLine, GeneratesDistortsAndSmoothsASurface) {
   EXPECT_THAT(quality.out, HasSubstr("corners "));
 }
 
-/// What `list` says, against what happens.
+/// Compares the output of `list` with the behaviour of the methods.
 TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
   ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3"}).exit_code, 0);
   write_mesh(file("box.vtu"), test::box_mesh(2, 2, 2, test::BoxCells::hexahedra));
@@ -68,7 +68,7 @@ TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
   }
 }
 
-TEST_F(CommandLine, RefusesWhatSurfacesCannotHave) {
+TEST_F(CommandLine, RefusesWhatSurfacesLack) {
   ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3"}).exit_code, 0);
   const auto refusal = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"smooth", "roof.vtu", "-o", "out.vtu"});
@@ -144,7 +144,7 @@ TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
               HasSubstr("mean edge length above 0"));
 }
 
-/// Tens of cells that are inverted, all with nodes of the boundary alone.
+/// Tens of inverted cells, all of which have nodes of the boundary only.
 TEST_F(CommandLine, UntanglesCellsThatHaveNodesOfASlidingBoundaryOnly) {
   const VolumeMesh tangled = test::tangled_along_boundary(test::shell(test::BoxCells::hexahedra));
   write_mesh(file("in.vtu"), tangled);

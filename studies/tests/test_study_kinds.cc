@@ -64,7 +64,7 @@ TEST_F(CommandLine, TheQuickScaleOfTheBuiltInPolygonStudyHolds) {
       true);
 }
 
-TEST_F(CommandLine, KindsThatDoNotExistAreNamedWithThoseThatDo) {
+TEST_F(CommandLine, RefusesUnknownKindsAndListsTheKnownOnes) {
   file_with("my.prm", "set kind = polygon\n");
   const Outcome outcome = smoothfem({"study", "my.prm"});
   EXPECT_EQ(outcome.exit_code, 2);
@@ -76,7 +76,7 @@ TEST_F(CommandLine, KindsThatDoNotExistAreNamedWithThoseThatDo) {
       << outcome.err;
 }
 
-TEST_F(CommandLine, StudiesThatDoNotExistAreNamedWithTheNearestOne) {
+TEST_F(CommandLine, RefusesUnknownStudiesAndNamesTheNearestOne) {
   const Outcome outcome = smoothfem({"study", "geer"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("there is no study 'geer'; did you mean 'gear'? choose one of "),
@@ -97,7 +97,7 @@ TEST_F(CommandLine, TheProvenanceOfAScaleHasItsParameters) {
   EXPECT_EQ(json.at("scale"), "small");
   EXPECT_EQ(json.at("parameters").at("cases"), "1");
   EXPECT_EQ(json.at("parameters").at("nodes"), "3, 4");
-  // The same scale is the same run, another one is not.
+  // The same scale is the same run; another scale is not.
   EXPECT_EQ(smoothfem({"study", "my.prm", "--scale", "small"}).exit_code, 0);
   const Outcome other = smoothfem({"study", "my.prm"});
   EXPECT_EQ(other.exit_code, 2);
