@@ -34,7 +34,7 @@ std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int
       extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
   const std::string command = "'smoothfem " + given.front()->get_name();
   if (!wanted.starts_with("-"))
-    return command + "' takes no further word, but is given '" + wanted + "'; " + command +
+    return command + "' takes no further word, but got '" + wanted + "'; " + command +
            " --help' shows what it takes";
   return no_such_name("option", wanted, names) + " of " + command + "'";
 }

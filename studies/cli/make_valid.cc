@@ -48,11 +48,11 @@ template <int dim>
   const std::string advice =
       slides ? "give the boundary more freedom by a larger --slide-distance or --feature-angle"
              : std::string("free ") + (hopeless ? "some of their" : "more") + " nodes with --fix" +
-                   (would_slide ? ", or let those of the boundary move along it with "
-                                  "--boundary slide"
-                                : "");
+                   (would_slide
+                        ? ", or let boundary nodes move along the boundary with --boundary slide"
+                        : "");
   throw InputError(arguments.in + ": " + what +
-                   (hopeless ? " have only fixed nodes, so that nothing can mend them"
+                   (hopeless ? " have only fixed nodes, so that untangling cannot repair them"
                              : " are left after untangling") +
                    where + "; " + advice + ", or repair them in the mesh generator");
 }

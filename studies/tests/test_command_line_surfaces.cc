@@ -160,7 +160,7 @@ TEST_F(CommandLine, UntanglesCellsThatHaveNodesOfASlidingBoundaryOnly) {
   EXPECT_THAT(fixed.err,
               HasSubstr(n_invalid + " of " + n_invalid + " invalid cells have only fixed nodes"));
   EXPECT_THAT(fixed.err,
-              HasSubstr("let those of the boundary move along it with --boundary slide"));
+              HasSubstr("let boundary nodes move along the boundary with --boundary slide"));
   EXPECT_FALSE(std::filesystem::exists(file("out.vtu")));
   const Outcome outcome = with({"--boundary", "slide"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -279,7 +279,7 @@ TEST_F(StudyFile, MessagesShowTheCorrectForm) {
                   "it has to be one of nodal, quadrature; did you mean 'nodal'?");
   expect_error_at(5, one_mesh + "set record stages every = sequential 10\n",
                   "a list like 'sequential: 10, simultaneous: 2'");
-  expect_error_at(5, one_mesh + "degrees = 1\n", "'degrees = 1' is none of a study file");
+  expect_error_at(5, one_mesh + "degrees = 1\n", "'degrees = 1' is not a line of a study file");
   expect_error_at(5, one_mesh + "end\n", "this 'end' ends no subsection");
   expect_error_at(5, one_mesh + "include nothing.prm\n",
                   "cannot read the file '" + file("nothing.prm").string() + "'");

@@ -33,10 +33,10 @@ void check_solution(const StudySolution& solution) {
                                   {"load", solution.load}})
     if (!solution.u.empty() && !text.empty())
       throw InputError("the solution has both 'u' and '" + std::string(key) +
-                       "'; what follows from 'u' is derived, so take '" + key + "' out");
+                       "'; the program derives it from 'u', so take '" + key + "' out");
   if (!solution.diffusivity.empty() && solution.name != "expression")
     throw InputError("the solution '" + solution.name +
-                     "' is one without a diffusivity; give its formula as 'u' instead");
+                     "' has no diffusivity; give its formula as 'u' instead");
 }
 
 /// Throws InputError if a stage with its own record interval belongs to none of the methods.
@@ -73,7 +73,7 @@ void check_smooth_for(const Study& study) {
     const std::string what = "method " + method.name + " has 'smooth for'";
     if (study.solution.label.empty())
       throw InputError(what +
-                       ", which is for studies with a list 'solutions' that are no collections; "
+                       ", which is for studies with a list 'solutions' but not for collections; "
                        "take it out, or name the solutions in 'solutions'");
     if (!method.needs_problem(study.dimensions))
       throw InputError(what + ", but does not move nodes by a solution; take it out");

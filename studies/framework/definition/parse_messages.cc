@@ -42,7 +42,7 @@ std::string no_such(const std::string& what, const std::string& wanted,
          (nearest.empty()     ? ""
           : nearest == wanted ? "it is for another part of the file; "
                               : "did you mean '" + nearest + "'? ") +
-         "'smoothfem list --study-keys' shows the keys there are";
+         "'smoothfem list --study-keys' shows the available keys";
 }
 
 /// Message for an unknown subsection. Each mesh, method and solution that the study names has one.
@@ -111,7 +111,7 @@ std::string in_our_words(const std::string& reason, const std::vector<std::strin
     return "this 'end' ends no subsection; remove it";
   if (matches("The line <(.*)> could not be parsed.*", match))
     return "the line '" + match[1].str() +
-           "' is none of a study file; begin it with set, subsection, end, include or #";
+           "' is not a line of a study file; begin it with set, subsection, end, include or #";
   return reason;
 }
 

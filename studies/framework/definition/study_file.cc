@@ -139,7 +139,7 @@ std::string commented_keys(ParameterHandler& p) {
 void declare_table_study(ParameterHandler& p, const std::string& kind) {
   namespace Patterns = dealii::Patterns;
   p.declare_entry("kind", kind, Patterns::Selection(kind),
-                  "What the study does; other kinds have other keys.");
+                  "Kind of study; other kinds have other keys.");
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
   declare_scales(p);
 }
@@ -149,7 +149,7 @@ void declare_table_scale(ParameterHandler& p, const std::string& scale,
   const Subsection subsection(p, "scale " + scale);
   for (const auto& key : numbers)
     p.declare_entry(key, "0", dealii::Patterns::Integer(0),
-                    "In place of the value above; 0: as it is.");
+                    "Replaces the value above; 0: no change.");
 }
 
 StudyHeader read_table_study(ParameterHandler& p, const std::filesystem::path& file,

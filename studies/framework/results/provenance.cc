@@ -193,8 +193,8 @@ EarlierRun read_provenance(const std::filesystem::path& path) {
   } catch (const Json::exception&) {
     throw InputError(
         path.string() +
-        " is not what this program writes, so it is not known what the results beside "
-        "it are; start anew with --force, which keeps them under another name, or take "
+        " is not a provenance of this program, so the origin of the results next to "
+        "it is unknown; start anew with --force, which keeps them under another name, or take "
         "another --out");
   }
 }

@@ -143,7 +143,7 @@ class StudyRun {
     } else {
       remove_unfinished_files(options_.out);
       for (auto& prepared : data_.meshes) require_same_mesh(prepared, earlier_, options_.out);
-      progress_.say("Going on where the run in " + options_.out.string() + " was.");
+      progress_.say("Resuming the run in " + options_.out.string() + ".");
     }
     write_provenance("running");  // now with the checksums
   }
@@ -241,7 +241,7 @@ class StudyRun {
         progress_.say("Cells of " + mesh.description.name + ", degree " + std::to_string(degree) +
                       ": " + std::to_string(adaptive_quadrature::rule_sequence.front()) + " to " +
                       std::to_string(n_points) +
-                      " Gauss points per direction, each cell as many as it needs.");
+                      " Gauss points per direction, chosen for each cell.");
   }
 
   /// Returns the tasks to do. Representative ones come first, so that the estimate of the remaining
@@ -271,12 +271,12 @@ class StudyRun {
   void announce(std::size_t n_open) {
     constexpr double long_time = 60.0;
     const double seconds = seconds_left();
-    std::string text = std::to_string(n_open) + " finite element solves are to come, some " +
-                       duration_text(seconds);
+    std::string text =
+        std::to_string(n_open) + " finite element solves to do, about " + duration_text(seconds);
     if (seconds > long_time)
       text += " by a rough estimate; 'set record every = " +
               std::to_string(10 * study_.record_every.default_interval) +
-              "' or '--scale quick' takes fewer";
+              "' or '--scale quick' needs fewer solves";
     if (n_open > 0) progress_.say(text + ".");
   }
 
@@ -334,7 +334,7 @@ class StudyRun {
     write_provenance("interrupted");
     progress_.say("Interrupted: the " + std::to_string(rows) + " rows finished so far are in " +
                   (options_.out / "iterations.csv").string() +
-                  "; the same command goes on from here.");
+                  "; the same command resumes from here.");
     std::_Exit(130);
   }
 

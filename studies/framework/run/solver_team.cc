@@ -59,10 +59,10 @@ auto all_or_nothing(const Ranks& ranks, const Work& work) {
     throw;
   } catch (const std::exception& error) {
     if (ranks.size() == 1) throw;
-    std::fprintf(stderr,
-                 "smoothfem: process %d of %d failed (%s); the study goes on where it was "
-                 "if you start it again\n",
-                 ranks.rank(), ranks.size(), error.what());
+    std::fprintf(
+        stderr,
+        "smoothfem: process %d of %d failed (%s); the study resumes if you start it again\n",
+        ranks.rank(), ranks.size(), error.what());
     MPI_Abort(ranks.communicator(), 1);
     throw;
   }

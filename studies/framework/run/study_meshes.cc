@@ -126,9 +126,10 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
     for (const int degree : study.degrees)
       require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
     if (const int exponent = extreme_exponent(std::as_const(mesh).coordinates()); exponent != 0)
-      throw InputError("mesh " + description.name + " is about 2^" + std::to_string(exponent) +
-                       " wide, where finite elements leave the range of numbers; scale it to an "
-                       "ordinary size");
+      throw InputError(
+          "mesh " + description.name + " is about 2^" + std::to_string(exponent) +
+          " wide, which is outside the range of numbers of finite elements; scale it to an "
+          "ordinary size");
   }
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),

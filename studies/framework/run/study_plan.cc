@@ -77,7 +77,7 @@ class Plan {
                 study_.timing_runs, study_.timing_runs == 1 ? "" : "s");
     if (!study_.degrees.empty())
       std::printf(
-          "Finite elements: some %.0f solves if each method makes %d iterations, about %s by a "
+          "Finite elements: about %.0f solves if each method makes %d iterations, about %s by a "
           "rough estimate.\n",
           totals_.n_solves, assumed_iterations,
           duration_text(totals_.solve_seconds / n_workers()).c_str());

@@ -19,8 +19,8 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
     throw InputError("the study " + study.name +
                      " has no work for several processes: start it without mpirun");
   if (options.dry_run) {
-    std::printf("%s\n\nTables, of no meshes, in %s; nothing has been written:\n",
-                study.title.c_str(), options.out.c_str());
+    std::printf("%s\n\nTables (no meshes) in %s; nothing has been written:\n", study.title.c_str(),
+                options.out.c_str());
     for (const auto& table : tables) std::printf("  %s\n", table.file.c_str());
     return;
   }

@@ -205,7 +205,7 @@ class CollectionRun {
     write_provenance("interrupted");
     progress_.say("Interrupted: " + std::to_string(count(member_complete)) + " of " +
                   std::to_string(rows_.size()) +
-                  " members are complete; the same command goes on from here.");
+                  " members are complete; the same command resumes from here.");
     std::_Exit(130);
   }
 
@@ -264,7 +264,7 @@ void run_collection(const Collection& collection, const StudyOptions& options) {
   if (options.task_socket >= 0) return work_on_members(collection, options);
   if (!options.mesh_dir.empty())
     throw InputError("--mesh-dir is given, but the meshes of the study " + collection.header.name +
-                     " are those it names itself; leave it out");
+                     " are named by the study; leave it out");
   CollectionRun run(collection, options);  // on all ranks, so that all find the same faults
   if (!options.ranks.is_root()) {
     if (!options.dry_run) serve_task_team(options.ranks);

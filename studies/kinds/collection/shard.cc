@@ -27,7 +27,7 @@ Shard Shard::parse(const std::string& text) {
   if (!has_slash || second.ec != std::errc() || second.ptr != end || shard.k < 1 ||
       shard.k > shard.n)
     throw InputError("--shard is '" + text +
-                     "'; write the part and how many there are, from 1/10 to 10/10");
+                     "'; write the part and the number of parts, for example 1/10 to 10/10");
   return shard;
 }
 
