@@ -26,7 +26,7 @@ class SolverTeam {
                     const std::vector<ManufacturedSolution<3>>& solutions);
 
   /// These are the functions of PoissonSolver, on the root. A new solver replaces the one before.
-  /// solutions: those that the other ranks have. number: index of the solution to solve.
+  /// solutions: the solutions of the other ranks. number: index of the solution to solve.
   void make_solver(const Mesh<3>& mesh, const PoissonOptions& options);
   SolutionRecord solve(std::span<const Point<3>> coordinates,
                        const std::vector<ManufacturedSolution<3>>& solutions, std::size_t number,
