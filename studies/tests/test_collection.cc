@@ -213,7 +213,7 @@ TEST_F(Collections, RefusesBadCollections) {
   refused("set domains = geer\n", "did you mean 'gear'?");
   refused("set domains = gear: x\n", "write NAME, or NAME: FACTOR");
   refused("set domains = ring\nset elements = triangles\n", "has none of the elements triangles");
-  refused("set distorsions = 0.5\n", "distorsions");
+  refused("set distortionsx = 0.5\n", "distortionsx");
   refused("set solutions = a b\n", "the solution label 'a b'");
   refused("set collection = meshes/*, meshes/*\nset solutions = sine, sine\n", "two members");
   write_study();

@@ -261,7 +261,7 @@ TEST_F(BadInput, FolderThatCannotBeMade) {
 }
 
 TEST_F(BadInput, StudyFile) {
-  file_with("bad.prm", "set meshes = m\nset degres = 1\n");
+  file_with("bad.prm", "set meshes = m\nset degreesx = 1\n");
   expect_refused({"study", "bad.prm", "--out", "results"}, {"bad.prm:2: "});
 }
 

@@ -229,7 +229,7 @@ end
 }
 
 TEST_F(StudyFile, UnknownKeysAndSubsectionsAreFoundWithTheirLine) {
-  expect_error_at(5, one_mesh + "set degres = 1\n", "degres");
+  expect_error_at(5, one_mesh + "set degreesx = 1\n", "degreesx");
   expect_error_at(4, "set meshes = a\nsubsection mesh a\n set file = a.mesh\n set fil = b\nend\n",
                   "fil");
   expect_error_at(5, one_mesh + "subsection solutions\n set name = gear\nend\n", "solutions");
@@ -275,7 +275,7 @@ TEST_F(StudyFile, MessagesShowTheCorrectForm) {
   expect_error_at(6, one_mesh + "subsection finite elements\n set cg tolerance = 2\nend\n",
                   "cg tolerance = 2 is not allowed; it has to be a number from 0 to 1");
   expect_error_at(5, one_mesh + "set write series = maybe\n", "it has to be true or false");
-  expect_error_at(6, one_mesh + "subsection finite elements\n set load = nodel\nend\n",
+  expect_error_at(6, one_mesh + "subsection finite elements\n set load = nodall\nend\n",
                   "it has to be one of nodal, quadrature; did you mean 'nodal'?");
   expect_error_at(5, one_mesh + "set record stages every = sequential 10\n",
                   "a list like 'sequential: 10, simultaneous: 2'");
@@ -302,10 +302,10 @@ TEST_F(StudyFile, IncludedFilesIncludeOthersNextToThem) {
 }
 
 TEST_F(StudyFile, MistakesInIncludedFilesAreFoundThere) {
-  std::ofstream(file("base.prm")) << one_mesh << "set degres = 1\n";
+  std::ofstream(file("base.prm")) << one_mesh << "set degreesx = 1\n";
   const std::string message =
       checked(input_error_of([&] { read("set title = a\ninclude base.prm\n"); }), file("base.prm"));
-  EXPECT_THAT(message, ::testing::HasSubstr("base.prm:5: there is no key 'degres'"));
+  EXPECT_THAT(message, ::testing::HasSubstr("base.prm:5: there is no key 'degreesx'"));
 }
 
 TEST_F(StudyFile, MayNotIncludeItself) {
@@ -468,7 +468,7 @@ TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
   const std::string message = checked(input_error_of([&] { read_study(path, "huge"); }), path);
   EXPECT_NE(message.find("small"), std::string::npos) << message;
   EXPECT_NE(message.find("large"), std::string::npos) << message;
-  const std::string misspelt = input_error_of([&] { read_study(path, "smal"); });
+  const std::string misspelt = input_error_of([&] { read_study(path, "smalll"); });
   EXPECT_NE(misspelt.find("did you mean 'small'?"), std::string::npos) << misspelt;
 }
 

@@ -68,11 +68,10 @@ TEST_F(CommandLine, RefusesUnknownKindsAndListsTheKnownOnes) {
   file_with("my.prm", "set kind = polygon\n");
   const Outcome outcome = smoothfem({"study", "my.prm"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(
-      outcome.err.find(
-          "my.prm: there is no kind of study 'polygon'; did you mean 'polygons'? choose one of "
-          "collection, polygons, regularization, smoothing"),
-      std::string::npos)
+  EXPECT_NE(outcome.err.find(
+                "my.prm: there is no study kind 'polygon'; did you mean 'polygons'? choose one of "
+                "collection, polygons, regularization, smoothing"),
+            std::string::npos)
       << outcome.err;
 }
 
