@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Times of finite element records on good meshes of the size of the thesis' Section 6.3, on as
-/// many processes as mpirun starts, and of the parts they are made of. Products with the matrix are
-/// set in relation to the bandwidth of the memory in the same run, records to the way of deal.II's
-/// tutorials on one process.
+/// Measures finite element records on good meshes of the size of the thesis' Section 6.3, and the
+/// parts of records.
+/// It uses as many processes as mpirun starts. Products with the matrix are compared with the
+/// memory bandwidth in the same run. Records are compared with the way of deal.II's tutorials on
+/// one process.
 #include <benchmark/benchmark.h>
 #include <mpi.h>
 
@@ -29,7 +30,7 @@ const Ranks& ranks() {
   return all;
 }
 
-/// From when all ranks begin until the last one is done.
+/// Seconds from the start of all ranks until the last one is done.
 double seconds_of(const auto& work) {
   MPI_Barrier(ranks().communicator());
   const auto start = std::chrono::steady_clock::now();
@@ -43,7 +44,7 @@ struct Case {
   int degree;
 };
 
-/// On the root, else null. Kept in a file in the folder for temporary files.
+/// The mesh on the root, null on other ranks. A file in the folder for temporary files keeps it.
 const VolumeMesh* flange(ElementType type) {
   static std::map<ElementType, VolumeMesh> meshes;
   if (!ranks().is_root()) return nullptr;
@@ -64,8 +65,8 @@ std::vector<Point<3>> coordinates_of(const VolumeMesh* mesh) {
   return mesh == nullptr ? std::vector<Point<3>>() : mesh->copied_coordinates();
 }
 
-/// As one iteration of smoothing might have been before: each free node a tenth of the way to the
-/// mean of its neighbours.
+/// Coordinates as one iteration of smoothing might have had before: each free node a tenth of the
+/// way to the mean of its neighbours.
 std::vector<Point<3>> moved_coordinates(const VolumeMesh* mesh) {
   auto moved = coordinates_of(mesh);
   if (mesh == nullptr) return moved;
@@ -90,7 +91,7 @@ PoissonOptions options_of(const Case& c, ConditionNumberMethod method) {
   return options;
 }
 
-/// A record whose condition number comes from CG.
+/// Measures a record whose condition number comes from CG.
 void record(benchmark::State& state, const Case& c) {
   const auto* mesh = flange(c.type);
   PoissonSolver<3> solver(mesh, options_of(c, ConditionNumberMethod::lanczos), ranks());
@@ -103,7 +104,7 @@ void record(benchmark::State& state, const Case& c) {
   state.counters["condition"] = record.condition_number;
 }
 
-/// A verified condition number as in a run: from the eigenvectors of the mesh before.
+/// Measures a verified condition number as in a run: from the eigenvectors of the mesh before.
 void verified_record(benchmark::State& state, const Case& c) {
   const auto* mesh = flange(c.type);
   PoissonSolver<3> solver(mesh, options_of(c, ConditionNumberMethod::verified), ranks());
@@ -121,7 +122,7 @@ void verified_record(benchmark::State& state, const Case& c) {
   state.counters["amg_setup_s"] = record.amg_setup_seconds;
 }
 
-/// What the parts of a record work on.
+/// The data that the parts of a record work on.
 struct Parts {
   std::shared_ptr<const FiniteElementSpace<3>> space;
   std::vector<Point<3>> x;
@@ -143,8 +144,8 @@ void assembly(benchmark::State& state, const Case& c) {
   for (auto _ : state) state.SetIterationTime(seconds_of([&] { parts.assemble(); }));
 }
 
-/// Bytes a second of all ranks together reading an array too large for the cache: the products
-/// read, and write little.
+/// Bytes per second that all ranks together read from an array too large for the cache. Products
+/// with the matrix mostly read.
 double read_bandwidth() {
   static const double bandwidth = [] {
     const Eigen::VectorXd values = Eigen::VectorXd::Ones(1 << 25);
@@ -159,7 +160,7 @@ double read_bandwidth() {
   return bandwidth;
 }
 
-/// And of a triad a = b + s c.
+/// Bytes per second of a triad a = b + s c.
 double triad_bandwidth() {
   static const double bandwidth = [] {
     Eigen::VectorXd a = Eigen::VectorXd::Zero(1 << 24), b = a, c = a;
@@ -189,8 +190,8 @@ void product(benchmark::State& state, const Case& c) {
                            n_products;
     best = std::min(best, seconds);
     state.SetIterationTime(seconds);
-    // The same row by row, as Eigen does it; several processes would have to exchange entries
-    // first.
+    // The same product row by row, as Eigen does it. Several processes would have to exchange
+    // entries first.
     const double by_rows = ranks().size() > 1 ? 0.0 : seconds_of([&] {
                                                         for (int i = 0; i < n_products; ++i) {
                                                           y.noalias() = parts.system.matrix * x;
@@ -200,7 +201,7 @@ void product(benchmark::State& state, const Case& c) {
     best_by_rows = std::min(best_by_rows, by_rows);
   }
   state.counters["rows_over_this"] = best_by_rows / best;
-  // Value and column of each entry; x read, y written.
+  // Bytes of value and column of each entry; x is read, y is written.
   const double bytes = ranks().sum(12.0 * static_cast<double>(parts.system.matrix.nonZeros()) +
                                    8.0 * static_cast<double>(matrix.n_rows() + matrix.n_columns()));
   state.counters["GB/s"] = 1e-9 * bytes / best;
@@ -243,7 +244,7 @@ void multigrid_cg(benchmark::State& state, const Case& c) {
   state.counters["iterations"] = static_cast<double>(result.iterations);
 }
 
-/// What the next step of a method that goes down the energy costs beside its solve, on one process.
+/// Measures, on one process, the energy gradient that a step needs in addition to its solve.
 void energy_gradient(benchmark::State& state, const Case& c) {
   if (ranks().size() > 1) return state.SkipWithError("solves for methods are those of one process");
   const auto* mesh = flange(c.type);
@@ -264,14 +265,15 @@ void energy_gradient(benchmark::State& state, const Case& c) {
   state.counters["over_solve"] = gradient / solve;
 }
 
-/// On the root, while the others wait; beside a record by all ranks.
+/// Measures the tutorials' way on the root while the others wait, compared with a record by all
+/// ranks.
 void stock_path(benchmark::State& state, const Case& c) {
   const auto* mesh = flange(c.type);
   auto options = options_of(c, ConditionNumberMethod::lanczos);
   PoissonSolver<3> solver(mesh, options, ranks());
   const auto x = coordinates_of(mesh);
   SolutionRecord record;
-  const double ours = seconds_of([&] { record = solver.solve(x, solution(), false); });
+  const double own = seconds_of([&] { record = solver.solve(x, solution(), false); });
   StockTimes times;
   for (auto _ : state) {
     if (mesh != nullptr)
@@ -282,7 +284,7 @@ void stock_path(benchmark::State& state, const Case& c) {
   state.counters["cg_s"] = times.cg;
   state.counters["errors_s"] = times.errors;
   state.counters["cg_iterations"] = times.cg_iterations;
-  state.counters["over_record"] = times.seconds() / ours;
+  state.counters["over_record"] = times.seconds() / own;
   state.counters["l2_ratio"] = times.l2_error / record.l2_error;
 }
 
@@ -316,7 +318,7 @@ void register_all() {
             ->Unit(benchmark::kMillisecond);
 }
 
-/// What the ranks but the root report to.
+/// The reporter of all ranks except the root.
 class SilentReporter : public benchmark::BenchmarkReporter {
  public:
   SilentReporter() { SetOutputStream(&nowhere_); }
@@ -327,7 +329,7 @@ class SilentReporter : public benchmark::BenchmarkReporter {
   std::ostream nowhere_{nullptr};
 };
 
-/// The files asked for are the root's.
+/// Arguments of a rank. Only the root writes the output files.
 std::vector<char*> arguments_of_rank(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
   if (!ranks().is_root())

@@ -68,7 +68,8 @@ void assemble(const Oracle<dim>& oracle, const dealii::Quadrature<dim>& rule,
 StockTimes solve_by_stock_path(const VolumeMesh& mesh, int degree,
                                const ManufacturedSolution<3>& solution, double tolerance) {
   const Oracle<dim> oracle(mesh, static_cast<unsigned int>(degree));
-  // As exact on simplices as the matrices need, and as many points on hexahedra as we take.
+  // A rule that is exact enough for the matrices on simplices, with smoothfem's number of points on
+  // hexahedra.
   dealii::Quadrature<dim> rule = dealii::QGauss<dim>(4);
   if (oracle.simplices()) rule = dealii::QGaussSimplex<dim>(static_cast<unsigned int>(degree) + 1);
   const auto constraints = boundary_values(oracle, oracle.dof_points(), solution);

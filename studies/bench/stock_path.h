@@ -14,8 +14,9 @@ struct StockTimes {
   double seconds() const { return assembly + cg + errors; }
 };
 
-/// The way of deal.II's tutorials: FEValues, AffineConstraints, SparseMatrix, SolverCG without
-/// preconditioner, VectorTools::integrate_difference. Numbering and sparsity pattern are not timed.
+/// Solves in the way of deal.II's tutorials: FEValues, AffineConstraints, SparseMatrix, SolverCG
+/// without preconditioner, VectorTools::integrate_difference. Numbering and sparsity pattern are
+/// not timed.
 StockTimes solve_by_stock_path(const VolumeMesh& mesh, int degree,
                                const ManufacturedSolution<3>& solution, double tolerance);
 

@@ -40,7 +40,8 @@ std::vector<std::string> names_of(const std::string& what) {
 
 }  // namespace
 
-/// Not in the help: the completion of command lines asks for names, and has to be quick.
+/// Adds the command that completion of command lines calls for names. It has to be quick, and the
+/// help does not list it.
 void add_complete_command(CLI::App& app) {
   auto what = std::make_shared<std::string>();
   auto* command = app.add_subcommand("complete", "")->group("");

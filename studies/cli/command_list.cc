@@ -26,7 +26,7 @@ struct Arguments {
   std::string columns;  ///< CSV file; empty: all
 };
 
-/// A parameter with its range, and the kind of meshes that alone has it.
+/// Prints a parameter with its range. only_for: the kind of meshes, if only one has the parameter.
 void list_parameter(const Parameter& parameter, const char* only_for) {
   const std::string range = range_text(parameter);
   std::printf("      %-40s %-8s %s%s%s\n", parameter.name.c_str(), value_text(parameter).c_str(),
@@ -40,7 +40,7 @@ Parameters parameters_of(std::optional<Method<dim>>& made, const std::string& me
   return made->parameters();
 }
 
-/// Those of planar and of volume meshes, each once.
+/// Prints the parameters for planar and for volume meshes, each once.
 void list_parameters(const std::string& method) {
   std::optional<Method<2>> planar;
   std::optional<Method<3>> volume;

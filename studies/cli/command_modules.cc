@@ -13,9 +13,9 @@ namespace {
 constexpr const char* study_commands = "smoothfem_study_commands.so";
 constexpr const char* generate_command = "smoothfem_generate_command.so";
 
-/// The function that a module has for a command. The module stays loaded: its libraries have
-/// registered what users name. Its symbols are global, since Open MPI loads components that need
-/// them.
+/// Returns the function that a module has for a command. The module stays loaded, because its
+/// libraries have registered the things that users name. Its symbols are global, because Open MPI
+/// loads components that need them.
 void (*added_by_module(const Command& command))(CLI::App&) {
   const auto file = std::filesystem::canonical("/proc/self/exe").parent_path() / command.module;
   void* module = dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL);

@@ -39,7 +39,7 @@ Spellings spellings(const std::string& name) {
   return made;
 }
 
-/// The folder that the program is installed or built in: there find_package finds it.
+/// The folder that the program is installed or built in; find_package finds it there.
 fs::path prefix() {
   return fs::canonical("/proc/self/exe").parent_path().parent_path().parent_path();
 }

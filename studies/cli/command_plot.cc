@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Commands that the Python package `plots` carries out: it parses their options itself.
+// Commands that the Python package `plots` carries out. It parses their options itself.
 #include <unistd.h>
 
 #include <cerrno>

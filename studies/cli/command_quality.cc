@@ -65,7 +65,7 @@ std::vector<NamedNumber> geometry_numbers(const VolumeMesh& mesh) {
           {"dihedral_min", "dihedral_min", angles.min},
           {"dihedral_max", "dihedral_max", angles.max}};
 }
-/// How many nodes cannot move, and how many move on feature lines only.
+/// Counts nodes that cannot move, and nodes that move on feature lines only.
 std::vector<NamedNumber> geometry_numbers(const SurfaceMesh& mesh) {
   const auto count = [&](GeometricClassification::Kind kind) {
     const auto& carriers = mesh.constraints()->classifications();
@@ -76,7 +76,7 @@ std::vector<NamedNumber> geometry_numbers(const SurfaceMesh& mesh) {
           {"n_line_nodes", "on lines", count(GeometricClassification::line)}};
 }
 
-/// All that is said about a mesh.
+/// Everything that is reported about a mesh.
 struct Report {
   std::size_t n_nodes, n_fixed_nodes, n_cells;
   std::map<std::string, std::size_t> cells;

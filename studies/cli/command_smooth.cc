@@ -78,11 +78,11 @@ struct Outcome {
   SmoothingResult smoothing;
 };
 
-/// What the command writes must not take the place of its meshes.
+/// Throws InputError if an output file would replace one of the command's meshes.
 void require_different_files(const SmoothArguments& arguments) {
   namespace fs = std::filesystem;
   const auto is_same = [](const fs::path& a, const fs::path& b) {
-    std::error_code ignored;  // of paths that lead nowhere, which are the same by name only
+    std::error_code ignored;  // paths that do not exist are compared by name
     return fs::equivalent(a, b, ignored) || fs::weakly_canonical(fs::absolute(a), ignored) ==
                                                 fs::weakly_canonical(fs::absolute(b), ignored);
   };
@@ -100,14 +100,15 @@ void require_different_files(const SmoothArguments& arguments) {
                      "; give two file names");
 }
 
-/// The method and its tables are gone afterwards: writing needs memory, too.
+/// Smooths a mesh. The method and its tables are freed before the mesh is written: writing needs
+/// memory, too.
 template <int dim, int spacedim>
 Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& arguments,
                          Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines,
                          Recorder& recorder) {
   make_valid(arguments, method, mesh, cell_lines);
   Observer<dim, spacedim>
-      observer;  // none without --log and --series: it costs a pass over all cells
+      observer;  // empty without --log and --series, because it costs a pass over all cells
   if (recorder.records())
     observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
   use_folders(method, {});
@@ -133,7 +134,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   warn_about_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
-  // Files do not say that a boundary is one to slide on: its nodes are fixed there.
+  // Mesh files do not store that a boundary slides, so its nodes are fixed there.
   write_mesh(arguments.out,
              arguments.boundary == "slide" || arguments.only_below
                  ? Mesh<dim, spacedim>(topology_of_file, mesh.copied_coordinates(),
@@ -157,7 +158,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
 }
 
-/// "part.msh" as "part_smoothed.msh", in the same folder.
+/// Returns the default output path: "part_smoothed.msh" in the same folder for "part.msh".
 std::string default_output(const std::string& in) {
   if (in == "-") return in;
   std::filesystem::path path = in;

@@ -31,7 +31,7 @@ struct Arguments {
   StudyOptions options;
 };
 
-/// A study stops at the next good place; a second Ctrl-C ends the process at once.
+/// Stops a study at the next good place. A second Ctrl-C ends the process at once.
 void on_interrupt(int signal) {
   interruption() = true;
   std::signal(signal, SIG_DFL);
@@ -74,16 +74,16 @@ void run_on_all_ranks(Arguments& arguments) {
   } catch (const InputError&) {
     if (arguments.options.ranks.is_root()) throw;
     mpi.reset();
-    std::exit(2);  // all ranks find the same fault; the root says it
+    std::exit(2);  // all ranks find the same fault; the root reports it
   }
 }
 
-/// Prints what the launcher has to do around a study, a line each: "ranks N", as many processes as
-/// make it fastest on this machine; "out FOLDER"; "draw OPTION" for the drawing; "fetch NAME" if
-/// published meshes are wanted. Prints nothing for what the program does alone.
+/// Prints the launcher's work for a study, one item a line. "ranks N": number of processes that is
+/// fastest on this machine. "out FOLDER": results folder. "draw OPTION": option for drawing. "fetch
+/// NAME": published meshes are wanted. Prints nothing about the program's own work.
 void print_plan(const Arguments& arguments) {
   if (arguments.list || arguments.options.dry_run) return;
-  // Processes make a study faster where they divide the finite elements of volume meshes.
+  // More processes speed up a study if they share the finite elements of volume meshes.
   unsigned n_ranks = 1;
   std::string name = std::filesystem::path(arguments.study).stem();
   try {
@@ -146,7 +146,7 @@ void smoothfem_add_study_command(CLI::App& app) {
                     "start anew; keep the folder of an earlier run under another name");
   command->add_flag("--quiet", arguments->options.quiet, "no progress, no results on the screen");
   command->add_flag("--verbose", arguments->verbose, "print all tables and the paths of all files");
-  // For the launcher, which draws; this program never does.
+  // For the launcher, which draws. This program never draws.
   command->add_flag("--no-figures", arguments->no_figures, "make tables, but draw nothing")
       ->envname("SMOOTHFEM_NO_FIGURES");
   command->add_flag("--dry-run", arguments->options.dry_run,

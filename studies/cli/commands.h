@@ -7,7 +7,7 @@
 
 namespace smoothfem {
 
-/// Each adds one subcommand to the program. Their callbacks throw InputError.
+/// Each function adds one subcommand to the program. The commands' callbacks throw InputError.
 void add_smooth_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
 void add_new_smoother_command(CLI::App& app);
@@ -33,17 +33,17 @@ struct Command {
 /// All commands, in the order of the help.
 const std::vector<Command>& commands();
 
-/// Adds a command with all its options, for which it loads the command's module, or without them.
+/// Adds a command. with_options: with all its options, for which the command's module is loaded.
 /// Throws InputError if the module is missing.
 void add_command(CLI::App& app, const Command& command, bool with_options);
 
-/// Adds the subcommand of a name to the program, with the description that commands() has.
+/// Adds the subcommand of this name to the program, with its description in commands().
 CLI::App* add_subcommand(CLI::App& app, const std::string& name);
 
-/// --plugin, which loads libraries of methods before the command runs.
+/// Adds --plugin, which loads libraries of methods before the command runs.
 void add_plugin_option(CLI::App& command);
 
-/// Command lines that its help ends with.
+/// Adds example command lines to the end of the command's help.
 void add_examples(CLI::App& command, const std::vector<std::string>& lines);
 
 }  // namespace smoothfem

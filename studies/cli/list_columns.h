@@ -6,8 +6,8 @@
 namespace smoothfem {
 
 /// Prints the columns of a CSV file of results with their meaning, unit and source
-/// (studies/columns.json); of all files if the name is empty. Throws InputError for a file that
-/// results do not have.
+/// (studies/columns.json). An empty name prints those of all files. Throws InputError if results
+/// have no such file.
 void list_columns(const std::string& csv_file);
 
 }  // namespace smoothfem

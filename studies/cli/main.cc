@@ -15,7 +15,7 @@ namespace {
 
 constexpr int exit_bad_input = 2;
 
-/// What the parser says, with the nearest name where a command or an option is not known.
+/// Returns the parser's message, with the nearest name if a command or an option is not known.
 std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc,
                           char** argv) {
   std::vector<std::string> names;
@@ -34,7 +34,7 @@ std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int
       extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
   const std::string command = "'smoothfem " + given.front()->get_name();
   if (!wanted.starts_with("-"))
-    return command + "' takes no further word, but is given '" + wanted + "'; " + command +
+    return command + "' takes no further word, but got '" + wanted + "'; " + command +
            " --help' shows what it takes";
   return no_such_name("option", wanted, names) + " of " + command + "'";
 }
@@ -59,8 +59,8 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-/// A full disk behind standard output shows here at the latest.
-void require_all_printed() {
+/// Throws InputError if standard output cannot be written, for example on a full disk.
+void flush_stdout_or_throw() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));
 }
@@ -71,7 +71,7 @@ void require_all_printed() {
 int main(int argc, char** argv) {
   try {
     const int exit_code = smoothfem::run(argc, argv);
-    smoothfem::require_all_printed();
+    smoothfem::flush_stdout_or_throw();
     return exit_code;
   } catch (const smoothfem::InputError& error) {
     std::fprintf(stderr, "smoothfem: %s\n", error.what());

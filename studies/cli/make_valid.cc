@@ -29,7 +29,7 @@ std::string cells_text(const Mesh<dim>& mesh, const std::vector<CellIndex>& cell
   return text.str() + ")";
 }
 
-/// Says honestly that untangling did not succeed, and where.
+/// Throws InputError that untangling did not succeed, with the cells and advice.
 template <int dim>
 [[noreturn]] void refuse(const SmoothArguments& arguments, const Mesh<dim>& mesh,
                          const UntangleResult& result) {
@@ -48,16 +48,17 @@ template <int dim>
   const std::string advice =
       slides ? "give the boundary more freedom by a larger --slide-distance or --feature-angle"
              : std::string("free ") + (hopeless ? "some of their" : "more") + " nodes with --fix" +
-                   (would_slide ? ", or let those of the boundary move along it with "
-                                  "--boundary slide"
-                                : "");
+                   (would_slide
+                        ? ", or let boundary nodes move along the boundary with --boundary slide"
+                        : "");
   throw InputError(arguments.in + ": " + what +
-                   (hopeless ? " have only fixed nodes, so that nothing can mend them"
+                   (hopeless ? " have only fixed nodes, so that untangling cannot repair them"
                              : " are left after untangling") +
                    where + "; " + advice + ", or repair them in the mesh generator");
 }
 
-/// In the plane: along the boundary as it is, corners and what --fix names staying.
+/// Untangles a planar mesh whose nodes slide along the initial boundary. Corners and the nodes of
+/// --fix stay.
 UntangleResult untangle_with_sliding_boundary(const SmoothArguments& arguments, PlanarMesh& mesh) {
   const BoundaryLines lines(mesh, features_of(arguments), slide_distance_of(arguments));
   std::vector<bool> fixed(mesh.n_nodes());

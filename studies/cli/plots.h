@@ -6,7 +6,7 @@
 
 namespace smoothfem {
 
-/// The command for /bin/sh that starts the Python package `plots` with these words. Throws
+/// Returns a command for /bin/sh that starts the Python package `plots` with these words. Throws
 /// InputError if the program's data are missing.
 std::string plots_command(const std::vector<std::string>& words);
 

@@ -10,18 +10,18 @@
 
 namespace smoothfem {
 
-/// What the user gave to `smooth`.
+/// The user's arguments of `smooth`.
 struct SmoothArguments {
   std::string in, out, from, to, preset, boundary, fix, log, series;
   std::string method = "getme";
   std::vector<std::string> settings;
   std::optional<double> feature_angle, slide_distance, only_below;
-  int rings = 2;      ///< of cells around those that only_below names
-  int n_threads = 0;  ///< 0: as OpenMP finds them
+  int rings = 2;      ///< layers of cells around the bad cells of only_below
+  int n_threads = 0;  ///< 0: OpenMP's default
   bool untangle = false, fail_if_invalid = false, quiet = false;
 };
 
-/// Planar boundaries slide only while a mesh is untangled.
+/// True if a planar boundary slides, which it does only while a mesh is untangled.
 template <int dim, int spacedim>
 bool slides_while_untangling(const SmoothArguments& arguments) {
   return dim == 2 && spacedim == 2 && arguments.boundary == "slide" && arguments.untangle;
@@ -37,8 +37,8 @@ inline double slide_distance_of(const SmoothArguments& arguments) {
   return arguments.slide_distance.value_or(default_slide_distance);
 }
 
-/// Makes a tangled mesh valid if --untangle asks for it; otherwise refuses it where a stage needs a
-/// valid one.
+/// Makes a tangled mesh valid if --untangle is set. Otherwise throws InputError if a stage needs a
+/// valid mesh.
 template <int dim, int spacedim>
 void make_valid(const SmoothArguments& arguments, const Method<dim, spacedim>& method,
                 Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines);

@@ -11,7 +11,7 @@
 
 namespace smoothfem {
 
-/// What the observer keeps: rows for the log, and meshes for the series as they come.
+/// An observer that keeps rows for the log and writes meshes of the series immediately.
 class Recorder {
  public:
   explicit Recorder(const SmoothArguments& arguments) : arguments_(arguments) {
@@ -43,11 +43,11 @@ class Recorder {
 /// Prints a line of the table of qualities.
 void print_quality(const char* when, const MeshQuality& quality);
 
-/// Prints why each stage ended, and what a user should know of its last iteration.
+/// Prints why each stage ended, and a hint if its last iteration reset many nodes.
 void print_stages(const SmoothingResult& result, std::size_t n_free_nodes);
 
-/// Warns if a method without quality control has left invalid cells. Throws InputError instead if
-/// --fail-if-invalid asks for it.
+/// Warns if a method without quality control has left invalid cells. With --fail-if-invalid it
+/// throws InputError instead.
 void warn_about_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,
                               std::size_t n_cells);
 

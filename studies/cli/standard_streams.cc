@@ -38,7 +38,7 @@ std::unique_ptr<TemporaryFile> copy_of_standard_input(const std::string& name,
   }
   auto file = temporary_for("input", format, "--from");
   std::ofstream stream(file->path(), std::ios::binary);
-  // An empty input sets the stream's failbit, too, but is a matter of the reader.
+  // An empty input also sets the stream's failbit, but the reader reports it.
   if (std::cin.peek() != std::istream::traits_type::eof()) stream << std::cin.rdbuf();
   stream.close();
   if (!stream)

@@ -9,8 +9,8 @@
 
 namespace smoothfem {
 
-/// A file that is there as long as this lives, in a folder of its own among the system's temporary
-/// ones. Throws InputError if there is no room for it.
+/// A file in a temporary folder of its own; the destructor removes both. Throws InputError if there
+/// is no room for it.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& name) : path_(folder_.path() / name) {}
@@ -22,9 +22,10 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// "-" as the name of a mesh means standard input, or output: then a format has to be named, as an
-/// extension with or without the dot. The file to read or write in its place, or null for other
-/// names. Throws InputError.
+/// The mesh name "-" means standard input or output. A format is then required: an extension with
+/// or without the dot.
+/// Each function returns the file to read or write instead, or null for other names. Throws
+/// InputError.
 std::unique_ptr<TemporaryFile> copy_of_standard_input(const std::string& name,
                                                       const std::string& format);
 std::unique_ptr<TemporaryFile> file_for_standard_output(const std::string& name,

@@ -11,7 +11,7 @@ namespace smoothfem {
 namespace {
 
 Registry<StudyKind>& registry() {
-  static Registry<StudyKind> kinds("kind of study");
+  static Registry<StudyKind> kinds("study kind");
   return kinds;
 }
 

@@ -15,14 +15,13 @@ namespace smoothfem {
 /// A study of any kind, read and checked, ready to be run.
 struct ReadyStudy {
   StudyHeader header;
-  bool needs_mpi = false;          ///< MPI has to be there, be it for one process
+  bool needs_mpi = false;          ///< needs MPI, even for one process
   bool benefits_from_mpi = false;  ///< more than one process makes it faster
-  bool has_shards = false;         ///< can be run in parts, as StudyOptions::shard says
+  bool has_shards = false;         ///< can be run in parts (StudyOptions::shard)
   std::function<void(const StudyOptions&)> run;
 };
 
-/// What the key `kind` of a study file chooses from. Each kind has its own keys and files of
-/// results.
+/// A value of the key `kind` of a study file. Each kind has its own keys and results files.
 struct StudyKind {
   std::string name;
   ReadyStudy (*read)(const std::filesystem::path& file, const std::string& scale);
@@ -30,19 +29,19 @@ struct StudyKind {
 };
 inline constexpr const char* default_study_kind = "smoothing";
 
-/// Registers a kind when its file is loaded: a namespace-scope object at the end of a file in a
-/// folder of studies/kinds/. A name that is taken is an InputError at the first look-up.
+/// Registers a kind when its file is loaded. It is a namespace-scope object at the end of a file in
+/// a folder of studies/kinds/. If a name is taken, the first look-up throws InputError.
 struct RegisteredStudyKind {
   explicit RegisteredStudyKind(StudyKind kind);
 };
 
-/// All registered kinds, sorted by name.
+/// Returns all registered kinds, sorted by name.
 const std::vector<StudyKind>& study_kinds();
 
-/// A study of a kind whose results are tables only.
+/// Makes a study of a kind whose results are tables only.
 ReadyStudy table_study(const StudyHeader& header, std::vector<StudyTable> tables);
 
-/// Reads a study file of any kind; throws InputError as read_study does.
+/// Reads a study file of any kind. Throws InputError as read_study does.
 ReadyStudy read_any_study(const std::filesystem::path& file, const std::string& scale = {});
 
 }  // namespace smoothfem

@@ -11,7 +11,7 @@
 
 namespace smoothfem {
 
-/// What a run of a program left.
+/// The result of running a program.
 struct Outcome {
   int exit_code = -1;  ///< -1: killed by a signal
   std::string out, err;
@@ -22,8 +22,8 @@ class CommandLine : public FileTest {
  protected:
   static std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
-  /// What starts a program on so many ranks, which may be more than cores: who waits lets the
-  /// others work.
+  /// Words that start a program on so many ranks. There may be more ranks than cores, so ranks that
+  /// wait let the others work.
   static std::vector<std::string> mpirun_on(int n_ranks) {
     return {"mpirun",
             "--quiet",
@@ -44,7 +44,7 @@ class CommandLine : public FileTest {
     return run(command);
   }
 
-  /// The same on some ranks of mpirun; whoever is root here has chosen to be.
+  /// Runs `smoothfem words...` on some ranks of mpirun. The tests may run as root.
   Outcome smoothfem_on_ranks(int n_ranks, const std::vector<std::string>& words) const {
     std::vector<std::string> command{"env", "OMPI_ALLOW_RUN_AS_ROOT=1",
                                      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};

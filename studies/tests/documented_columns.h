@@ -13,8 +13,8 @@
 
 namespace smoothfem {
 
-/// Returns the columns of a CSV file in their order, as studies/columns.json documents them; empty
-/// for a file that is not documented.
+/// Returns the columns of a CSV file in the order of studies/columns.json; empty for an
+/// undocumented file.
 inline std::vector<std::string> documented_columns(const std::string& csv_file) {
   std::ifstream text(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "columns.json");
   const auto files = nlohmann::json::parse(text).at("files");

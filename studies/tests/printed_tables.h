@@ -11,7 +11,7 @@
 
 namespace smoothfem {
 
-/// The tables of the thesis (studies/thesis/) on the published meshes, where these are at hand.
+/// The tables of the thesis (studies/thesis/) on the published meshes, if these are available.
 class PrintedTables : public ::testing::Test {
  protected:
   /// Relative tolerances.
@@ -33,7 +33,7 @@ class PrintedTables : public ::testing::Test {
     return read_planar(test::shared_mesh(file_name(mesh))).mesh;
   }
 
-  /// As the study `gear` does it.
+  /// Solves as the study `gear` does.
   static SolutionRecord solve(const PlanarMesh& mesh, int degree) {
     static const Study gear = read_study(std::filesystem::path(SMOOTHFEM_SOURCE_DIR) / "studies" /
                                          "catalogue" / "thesis" / "gear.prm");
@@ -64,32 +64,35 @@ class PrintedTables : public ::testing::Test {
     EXPECT_EQ(four_digits(quality.q_mean), row.at("q_mean"));
   }
 
-  static void expect_near(double ours, double printed, double relative, double absolute,
+  static void expect_near(double solved, double printed, double relative, double absolute,
                           const std::string& what) {
-    EXPECT_NEAR(ours, printed, relative * printed + absolute) << what;
+    EXPECT_NEAR(solved, printed, relative * printed + absolute) << what;
   }
 
   static void expect_printed_solution(const std::string& mesh, const std::string& method,
-                                      int degree, const SolutionRecord& ours,
+                                      int degree, const SolutionRecord& solved,
                                       const Tolerances& tolerances) {
     SCOPED_TRACE(mesh + " " + method + " of degree " + std::to_string(degree));
-    EXPECT_EQ(ours.status, "ok");
+    EXPECT_EQ(solved.status, "ok");
     const CsvTable::Row key = {
         {"mesh", mesh}, {"method", method}, {"degree", std::to_string(degree)}};
     const auto solver = printed_row("table_6_2.csv", key);
     const double condition = std::stod(solver.at("condition_number"));
     if (method == "weighted-laplace") {
-      // The print is about twice the matrices' condition number (deviations.csv). Should ours ever
-      // agree, that line is wrong.
-      EXPECT_NEAR(ours.condition_number / condition, 0.5, 0.05);
+      // The printed value is about twice the matrices' condition number (deviations.csv). If the
+      // two ever agree, that line is wrong.
+      EXPECT_NEAR(solved.condition_number / condition, 0.5, 0.05);
     } else {
-      expect_near(ours.condition_number, condition, tolerances.condition_number, 0.0, "condition");
+      expect_near(solved.condition_number, condition, tolerances.condition_number, 0.0,
+                  "condition");
     }
-    expect_near(static_cast<double>(ours.cg_iterations), std::stod(solver.at("cg_iterations")),
+    expect_near(static_cast<double>(solved.cg_iterations), std::stod(solver.at("cg_iterations")),
                 tolerances.cg_iterations, 0.0, "cg_iterations");
     const auto errors = printed_row("table_6_3.csv", key);
-    const std::map<std::string, double> values = {
-        {"e_max", ours.e_max}, {"e_mean", ours.e_mean}, {"e_l2", ours.e_l2}, {"e_h1", ours.e_h1}};
+    const std::map<std::string, double> values = {{"e_max", solved.e_max},
+                                                  {"e_mean", solved.e_mean},
+                                                  {"e_l2", solved.e_l2},
+                                                  {"e_h1", solved.e_h1}};
     constexpr double half_a_unit = 0.5e-4;  // errors are printed with four digits
     for (const auto& [error, value] : values)
       expect_near(value, std::stod(errors.at(error)), tolerances.errors, half_a_unit, error);

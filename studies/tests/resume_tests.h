@@ -14,10 +14,10 @@ namespace smoothfem {
 
 namespace fs = std::filesystem;
 
-/// Studies that are killed, and studies on several processes, through the command line.
+/// Tests that kill studies and run them on several processes, by the command line.
 class Resume : public CommandLine {
  protected:
-  /// degrees, n: of the finite elements, and the cubes along an edge of the boxes.
+  /// degrees: of the finite elements. n: number of cubes along an edge of the boxes.
   explicit Resume(const std::string& degrees = "1, 2", std::uint32_t n = 4) {
     write_mesh(file("grid.mesh"), shaken_grid(12, 0.2));
     file_with("planar.prm",
@@ -52,7 +52,7 @@ class Resume : public CommandLine {
             " set smooth for = ramp\n set weights.solves = 3\n set descent.solves = 3\nend\n");
   }
 
-  /// `mpirun -np n_ranks` before the words if there are several.
+  /// Words of a command; with several ranks they begin with `mpirun -np n_ranks`.
   std::vector<std::string> command(const std::string& study, const std::string& out,
                                    int n_ranks = 1) const {
     std::vector<std::string> words;
@@ -64,7 +64,7 @@ class Resume : public CommandLine {
     return words;
   }
 
-  /// Starts a process; returns its number.
+  /// Starts a process, and returns its number.
   static pid_t start(const std::vector<std::string>& words) {
     const pid_t child = ::fork();
     if (child != 0) return child;
@@ -83,7 +83,7 @@ class Resume : public CommandLine {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  /// Whether the run in a folder has finished some rows, but not all of its work.
+  /// True if the run in a folder has finished some rows, but not all of its work.
   bool is_half_done(const std::string& out) const {
     const fs::path provenance = file(out) / "provenance.json", rows = file(out) / "iterations.csv";
     if (!fs::exists(provenance) || !fs::exists(rows)) return false;
@@ -122,9 +122,9 @@ class Resume : public CommandLine {
     EXPECT_EQ(run(command(study, out)), 0);
   }
 
-  /// Same text, or numbers that differ by no more than solvers' tolerances. Counts of CG depend
-  /// on rounding, on distorted meshes by some 2 %. Multigrid aggregates on
-  /// each rank for itself, so its iterations are others.
+  /// Expects the same text, or numbers that differ only within the solvers' tolerances. Counts of
+  /// CG depend on rounding, on distorted meshes by about 2 %. Multigrid aggregates on each rank
+  /// separately, so its iterations may differ.
   static void expect_near(const std::string& column, const std::string& a, const std::string& b) {
     ASSERT_EQ(a.empty(), b.empty()) << column;
     if (a == b || column == "amg_cg_iterations") return;

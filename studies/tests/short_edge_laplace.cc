@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A second smoother in the way of README's: for volume meshes only, with parameters of its own.
+// A second smoother like that of README, for volume meshes only, with its own parameters.
 #include <cmath>
 
 #include "smoothing/loop/catalogue.h"
@@ -7,8 +7,8 @@
 namespace smoothfem {
 namespace {
 
-/// Each free node moves part of the way to the mean of its edge neighbours, weighted by powers of
-/// the edges' lengths: long edges pull more.
+/// Moves each free node part of the way to the mean of its edge neighbours. Powers of the edges'
+/// lengths are the weights: long edges pull more.
 template <int dim>
 class ShortEdgeLaplace final : public Smoother<dim> {
  public:

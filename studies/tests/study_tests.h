@@ -15,7 +15,7 @@
 
 namespace smoothfem {
 
-/// A CSV text without line breaks in its fields: one map from column to field for each line.
+/// A CSV text without line breaks in its fields, as one map from column to field for each line.
 struct CsvTable {
   using Row = std::map<std::string, std::string>;
 
@@ -38,7 +38,7 @@ struct CsvTable {
     }
   }
 
-  /// The rows whose columns have these values, in the order of the file.
+  /// Returns the rows whose columns have these values, in the order of the file.
   std::vector<Row> select(const Row& wanted) const {
     std::vector<Row> found;
     for (const auto& row : rows) {
@@ -50,7 +50,7 @@ struct CsvTable {
   }
 };
 
-/// A table of a study without the columns that are times, or memory.
+/// Returns the rows of a study's table without the columns for times and memory.
 inline std::vector<CsvTable::Row> rows_without_times(const std::filesystem::path& csv) {
   auto rows = CsvTable(content_of(csv)).rows;
   for (auto& row : rows)
@@ -63,7 +63,7 @@ inline std::vector<CsvTable::Row> rows_without_times(const std::filesystem::path
   return rows;
 }
 
-/// Every file below a folder, relative to it.
+/// Returns every file below a folder, relative to it.
 inline std::set<std::string> files_in(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::set<std::string> files;
@@ -73,7 +73,7 @@ inline std::set<std::string> files_in(const std::filesystem::path& folder) {
   return files;
 }
 
-/// Two runs of a study have the same rows and the same meshes.
+/// Expects that two runs of a study have the same rows and the same meshes.
 inline void expect_same_but_for_times(const std::filesystem::path& a,
                                       const std::filesystem::path& b) {
   for (const std::string name : {"iterations.csv", "summary.csv", "thresholds.csv"})
@@ -85,8 +85,8 @@ inline void expect_same_but_for_times(const std::filesystem::path& a,
     }
 }
 
-/// n x n unit squares whose inner nodes are moved at random by up to `shift` in each direction: up
-/// to 0.2 all cells stay valid.
+/// Returns n x n unit squares whose inner nodes are moved randomly by up to `shift` in each
+/// direction. Up to 0.2 all cells stay valid.
 inline PlanarMesh shaken_grid(std::size_t n, double shift) {
   std::mt19937 random(7);
   const auto move = [&] { return shift * (2.0 * (random() / 4294967296.0) - 1.0); };
@@ -110,8 +110,8 @@ inline PlanarMesh shaken_grid(std::size_t n, double shift) {
       x);
 }
 
-/// An arrow head with one free node, between its tip and its notch. The mean of the node's
-/// neighbours is beyond the notch, outside: Laplace smoothing makes the mesh invalid.
+/// Returns an arrow head with one free node between its tip and its notch. The mean of the node's
+/// neighbours is outside, beyond the notch, so Laplace smoothing makes the mesh invalid.
 inline PlanarMesh arrow_head() {
   const std::vector<Point<2>> x = {{-3, 3}, {0, -1}, {3, 3}, {0, 0}, {0, -0.5}};
   CompressedRows<NodeIndex> cells;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Collections: many meshes in one study, in parts, killed and put together.
+// Collections: many meshes in one study, run in parts, killed and merged.
 #include <algorithm>
 #include <csignal>
 #include <thread>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 class Collections : public CommandLine {
  protected:
-  /// A study of all files in the folder `meshes`.
+  /// Writes a study of all files in the folder `meshes`.
   void write_study(const std::string& more = {}) const {
     file_with("all.prm",
               "set kind = collection\nset collection = meshes/*\nset methods = laplace\n"
@@ -54,7 +54,7 @@ class Collections : public CommandLine {
   }
 };
 
-TEST_F(Collections, BrokenMeshesAreRowsWithTheReasonAndCostNoOther) {
+TEST_F(Collections, BrokenMeshesAreRowsWithTheReason) {
   write_good_meshes(34);
   write_study();
   file_with("meshes/rubbish.vtk", "not a mesh\n");
@@ -83,13 +83,13 @@ TEST_F(Collections, BrokenMeshesAreRowsWithTheReasonAndCostNoOther) {
   EXPECT_EQ(failed,
             (std::set<std::string>{"cut", "empty", "letter", "pentagon", "rubbish", "tangled"}));
   EXPECT_EQ(members.select({{"elements", "hexahedra"}, {"dimension", "3"}}).size(), 1u);
-  // Of each member the initial mesh and the result of each method.
+  // Each member has rows for the initial mesh and for the result of each method.
   EXPECT_EQ(table("out/summary.csv").rows.size(), 34u * 2);
   const CsvTable iterations = table("out/iterations.csv");
   std::set<std::string> with_rows;
   for (const auto& row : iterations.rows) with_rows.insert(row.at("member"));
   EXPECT_EQ(with_rows.size(), 34u);
-  // What stands before the members' own columns.
+  // Columns before the members' own columns.
   const auto own = documented_columns("iterations.csv");
   EXPECT_EQ(std::vector(iterations.columns.begin() + 8, iterations.columns.end()), own);
 
@@ -98,7 +98,7 @@ TEST_F(Collections, BrokenMeshesAreRowsWithTheReasonAndCostNoOther) {
   EXPECT_THAT(again.err, ::testing::HasSubstr("nothing to do"));
 }
 
-TEST_F(Collections, ShardsPutTogetherAreTheWhole) {
+TEST_F(Collections, MergedShardsAreTheWhole) {
   write_good_meshes(5);
   write_study(
       "set solutions = sine, wave\nset domains = gear: 6\nset elements = triangles\n"
@@ -125,7 +125,7 @@ TEST_F(Collections, ShardsPutTogetherAreTheWhole) {
   EXPECT_THAT(taken.err, ::testing::HasSubstr("both is there already"));
 }
 
-TEST_F(Collections, KilledOnesGoOn) {
+TEST_F(Collections, KilledRunsResume) {
   write_good_meshes(8);
   write_study("set solutions = sine, linear\n");
   ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "unbroken", "--quiet"}).exit_code, 0);
@@ -137,7 +137,7 @@ TEST_F(Collections, KilledOnesGoOn) {
               file("killed").c_str(), "--quiet", nullptr);
       ::_exit(127);
     }
-    // From when its folder is there, however long that takes on a machine that has other work.
+    // Counts from the time the folder exists, because that may take long on a busy machine.
     for (int k = 0; k < 600 && !fs::exists(file("killed") / "provenance.json"); ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     std::this_thread::sleep_for(std::chrono::milliseconds(200 + 300 * i));
@@ -186,7 +186,7 @@ TEST_F(Collections, MethodsThatKnowTheSolutionTakeVolumeMeshes) {
   EXPECT_EQ(table("out/members.csv").select({{"status", "complete"}}).size(), 2u);
 }
 
-TEST_F(Collections, ComeFromOthersByInclude) {
+TEST_F(Collections, MayIncludeOthers) {
   file_with("base.prm",
             "set kind = collection\nset domains = square: 9\nset elements = triangles\n"
             "set sizes = 1, 2\nset methods = laplace\nset degrees = 1\n");
@@ -199,7 +199,7 @@ TEST_F(Collections, ComeFromOthersByInclude) {
   EXPECT_THAT(outcome.err, ::testing::HasSubstr("wrong.prm:3: "));
 }
 
-TEST_F(Collections, WhatCannotBeIsRefused) {
+TEST_F(Collections, RefusesBadCollections) {
   write_good_meshes(1);
   const auto refused = [&](const std::string& more, const std::string& why) {
     write_study(more);
@@ -213,7 +213,7 @@ TEST_F(Collections, WhatCannotBeIsRefused) {
   refused("set domains = geer\n", "did you mean 'gear'?");
   refused("set domains = gear: x\n", "write NAME, or NAME: FACTOR");
   refused("set domains = ring\nset elements = triangles\n", "has none of the elements triangles");
-  refused("set distorsions = 0.5\n", "distorsions");
+  refused("set distortionsx = 0.5\n", "distortionsx");
   refused("set solutions = a b\n", "the solution label 'a b'");
   refused("set collection = meshes/*, meshes/*\nset solutions = sine, sine\n", "two members");
   write_study();
@@ -231,7 +231,7 @@ TEST_F(Collections, WhatCannotBeIsRefused) {
   EXPECT_FALSE(fs::exists(file("merged")));
 }
 
-/// The other end of the test below, in the process that it starts.
+/// The process that the test below starts.
 TEST(TaskServer, DISABLED_Answers) {
   const std::string socket = own_command().back();
   answer_tasks(std::stoi(socket.substr(socket.find('=') + 1)), [](const std::string& task) {
@@ -242,7 +242,7 @@ TEST(TaskServer, DISABLED_Answers) {
   });
 }
 
-TEST(TaskProcess, ATaskThatCrashesCostsNoOther) {
+TEST(TaskProcess, ACrashingTaskDoesNotAffectOthers) {
   TaskProcess process({own_command()[0], "--gtest_also_run_disabled_tests",
                        "--gtest_filter=TaskServer.*", "--gtest_brief=1", "--gtest_print_time=0"});
   const auto answer_to = [&](const std::string& task) {
@@ -271,7 +271,7 @@ TEST_F(Collections, OnRanksOfMpirunTheyAreTheSame) {
   EXPECT_THAT(content_of(file("ranks/provenance.json")),
               ::testing::HasSubstr("\"finite_element_threads\": 3"));
   expect_same_tables("alone", "ranks");
-  // What only the root would find ends all.
+  // Errors that only the root would find end all ranks.
   for (const std::string wrong : {"--shard=4/3", "--mesh-dir=meshes"}) {
     const Outcome refused = smoothfem_on_ranks(2, {"study", "all.prm", "--out", "other", wrong});
     EXPECT_EQ(refused.exit_code, 2);

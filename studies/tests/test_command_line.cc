@@ -60,7 +60,7 @@ TEST_F(CommandLine, FormatsAreConvertedWithoutALossOfDigits) {
   EXPECT_EQ(content_of(file("d.mesh")), content_of(file("a.mesh")));
 }
 
-/// What comes in as Gmsh's version 4.0 goes out as 4.1.
+/// Gmsh files of version 4.0 are written as 4.1.
 TEST_F(CommandLine, GmshFilesOfVersion4_0AreSmoothedAndDamagedOnesRefused) {
   const std::string content =
       "$MeshFormat\n4 0 8\n$EndMeshFormat\n$Nodes\n1 5\n1 2 0 5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 "
@@ -107,7 +107,7 @@ TEST_F(CommandLine, SettingsChangeTheResult) {
   EXPECT_NE(content_of(file("out0.4.mesh")), content_of(file("out0.6.mesh")));
 }
 
-/// 3 x 3 x 4 cells of all types, shaken; the faces of the bottom are the group 5, "inlet".
+/// Returns 3 x 3 x 4 cells of all types, shaken. The bottom faces are the group 5, "inlet".
 VolumeMesh shaken_box(test::BoxCells kind = test::BoxCells::mixed) {
   VolumeMesh mesh = test::box_mesh(3, 3, 4, kind);
   test::distort(mesh, 0.3, 3);
@@ -176,7 +176,7 @@ TEST_F(CommandLine, SettingsComeAfterThePreset) {
   const auto preset = result({"--preset", "thesis-5.4"});
   EXPECT_EQ(preset, expected({}));
   EXPECT_NE(preset, result({}));
-  // Whatever their order on the command line.
+  // The order on the command line does not matter.
   const auto both = result({"--set", "simultaneous.rho=0.2", "--preset", "thesis-5.4"});
   EXPECT_EQ(both, expected({{"simultaneous.rho", "0.2"}}));
   EXPECT_NE(both, preset);
@@ -207,7 +207,7 @@ TEST_F(CommandLine, TheNumberOfThreadsChangesNoByte) {
   EXPECT_EQ(content_of(file("1.vtk")), content_of(file("3.vtk")));
 }
 
-/// A node far beyond its neighbours, and cells with the numbers 100, 101, ...
+/// Returns a box with a node far beyond its neighbours, and cells with the numbers 100, 101, ...
 VolumeMesh tangled_box() {
   const VolumeMesh mesh = test::box_mesh(3, 3, 3, test::BoxCells::hexahedra);
   MeshLabels labels;
@@ -220,7 +220,7 @@ VolumeMesh tangled_box() {
           coordinates};
 }
 
-TEST_F(CommandLine, UntanglesWhereAskedTo) {
+TEST_F(CommandLine, UntanglesIfAsked) {
   write_mesh(file("in.msh"), tangled_box());
   const std::size_t n_invalid = mesh_quality(tangled_box()).n_invalid;
   ASSERT_GT(n_invalid, 3u);
@@ -350,7 +350,7 @@ TEST_F(CommandLine, QualityOfAnInvalidMeshIsShownBeforeItIsRefused) {
   EXPECT_GT(nlohmann::json::parse(outcome.out).at("n_invalid").get<int>(), 0);
 }
 
-TEST_F(CommandLine, ListNamesEverythingThereIs) {
+TEST_F(CommandLine, ListNamesEverything) {
   const Outcome list = smoothfem(
       {"list", "--studies", (fs::path(SMOOTHFEM_SOURCE_DIR) / "studies" / "catalogue").string()});
   ASSERT_EQ(list.exit_code, 0) << list.err;
@@ -453,7 +453,7 @@ subsection solution
 end
 )";
 
-TEST_F(CommandLine, RunsAStudyOfOnesOwn) {
+TEST_F(CommandLine, RunsAStudyOfTheUser) {
   write_mesh(file("meshes/mine.vtk"), shaken_grid(5, 0.2));
   file_with("my.prm", own_study);
   const Outcome outcome = smoothfem({"study", "my.prm"});
@@ -514,11 +514,11 @@ TEST_F(CommandLine, QuietStudiesPrintNothing) {
   EXPECT_EQ(json.at("machine").at("finite_element_threads"), 1);
 }
 
-/// A study that is interrupted, as by Ctrl-C, while it runs.
+/// A study that is interrupted while it runs, as by Ctrl-C.
 class InterruptedStudy : public CommandLine {
  protected:
-  /// Starts the study of this file with the results in `out`, interrupts it when has_come() and
-  /// expects that it ends as interrupted ones do.
+  /// Starts the study of this file with the results in `out`, and interrupts it when has_come() is
+  /// true. Expects that it ends as an interrupted study.
   void interrupt_when(const std::string& study, const std::vector<const char*>& options,
                       const std::function<bool()>& has_come) {
     const std::string path = file(study), out = file("out");

@@ -11,7 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Bad input of every kind: one sentence that says what and where, exit code 2, no file left.
+/// Bad input of every kind. Expects one sentence with the error and its place, exit code 2, and no
+/// output file.
 class BadInput : public CommandLine {
  protected:
   BadInput() { write_mesh(file("good.mesh"), shaken_grid(3, 0.1)); }
@@ -24,7 +25,7 @@ class BadInput : public CommandLine {
     return names;
   }
 
-  /// Each of `words` has to be in the sentence.
+  /// Expects a message that contains each of `words`.
   void expect_refused(const std::vector<std::string>& arguments,
                       const std::vector<std::string>& words) const {
     std::string call = "smoothfem";
@@ -43,7 +44,7 @@ class BadInput : public CommandLine {
     EXPECT_EQ(files(), before) << "files are left";
   }
 
-  /// A bad mesh is a bad mesh whatever is done with it.
+  /// Expects that all commands refuse a bad mesh.
   void expect_mesh_refused(const std::string& mesh, const std::vector<std::string>& words) const {
     expect_refused({"quality", mesh}, words);
     expect_refused({"smooth", mesh, "-m", "getme", "-o", "out.vtu", "--log", "log.csv", "--series",
@@ -55,7 +56,7 @@ class BadInput : public CommandLine {
   }
 };
 
-// Nodes on lines 3 to 7, cells on lines 9 to 12: the unit square around a fifth node.
+// Nodes are on lines 3 to 7, cells on lines 9 to 12: the unit square around a fifth node.
 std::string square(const std::string& centre, const std::string& first_cell) {
   return "planar_polygonal_mesh\nnodes 5\n0 0\n1 0\n1 1\n0 1\n" + centre + "\npolygons 4\n" +
          first_cell + "\n3 1 2 4\n3 2 3 4\n3 3 0 4\nfixed_node_indices 4\n0\n1\n2\n3\n";
@@ -72,7 +73,7 @@ TEST_F(BadInput, InvertedElement) {
 }
 
 TEST_F(BadInput, ClockwisePolygon) {
-  // As a mesh of its own; among others its edges would contradict those of its neighbours.
+  // The cell is a mesh of its own. With other cells, its edges would contradict its neighbours'.
   file_with("clockwise.mesh",
             "planar_polygonal_mesh\nnodes 4\n0 0\n1 0\n1 1\n0 1\npolygons 1\n4 3 2 1 0\n"
             "fixed_node_indices 0\n");
@@ -81,12 +82,12 @@ TEST_F(BadInput, ClockwisePolygon) {
   expect_mesh_refused("mixed.mesh", {"mixed.mesh:"});
 }
 
-TEST_F(BadInput, CellWithANodeThatIsNotThere) {
+TEST_F(BadInput, CellWithAMissingNode) {
   file_with("node.mesh", square("0.5 0.5", "3 0 1 5"));
   expect_mesh_refused("node.mesh", {"node.mesh:9: "});
 }
 
-TEST_F(BadInput, CoordinateThatIsNoNumber) {
+TEST_F(BadInput, CoordinateThatIsNotANumber) {
   file_with("nan.mesh", square("nan 0.5", "3 0 1 4"));
   expect_mesh_refused("nan.mesh", {"nan.mesh:7: "});
   file_with("infinite.mesh", square("0.5 -inf", "3 0 1 4"));
@@ -99,7 +100,7 @@ TEST_F(BadInput, FileThatEndsTooEarly) {
   expect_mesh_refused("cells.mesh", {"cells.mesh:"});
   file_with("empty.mesh", "");
   expect_mesh_refused("empty.mesh", {"empty.mesh"});
-  // Binary files have no lines, but they must not be taken for whole either.
+  // Binary files have no lines, but a cut one must not pass as complete either.
   for (const std::string name : {"cut.vtu", "cut.vtk", "cut.msh"}) {
     write_mesh(file(name), shaken_grid(3, 0.1));
     const std::string content = content_of(file(name));
@@ -108,14 +109,14 @@ TEST_F(BadInput, FileThatEndsTooEarly) {
   }
 }
 
-TEST_F(BadInput, FileThatIsNotThere) {
+TEST_F(BadInput, MissingFile) {
   expect_mesh_refused("missing.mesh", {"missing.mesh"});
   expect_refused({"study", "missing.prm"}, {"missing.prm"});
   fs::create_directory(file("folder.mesh"));
   expect_mesh_refused("folder.mesh", {"folder.mesh"});
 }
 
-TEST_F(BadInput, FormatThatIsNotKnown) {
+TEST_F(BadInput, UnknownFormat) {
   fs::copy_file(file("good.mesh"), file("good.stl"));
   expect_mesh_refused("good.stl", {"good.stl"});
   expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "out.stl"}, {"out.stl"});
@@ -123,7 +124,7 @@ TEST_F(BadInput, FormatThatIsNotKnown) {
                  {"a.vtu"});
 }
 
-TEST_F(BadInput, MethodOrParameterThatIsNotThere) {
+TEST_F(BadInput, UnknownMethodOrParameter) {
   const std::vector<std::string> smooth = {"smooth", "good.mesh", "-o", "out.mesh", "-m"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), smooth.begin(), smooth.end());
@@ -136,7 +137,7 @@ TEST_F(BadInput, MethodOrParameterThatIsNotThere) {
   expect_refused(with({"getme", "--set", "simultaneous.lambda=-3"}), {"-3"});
 }
 
-TEST_F(BadInput, PresetOrRuleOrGroupThatIsNotThere) {
+TEST_F(BadInput, UnknownPresetOrRuleOrGroup) {
   write_mesh(file("box.msh"), test::box_mesh(2, 2, 2, test::BoxCells::hexahedra));
   const auto smooth = [&](const std::string& mesh, const std::string& method,
                           std::vector<std::string> more) {
@@ -163,7 +164,7 @@ TEST_F(BadInput, PresetOrRuleOrGroupThatIsNotThere) {
     expect_refused(smooth("good.mesh", "getme", {"--threads", n}), {"--threads", n});
 }
 
-/// Hexahedra of which node 13 with its 8 cells is the only free one.
+/// Hexahedra whose only free node is node 13, with its 8 cells.
 TEST_F(BadInput, TangledVolumeMesh) {
   const VolumeMesh regular = test::box_mesh(2, 2, 2, test::BoxCells::hexahedra);
   const auto labelled = [&](const std::vector<Point<3>>& points) {
@@ -187,7 +188,7 @@ TEST_F(BadInput, TangledVolumeMesh) {
   expect_refused({"smooth", "tangled.msh", "-m", "getme", "-o", "out.vtu", "--log", "log.csv",
                   "--series", "series.pvd"},
                  words);
-  // Two corners of the box change places: their cells have only those and other fixed nodes.
+  // Two corners of the box are swapped. Their cells have only these corners and other fixed nodes.
   coordinates = regular.copied_coordinates();
   std::swap(coordinates[0], coordinates[2]);
   write_mesh(file("hopeless.msh"), labelled(coordinates));
@@ -211,7 +212,7 @@ TEST_F(BadInput, TangledVolumeMesh) {
             0);
 }
 
-TEST_F(BadInput, OptionOrCommandThatIsNotThere) {
+TEST_F(BadInput, UnknownOptionOrCommand) {
   expect_refused({"quality", "good.mesh", "--magic"}, {"--magic"});
   expect_refused({"magic"}, {"magic"});
   expect_refused({"study", "good.prm", "--threads", "-1"}, {"--threads"});
@@ -222,7 +223,7 @@ TEST_F(BadInput, OptionOrCommandThatIsNotThere) {
   expect_refused({"generate", "-o", "a.vtu"}, {"which domain?"});
 }
 
-TEST_F(BadInput, FilesThatWouldTakeThePlaceOfMeshes) {
+TEST_F(BadInput, OutputsThatWouldReplaceMeshes) {
   const std::vector<std::string> smooth = {"smooth", "good.mesh", "-m", "laplace", "-o", "out.vtu"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), smooth.begin(), smooth.end());
@@ -260,7 +261,7 @@ TEST_F(BadInput, FolderThatCannotBeMade) {
 }
 
 TEST_F(BadInput, StudyFile) {
-  file_with("bad.prm", "set meshes = m\nset degres = 1\n");
+  file_with("bad.prm", "set meshes = m\nset degreesx = 1\n");
   expect_refused({"study", "bad.prm", "--out", "results"}, {"bad.prm:2: "});
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A grid whose only bad cells are those around node 24, which is the middle of 49.
-PlanarMesh grid_with_a_bad_place() {
+/// Returns a grid whose only bad cells are around node 24, the middle of 49 nodes.
+PlanarMesh grid_with_bad_cells() {
   PlanarMesh mesh = test::grid_mesh(6, test::GridCells::quadrilaterals);
   mesh.coordinates()[24] += Point<2>(0.7, 0.1);
   return mesh;
@@ -21,15 +21,15 @@ std::size_t n_free(const std::vector<bool>& fixed) {
   return static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
 }
 
-TEST(BadPlaces, RingsOfCellsAroundBadOnesAreFree) {
-  const PlanarMesh mesh = grid_with_a_bad_place();
+TEST(FixedAwayFromBadCells, RingsOfCellsAroundBadOnesAreFree) {
+  const PlanarMesh mesh = grid_with_bad_cells();
   EXPECT_EQ(n_free(fixed_away_from_bad_cells(mesh, 0.9, 0)), 9u);
   EXPECT_FALSE(fixed_away_from_bad_cells(mesh, 0.9, 0)[24]);
   EXPECT_EQ(n_free(fixed_away_from_bad_cells(mesh, 0.9, 1)), 25u);  // all inner nodes
   EXPECT_EQ(n_free(fixed_away_from_bad_cells(mesh, 0.9, 9)), 25u);
 }
 
-TEST(BadPlaces, NothingToDoIsTold) {
+TEST(FixedAwayFromBadCells, ReportsThatThereIsNothingToDo) {
   const PlanarMesh mesh = test::grid_mesh(4, test::GridCells::quadrilaterals);
   EXPECT_THAT(input_error_of([&] { (void)fixed_away_from_bad_cells(mesh, 0.5, 2); }),
               HasSubstr("raise --only-below"));
@@ -40,7 +40,7 @@ TEST(BadPlaces, NothingToDoIsTold) {
 }
 
 TEST_F(CommandLine, OnlyBelowMovesNodesNearBadCellsOnly) {
-  const PlanarMesh given = grid_with_a_bad_place();
+  const PlanarMesh given = grid_with_bad_cells();
   write_mesh(file("in.mesh"), given);
   const Outcome outcome =
       smoothfem({"smooth", "in.mesh", "-m", "laplace", "--set", "tolerance=0", "--set",
@@ -53,7 +53,7 @@ TEST_F(CommandLine, OnlyBelowMovesNodesNearBadCellsOnly) {
       EXPECT_EQ(smoothed.coordinates()[i], given.coordinates()[i]) << i;
     }
   EXPECT_NE(smoothed.coordinates()[24], given.coordinates()[24]);
-  // Which nodes are fixed in the file is what it was.
+  // The fixed nodes of the file have not changed.
   EXPECT_EQ(smoothed.topology().free_nodes(), given.topology().free_nodes());
   const Outcome refused =
       smoothfem({"smooth", "out.mesh", "-m", "laplace", "--only-below", "0.1", "-o", "none.mesh"});
@@ -61,7 +61,7 @@ TEST_F(CommandLine, OnlyBelowMovesNodesNearBadCellsOnly) {
   EXPECT_THAT(refused.err, HasSubstr("no cell has a mean ratio below 0.1"));
 }
 
-TEST_F(CommandLine, DryRunSaysWhatAndWritesNothing) {
+TEST_F(CommandLine, DryRunPrintsThePlanAndWritesNothing) {
   write_mesh(file("grid.vtu"), shaken_grid(6, 0.2));
   file_with("my.prm",
             "set meshes = m\nset methods = laplace, getme\nset degrees = 1, 2\n"

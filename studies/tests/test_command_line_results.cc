@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What smooth and quality say about their results.
+// Output of smooth and quality about their results.
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/command_line.h"
@@ -13,7 +13,8 @@ using ::testing::Not;
 
 class Results : public CommandLine {
  protected:
-  /// A grid of three quarters of an annulus, which Laplacian smoothing pulls over its inner circle.
+  /// Makes a grid of three quarters of an annulus, which Laplacian smoothing pulls over its inner
+  /// circle.
   Results() {
     constexpr std::uint32_t n = 6;
     std::vector<Point<2>> x;
@@ -54,7 +55,7 @@ TEST_F(Results, SmoothSaysWhenNothingWasBetterThanTheInitialMesh) {
   EXPECT_THAT(outcome.out, HasSubstr("the result is the initial mesh"));
 }
 
-TEST_F(Results, InvalidCellsThatSmoothingMakesAreNotPassedOver) {
+TEST_F(Results, ReportsInvalidCellsThatSmoothingMakes) {
   ASSERT_EQ(smoothfem({"quality", "bent.vtk"}).exit_code, 0);
   const Outcome warned =
       smoothfem({"smooth", "bent.vtk", "-m", "laplace", "-o", "o.vtk", "--quiet"});

@@ -43,7 +43,7 @@ TEST_F(CommandLine, GeneratesDistortsAndSmoothsASurface) {
   EXPECT_THAT(quality.out, HasSubstr("corners "));
 }
 
-/// What `list` says, against what happens.
+/// Compares the output of `list` with the behaviour of the methods.
 TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
   ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3"}).exit_code, 0);
   write_mesh(file("box.vtu"), test::box_mesh(2, 2, 2, test::BoxCells::hexahedra));
@@ -68,7 +68,7 @@ TEST_F(CommandLine, ListsWhichMethodsTakeSurfacesAndSlidingBoundaries) {
   }
 }
 
-TEST_F(CommandLine, RefusesWhatSurfacesCannotHave) {
+TEST_F(CommandLine, RefusesWhatSurfacesLack) {
   ASSERT_EQ(smoothfem({"generate", "roof", "-o", "roof.vtu", "--edge-scale", "3"}).exit_code, 0);
   const auto refusal = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"smooth", "roof.vtu", "-o", "out.vtu"});
@@ -144,7 +144,7 @@ TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
               HasSubstr("mean edge length above 0"));
 }
 
-/// Tens of cells that are inverted, all with nodes of the boundary alone.
+/// Tens of inverted cells, all of which have nodes of the boundary only.
 TEST_F(CommandLine, UntanglesCellsThatHaveNodesOfASlidingBoundaryOnly) {
   const VolumeMesh tangled = test::tangled_along_boundary(test::shell(test::BoxCells::hexahedra));
   write_mesh(file("in.vtu"), tangled);
@@ -160,7 +160,7 @@ TEST_F(CommandLine, UntanglesCellsThatHaveNodesOfASlidingBoundaryOnly) {
   EXPECT_THAT(fixed.err,
               HasSubstr(n_invalid + " of " + n_invalid + " invalid cells have only fixed nodes"));
   EXPECT_THAT(fixed.err,
-              HasSubstr("let those of the boundary move along it with --boundary slide"));
+              HasSubstr("let boundary nodes move along the boundary with --boundary slide"));
   EXPECT_FALSE(std::filesystem::exists(file("out.vtu")));
   const Outcome outcome = with({"--boundary", "slide"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -12,13 +12,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Studies and commands whose smoother is another program. The program that is asked here is this
-/// one, so that it is known what has to come out.
+/// Studies and commands whose smoother is another program. Here that program is smoothfem, so that
+/// the correct result is known.
 class CommandMethod : public CommandLine {
  protected:
   CommandMethod() { write_mesh(file("grid.vtu"), shaken_grid(6, 0.2)); }
 
-  /// A study of Laplace smoothing, eight iterations, and a method with these keys.
+  /// Runs a study of eight iterations of Laplace smoothing and a method with these keys.
   Outcome run_study(const std::string& keys, const std::vector<std::string>& options = {}) {
     file_with("my.prm",
               "set meshes = m\nset methods = laplace, other\nset degrees = 1\n"
@@ -35,7 +35,7 @@ class CommandMethod : public CommandLine {
     return CsvTable(content_of(file("out/" + name)));
   }
 
-  /// The status of the method's row, in a study that has gone on to its end.
+  /// Returns the status of the method's row, in a study that has run to its end.
   std::string status_of(const std::string& keys) {
     const Outcome outcome = run_study(keys);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -53,7 +53,7 @@ class CommandMethod : public CommandLine {
            " -m laplace --set tolerance=0 --set max_iterations=" + iterations + " -o " + out;
   }
 
-  /// Every row of the method has the numbers of Laplace's row of the same iteration.
+  /// Expects that every row of the method has the numbers of Laplace's row of the same iteration.
   void expect_laplace(const std::vector<std::string>& iterations) const {
     const auto rows = table("iterations.csv").select({{"method", "other"}});
     std::vector<std::string> found;
@@ -90,7 +90,7 @@ TEST_F(CommandMethod, MeditIsWrittenForPlanarMeshesToo) {
   expect_laplace({"0", "1"});
 }
 
-TEST_F(CommandMethod, RepeatsOnWhatItHasMade) {
+TEST_F(CommandMethod, RepeatsOnItsOwnResult) {
   EXPECT_EQ(status_of(" set command = " + laplace("1") + "\n set repeat = 3\n"), "ok");
   expect_laplace({"0", "1", "2", "3"});
 }
@@ -110,7 +110,7 @@ TEST_F(CommandMethod, TakesASeriesOfFilesOfOneRun) {
   EXPECT_EQ(rows.at(0).at("wall_seconds"), "");
 }
 
-TEST_F(CommandMethod, TimeIsThatOfTheClockLessThatOfTheStart) {
+TEST_F(CommandMethod, TimeIsThatOfTheClockWithoutTheStart) {
   file_with("slow.sh", "sleep 0.2; [ $3 = 0 ] || sleep 0.3; cp $1 $2\n");
   EXPECT_EQ(status_of(" set command = sh slow.sh {in} {out} {iterations}\n set files = slow.sh\n"
                       " set max_iterations = 1\n"),
@@ -123,14 +123,14 @@ TEST_F(CommandMethod, TimeIsThatOfTheClockLessThatOfTheStart) {
   EXPECT_GT(seconds, 0.0);
 }
 
-TEST_F(CommandMethod, MeshIsTakenFromWhatItIsGivenWhereItChangesThat) {
+TEST_F(CommandMethod, ReadsTheInputMeshIfTheCommandChangesIt) {
   EXPECT_EQ(status_of(" set command = " + laplace("2", "{in}", "{in}") + "\n"), "ok");
   const auto rows = table("iterations.csv");
   EXPECT_EQ(rows.select({{"method", "other"}, {"iteration", "1"}}).at(0).at("q_mean"),
             rows.select({{"method", "laplace"}, {"iteration", "2"}}).at(0).at("q_mean"));
 }
 
-TEST_F(CommandMethod, KeepsItsLogAndSaysWhereItComesFrom) {
+TEST_F(CommandMethod, KeepsItsLogAndNamesItsOrigin) {
   file_with("mine.sh", "echo I was here; cp $1 $2\n");
   EXPECT_EQ(status_of(" set command = sh mine.sh {in} {out}\n set files = mine.sh\n"
                       " set version_command = echo Mine 1.2\n"),
@@ -143,7 +143,7 @@ TEST_F(CommandMethod, KeepsItsLogAndSaysWhereItComesFrom) {
   EXPECT_EQ(method.at("version"), "Mine 1.2");
   EXPECT_EQ(method.at("files").at(1).at("name"), "mine.sh");
   EXPECT_EQ(method.at("files").at(1).at("sha256").get<std::string>().size(), 64u);
-  // Another program is another study.
+  // A study with another program is another study.
   file_with("mine.sh", "cp $1 $2\n");
   const Outcome again = smoothfem({"study", "my.prm", "--out", "out", "--quiet"});
   EXPECT_EQ(again.exit_code, 2);
@@ -177,7 +177,7 @@ TEST_F(CommandMethod, FailuresAreRowsWithTheReason) {
   }
 }
 
-/// Programs that change what they must not, written in awk for planar polygonal text.
+/// Programs that make forbidden changes, written in awk for planar polygonal text.
 TEST_F(CommandMethod, CheatsAreRowsWithTheReason) {
   file_with("cheat.awk",
             "/^nodes/ { node = $2; print; next }\n"

@@ -5,8 +5,7 @@
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/study_tests.h"
 
-// The smoother of docs/how-to/smoother-in-cpp.md is compiled into this executable, and a second
-// one.
+// This executable contains the smoother of docs/how-to/smoother-in-cpp.md and a second one.
 
 namespace smoothfem {
 namespace {

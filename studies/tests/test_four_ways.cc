@@ -8,8 +8,8 @@
 namespace smoothfem {
 namespace {
 
-/// One smoother, optimal Delaunay triangulation, written in tree, as a plugin, in Python and as a
-/// command: odt/odt.cc is compiled into this test, and into a plugin.
+/// One smoother, optimal Delaunay triangulation, written in four ways: in tree, as a plugin, in
+/// Python and as a command. odt/odt.cc is compiled into this test, and into a plugin.
 class FourWays : public CommandLine {
  protected:
   static constexpr const char* first_lines =
@@ -17,7 +17,7 @@ class FourWays : public CommandLine {
       "subsection mesh m\n set file = in.vtu\nend\n"
       "subsection finite elements\n set cg tolerance = 1e-13\nend\n";
 
-  /// Iterations of the study in tree, and in the program with the three other ways.
+  /// Runs the iterations of the study in tree, and in the program with the three other ways.
   void run_all(const std::string& head) {
     const std::filesystem::path sources = SMOOTHFEM_SOURCE_DIR;
     file_with("tree.prm",
@@ -66,7 +66,7 @@ class FourWays : public CommandLine {
   }
 };
 
-TEST_F(FourWays, AreOneOnTriangles) {
+TEST_F(FourWays, AgreeOnTriangles) {
   PlanarMesh mesh = test::grid_mesh(12, test::GridCells::triangles, true);
   test::distort(mesh, 0.15, 3);
   write_mesh(file("in.vtu"), mesh);
@@ -74,7 +74,7 @@ TEST_F(FourWays, AreOneOnTriangles) {
   expect_the_same();
 }
 
-TEST_F(FourWays, AreOneOnTetrahedra) {
+TEST_F(FourWays, AgreeOnTetrahedra) {
   ASSERT_EQ(smoothfem({"generate", "flange", "--elements", "tetrahedra", "--edge-scale", "4",
                        "--distort-to", "0.75", "-o", "in.vtu"})
                 .exit_code,

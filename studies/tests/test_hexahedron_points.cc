@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The finite element numbers of a hexahedral flange, as the study `volume` has it, from badly
-// distorted to smoothed: with Gauss points chosen for each cell beside twenty per direction.
+// Finite element numbers of the hexahedral flange of the study `volume`, from badly distorted to
+// smoothed. Gauss points chosen for each cell are compared with twenty per direction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ VolumeMesh distorted_flange() {
   return mesh;
 }
 
-/// The initial mesh, and those of GETMe whose numbers depend most on the rule: after ten iterations
-/// and at the end.
+/// Returns the initial mesh, and the meshes of GETMe whose numbers depend most on the rule: after
+/// ten iterations and at the end.
 std::vector<std::vector<Point<3>>> meshes_of_getme(VolumeMesh mesh) {
   std::vector<std::vector<Point<3>>> meshes;
   auto method = make_method<3>("getme");
@@ -47,13 +47,14 @@ TEST_P(HexahedronPoints, ChosenOnesAgreeWithTwentyADirection) {
   auto chosen = solver_with(0), twenty = solver_with(20);
   const auto& solution = manufactured_solution<3>("volume");
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const auto ours = chosen.solve(meshes[m], solution), exact = twenty.solve(meshes[m], solution);
-    EXPECT_EQ(ours.status, "ok");
-    EXPECT_GT(ours.most_points, 6);
+    const auto solved = chosen.solve(meshes[m], solution);
+    const auto exact = twenty.solve(meshes[m], solution);
+    EXPECT_EQ(solved.status, "ok");
+    EXPECT_GT(solved.most_points, 6);
     for (const auto number : {&SolutionRecord::condition_number, &SolutionRecord::e_max,
                               &SolutionRecord::e_mean, &SolutionRecord::e_l2, &SolutionRecord::e_h1,
                               &SolutionRecord::l2_error, &SolutionRecord::h1_error})
-      EXPECT_NEAR(ours.*number / (exact.*number), 1.0, 1e-4) << "mesh " << m;
+      EXPECT_NEAR(solved.*number / (exact.*number), 1.0, 1e-4) << "mesh " << m;
   }
 }
 

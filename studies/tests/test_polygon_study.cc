@@ -16,7 +16,7 @@ class PolygonStudies : public FileTest {
   PolygonStudy read(const std::string& text, const std::string& scale = {}) const {
     return read_polygon_study(file_with("my.prm", "set kind = polygons\n" + text), scale);
   }
-  /// Everything, small.
+  /// Returns a small study of everything.
   PolygonStudy tiny() const {
     return read(
         "set nodes = 3, 4, 5, 6\nset cases = 2\nset theta points = 5\nset lambda points = 5\n"
@@ -31,7 +31,7 @@ CsvTable table(const PolygonStudy& study, const std::string& file) {
   return CsvTable("\n");
 }
 
-/// Also numbers too small for std::stod.
+/// Returns a field as a number, also if it is too small for std::stod.
 double number(const CsvTable::Row& row, const std::string& column) {
   return std::strtod(row.at(column).c_str(), nullptr);
 }

@@ -14,13 +14,14 @@ using Case = std::tuple<std::string, std::string>;
 /// One method on one mesh: Table 6.1 by smoothing, Tables 6.2 and 6.3 by solving on the result.
 class PrintedRows : public PrintedTables, public ::testing::WithParamInterface<Case> {};
 
-TEST_P(PrintedRows, ComeOut) {
+TEST_P(PrintedRows, AreReproduced) {
   const auto [mesh_name, method_name] = GetParam();
   PlanarMesh mesh = published(mesh_name);
   Method<2> method = make_method<2>(method_name);
   const SmoothingResult result = smooth(mesh, method);
   expect_printed_quality(mesh_name, method_name, result.quality);
-  // What an optimizer needs depends on how it is written (deviations.csv); the others are formulas.
+  // An optimizer's iterations depend on its implementation (deviations.csv). The other methods are
+  // formulas.
   if (method_name != "global-optimization") {
     EXPECT_EQ(result.iterations_text(),
               printed_row("table_6_1.csv", {{"mesh", mesh_name}, {"method", method_name}})
@@ -43,9 +44,9 @@ INSTANTIATE_TEST_SUITE_P(Published, PrintedRows,
 class PrintedInitialRows : public PrintedTables,
                            public ::testing::WithParamInterface<std::pair<std::string, int>> {};
 
-TEST_P(PrintedInitialRows, ComeOut) {
+TEST_P(PrintedInitialRows, AreReproduced) {
   const auto [mesh, degree] = GetParam();
-  // With condition numbers up to 1e8 rounding moves the counts by some percent.
+  // With condition numbers up to 1e8, rounding changes the counts by a few percent.
   expect_printed_solution(mesh, "initial", degree, solve(published(mesh), degree),
                           {.cg_iterations = 0.06});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Studies on several ranks, which want all cores for themselves.
+// Studies on several ranks. They need all cores for themselves.
 #include "studies/tests/resume_tests.h"
 
 namespace smoothfem {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Studies on three ranks, which may be more than cores, with quadratic elements and larger boxes.
+// Studies on three ranks, which may be more than the cores, with quadratic elements and larger
+// boxes.
 #include "studies/tests/resume_tests.h"
 
 namespace smoothfem {

@@ -19,7 +19,7 @@ std::vector<std::string> names_of(const std::vector<StudyMethod>& methods) {
   return names;
 }
 
-/// The parameters in force of the second study that are not those of the first, sorted.
+/// Returns the second study's parameters in force that differ from the first study's, sorted.
 StudyParameters changes(const StudyHeader& from, const StudyHeader& to) {
   StudyParameters result;
   EXPECT_EQ(from.parameters.size(), to.parameters.size());
@@ -64,12 +64,12 @@ TEST(GearStudy, IsTheExampleOfTheThesis) {
   EXPECT_EQ(study.edge_scale, 1.0);
 }
 
-TEST(GearStudy, QuickChangesWhatItsSubsectionSaysAndNothingElse) {
+TEST(GearStudy, QuickChangesTheKeysOfItsSubsectionOnly) {
   Study quick = read_study(gear_file, "quick");
   EXPECT_EQ(quick.record_every.default_interval, 10);
   EXPECT_EQ(quick.edge_scale, 2.5);
   const Study full = read_study(gear_file);
-  // The parameters hold every key of the file, so they stand for all other fields.
+  // The parameters contain every key of the file, so they represent all other fields.
   EXPECT_EQ(quick.header.file_parameters, full.header.file_parameters);
   EXPECT_EQ(full.header.parameters, full.header.file_parameters);
   EXPECT_EQ(changes(full.header, quick.header),
@@ -120,8 +120,8 @@ class StudyFile : public FileTest {
  protected:
   Study read(const std::string& content) const { return read_study(file_with("own.prm", content)); }
 
-  /// The sentence about a bad file. Checks what holds for every such sentence: it begins with the
-  /// file, is one line, and shows no insides of the program.
+  /// Returns the message about a bad file. Every message must begin with the file, have one line,
+  /// and show no internals of the program.
   std::string error_of(const std::string& content) const {
     return checked(input_error_of([&] { read(content); }), file("own.prm"));
   }
@@ -134,7 +134,7 @@ class StudyFile : public FileTest {
     return message;
   }
 
-  /// error_of, where the line has to be given.
+  /// Expects a message with this line.
   void expect_error_at(int line, const std::string& content, const std::string& word) const {
     const std::string message = error_of(content);
     const std::string position = file("own.prm").string() + ":" + std::to_string(line) + ": ";
@@ -148,7 +148,7 @@ class StudyFile : public FileTest {
   }
 };
 
-TEST_F(StudyFile, HasTheDimensionsOfItsFirstMeshUnlessItSaysOthers) {
+TEST_F(StudyFile, HasTheDimensionsOfItsFirstMeshByDefault) {
   write_mesh(file("box.vtu"), test::box_mesh(1, 1, 1, test::BoxCells::hexahedra));
   const std::string own =
       "set meshes = m\nset degrees =\nset methods = getme\nsubsection mesh m\n set ";
@@ -229,7 +229,7 @@ end
 }
 
 TEST_F(StudyFile, UnknownKeysAndSubsectionsAreFoundWithTheirLine) {
-  expect_error_at(5, one_mesh + "set degres = 1\n", "degres");
+  expect_error_at(5, one_mesh + "set degreesx = 1\n", "degreesx");
   expect_error_at(4, "set meshes = a\nsubsection mesh a\n set file = a.mesh\n set fil = b\nend\n",
                   "fil");
   expect_error_at(5, one_mesh + "subsection solutions\n set name = gear\nend\n", "solutions");
@@ -259,7 +259,7 @@ TEST_F(StudyFile, BadValuesAreFoundWithTheirLine) {
                   "hexagons");
 }
 
-TEST_F(StudyFile, MessagesSayWhatWouldBeRight) {
+TEST_F(StudyFile, MessagesShowTheCorrectForm) {
   expect_error_at(5, one_mesh + "set degree = 1\n",
                   "there is no key 'degree' here; did you mean 'degrees'?");
   expect_error_at(7,
@@ -275,18 +275,18 @@ TEST_F(StudyFile, MessagesSayWhatWouldBeRight) {
   expect_error_at(6, one_mesh + "subsection finite elements\n set cg tolerance = 2\nend\n",
                   "cg tolerance = 2 is not allowed; it has to be a number from 0 to 1");
   expect_error_at(5, one_mesh + "set write series = maybe\n", "it has to be true or false");
-  expect_error_at(6, one_mesh + "subsection finite elements\n set load = nodel\nend\n",
+  expect_error_at(6, one_mesh + "subsection finite elements\n set load = nodall\nend\n",
                   "it has to be one of nodal, quadrature; did you mean 'nodal'?");
   expect_error_at(5, one_mesh + "set record stages every = sequential 10\n",
                   "a list like 'sequential: 10, simultaneous: 2'");
-  expect_error_at(5, one_mesh + "degrees = 1\n", "'degrees = 1' is none of a study file");
+  expect_error_at(5, one_mesh + "degrees = 1\n", "'degrees = 1' is not a line of a study file");
   expect_error_at(5, one_mesh + "end\n", "this 'end' ends no subsection");
   expect_error_at(5, one_mesh + "include nothing.prm\n",
                   "cannot read the file '" + file("nothing.prm").string() + "'");
   expect_error(one_mesh + "subsection solution\n", "a subsection has no end");
 }
 
-TEST_F(StudyFile, IncludesFilesBesideIt) {
+TEST_F(StudyFile, IncludesFilesNextToIt) {
   std::ofstream(file("base.prm")) << one_mesh << "set degrees = 1\nset record every = 3\n";
   const Study study = read("include base.prm  # all but one key\nset record every = 7\n");
   EXPECT_EQ(study.meshes.size(), 1u);
@@ -294,7 +294,7 @@ TEST_F(StudyFile, IncludesFilesBesideIt) {
   EXPECT_EQ(study.record_every.default_interval, 7);
 }
 
-TEST_F(StudyFile, IncludedFilesIncludeOthersBesideThem) {
+TEST_F(StudyFile, IncludedFilesIncludeOthersNextToThem) {
   std::filesystem::create_directory(file("below"));
   std::ofstream(file("below/mesh.prm")) << one_mesh;
   std::ofstream(file("below/base.prm")) << "include mesh.prm\nset degrees = 1\n";
@@ -302,10 +302,10 @@ TEST_F(StudyFile, IncludedFilesIncludeOthersBesideThem) {
 }
 
 TEST_F(StudyFile, MistakesInIncludedFilesAreFoundThere) {
-  std::ofstream(file("base.prm")) << one_mesh << "set degres = 1\n";
+  std::ofstream(file("base.prm")) << one_mesh << "set degreesx = 1\n";
   const std::string message =
       checked(input_error_of([&] { read("set title = a\ninclude base.prm\n"); }), file("base.prm"));
-  EXPECT_THAT(message, ::testing::HasSubstr("base.prm:5: there is no key 'degres'"));
+  EXPECT_THAT(message, ::testing::HasSubstr("base.prm:5: there is no key 'degreesx'"));
 }
 
 TEST_F(StudyFile, MayNotIncludeItself) {
@@ -322,7 +322,7 @@ TEST_F(StudyFile, MethodParametersOutOfRangeAreFoundWithTheirLine) {
   expect_error_at(7, start + " set simultaneous.lambda = much\nend\n", "much");
 }
 
-TEST_F(StudyFile, WhatIsNotAParameterFileIsRefused) {
+TEST_F(StudyFile, RefusesFilesThatAreNotParameterFiles) {
   expect_error_at(5, one_mesh + "degrees = 1\n", "degrees");
   error_of(one_mesh + "subsection solution\n set name = gear\n");  // no 'end'
   error_of(one_mesh + "end\n");
@@ -366,7 +366,7 @@ TEST_F(StudyFile, AFormulaIsASolutionWithoutAName) {
   EXPECT_TRUE(has(own, "solution/name", "expression"));
   EXPECT_TRUE(has(own, "solution/diffusivity", "2, x ; x, 2"));
   EXPECT_TRUE(has(own, "solution/natural", "group outlet, 7"));
-  // Results from before these keys go on.
+  // Results from before these keys can be resumed.
   for (const auto& [key, value] : solution("set name = sine\n").header.parameters)
     EXPECT_TRUE(key != "solution/u" && key != "solution/natural" && key != "solution/diffusivity");
 }
@@ -382,7 +382,7 @@ TEST_F(StudyFile, ASolutionIsGivenInOneWayOnly) {
   expect("set diffusivity = 2\n", "give its formula as 'u' instead");
 }
 
-TEST_F(StudyFile, SeveralSolutionsAreForMethodsThatAreToldWhich) {
+TEST_F(StudyFile, MethodsNameTheSolutionsTheySmoothFor) {
   const std::string two = one_mesh +
                           "set methods = getme, both\nset solutions = sine, ramp\n"
                           "subsection solution ramp\n set u = x^2\n set diffusivity = 2\nend\n";
@@ -410,7 +410,7 @@ TEST_F(StudyFile, SeveralSolutionsAreForMethodsThatAreToldWhich) {
   expect_error(one_mesh + "set solutions = sine, sine\n", "'sine' is named twice");
   expect_error_at(6, one_mesh + "set solutions = sine\nsubsection solution sin\nend\n",
                   "'set solutions' does not name 'sin'");
-  // Results from before these keys go on.
+  // Results from before these keys can be resumed.
   for (const auto& [key, value] : read(one_mesh).header.parameters)
     EXPECT_TRUE(key != "solutions" && !key.ends_with("smooth for")) << key;
 }
@@ -418,7 +418,7 @@ TEST_F(StudyFile, SeveralSolutionsAreForMethodsThatAreToldWhich) {
 TEST_F(StudyFile, LabelsThatWouldBreakFilesAreRefused) {
   expect_error("set meshes = a b\nsubsection mesh a b\n set file = a.mesh\nend\n", "'a b'");
   expect_error("set meshes = ../a\nsubsection mesh ../a\n set file = a.mesh\nend\n", "'../a'");
-  // A comma in the list makes two labels of it, so the subsection belongs to none.
+  // A comma in the list makes two labels of it, so the subsection belongs to neither.
   expect_error_at(2, "set meshes = a,b\nsubsection mesh a,b\n set file = a.mesh\nend\n", "a,b");
   expect_error(one_mesh + "set methods = my method\n", "'my method'");
   expect_error("set meshes = a, a\nsubsection mesh a\n set file = a.mesh\nend\n", "'a'");
@@ -427,7 +427,7 @@ TEST_F(StudyFile, LabelsThatWouldBreakFilesAreRefused) {
   expect_error(one_mesh + "set methods =\n", "method");
 }
 
-TEST_F(StudyFile, FilesThatAreNotThereAreRefused) {
+TEST_F(StudyFile, RefusesMissingFiles) {
   const auto missing = file("missing.prm");
   checked(input_error_of([&] { read_study(missing); }), missing);
   const auto folder = file("folder.prm");
@@ -441,7 +441,7 @@ TEST_F(StudyFile, AFileThatBreaksTheCsvByItsNameIsRefused) {
 }
 
 TEST_F(StudyFile, TheTemplateListsKeysThatAStudyMayHave) {
-  // 'smoothfem list --study-keys' prints it; with a label for LABEL it has to be a study.
+  // 'smoothfem list --study-keys' prints it. With a label for LABEL it must be a study.
   std::string text = study_template();
   for (const std::string label : {"LABEL", "NAME"})
     for (std::size_t at = text.find(label); at != std::string::npos; at = text.find(label, at))
@@ -468,7 +468,7 @@ TEST_F(StudyFile, ScalesThatTheStudyDoesNotHaveAreRefused) {
   const std::string message = checked(input_error_of([&] { read_study(path, "huge"); }), path);
   EXPECT_NE(message.find("small"), std::string::npos) << message;
   EXPECT_NE(message.find("large"), std::string::npos) << message;
-  const std::string misspelt = input_error_of([&] { read_study(path, "smal"); });
+  const std::string misspelt = input_error_of([&] { read_study(path, "smalll"); });
   EXPECT_NE(misspelt.find("did you mean 'small'?"), std::string::npos) << misspelt;
 }
 
@@ -496,7 +496,7 @@ TEST_F(StudyFile, ParametersInForceAreThoseOfTheScale) {
   EXPECT_NE(message.find("the scale wrong has 'edge scale = 0.5'"), std::string::npos) << message;
 }
 
-TEST_F(StudyFile, SeedsRepeatWhatDependsOnChance) {
+TEST_F(StudyFile, SeedsRepeatRandomMeshes) {
   const auto path = file_with(
       "own.prm",
       "set meshes = ball, bent, plain\nset methods = getme\nset dimension = 3\nset degrees =\n"
@@ -518,7 +518,7 @@ TEST_F(StudyFile, SeedsRepeatWhatDependsOnChance) {
   EXPECT_EQ(read_study(path, "one").meshes[1].seed, 8u);
 }
 
-TEST_F(StudyFile, SeedsThatAreNoneAreRefused) {
+TEST_F(StudyFile, RefusesBadSeeds) {
   const auto message_of = [&](const std::string& lines) {
     const auto path = file_with("own.prm", "set methods = getme\n" + lines +
                                                "subsection mesh a\n set domain = gear\nend\n");
@@ -568,7 +568,7 @@ TEST_F(StudyFile, AScaleMayTakeSomeOfTheMeshes) {
   EXPECT_NE(message.find("'d'"), std::string::npos) << message;
 }
 
-TEST_F(StudyFile, StagesMayBeRecordedOtherwise) {
+TEST_F(StudyFile, StagesMayHaveTheirOwnInterval) {
   const Study study =
       read("set meshes = a\nset record every = 2\nset record stages every = sequential: 30\n");
   EXPECT_EQ(study.record_every.default_interval, 2);

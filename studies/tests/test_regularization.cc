@@ -15,8 +15,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The same count for one element by itself: no lanes, kept in place and size by its first node and
-/// largest extent.
+/// Returns the same count for one element alone: without lanes, and with place and size kept by its
+/// first node and largest extent.
 template <std::size_t n>
 int count_alone(std::array<Vector, n> element, double sigma) {
   for (int count = 0; count < 1000; ++count) {
@@ -79,7 +79,8 @@ TEST(Regularization, SharesOfValidElementsAreThoseOfTheThesis) {
                                       {ElementType::pyramid, 0.0936},
                                       {ElementType::prism, 0.0533}}) {
     const double share = static_cast<double>(count_valid_elements(type, n, 1)) / n;
-    // Both are samples, the printed one of 100,000: four standard deviations of the difference.
+    // Both are samples, the printed one of 100,000 elements. The tolerance is four standard
+    // deviations of the difference.
     const double deviation = std::sqrt(printed * (1.0 - printed) * (1.0 / n + 1e-5));
     EXPECT_NEAR(share, printed, 4.0 * deviation) << name_of(type);
   }
@@ -103,7 +104,7 @@ TEST(Regularization, WithoutNormalsNothingGetsRegular) {
   EXPECT_EQ(counts[0].n_regularized, 0u);
 }
 
-TEST(Regularization, RefusesWhatThereIsNot) {
+TEST(Regularization, RefusesUnknownTypesAndValuesOutOfRange) {
   EXPECT_THROW(count_transformations({.element_type = ElementType::triangle, .sigmas = {1.0}}),
                InputError);
   EXPECT_THROW(count_transformations({.element_type = ElementType::prism,

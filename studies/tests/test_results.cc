@@ -113,12 +113,12 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
   for (const auto& [column, number] : expected_numbers)
     EXPECT_EQ(std::strtod(fields.at(column).c_str(), nullptr), number) << column;
   EXPECT_EQ(fields.size(), expected_texts.size() + expected_numbers.size());
-  // Shortest: no digits that are only there because the number was printed with 17.
+  // The shortest form has no digits that come only from printing 17 digits.
   EXPECT_EQ(fields.at("l2_error"), "0.30000000000000004");
   EXPECT_EQ(fields.at("cg_seconds"), "1e-05");
 }
 
-TEST(IterationsCsv, WhatThereIsNotIsLeftEmpty) {
+TEST(IterationsCsv, MissingValuesAreEmpty) {
   IterationRow row = iteration_row("getme", 1, 0.5);
   row.status = "invalid mesh";
   auto fields = CsvTable(iterations_csv("study", {row})).rows.at(0);
@@ -206,7 +206,8 @@ TEST(SummaryCsv, CountsHaveAColumnForEachThreshold) {
   EXPECT_EQ(table.rows.at(0).at("n_star_below_0.6619"), "18");
 }
 
-/// Rows of a method at 0, 1, 2, ... seconds with these values of every error; NaN: invalid mesh.
+/// Returns rows of a method at 0, 1, 2, ... seconds with these values of every error; NaN: invalid
+/// mesh.
 std::vector<IterationRow> curve(const std::string& method, const std::vector<double>& errors) {
   std::vector<IterationRow> rows;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -257,7 +258,7 @@ TEST(Thresholds, TheMarginMovesTheTimes) {
   EXPECT_EQ(reach_thresholds(all, "reference", 4.0).at(0).method_seconds, 0.0);
 }
 
-TEST(Thresholds, ThatAreNeverReachedHaveNoTimeAndNoSpeedup) {
+TEST(Thresholds, NeverReachedHaveNoTimeAndNoSpeedup) {
   const auto rows = reach_thresholds(
       joined(curve("reference", {10, 2}), curve("other", {10, 9, 8})), "reference", 0.05);
   ASSERT_EQ(rows.size(), 4u);
@@ -288,7 +289,7 @@ TEST(Thresholds, AreSetForEachMeshAndDegreeAlone) {
   auto all = joined(curve("reference", {10, 2}), curve("other", {10, 2}));
   auto coarse = joined(curve("reference", {10, 8}), curve("other", {10, 9}));
   for (auto& row : coarse) row.degree = 1;
-  auto elsewhere = curve("other", {10, 2});  // where the reference has no row there is no threshold
+  auto elsewhere = curve("other", {10, 2});  // no threshold without a reference row
   for (auto& row : elsewhere) row.mesh = "quad";
   const auto rows = reach_thresholds(joined(joined(all, coarse), elsewhere), "reference", 0.0);
   ASSERT_EQ(rows.size(), 8u);

@@ -60,7 +60,7 @@ TEST_F(Resume, OneRunAtATimeWritesIntoAFolder) {
       EXPECT_TRUE(fs::is_empty(file("out")));
     }
   }
-  // The system lets go of the lock of a process that is killed.
+  // The system releases the lock of a process that is killed.
   kill_half_done("planar.prm", "out");
   EXPECT_EQ(run(command("planar.prm", "out")), 0);
 }

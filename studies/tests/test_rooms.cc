@@ -13,11 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders of studies/, each of which may include those before it.
+/// Folders of studies/. Each may include files of the folders before it.
 const std::vector<std::string> rooms{"framework/definition", "framework/results", "framework/run",
                                      "kinds", "cli"};
 
-/// The room of a path below studies/, as an index; rooms.size() if it is in none.
+/// Returns the index of the folder that contains a path below studies/; rooms.size() if none does.
 std::size_t room_of(const std::string& path) {
   std::size_t room = 0;
   while (room < rooms.size() && !path.starts_with(rooms[room] + "/")) ++room;

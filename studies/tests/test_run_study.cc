@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Small studies run into a temporary folder.
+/// Runs small studies into a temporary folder.
 class RunStudy : public FileTest {
  protected:
   RunStudy() { write_mesh(file("grid.mesh"), shaken_grid(5, 0.2)); }
@@ -43,8 +43,8 @@ class RunStudy : public FileTest {
   }
 };
 
-/// What a smoothing iteration and a record of the finite elements have in common: all but the
-/// columns named.
+/// Returns the columns that an iteration and a finite element record share: all except the named
+/// columns.
 CsvTable::Row without(CsvTable::Row row, const std::vector<std::string>& columns) {
   for (const auto& column : columns) row.erase(column);
   return row;
@@ -119,7 +119,7 @@ TEST_F(RunStudy, RefinedMeshesAreSolvedOnceMore) {
   }
 }
 
-/// One mesh for two solutions: their errors are there, and both fall below those of GETMe's mesh.
+/// One mesh for two solutions. Both have errors, which fall below those of GETMe's mesh.
 TEST_F(RunStudy, MeshesAreMadeForSeveralSolutions) {
   write_mesh(file("grid.mesh"), shaken_grid(12, 0.2));
   const std::string two =
@@ -148,7 +148,7 @@ TEST_F(RunStudy, MeshesAreMadeForSeveralSolutions) {
     EXPECT_LT(error("both", solution), error("getme", solution)) << solution;
   EXPECT_LT(error("one", "left"), error("both", "left"));
   EXPECT_LT(error("both", "low"), error("one", "low"));
-  // A mesh takes one solve for each of the two.
+  // The mesh needs one solve for each of the two solutions.
   for (const auto& row : iterations.select({{"method", "both"}}))
     EXPECT_EQ(std::stoi(row.at("n_solves")) % 2, 0);
   const auto provenance = nlohmann::json::parse(content_of(out / "provenance.json"));
@@ -355,7 +355,7 @@ end
   }
 }
 
-/// The grid of the other tests in a file that knows groups: sides of x = 0 are "left", others
+/// Writes the other tests' grid to a file with groups: sides of x = 0 are "left", other sides
 /// "rest".
 void write_grid_with_groups(const fs::path& path) {
   const PlanarMesh grid = shaken_grid(5, 0.2);
@@ -398,7 +398,7 @@ TEST_F(RunStudy, AFormulaWithDiffusivityAndNaturalConditionsIsFoundToRoundOff) {
   EXPECT_THAT(json.dump(),
               testing::AllOf(testing::HasSubstr("x*x - 2*x*y + 3*y"),
                              testing::HasSubstr("2, 1 ; 1, 3"), testing::HasSubstr("group rest")));
-  // Another problem is no continuation of this one.
+  // A study with another problem does not resume this one.
   EXPECT_NE(input_error_of([&] { run(own("set natural = group rest\n")); }), "");
   const auto refused = [&](const std::string& more) {
     return input_error_of([&] { run(own(more), "refused"); });
@@ -475,7 +475,7 @@ TEST_F(RunStudy, ProvenanceSaysWhereEverythingComesFrom) {
   EXPECT_EQ(json.at("methods").at(0).at("name"), "laplace");
   EXPECT_EQ(json.at("methods").at(1).at("parameters").at("simultaneous.lambda"), 0.4);
 
-  // The checksum against coreutils' own.
+  // The checksum must be that of coreutils.
   const fs::path initial = out / mesh.at("file").get<std::string>();
   FILE* pipe = ::popen(("sha256sum '" + initial.string() + "'").c_str(), "r");
   ASSERT_NE(pipe, nullptr);
@@ -639,7 +639,7 @@ TEST_F(RunStudy, ACompleteRunIsLeftAsItIs) {
   EXPECT_EQ(fs::last_write_time(out / "iterations.csv"), written);
 }
 
-TEST_F(RunStudy, WhatAKilledRunWasWritingIsRemoved) {
+TEST_F(RunStudy, RemovesUnfinishedFilesOfAKilledRun) {
   const fs::path out = run(study("set degrees =\n"));
   const auto files = files_in(out);
   std::string provenance = content_of(out / "provenance.json");
@@ -652,7 +652,7 @@ TEST_F(RunStudy, WhatAKilledRunWasWritingIsRemoved) {
   EXPECT_EQ(files_in(out), files);
 }
 
-TEST_F(RunStudy, OtherSettingsAreRefusedWithWhatDiffers) {
+TEST_F(RunStudy, RefusesOtherSettingsAndNamesThem) {
   const fs::path out = run(study());
   const std::string before = content_of(out / "iterations.csv");
   const auto refused = [&](const Study& other) { return input_error_of([&] { run(other); }); };

@@ -23,7 +23,7 @@ class SealedFile : public FileTest {
   }
 };
 
-TEST_F(SealedFile, GivesBackWhatWasWritten) {
+TEST_F(SealedFile, ReadsBackTheWrittenContent) {
   const std::string bytes("numbers \0 and \n lines", 21);
   for (const std::string& content : {bytes, std::string(), std::string(100000, '\xff')}) {
     write_sealed(folder(), "a/7.numbers", content);
@@ -51,7 +51,7 @@ TEST_F(SealedFile, RefusesEveryFlippedBitAndEveryLength) {
   EXPECT_EQ(read_sealed(folder(), "a"), "some content");
 }
 
-TEST_F(SealedFile, RefusesTheFileOfAnother) {
+TEST_F(SealedFile, RefusesTheFileOfAnotherName) {
   write_sealed(folder(), "1.numbers", "of the first");
   write_sealed(folder(), "2.numbers", "of the other");
   fs::rename(folder() / "2.numbers", folder() / "1.numbers");

@@ -12,8 +12,8 @@
 namespace smoothfem {
 namespace {
 
-/// A study of two meshes and degrees, and of methods of which each solve takes another time, the
-/// initial meshes by far the longest, on a machine that is not the one the first guess is made for.
+/// A study of two meshes and two degrees. Each method's solves take a different time, and initial
+/// meshes take by far the longest. The machine is not the one that the first guess is made for.
 struct SimulatedStudy {
   struct Task {
     SolveKind kind;
@@ -21,9 +21,9 @@ struct SimulatedStudy {
   };
   std::vector<Task> tasks;
 
-  /// unlike: on the second mesh the second degree and initial meshes are so much cheaper, compared
-  /// with the others, than on the first, as hexahedra are beside tetrahedra; early records cost
-  /// more by as much.
+  /// unlike: factor by which the second degree and initial meshes are cheaper on the second mesh
+  /// than on the first, compared with the others. An example is hexahedra compared with tetrahedra.
+  /// Early records cost more by the same factor.
   explicit SimulatedStudy(int dimension, double machine, double unlike = 1.0) {
     const double nodes[] = {7660.0, 30000.0}, of_method[] = {13.0, 1.0, 0.8, 0.9, 1.3};
     const std::size_t n_records[] = {1, 80, 25, 400, 60};
@@ -54,8 +54,8 @@ struct SimulatedStudy {
           }
   }
 
-  /// The tasks in the order in which studies do them.
-  SimulatedStudy telling_first() const {
+  /// The tasks in the order of a study.
+  SimulatedStudy representatives_first() const {
     SimulatedStudy sorted = *this;
     std::vector<Task> others;
     sorted.tasks.clear();
@@ -64,16 +64,17 @@ struct SimulatedStudy {
         return std::tuple(tasks[i].kind.mesh, tasks[i].kind.degree, tasks[i].kind.method);
       };
       while (end < tasks.size() && job(end) == job(begin)) ++end;
-      const auto telling = telling_records(end - begin);
+      const auto representative = representative_records(end - begin);
       for (std::size_t i = begin; i < end; ++i)
-        (i - begin == telling[0] || i - begin == telling[1] ? sorted.tasks : others)
+        (i - begin == representative[0] || i - begin == representative[1] ? sorted.tasks : others)
             .push_back(tasks[i]);
     }
     sorted.tasks.insert(sorted.tasks.end(), others.begin(), others.end());
     return sorted;
   }
 
-  /// How far the estimate of the time left is off at worst, between these shares of the time.
+  /// Returns the worst factor by which the estimate of the remaining time is wrong, between these
+  /// shares of the time.
   double worst_factor(double from, double until = 1.0) const {
     SolveCosts costs;
     double total = 0.0, spent = 0.0, worst = 1.0;
@@ -99,20 +100,20 @@ TEST(SolveCosts, TimeLeftIsKnownFromAFifthOn) {
       EXPECT_LT(SimulatedStudy(dimension, machine).worst_factor(0.2), 1.5) << dimension;
 }
 
-TEST(SolveCosts, RecordsThatTellGiveTheMeanOfTheirJob) {
-  EXPECT_EQ(telling_records(1), (std::array<std::size_t, 2>{0, 0}));
-  EXPECT_EQ(telling_records(2), (std::array<std::size_t, 2>{0, 1}));
-  EXPECT_EQ(telling_records(10), (std::array<std::size_t, 2>{2, 7}));
-  EXPECT_EQ(telling_records(28), (std::array<std::size_t, 2>{5, 22}));
+TEST(SolveCosts, RepresentativeRecordsGiveTheMeanOfTheirJob) {
+  EXPECT_EQ(representative_records(1), (std::array<std::size_t, 2>{0, 0}));
+  EXPECT_EQ(representative_records(2), (std::array<std::size_t, 2>{0, 1}));
+  EXPECT_EQ(representative_records(10), (std::array<std::size_t, 2>{2, 7}));
+  EXPECT_EQ(representative_records(28), (std::array<std::size_t, 2>{5, 22}));
 }
 
-TEST(SolveCosts, WhatIsUnlikeAllBeforeIsKnownByItsFirstRecords) {
+TEST(SolveCosts, LearnsUnusualCostsFromTheirFirstRecords) {
   const SimulatedStudy study(3, 1e-7, 5.0);
   EXPECT_GT(study.worst_factor(0.2), 1.5) << "nothing to be learned";
-  EXPECT_LT(study.telling_first().worst_factor(0.2, 0.99), 1.5);  // then it is one record's
+  EXPECT_LT(study.representatives_first().worst_factor(0.2, 0.99), 1.5);  // then it is one record's
 }
 
-TEST(SolveCosts, RecordsLieBetweenThoseThatAreKnown) {
+TEST(SolveCosts, RecordsLieBetweenKnownOnes) {
   SolveCosts costs;
   const auto kind = [](std::size_t record) {
     return SolveKind{0, 0, 0, false, false, 1000.0, 2, 1, record};

@@ -18,8 +18,8 @@ TEST(SolveQueue, RunsEveryTaskOnce) {
   for (const auto& n : n_runs) EXPECT_EQ(n, 1);
 }
 
-TEST(SolveQueue, WhatATaskThrowsIsThereAsSoonAsTheQueueIsFinished) {
-  // Which thread is first is a matter of chance, so it is tried many times.
+TEST(SolveQueue, RethrowsTheErrorOfATask) {
+  // It is random which thread is first, so the test is repeated many times.
   const SolveQueue::Worker failing = [](std::size_t) { throw std::runtime_error("failure"); };
   for (int i = 0; i < 200; ++i) {
     SolveQueue queue(4, {failing, failing});

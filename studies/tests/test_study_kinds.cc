@@ -64,19 +64,18 @@ TEST_F(CommandLine, TheQuickScaleOfTheBuiltInPolygonStudyHolds) {
       true);
 }
 
-TEST_F(CommandLine, KindsThatDoNotExistAreNamedWithThoseThatDo) {
+TEST_F(CommandLine, RefusesUnknownKindsAndListsTheKnownOnes) {
   file_with("my.prm", "set kind = polygon\n");
   const Outcome outcome = smoothfem({"study", "my.prm"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(
-      outcome.err.find(
-          "my.prm: there is no kind of study 'polygon'; did you mean 'polygons'? choose one of "
-          "collection, polygons, regularization, smoothing"),
-      std::string::npos)
+  EXPECT_NE(outcome.err.find(
+                "my.prm: there is no study kind 'polygon'; did you mean 'polygons'? choose one of "
+                "collection, polygons, regularization, smoothing"),
+            std::string::npos)
       << outcome.err;
 }
 
-TEST_F(CommandLine, StudiesThatDoNotExistAreNamedWithTheNearestOne) {
+TEST_F(CommandLine, RefusesUnknownStudiesAndNamesTheNearestOne) {
   const Outcome outcome = smoothfem({"study", "geer"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("there is no study 'geer'; did you mean 'gear'? choose one of "),
@@ -97,7 +96,7 @@ TEST_F(CommandLine, TheProvenanceOfAScaleHasItsParameters) {
   EXPECT_EQ(json.at("scale"), "small");
   EXPECT_EQ(json.at("parameters").at("cases"), "1");
   EXPECT_EQ(json.at("parameters").at("nodes"), "3, 4");
-  // The same scale is the same run, another one is not.
+  // The same scale is the same run; another scale is not.
   EXPECT_EQ(smoothfem({"study", "my.prm", "--scale", "small"}).exit_code, 0);
   const Outcome other = smoothfem({"study", "my.prm"});
   EXPECT_EQ(other.exit_code, 2);

@@ -23,7 +23,7 @@ void check_names(const Study& study) {
     if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
 }
 
-/// A solution is given in one way only.
+/// Throws InputError if a solution is given in more than one way.
 void check_solution(const StudySolution& solution) {
   if (!solution.u.empty() && solution.name != "expression")
     throw InputError("the solution has the name '" + solution.name +
@@ -33,13 +33,13 @@ void check_solution(const StudySolution& solution) {
                                   {"load", solution.load}})
     if (!solution.u.empty() && !text.empty())
       throw InputError("the solution has both 'u' and '" + std::string(key) +
-                       "'; what follows from 'u' is derived, so take '" + key + "' out");
+                       "'; the program derives it from 'u', so take '" + key + "' out");
   if (!solution.diffusivity.empty() && solution.name != "expression")
     throw InputError("the solution '" + solution.name +
-                     "' is one without a diffusivity; give its formula as 'u' instead");
+                     "' has no diffusivity; give its formula as 'u' instead");
 }
 
-/// Stages that are recorded in their own way belong to one of the methods.
+/// Throws InputError if a stage with its own record interval belongs to none of the methods.
 void check_stages(const Study& study) {
   std::vector<std::string> known;
   with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
@@ -54,7 +54,7 @@ void check_stages(const Study& study) {
                        "', which none of the methods has; " + choose_one_of(known, stage));
 }
 
-/// Methods that need a problem have that of the study.
+/// Throws InputError if a method needs a problem and the study has none.
 void check_problem(const Study& study) {
   if (!study.degrees.empty()) return;
   for (const auto& method : study.methods)
@@ -64,7 +64,7 @@ void check_problem(const Study& study) {
                        "solves none; write 'set degrees = 1', or leave the method out");
 }
 
-/// Solutions that meshes are smoothed for are those of the study.
+/// Throws InputError if a mesh is smoothed for a solution that the study does not have.
 void check_smooth_for(const Study& study) {
   std::vector<std::string> labels;
   for (const StudySolution* solution : solutions_of(study)) labels.push_back(solution->label);
@@ -73,7 +73,7 @@ void check_smooth_for(const Study& study) {
     const std::string what = "method " + method.name + " has 'smooth for'";
     if (study.solution.label.empty())
       throw InputError(what +
-                       ", which is for studies with a list 'solutions' that are no collections; "
+                       ", which is for studies with a list 'solutions' but not for collections; "
                        "take it out, or name the solutions in 'solutions'");
     if (!method.needs_problem(study.dimensions))
       throw InputError(what + ", but does not move nodes by a solution; take it out");

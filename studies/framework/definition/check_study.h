@@ -8,13 +8,13 @@
 
 namespace smoothfem {
 
-/// Throws InputError unless there are labels, each once and of letters that names of files may
-/// have. what: of what they are labels.
+/// Throws InputError if there are no labels, if one occurs twice, or if one has letters that file
+/// names may not have. what: the labelled things.
 void check_labels(std::vector<std::string> labels, const std::string& what,
                   const std::string& file);
 
-/// Whether what the study names is there: better now than after the first mesh is generated. Throws
-/// InputError, which does not say the file.
+/// Throws InputError if something that the study names does not exist. It runs before the first
+/// mesh is generated. The message does not name the study file.
 void check_study(const Study& study);
 
 }  // namespace smoothfem

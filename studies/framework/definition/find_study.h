@@ -14,13 +14,13 @@ std::filesystem::path built_in_studies();
 /// exist.
 std::vector<std::filesystem::path> study_files(const std::filesystem::path& folder);
 
-/// The file of a study: a path, or the name of one of those that come with the program. Throws
-/// InputError for what is neither a file nor looks like the path of one.
+/// Returns the file of a study. The argument is a path, or the name of a study that comes with the
+/// program. Throws InputError for anything else.
 std::filesystem::path find_study(const std::string& path_or_name);
 
-/// Whether a study file, wherever it is, has the name and the text of one that comes with the
-/// program: only then what the literature says is about it. Throws InputError as built_in_studies
-/// and read_study_text do.
+/// True if a study file has the name and the text of a study that comes with the program, wherever
+/// the file is. Only then do statements of the literature apply to it. Throws InputError as
+/// built_in_studies and read_study_text do.
 bool is_built_in(const std::filesystem::path& file);
 
 }  // namespace smoothfem

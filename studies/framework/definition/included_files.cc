@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What stands behind `include` in a line; empty in all other lines.
+/// Returns the text after `include` in a line; empty for all other lines.
 std::string included_in(const std::string& line) {
   std::istringstream words(line.substr(0, line.find('#')));
   std::string first, path;
@@ -23,7 +23,7 @@ std::string included_in(const std::string& line) {
   return path.substr(0, path.find_last_not_of(" \t\r") + 1);
 }
 
-/// position: of the line that includes the file.
+/// Returns the content of an included file. position: position of the line that includes it.
 std::string content_of(const fs::path& included, const std::string& position) {
   try {
     return read_study_text(included);

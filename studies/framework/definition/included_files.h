@@ -7,20 +7,20 @@
 
 namespace smoothfem {
 
-/// The text of a study file in which each line `include FILE` has become that file's lines, and
-/// where its lines are from.
+/// The text of a study file with included files in place of their `include FILE` lines, and the
+/// origin of each line.
 class StudyText {
  public:
-  /// Reads the file. Paths of included files are relative to the file that includes them. Throws
-  /// InputError if it cannot be read, with file and line for an included one that cannot, or that
-  /// includes itself.
+  /// Reads the file. Paths of included files are relative to the file that includes them.
+  /// Throws InputError if the file cannot be read. If an included file cannot be read or includes
+  /// itself, the message has file and line.
   explicit StudyText(const std::filesystem::path& file);
 
   const std::string& text() const { return text_; }
   /// The study file.
   const std::filesystem::path& file() const { return file_; }
-  /// Other text for the same lines; what it has more lines than before is as if it stood in the
-  /// last one.
+  /// Returns another text with the positions of this one. Additional lines get the position of the
+  /// last line.
   StudyText with_text(std::string text) const;
   /// "FILE:LINE" of a line of the text, counted from 1.
   std::string position(std::size_t line) const;

@@ -10,7 +10,8 @@ namespace smoothfem {
 
 namespace {
 
-/// deal.II's messages run over several lines, with its own source line first and the reason inside.
+/// Returns the reason in a message of deal.II. The message has several lines and begins with
+/// deal.II's own source line.
 std::string reason_in(const std::string& message) {
   const std::string mark = "Additional information:";
   const auto begin = message.find(mark);
@@ -21,7 +22,7 @@ std::string reason_in(const std::string& message) {
   return std::regex_replace(reason, std::regex("^ +|[ .]+$"), "");
 }
 
-/// Names of keys, or of the subsections that they are in.
+/// Names of keys, or of the subsections that contain them.
 std::vector<std::string> names_in(const std::vector<std::string>& keys, bool of_subsections) {
   std::vector<std::string> names;
   for (const auto& key : keys) {
@@ -41,10 +42,10 @@ std::string no_such(const std::string& what, const std::string& wanted,
          (nearest.empty()     ? ""
           : nearest == wanted ? "it is for another part of the file; "
                               : "did you mean '" + nearest + "'? ") +
-         "'smoothfem list --study-keys' shows the keys there are";
+         "'smoothfem list --study-keys' shows the available keys";
 }
 
-/// Subsections of meshes, methods and solutions are there for those that the study names.
+/// Message for an unknown subsection. Each mesh, method and solution that the study names has one.
 std::string no_such_subsection(const std::string& wanted, const std::vector<std::string>& names) {
   for (const auto& [kind, list] :
        {std::pair{"mesh ", "meshes"}, {"method ", "methods"}, {"solution ", "solutions"}}) {
@@ -58,7 +59,7 @@ std::string no_such_subsection(const std::string& wanted, const std::vector<std:
   return no_such("subsection", wanted, names);
 }
 
-/// "from 1 to 20", "of at least 0" or nothing, from deal.II's bounds.
+/// Returns "from 1 to 20", "of at least 0" or nothing, from deal.II's bounds.
 std::string bounds_text(const std::string& lower, const std::string& upper) {
   const bool bounded_above = upper != "MAX_DOUBLE" && upper != "2147483647";
   if (lower == "-MAX_DOUBLE" || lower == "-2147483648")
@@ -66,7 +67,7 @@ std::string bounds_text(const std::string& lower, const std::string& upper) {
   return bounded_above ? " from " + lower + " to " + upper : " of at least " + lower;
 }
 
-/// What a value has to be, from deal.II's description of a pattern.
+/// Returns the required form of a value, from deal.II's description of a pattern.
 std::string pattern_text(const std::string& pattern, const std::string& value) {
   std::smatch match;
   if (std::regex_match(pattern, match,
@@ -110,7 +111,7 @@ std::string in_our_words(const std::string& reason, const std::vector<std::strin
     return "this 'end' ends no subsection; remove it";
   if (matches("The line <(.*)> could not be parsed.*", match))
     return "the line '" + match[1].str() +
-           "' is none of a study file; begin it with set, subsection, end, include or #";
+           "' is not a line of a study file; begin it with set, subsection, end, include or #";
   return reason;
 }
 

@@ -9,13 +9,14 @@
 
 namespace smoothfem {
 
-/// How deal.II is told to call the study file in its messages; the path itself could hold anything.
+/// Name of the study file in deal.II's messages. The path itself could contain anything.
 inline constexpr const char* study_file_in_messages = "this file";
 
-/// What deal.II says about a study file that it cannot read, in the words of this program: file and
-/// line, what is wrong there, and what would be right.
-/// text: what was read. message: what() of deal.II's exception. keys: all that the file may set,
-/// subsections before a slash: "mesh gear/domain".
+/// Turns deal.II's message about a study file into this program's words: file and line, the error,
+/// and the correct form.
+/// text: the text that was read. message: what() of deal.II's exception.
+/// keys: all keys that the file may set, with subsections before a slash, for example "mesh
+/// gear/domain".
 InputError parse_error(const StudyText& text, const std::string& message,
                        const std::vector<std::string>& keys);
 

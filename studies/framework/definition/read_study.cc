@@ -42,12 +42,12 @@ ConditionNumberMethod condition_number_method(const std::string& text) {
                              : ConditionNumberMethod::verified;
 }
 
-/// 0: chosen by the program.
+/// Returns the number of Gauss points; 0: chosen by the program.
 int hexahedron_points(const std::string& text) {
   return text == "auto" ? 0 : std::stoi(text);
 }
 
-/// "sequential: 10, ..."; deal.II has checked the numbers.
+/// Returns the numbers of "sequential: 10, ..."; deal.II has checked them.
 std::map<std::string, int> stage_numbers(const std::string& text) {
   std::map<std::string, int> numbers;
   for (const auto& item : split_list(text)) {
@@ -116,7 +116,7 @@ std::vector<int> read_degrees(const std::string& list, const std::string& file) 
   return degrees;
 }
 
-/// The solutions of the list, the first one for the records.
+/// Reads the solutions of the list; the first one is for the records.
 void read_solutions(ParameterHandler& p, const std::vector<std::string>& labels, Study& study) {
   {
     const Subsection subsection(p, "solution");
@@ -131,7 +131,8 @@ void read_solutions(ParameterHandler& p, const std::vector<std::string>& labels,
     study.further_solutions.push_back(read_solution(p, labels[s]));
 }
 
-/// A study that names no solution has its own, or else the gear's.
+/// Sets the solution's name if the study gives none: "expression" if it has formulas, otherwise
+/// "gear".
 void name_solution(ParameterHandler& p) {
   const Subsection subsection(p, "solution");
   if (p.get("name").empty())
@@ -139,7 +140,7 @@ void name_solution(ParameterHandler& p) {
           std::string(p.get("u").empty() && p.get("value").empty() ? "gear" : "expression"));
 }
 
-/// "group NAME, NAME, ..." or the names alone.
+/// Reads groups from "group NAME, NAME, ..." or from the names alone.
 std::vector<std::string> read_groups(const std::string& text) {
   auto groups = split_list(text);
   if (groups.empty()) return groups;
@@ -198,7 +199,7 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.edge_scale = p.get_double("edge scale");
 }
 
-/// The labels of the meshes to take: all those of the list, or what the scale says.
+/// Labels of the meshes to take: all meshes of the list, or the meshes of the scale.
 std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std::string>& known,
                                       const std::string& scale, const std::string& file) {
   const auto taken = split_list(p.get("meshes"));
@@ -209,8 +210,9 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
   return taken;
 }
 
-/// Which reader a file is for goes without saying; so results from before there were kinds,
-/// surfaces, derived solutions, diffusivities, natural conditions and several solutions go on.
+/// Parameters without the study's kind and without newer keys that have their default. So results
+/// resume that are older than kinds, surfaces, derived solutions, diffusivities, natural conditions
+/// and several solutions.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
   std::erase_if(parameters, [](const auto& entry) {
@@ -224,7 +226,7 @@ StudyParameters said_parameters(ParameterHandler& p) {
   return parameters;
 }
 
-/// Afterwards p has the values that the scale gives its keys.
+/// Reads the header. Afterwards p has the scale's values.
 StudyHeader read_header(ParameterHandler& p, const std::filesystem::path& file,
                         const std::string& scale) {
   StudyHeader header{.name = file.stem().string(),
@@ -241,8 +243,8 @@ StudyHeader read_header(ParameterHandler& p, const std::filesystem::path& file,
   return header;
 }
 
-/// The dimensions of the first mesh that can be found; planar if none can, of which the run then
-/// says why.
+/// Returns the dimensions of the first mesh that can be found. If there is none, it returns those
+/// of planar meshes, and the run reports the error.
 MeshDimensions dimensions_of_meshes(const StudyText& text, const std::vector<std::string>& meshes) {
   ParameterHandler p;
   for (const auto& mesh : meshes) declare_mesh(p, 2, mesh);
@@ -310,8 +312,8 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
 
 Study study_of_text(const StudyText& text, const std::string& scale) {
   const std::filesystem::path& file = text.file();
-  // Which subsections there are depends on what the file says: first the lists, then the methods'
-  // types, then everything, strictly.
+  // The lists and the methods' types determine which subsections exist. So the lists are read
+  // first, then the types, then everything, strictly.
   ParameterHandler lists;
   declare_lists(lists);
   parse_study(lists, text, true);

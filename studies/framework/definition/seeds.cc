@@ -25,8 +25,9 @@ std::vector<std::uint64_t> read_seeds(const std::string& list) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), seed);
     if (error != std::errc() || end != item.data() + item.size())
-      throw InputError("'seeds' has '" + item +
-                       "', which is no seed; write whole numbers from 0 on, such as 1, 2, 3");
+      throw InputError(
+          "'seeds' has '" + item +
+          "', which is not a seed; write whole numbers of at least 0, for example 1, 2, 3");
     if (std::find(seeds.begin(), seeds.end(), seed) != seeds.end())
       throw InputError("'seeds' has " + item + " twice; leave out one of them");
     seeds.push_back(seed);

@@ -24,8 +24,8 @@ struct StudyMesh {
   std::filesystem::path file;  ///< empty: generate
   std::string domain;          ///< which domain to generate
   std::string elements;        ///< of the generated mesh; empty: the domain's default
-  /// File name looked for with --mesh-dir, in place of `file` or `domain`. It is taken as it is,
-  /// not distorted: published meshes are already.
+  /// Name of a file in the folder of --mesh-dir, in place of `file` or `domain`. It is not
+  /// distorted, because published meshes are already distorted.
   std::string published_file;
   double edge_scale = 1.0;         ///< of a generated mesh, times that of the study
   double distort_to_q_mean = 0.0;  ///< 0: not distorted
@@ -35,61 +35,62 @@ struct StudyMesh {
   int distortion_sweeps = 1;
   double distortion_least_quality = 0.0;
   std::uint64_t seed = 1;
-  std::string repeats{};  ///< the mesh that this one is, with another seed; or empty
+  std::string repeats{};  ///< the mesh that this one repeats with another seed; or empty
 };
 
-/// Whether a mesh is changed after it has been read or generated.
+/// True if a mesh is changed after it has been read or generated.
 inline bool is_distorted(const StudyMesh& mesh) {
   return mesh.distort_to_q_mean > 0.0 || mesh.distort_within > 0.0;
 }
 
-/// A file that a method comes from, which is not part of this program.
+/// A file of a method that is not part of this program.
 struct MethodFile {
   std::string name, sha256;
 };
 
 struct StudyMethod {
   std::string name;   ///< label in results
-  std::string type;   ///< registered method, or one in a file, as the study names it
+  std::string type;   ///< registered method, or method in a file, as in the study file
   std::string title;  ///< in tables and figures
-  int threads = 0;    ///< 0: as StudyOptions says
-  /// Labels of the solutions that its mesh is smoothed for, all of them alike; empty: the first.
+  int threads = 0;    ///< 0: that of StudyOptions
+  /// Labels of the solutions that its mesh is smoothed for, with equal weight; empty: the first
+  /// solution.
   std::vector<std::string> smooth_for{};
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
   std::filesystem::path folder{};   ///< of the study file, which a method's file is relative to
   std::vector<MethodFile> files{};  ///< programs, scripts, plugins: filled when the study runs
-  std::string version{};            ///< of the program, as it says
+  std::string version{};            ///< that the program reports
 
   /// The method with its settings.
   template <int dim, int spacedim = dim>
   Method<dim, spacedim> make() const;
 
-  /// Whether it moves nodes by the solution of the study's problem.
+  /// True if the method moves nodes by the solution of the study's problem.
   bool needs_problem(MeshDimensions dimensions) const;
 };
 
-/// Where the manufactured solution comes from: a name, one formula, or expressions of all parts.
+/// The manufactured solution: a name, one formula, or expressions of all parts.
 struct StudySolution {
-  std::string name;  ///< "expression": the others say it
+  std::string name;  ///< "expression": given by the other fields
   std::string value, gradient, load;
-  std::string u;            ///< in place of the three
+  std::string u;            ///< instead of value, gradient and load
   std::string diffusivity;  ///< empty: the identity
   std::string label{};      ///< in results; empty: the study has one solution
 };
 
-/// When error thresholds count as reached (thesis, Table 6.4).
+/// Settings for error thresholds (thesis, Table 6.4).
 struct StudyThresholds {
-  std::string reference;  ///< method whose least errors set the thresholds; empty: no thresholds
-  double margin = 0.05;   ///< thresholds are the least errors increased by this fraction
+  std::string reference;  ///< method whose smallest errors set the thresholds; empty: no thresholds
+  double margin = 0.05;   ///< thresholds are the smallest errors increased by this fraction
 };
 
-/// At which iterations finite elements are solved.
+/// The iterations at which finite elements are solved.
 struct RecordEvery {
   int default_interval = 1;           ///< every k-th iteration of a method
   std::map<std::string, int> stages;  ///< by name: every k-th iteration of this stage instead
 };
 
-/// A study as data: which meshes, which methods, which problem, what to record.
+/// A study as data: meshes, methods, problem and recorded numbers.
 struct Study {
   StudyHeader header;
   std::filesystem::path folder{};  ///< of its file: other names are relative to it
@@ -99,14 +100,15 @@ struct Study {
   std::vector<int> degrees;          ///< of the finite elements; empty: smoothing only
   std::vector<int> refined_degrees;  ///< of these: initial and resulting meshes once more, refined
   StudySolution solution;            ///< of the records
-  /// Solved on initial and resulting meshes besides, and for methods to smooth for.
+  /// Solutions that are also solved on initial and resulting meshes, and that methods may smooth
+  /// for.
   std::vector<StudySolution> further_solutions{};
   PoissonOptions finite_elements;  ///< its degree is not used
   StudyThresholds thresholds;
   bool only_results_of_seeds = false;  ///< of StudyMesh::repeats: initial, resulting, last meshes
-  RecordEvery record_every;     ///< initial and resulting mesh and the last of each method always
+  RecordEvery record_every;     ///< also always: initial, resulting and last mesh of each method
   int timing_runs = 1;          ///< smoothing times are medians over this many runs
-  double edge_scale = 1.0;      ///< generated meshes: edges this much longer
+  double edge_scale = 1.0;      ///< factor of the edge lengths of generated meshes
   bool record_warpage = false;  ///< of every iteration, not only of initial and resulting meshes
   std::vector<double> count_below;     ///< mean ratios below which cells are counted
   std::vector<const Metric*> metrics;  ///< of every recorded mesh, for metrics.csv
@@ -114,17 +116,20 @@ struct Study {
   bool write_meshes = true;            ///< the resulting meshes with their fields
 };
 
-/// All solutions of a study, that of the records first.
+/// Returns all solutions of a study. The solution of the records is the first.
 std::vector<const StudySolution*> solutions_of(const Study& study);
 
-/// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: with the changes
-/// of its subsection `scale NAME`; empty: none. Throws InputError with file and line for unknown
-/// keys and bad values, and for a scale that the study does not have, naming those it has.
+/// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: applies the
+/// subsection `scale NAME`; empty: no scale.
+/// Throws InputError with file and line for unknown keys and bad values. For an unknown scale the
+/// message names the study's scales.
 Study read_study(const std::filesystem::path& file, const std::string& scale = {});
-/// The same for a text; its file is the one that messages name and other names are relative to.
+/// Reads a study from a text. Messages name the text's file, and other file names are relative to
+/// it.
 Study study_of_text(const StudyText& text, const std::string& scale = {});
 
-/// A commented parameter file with every key and its default, for the methods and meshes named.
+/// Returns a commented parameter file with every key and its default, for a mesh and a method named
+/// LABEL.
 std::string study_template();
 
 }  // namespace smoothfem

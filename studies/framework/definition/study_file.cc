@@ -32,7 +32,8 @@ std::vector<std::string> declared_keys(ParameterHandler& p) {
   return keys;
 }
 
-/// deal.II enters what is a key as if it were a subsection, and then misses the keys in it.
+/// Throws InputError if a subsection has the name of a key. deal.II would enter it, and then miss
+/// its keys.
 void refuse_keys_as_subsections(ParameterHandler& p, const StudyText& text) {
   const auto keys = declared_keys(p);
   std::istringstream lines(text.text());
@@ -81,7 +82,7 @@ void require_scale(const std::string& scale, const std::vector<std::string>& kno
 }
 
 StudyParameters all_parameters(ParameterHandler& p) {
-  // Compiled once: studies have hundreds of lines, and a list reads all studies.
+  // Compiled once, because studies have hundreds of lines and `list` reads all studies.
   static const std::regex begin("\\s*subsection (.*)"), end("\\s*end\\s*"),
       set("\\s*set (.*?)\\s*=\\s*(.*)");
   StudyParameters result;
@@ -138,7 +139,7 @@ std::string commented_keys(ParameterHandler& p) {
 void declare_table_study(ParameterHandler& p, const std::string& kind) {
   namespace Patterns = dealii::Patterns;
   p.declare_entry("kind", kind, Patterns::Selection(kind),
-                  "What the study does; other kinds have other keys.");
+                  "Kind of study; other kinds have other keys.");
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
   declare_scales(p);
 }
@@ -148,13 +149,13 @@ void declare_table_scale(ParameterHandler& p, const std::string& scale,
   const Subsection subsection(p, "scale " + scale);
   for (const auto& key : numbers)
     p.declare_entry(key, "0", dealii::Patterns::Integer(0),
-                    "In place of the value above; 0: as it is.");
+                    "Replaces the value above; 0: no change.");
 }
 
 StudyHeader read_table_study(ParameterHandler& p, const std::filesystem::path& file,
                              const std::string& scale, const std::vector<std::string>& numbers) {
   const StudyText text(file);
-  ParameterHandler lists;  // which subsections there are depends on what the file says
+  ParameterHandler lists;  // the lists determine which subsections exist
   declare_scales(lists);
   parse_study(lists, text, true);
   const auto scales = split_list(lists.get("scales"));

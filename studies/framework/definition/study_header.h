@@ -7,18 +7,19 @@
 
 namespace smoothfem {
 
-/// "key = value" lines of a study file, subsections as prefix: "scale quick/edge scale".
+/// Pairs of key and value of a study file. Subsections are a prefix: "scale quick/edge scale".
 using StudyParameters = std::vector<std::pair<std::string, std::string>>;
 
-/// What studies of all kinds have, and results say about them.
+/// The data that studies of all kinds have, and that results report.
 struct StudyHeader {
   std::string name;
   std::string title;
   std::string note;       ///< what can be compared with the literature, in one sentence, or empty
-  std::string scale;      ///< the one chosen; empty: as the study file says
-  bool built_in = false;  ///< the study file is, to the letter, one that comes with the program
-  StudyParameters parameters;  ///< in force: with what the scale changes
-  /// As the file says: with the scale's name, what an earlier run that is to go on must have had.
+  std::string scale;      ///< the chosen scale; empty: no scale
+  bool built_in = false;  ///< the study file is an unchanged one that comes with the program
+  StudyParameters parameters;  ///< in force: with the scale's changes
+  /// Parameters as in the file, without the scale's changes. To resume an earlier run, these and
+  /// the scale must match.
   StudyParameters file_parameters;
 };
 

@@ -21,7 +21,7 @@ namespace Patterns = dealii::Patterns;
 constexpr const char* method_type_help =
     "Registered method (see 'list'), or 'python:FILE:CLASS', the file relative to this one.";
 
-/// "a|b|c", as deal.II writes a choice.
+/// Returns "a|b|c", deal.II's form of a choice.
 std::string one_of(const std::vector<std::string>& names) {
   std::string choice;
   for (const auto& name : names) choice += (choice.empty() ? "" : "|") + name;
@@ -35,7 +35,7 @@ std::string hexahedron_points() {
   return one_of(choices);
 }
 
-/// The range of a parameter as deal.II checks it, which knows the line of a bad value.
+/// Returns a parameter's range as a pattern of deal.II, which reports the line of a bad value.
 std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
   if (const auto* choice = std::get_if<Choice>(&parameter.value))
     return std::make_unique<Patterns::Selection>(one_of(choice->names));
@@ -45,12 +45,12 @@ std::unique_ptr<Patterns::PatternBase> range_of(const Parameter& parameter) {
     return std::make_unique<Patterns::Anything>();
   if (!std::holds_alternative<int*>(parameter.value))
     return std::make_unique<Patterns::Double>(parameter.lower, parameter.upper);
-  constexpr double most = std::numeric_limits<int>::max();
-  return std::make_unique<Patterns::Integer>(static_cast<int>(std::max(parameter.lower, -most)),
-                                             static_cast<int>(std::min(parameter.upper, most)));
+  constexpr double max_int = std::numeric_limits<int>::max();
+  return std::make_unique<Patterns::Integer>(static_cast<int>(std::max(parameter.lower, -max_int)),
+                                             static_cast<int>(std::min(parameter.upper, max_int)));
 }
 
-/// "STAGE: k, STAGE: k".
+/// Pattern of "STAGE: k, STAGE: k".
 Patterns::Map stage_numbers() {
   return {Patterns::Anything(), Patterns::Integer(1)};
 }
@@ -59,18 +59,17 @@ Patterns::Map stage_numbers() {
 
 void declare_lists(ParameterHandler& p) {
   p.declare_entry("kind", "smoothing", Patterns::Selection("smoothing"),
-                  "What the study does; other kinds have other keys.");
+                  "Kind of study; other kinds have other keys.");
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
   p.declare_entry("note", "", Patterns::Anything(),
-                  "What can be compared with the literature, in one sentence.");
+                  "How far results can be compared with the literature, in one sentence.");
   p.declare_entry("preset", "", Patterns::Anything(),
                   "Parameters of the methods (see 'list'); empty: their defaults.");
   p.declare_entry("dimension", "", Patterns::Selection("|2|3"),
-                  "Of the meshes' cells: 2 or 3; empty: that of the first mesh.");
-  p.declare_entry(
-      "surface", "", Patterns::Selection("|true|false"),
-      "Whether the meshes, of dimension 2, are surfaces in space, which have no finite elements; "
-      "empty: as the first mesh.");
+                  "Dimension of the meshes' cells: 2 or 3; empty: that of the first mesh.");
+  p.declare_entry("surface", "", Patterns::Selection("|true|false"),
+                  "true if the meshes, of dimension 2, are surfaces in space. These have no finite "
+                  "elements. Empty: as the first mesh.");
   p.declare_entry("plugins", "", Patterns::Anything(),
                   "Shared libraries with methods of your own, relative to this file, separated by "
                   "commas.");
@@ -81,12 +80,12 @@ void declare_lists(ParameterHandler& p) {
       "methods", "all", Patterns::Anything(),
       "Methods, separated by commas, or 'all'. A label with a subsection 'method LABEL' "
       "may be any registered method with other parameters.");
-  p.declare_entry("solutions", "", Patterns::Anything(),
-                  "Labels of several solutions, separated by commas; each is one of the program's "
-                  "(see 'list') or has a subsection 'solution LABEL' with 'name', or 'u' and, if "
-                  "need be, 'diffusivity'. Records are those of the "
-                  "first, solutions.csv has errors of all. Empty: the one of the subsection "
-                  "'solution'.");
+  p.declare_entry(
+      "solutions", "", Patterns::Anything(),
+      "Labels of several solutions, separated by commas; each is one of the program's "
+      "(see 'list') or has a subsection 'solution LABEL' with 'name', or 'u' and, if necessary, "
+      "'diffusivity'. Records are those of the "
+      "first, solutions.csv has errors of all. Empty: the solution of the subsection 'solution'.");
 }
 
 void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
@@ -97,49 +96,51 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
   p.declare_entry("elements", "", Patterns::Selection("|" + one_of(element_names())),
                   "Elements of a generated mesh; empty: the domain's default.");
-  p.declare_entry("edge scale", "1", Patterns::Double(1.0),
-                  "Edges of a generated mesh longer by this factor, besides the study's own.");
+  p.declare_entry(
+      "edge scale", "1", Patterns::Double(1.0),
+      "Edges of a generated mesh longer by this factor, in addition to the study's factor.");
   p.declare_entry("published file", "", Patterns::Anything(),
                   "File that --mesh-dir looks for in place of the above; not distorted.");
   p.declare_entry("distort to", "0", Patterns::Double(0.0, 1.0),
-                  "Mean quality to distort the mesh to; 0: as it is.");
+                  "Mean quality to distort the mesh to; 0: not distorted.");
   p.declare_entry("distort within", "0", Patterns::Double(0.0),
                   "Instead: radius to distort the mesh within, in mean lengths of a node's edges. "
                   "Large meshes: the radius for a quality takes many trials.");
   p.declare_entry(
       "distortion", distortion_kind_names[0],
       Patterns::Selection(std::string(distortion_kind_names[0]) + "|" + distortion_kind_names[1]),
-      "How a node moves: to the worst of some random positions around its own, or by a "
-      "random step from where it is, shortened until its cells are valid.");
-  p.declare_entry("distortion candidates", std::to_string(default_candidates(dimension)),
-                  Patterns::Integer(1),
-                  "Random positions that a node chooses the worst from; steps have none.");
-  p.declare_entry("distortion sweeps", "1", Patterns::Integer(1), "Times all nodes are moved.");
+      "How a node moves: to the worst of several random positions around its own, or by a random "
+      "step, shortened until its cells are valid.");
+  p.declare_entry(
+      "distortion candidates", std::to_string(default_candidates(dimension)), Patterns::Integer(1),
+      "Random positions of a node, of which the worst is chosen; not for random steps.");
+  p.declare_entry("distortion sweeps", "1", Patterns::Integer(1),
+                  "Number of times that all nodes are moved.");
   p.declare_entry("distortion least quality", "0", Patterns::Double(0.0, 1.0),
-                  "Mean ratio that no cell falls below by distortion.");
+                  "Lowest mean ratio that distortion may leave.");
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of generation and distortion.");
 }
 
-/// What every method has besides its type and its own parameters.
+/// Declares the keys that every method has in addition to its type and its own parameters.
 void declare_method_header(ParameterHandler& p, const std::string& title) {
   p.declare_entry("title", title, Patterns::Anything(), "Title in tables and figures.");
   p.declare_entry("threads", "0", Patterns::Integer(0, 1024),
-                  "Of smoothing; 0: as --smoothing-threads says. The other keys are the "
+                  "Threads for smoothing; 0: as in --smoothing-threads. The other keys are the "
                   "parameters of the method (see 'list').");
-  p.declare_entry("smooth for", "", Patterns::Anything(),
-                  "Of methods that move nodes by a solution: labels from 'solutions' of those that "
-                  "the mesh is made for; each counts by its relative error, and one mesh takes as "
-                  "many solves. Empty: the first.");
+  p.declare_entry(
+      "smooth for", "", Patterns::Anything(),
+      "For methods that move nodes by a solution: labels from 'solutions' that the mesh is made "
+      "for. Each counts by its relative error, and each needs a solve per mesh. Empty: the first.");
 }
 
-/// The parameters of a method are those it registers, with the defaults of a preset, if given, or
-/// its own.
+/// Declares the type and parameters of a method. Defaults are those of the preset, if it has the
+/// method, otherwise the method's own.
 void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
                     const std::string& type, const std::string& preset,
                     const std::filesystem::path& folder) {
   const Subsection subsection(p, "method " + name);
   p.declare_entry("type", name, Patterns::Anything(), method_type_help);
-  if (type.empty()) {  // what says the type where it is not given
+  if (type.empty()) {  // a command gives the type
     p.declare_entry("command", "", Patterns::Anything());
     return;
   }
@@ -160,18 +161,17 @@ void declare_problem(ParameterHandler& p) {
   p.declare_entry("refined degrees", "", Patterns::Anything(),
                   "Degrees, of those above, at which initial and resulting meshes are solved once "
                   "more with every cell split: refined.csv. Empty: none.");
-  p.declare_entry("record every", "1", Patterns::Integer(1),
-                  "Solve at every k-th iteration; the initial, the resulting and the last mesh "
-                  "always.");
-  p.declare_entry("record stages every", "", stage_numbers(),
-                  "The same for stages that are recorded otherwise: 'STAGE: k, ...'.");
   p.declare_entry(
-      "seeds", "", Patterns::Anything(),
-      "Seeds, separated by commas: meshes that depend on one are made once for each, and "
-      "tables have medians. Empty: the meshes' own.");
+      "record every", "1", Patterns::Integer(1),
+      "Solve at every k-th iteration, and always on the initial, the resulting and the last mesh.");
+  p.declare_entry("record stages every", "", stage_numbers(),
+                  "The same for stages with their own interval: 'STAGE: k, ...'.");
+  p.declare_entry("seeds", "", Patterns::Anything(),
+                  "Seeds, separated by commas: meshes that depend on a seed are made once for "
+                  "each, and tables have medians. Empty: the seeds of the meshes.");
   p.declare_entry("record seeds", "all", Patterns::Selection("all|results"),
-                  "What is solved for the second and further seeds: as much as for the first, or "
-                  "initial, resulting and last meshes only, without thresholds.");
+                  "Solves for the second and further seeds: all as for the first, or only initial, "
+                  "resulting and last meshes, without thresholds.");
   p.declare_entry("timing runs", "3", Patterns::Integer(1),
                   "Smoothing times are medians over this many runs.");
   p.declare_entry("edge scale", "1", Patterns::Double(1.0),
@@ -180,7 +180,7 @@ void declare_problem(ParameterHandler& p) {
                   "Warpage of volume meshes after every iteration, not only at the end.");
   p.declare_entry(
       "count cells below", "", Patterns::List(Patterns::Double(0.0, 1.0)),
-      "Mean ratios: summary.csv says how many cells are below each, initially and at the end.");
+      "Mean ratios: summary.csv has the number of cells below each, initially and at the end.");
   p.declare_entry(
       "metrics", "", Patterns::Anything(),
       "Metrics of the cells (see 'list'), separated by commas, or 'all': metrics.csv has "
@@ -191,7 +191,7 @@ void declare_problem(ParameterHandler& p) {
     const Subsection subsection(p, "solution");
     p.declare_entry("name", "", Patterns::Anything(),
                     "Solution (see 'list'), or 'expression' for the formulas below; empty: "
-                    "'expression' where there are any, else 'gear'.");
+                    "'expression' if there are any, otherwise 'gear'.");
     p.declare_entry("u", "", Patterns::Anything(),
                     "u as a formula in x and y (and z), pieces by 'if(x < 0.5, a, b)'; its "
                     "gradient and f are derived.");
@@ -201,8 +201,9 @@ void declare_problem(ParameterHandler& p) {
     p.declare_entry("natural", "", Patterns::Anything(),
                     "Parts of the boundary where A grad u . n is given instead of u: 'group NAME, "
                     "...', with the names or tags of the mesh file; empty: none.");
-    p.declare_entry("value", "", Patterns::Anything(),
-                    "In place of 'u', without deriving: u as an expression in x and y (and z).");
+    p.declare_entry(
+        "value", "", Patterns::Anything(),
+        "Instead of 'u', if nothing is to be derived: u as an expression in x and y (and z).");
     p.declare_entry("gradient", "", Patterns::Anything(),
                     "Its gradient: 'u_x ; u_y' (and '; u_z').");
     p.declare_entry("load", "", Patterns::Anything(), "f = -laplace(u), or -div(A grad u).");
@@ -215,25 +216,28 @@ void declare_problem(ParameterHandler& p) {
                     "Gauss points per direction on quadrilaterals.");
     p.declare_entry("hexahedron points", "auto", Patterns::Selection(hexahedron_points()),
                     "Gauss points per direction on hexahedra (pyramids, prisms): 1 to 20, or auto: "
-                    "each cell takes 4 or as many as leave less than 1e-4.");
-    p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "On |r| / |b|.");
+                    "each cell has 4, or as many as leave an error of less than 1e-4.");
+    p.declare_entry("cg tolerance", "1e-8", Patterns::Double(0.0, 1.0), "Tolerance for |r| / |b|.");
     p.declare_entry("boundary in norm", "true", Patterns::Bool(),
                     "Take the boundary values into |b| (the thesis' counts do).");
-    p.declare_entry("cg seconds", "0", Patterns::Double(0.0),
-                    "Longest time of each run of CG; 0: none. A run that is cut says so.");
-    p.declare_entry("condition number", "verified", Patterns::Selection("none|lanczos|verified"),
-                    "Of every record; initial and resulting meshes have verified ones if any.");
-    p.declare_entry("jacobi cg", "always", Patterns::Selection("never|results|always"),
-                    "For which meshes to run CG with Jacobi too; results: initial and resulting.");
     p.declare_entry(
-        "multigrid cg", "never", Patterns::Selection("never|results|always"),
-        "For which meshes to run CG with algebraic multigrid too. Records of planar meshes are "
-        "then solved one after the other.");
+        "cg seconds", "0", Patterns::Double(0.0),
+        "Longest time of each run of CG; 0: no limit. The status of a run that is cut says so.");
+    p.declare_entry("condition number", "verified", Patterns::Selection("none|lanczos|verified"),
+                    "Condition number of every record; initial and resulting meshes have verified "
+                    "ones if any.");
+    p.declare_entry(
+        "jacobi cg", "always", Patterns::Selection("never|results|always"),
+        "Meshes for which CG also runs with Jacobi; results: initial and resulting meshes.");
+    p.declare_entry("multigrid cg", "never", Patterns::Selection("never|results|always"),
+                    "Meshes for which CG also runs with algebraic multigrid. Records of planar "
+                    "meshes are then solved one after the other.");
   }
   const Subsection subsection(p, "thresholds");
   p.declare_entry("reference", "", Patterns::Anything(),
-                  "Method whose least errors set the thresholds; empty: none.");
-  p.declare_entry("margin", "0.05", Patterns::Double(0.0), "Fraction added to the least errors.");
+                  "Method whose smallest errors set the thresholds; empty: no thresholds.");
+  p.declare_entry("margin", "0.05", Patterns::Double(0.0),
+                  "Fraction added to the smallest errors.");
 }
 
 void declare_solution(ParameterHandler& p, const std::string& name,
@@ -267,17 +271,16 @@ StudySolution read_solution(ParameterHandler& p, const std::string& name) {
 void declare_scale(ParameterHandler& p, const std::string& name) {
   const Subsection subsection(p, "scale " + name);
   p.declare_entry("record every", "0", Patterns::Integer(0),
-                  "In place of the value above; 0: as it is.");
+                  "Replaces the value above; 0: no change.");
   p.declare_entry("record stages every", "", stage_numbers(),
-                  "In place of the value above; empty: as it is.");
+                  "Replaces the value above; empty: no change.");
   p.declare_entry("edge scale", "0", Patterns::Double(0.0),
-                  "In place of the value above; 0: as it is.");
+                  "Replaces the value above; 0: no change.");
   p.declare_entry("timing runs", "0", Patterns::Integer(0),
-                  "In place of the value above; 0: as it is.");
+                  "Replaces the value above; 0: no change.");
   p.declare_entry("meshes", "", Patterns::Anything(),
-                  "Those of the list above to take; empty: all.");
-  p.declare_entry("seeds", "", Patterns::Anything(),
-                  "In place of the value above; empty: as it is.");
+                  "Meshes to take from the list above; empty: all.");
+  p.declare_entry("seeds", "", Patterns::Anything(), "Replaces the value above; empty: no change.");
 }
 
 std::string study_template() {

@@ -10,10 +10,11 @@
 
 namespace smoothfem {
 
-/// Declare the keys of a study file: the lists that say which subsections there are, the subsection
-/// of one mesh, that of one method for meshes of these dimensions (its parameters only if the type
-/// is known: not empty; the preset may be empty; a method in a file is looked for in the folder),
+/// Each function declares a part of the keys of a study file. declare_lists: the lists that
+/// determine which subsections exist. declare_mesh: the subsection of one mesh. declare_problem:
 /// the problem.
+/// declare_method: the subsection of one method for meshes of these dimensions. An empty type
+/// declares no parameters. The preset may be empty. A method in a file is searched in the folder.
 void declare_lists(dealii::ParameterHandler& p);
 void declare_mesh(dealii::ParameterHandler& p, int dimension, const std::string& name);
 void declare_method(dealii::ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
@@ -21,20 +22,20 @@ void declare_method(dealii::ParameterHandler& p, MeshDimensions dimensions, cons
                     const std::filesystem::path& folder = {});
 void declare_problem(dealii::ParameterHandler& p);
 
-/// Declares the subsection of one of several solutions. formula_help: what its formula may have.
+/// Declares the subsection of one of several solutions. formula_help: help text of its formula.
 void declare_solution(dealii::ParameterHandler& p, const std::string& name,
                       const std::string& formula_help);
-/// Reads it: the solution that it describes, or one of the program's by the subsection's name.
-/// Throws InputError if it says both.
+/// Reads that subsection: its formula, or the program's solution of its name. Throws InputError if
+/// it has both.
 StudySolution read_solution(dealii::ParameterHandler& p, const std::string& name);
 
-/// Declares what one scale changes.
+/// Declares the subsection of one scale.
 void declare_scale(dealii::ParameterHandler& p, const std::string& name);
 
-/// For declare_solution, in studies of the kind smoothing.
+/// Help text for declare_solution, in studies of the kind smoothing.
 inline const std::string formula_of_solutions = "u as a formula, as in the subsection 'solution'.";
 
-/// What a scale may change, for apply_scale.
+/// Numbers that a scale may change, for apply_scale.
 inline const std::vector<std::string> scaled_numbers{"record every", "edge scale", "timing runs"};
 inline const std::vector<std::string> scaled_lists{"record stages every", "meshes", "seeds"};
 

@@ -8,7 +8,7 @@
 
 namespace smoothfem {
 
-/// The fields of a line that CsvText has written, without line breaks in them.
+/// Returns the fields of a line of CsvText. The fields must not contain line breaks.
 inline std::vector<std::string> csv_fields(const std::string& line) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -25,7 +25,8 @@ inline std::vector<std::string> csv_fields(const std::string& line) {
   return fields;
 }
 
-/// Lines of comma-separated fields; numbers in the shortest form that reads back the same.
+/// Lines of comma-separated fields. Numbers have the shortest form that reads back as the same
+/// number.
 class CsvText {
  public:
   explicit CsvText(const std::string& header) : text_(header + "\n") {}

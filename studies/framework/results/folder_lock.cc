@@ -19,7 +19,8 @@ namespace smoothfem {
 
 namespace {
 
-/// "process 1234" from the system's list of locks, or "another process" where it does not say.
+/// Returns "process 1234" from the system's list of locks, or "another process" if the list does
+/// not have it.
 std::string owner_of_lock(int descriptor) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) return "another process";

@@ -5,12 +5,12 @@
 
 namespace smoothfem {
 
-/// Keeps other processes from writing into a folder of results, for as long as it lives; the system
-/// lets go of it when the process ends, however it ends. Leaves no file.
+/// A lock that keeps other processes from writing into a folder of results. The system releases it
+/// when the process ends in any way. It leaves no file.
 class FolderLock {
  public:
-  /// Throws InputError if another process has it. A folder that does not exist, or a file system
-  /// that knows no locks, is not locked.
+  /// Throws InputError if another process has the lock. A folder that does not exist is not locked,
+  /// nor is one on a file system without locks.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

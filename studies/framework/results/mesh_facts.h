@@ -9,19 +9,19 @@
 
 namespace smoothfem {
 
-/// What results say about one of a study's meshes.
+/// The facts about one of a study's meshes that results report.
 struct MeshFacts {
   StudyMesh description;
   std::size_t n_nodes = 0, n_cells = 0;
   MeshQuality quality;
-  std::string origin;      ///< file path, or the domain and its distortion
-  std::string setting{};   ///< the same without the file's folder, which may be named in many ways
-  std::string file{};      ///< with the mesh that smoothing starts from, in the folder of results
-  bool published = false;  ///< read by --mesh-dir: comparable with printed values digit for digit
+  std::string origin;         ///< file path, or the domain and its distortion
+  std::string setting{};      ///< origin without the file's folder, which may have several names
+  std::string file{};         ///< of the mesh that smoothing starts from, in the folder of results
+  bool published = false;     ///< read by --mesh-dir: comparable with printed values digit by digit
   std::string source_sha256;  ///< of the file it was read from; empty if it was generated
-  /// By degree: Gauss points per direction of the hexahedron that needed most, where they were
-  /// chosen.
-  std::map<int, int> most_points{};
+  /// Gauss points per direction, by degree, of the hexahedron that needed the largest number; empty
+  /// if the user fixed the number.
+  std::map<int, int> max_points{};
   std::string sha256;  ///< of its text form in the results; empty until that is written
 };
 

@@ -5,8 +5,8 @@
 
 namespace smoothfem {
 
-/// Fills StudyMethod::files and StudyMethod::version: programs, scripts and plugins that methods
-/// come from, as they are now. What is not there is left out; the method will fail, and say so.
+/// Fills StudyMethod::files and StudyMethod::version with the present programs, scripts and plugins
+/// of the methods. Missing files are left out; the method will fail and report them.
 void note_files(Study& study);
 
 }  // namespace smoothfem

@@ -68,22 +68,22 @@ Json describe_meshes(const RunFacts& facts) {
                       {"q_mean", mesh.quality.q_mean},
                       {"file", mesh.file},
                       {"sha256", mesh.sha256}});
-    for (const auto& [degree, n_points] : mesh.most_points)
+    for (const auto& [degree, n_points] : mesh.max_points)
       meshes.back()["most_hexahedron_points"][std::to_string(degree)] = n_points;
     if (!mesh.description.repeats.empty()) meshes.back()["repeats"] = mesh.description.repeats;
   }
   return meshes;
 }
 
-/// Numbers as numbers, everything else as its text.
+/// Returns numbers as numbers, and everything else as text.
 Json json_value(const Parameter& parameter) {
   if (const auto* number = std::get_if<double*>(&parameter.value)) return **number;
   if (const auto* number = std::get_if<int*>(&parameter.value)) return **number;
   return value_text(parameter);
 }
 
-/// The type of a method without the folder of its file, if it is in one: where that was found is
-/// the machine's affair, what it holds is not.
+/// Adds the type of a method, without the folder of its file if it is in a file. The folder depends
+/// on the machine; the content does not.
 void describe_type(const StudyMethod& method, Json& json) {
   json["type"] = method.type;
   auto in_file = method_in_file(method.type);
@@ -116,7 +116,7 @@ Json describe_methods(const RunFacts& facts) {
   return methods;
 }
 
-/// The sessions before, and this one.
+/// Returns the earlier sessions and this one.
 Json describe_sessions(const RunFacts& facts) {
   Json sessions =
       facts.earlier_sessions.empty() ? Json::array() : Json::parse(facts.earlier_sessions);
@@ -193,8 +193,8 @@ EarlierRun read_provenance(const std::filesystem::path& path) {
   } catch (const Json::exception&) {
     throw InputError(
         path.string() +
-        " is not what this program writes, so it is not known what the results beside "
-        "it are; start anew with --force, which keeps them under another name, or take "
+        " is not a provenance of this program, so the origin of the results next to "
+        "it is unknown; start anew with --force, which keeps them under another name, or take "
         "another --out");
   }
 }

@@ -9,13 +9,13 @@
 
 namespace smoothfem {
 
-/// How a run uses the machine.
+/// The number of threads and processes of a run.
 struct ProcessorUse {
   unsigned int smoothing_threads = 1, finite_element_threads = 1;
   int n_ranks = 1;
 };
 
-/// What provenance.json says besides what the program knows of itself and the machine.
+/// The content of provenance.json, except facts of the program and the machine.
 struct RunFacts {
   const StudyHeader& study;
   ProcessorUse processors;
@@ -28,12 +28,13 @@ struct RunFacts {
   std::vector<StudyMethod> methods{};  ///< for meshes of these dimensions
 };
 
-/// provenance.json as text: commit, compiler, versions, machine, seeds, SHA-256 of every initial
-/// mesh (of its file in `meshes/`), the parameters in force, and the time split, of each session
-/// that has worked on the results and of all together.
+/// Returns the text of provenance.json: commit, compiler, versions, machine, seeds, parameters in
+/// force, and SHA-256 of every initial mesh (of its file in `meshes/`).
+/// It also has the time split of each session that has worked on the results, and of all sessions
+/// together.
 std::string provenance_json(const RunFacts& facts);
 
-/// What an earlier run has left in its folder.
+/// The provenance that an earlier run has left in its folder.
 struct EarlierRun {
   std::string status;
   std::string commit;
@@ -41,22 +42,23 @@ struct EarlierRun {
   std::map<std::string, std::string> settings;  ///< everything that determines the rows
   std::map<std::string, std::string> meshes;    ///< name -> SHA-256 of its file
 };
-/// Throws InputError if the file is not a provenance; an empty status if there is none.
+/// Reads a provenance. The status is empty if the file does not exist. Throws InputError if it is
+/// not a provenance.
 EarlierRun read_provenance(const std::filesystem::path& path);
 
-/// The same settings of this run; without `meshes` neither their sources nor the files of methods
-/// are among them yet.
+/// Returns the settings of this run, to compare with EarlierRun::settings. Without `meshes`, they
+/// lack the sources of meshes and the files of methods.
 std::map<std::string, std::string> settings_of(const StudyHeader& study,
                                                const std::vector<MeshFacts>& meshes,
                                                const std::vector<StudyMethod>& methods);
 
-/// The present time (UTC), as in provenance.json.
+/// Returns the present time (UTC) in the format of provenance.json.
 std::string now_utc();
 
-/// The commit that this program was built from.
+/// Returns the commit that this program was built from.
 std::string program_commit();
 
-/// Of each library its version.
+/// Returns the version of each library.
 std::map<std::string, std::string> library_versions();
 
 }  // namespace smoothfem

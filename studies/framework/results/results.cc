@@ -19,7 +19,7 @@ constexpr const char* solution_columns =
     "l2_error,h1_error,status";
 constexpr int n_solution_numbers = 22;  ///< between degree and status
 
-/// Two columns for each threshold.
+/// Returns the names of two columns for each threshold.
 std::string count_columns(const std::vector<CellsBelow>& counts) {
   std::string columns;
   for (const CellsBelow& count : counts) {
@@ -35,7 +35,7 @@ void add_quality(CsvText& csv, const MeshQuality& quality) {
   csv.integer(quality.n_invalid);
 }
 
-/// Empty where there are no quadrilateral faces.
+/// Adds the warpage, or empty fields if there are no quadrilateral faces.
 void add_warpage(CsvText& csv, const std::optional<MeshWarpage>& warpage) {
   const bool known = warpage && warpage->n_faces > 0;
   csv.number(known ? std::optional(warpage->max) : std::nullopt);
@@ -97,7 +97,7 @@ double preparation_of(const Curve& curve) {
 
 std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
                                            const std::string& reference, double margin) {
-  // In the order of the rows: meshes, then degrees, then methods.
+  // The groups have the order of the rows: meshes, then degrees, then methods.
   std::vector<std::pair<std::string, int>> groups;
   std::map<std::pair<std::string, int>, std::vector<std::pair<std::string, Curve>>> curves;
   for (const auto& row : rows) {

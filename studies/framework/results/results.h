@@ -55,7 +55,7 @@ struct SummaryRow {
   std::string iterations{};  ///< "40/2800"; empty for the initial mesh
   double smoothing_seconds = 0.0;
   double preparation_seconds = 0.0;
-  std::optional<double> wall_seconds{};  ///< of the program run that made it, if one did
+  std::optional<double> wall_seconds{};  ///< of the external program's run, if one made the mesh
   MeshQuality quality{};
   std::vector<CellsBelow> cells_below{};    ///< for the same thresholds in all rows
   std::optional<MeshWarpage> warpage{};     ///< of volume meshes
@@ -65,7 +65,7 @@ struct SummaryRow {
   std::string status{};
 };
 
-/// A row of thresholds.csv: when a method's error came below a threshold, if it did.
+/// A row of thresholds.csv: the time when a method's error fell below a threshold, if it did.
 struct ThresholdRow {
   std::string mesh;
   int degree = 0;
@@ -78,12 +78,12 @@ struct ThresholdRow {
   double reference_preparation_seconds = 0.0, method_preparation_seconds = 0.0;
 };
 
-/// The thresholds that the reference's least errors, increased by the margin, set on each mesh,
-/// degree and error, and when each other method first comes below them (thesis, Table 6.4).
+/// Returns when each method first comes below the thresholds (thesis, Table 6.4). On each mesh,
+/// degree and error, the threshold is the reference's smallest error increased by the margin.
 std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
                                            const std::string& reference, double margin);
 
-/// The tables as text; columns, units and order are a contract (studies/columns.json).
+/// Return the tables as text. Columns, units and order are a contract (studies/columns.json).
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows);
 std::string refined_csv(const std::string& study, const std::vector<RefinedRow>& rows);
 std::string solutions_csv(const std::string& study, const std::vector<SolutionRow>& rows);

@@ -21,7 +21,7 @@ void require_published_files(const Study& study, const fs::path& mesh_dir) {
                    " names a published file; leave it out or set 'published file' for a mesh");
 }
 
-void rename_existing(const fs::path& folder) {
+void move_old_results(const fs::path& folder) {
   if (!fs::exists(folder) || fs::is_empty(folder)) return;
   fs::path plain = folder;
   if (!plain.has_filename()) plain = plain.parent_path();
@@ -48,9 +48,9 @@ void make_results_folder(const fs::path& folder, std::optional<FolderLock>& lock
                      " in the meantime; start this one again, or take another --out");
 }
 
-void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
-                           const std::vector<MeshFacts>& meshes,
-                           const std::vector<StudyMethod>& methods, const fs::path& folder) {
+void check_settings_match(const EarlierRun& earlier, const StudyHeader& study,
+                          const std::vector<MeshFacts>& meshes,
+                          const std::vector<StudyMethod>& methods, const fs::path& folder) {
   if (earlier.status.empty()) return;
   auto settings = settings_of(study, meshes, methods);
   std::string differences;

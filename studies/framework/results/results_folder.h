@@ -9,25 +9,25 @@
 
 namespace smoothfem {
 
-/// Before hours of work, and without leaving a trace: can files be written below this folder?
-/// Throws InputError.
+/// Throws InputError if files cannot be written below this folder. It leaves no trace, and avoids a
+/// failure after hours of work.
 void require_writable(const std::filesystem::path& folder);
 
-/// --mesh-dir must not be taken for something that it does not do. Throws InputError.
+/// Throws InputError if --mesh-dir is set but no mesh of the study names a published file.
 void require_published_files(const Study& study, const std::filesystem::path& mesh_dir);
 
-/// Renames the folder, if it holds anything, to the first of NAME_1, NAME_2, ... that is not there.
-void rename_existing(const std::filesystem::path& folder);
+/// Renames the folder to the first free name of NAME_1, NAME_2, ..., if it holds anything.
+void move_old_results(const std::filesystem::path& folder);
 
-/// Makes the folder of a run that has no results yet, and locks it: until then the lock was that of
-/// no folder, or of one that has another name now. Throws InputError if another run was faster.
+/// Makes the folder of a run that has no results yet, and locks it. The earlier lock was for a
+/// missing or renamed folder. Throws InputError if another run has begun there in the meantime.
 void make_results_folder(const std::filesystem::path& folder, std::optional<FolderLock>& lock);
 
-/// Throws InputError that says what differs if the run in a folder was one with other settings.
-/// meshes: empty as long as nothing is known of them.
-void require_same_settings(const EarlierRun& earlier, const StudyHeader& study,
-                           const std::vector<MeshFacts>& meshes,
-                           const std::vector<StudyMethod>& methods,
-                           const std::filesystem::path& folder);
+/// Throws InputError with the differences if the earlier run in the folder had other settings.
+/// meshes: empty if nothing is known of them yet.
+void check_settings_match(const EarlierRun& earlier, const StudyHeader& study,
+                          const std::vector<MeshFacts>& meshes,
+                          const std::vector<StudyMethod>& methods,
+                          const std::filesystem::path& folder);
 
 }  // namespace smoothfem

@@ -7,10 +7,10 @@
 
 namespace smoothfem {
 
-/// SHA-256 in 64 hexadecimal digits.
+/// Returns SHA-256 as 64 hexadecimal digits.
 std::string sha256(std::string_view content);
 
-/// Of a file's content; empty if it cannot be read.
+/// Returns SHA-256 of a file's content; empty if the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace smoothfem

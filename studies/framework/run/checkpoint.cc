@@ -48,7 +48,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// CBOR keeps every bit of a double, and is short.
+/// Saves as CBOR, which is short and keeps every bit of a double.
 template <class T>
 void save_as_cbor(const fs::path& folder, const std::string& name, const T& value) {
   const auto bytes = Json::to_cbor(Json(value));
@@ -66,7 +66,8 @@ std::optional<T> load_cbor(const fs::path& folder, const std::string& name) {
   }
 }
 
-/// A file of a checkpoint is written once and replaced in one piece: a link is as good as a copy.
+/// Links or copies a file. A link is as good as a copy, because a checkpoint's files are only
+/// replaced as a whole.
 void link_file(const fs::path& from, const fs::path& to) {
   if (fs::exists(to)) return;
   std::error_code cannot_link;
@@ -74,7 +75,7 @@ void link_file(const fs::path& from, const fs::path& to) {
   if (cannot_link) fs::copy_file(from, to);
 }
 
-/// Whether its indices are those of records that it has.
+/// True if the trajectory's indices are valid for its records.
 bool is_consistent(const Trajectory& t) {
   const std::size_t n_records = t.records.size();
   return t.result_record < n_records && std::is_sorted(t.snapshots.begin(), t.snapshots.end()) &&
@@ -109,7 +110,7 @@ std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_
 }
 
 void Checkpoint::save(const std::string& name, const Trajectory& trajectory) const {
-  if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the numbers it refers to
+  if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the saved numbers
   save_as_cbor(folder_, name + ".trajectory", trajectory);
 }
 
@@ -119,7 +120,7 @@ void Checkpoint::adopt(const fs::path& other, const std::string& name) const {
   fs::create_directories(folder_ / name);
   for (const auto& entry : fs::directory_iterator(other / name))
     link_file(entry.path(), folder_ / name / entry.path().filename());
-  link_file(other / trajectory, folder_ / trajectory);  // last: it refers to the others
+  link_file(other / trajectory, folder_ / trajectory);  // last, because it refers to the others
 }
 
 std::optional<Trajectory> Checkpoint::load_trajectory(const std::string& name) const {

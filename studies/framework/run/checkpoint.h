@@ -15,39 +15,41 @@ namespace smoothfem {
 /// The finite element records of one mesh, method and degree.
 struct SolvedRecords {
   std::map<std::size_t, SolutionRecord> records;  ///< by the record of the trajectory
-  std::map<std::size_t, double> seconds;          ///< that each took
-  std::vector<double> eigenvectors;               ///< what the next record starts from
+  std::map<std::size_t, double> seconds;          ///< of each record
+  std::vector<double> eigenvectors;               ///< start values of the next record
 };
 
-/// What a study has done so far, in a folder: a run that is killed at any moment goes on from here,
-/// and after a power failure from what was noted last. Every file appears in one piece; numbers
-/// come back with the same bits, and a file that is not what was written is refused
-/// (sealed_file.h). The files are for the program that wrote them alone. Errors are InputError.
+/// The present state of a study, in a folder. A run that is killed at any moment resumes from here;
+/// after a power failure it resumes from the last saved state.
+/// Every file is written as a whole. Numbers are restored bitwise identical. Damaged files are
+/// refused (sealed_file.h). Only the program that wrote the files can read them. Errors are
+/// InputError.
 class Checkpoint {
  public:
   explicit Checkpoint(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Names a mesh's method, or with a degree its finite element records.
+  /// Returns the name of a mesh's method, or with a degree that of its finite element records.
   static std::string name(const std::string& mesh, const std::string& method, int degree = 0);
 
-  /// One array of numbers per record: coordinates (without degree), nodal errors (with degree).
+  /// Saves one array of numbers per record: coordinates (without degree) or nodal errors (with
+  /// degree).
   void save_numbers(const std::string& name, std::size_t record,
                     const std::vector<double>& numbers) const;
-  /// size: how many there have to be.
+  /// Loads such an array. size: its required length.
   std::vector<double> load_numbers(const std::string& name, std::size_t record,
                                    std::size_t size) const;
 
-  /// Saved when all its snapshots have been.
+  /// Saves a trajectory. All its snapshots must have been saved.
   void save(const std::string& name, const Trajectory& trajectory) const;
   std::optional<Trajectory> load_trajectory(const std::string& name) const;
-  /// Takes over the trajectory of this name, and its snapshots, if the checkpoint in another folder
-  /// has them and this one has not.
+  /// Links the trajectory of this name and its snapshots from the checkpoint in another folder.
+  /// Does nothing if this checkpoint has them, or if the other one does not.
   void adopt(const std::filesystem::path& other, const std::string& name) const;
 
   void save(const std::string& name, const SolvedRecords& solved) const;
   std::optional<SolvedRecords> load_solved(const std::string& name) const;
 
-  /// When the study is complete, its results stand elsewhere.
+  /// Removes the checkpoint of a complete study, whose results are elsewhere.
   void remove() const;
 
  private:
@@ -56,7 +58,7 @@ class Checkpoint {
   std::filesystem::path folder_;
 };
 
-/// Points as numbers, one coordinate after the other, and back.
+/// Converts points to numbers, one coordinate after the other, and back.
 template <int dim>
 std::vector<double> numbers_of(std::span<const Point<dim>> points);
 template <int dim>

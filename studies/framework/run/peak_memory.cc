@@ -9,15 +9,15 @@
 namespace smoothfem {
 
 void return_freed_memory() {
-  constexpr int most_maps = 65536;             // the C library's default
-  constexpr int least_map = 16 * 1024 * 1024;  // smaller ones are reused, without page faults
-  mallopt(M_MMAP_MAX, most_maps);
-  mallopt(M_MMAP_THRESHOLD, least_map);
-  mallopt(M_TRIM_THRESHOLD, 2 * least_map);
+  constexpr int max_maps = 65536;            // the C library's default
+  constexpr int min_map = 16 * 1024 * 1024;  // smaller ones are reused, without page faults
+  mallopt(M_MMAP_MAX, max_maps);
+  mallopt(M_MMAP_THRESHOLD, min_map);
+  mallopt(M_TRIM_THRESHOLD, 2 * min_map);
 }
 
 PeakMemory::PeakMemory() {
-  malloc_trim(0);  // what earlier work has freed is not ours
+  malloc_trim(0);  // returns memory that earlier work has freed
   std::ofstream("/proc/self/clear_refs") << 5;
 }
 

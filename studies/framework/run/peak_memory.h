@@ -3,18 +3,19 @@
 
 namespace smoothfem {
 
-/// Lets large arrays go back to the system when they are freed. SuperLU_DIST, which comes with
-/// Trilinos, tells the C library otherwise when it is loaded: programs then need up to twice the
-/// memory. To be called first of all.
+/// Returns large arrays to the system when they are freed. SuperLU_DIST, which comes with Trilinos,
+/// changes this setting of the C library when it is loaded. Programs then need up to twice the
+/// memory. Call this function first of all.
 void return_freed_memory();
 
-/// The most memory that this process holds from now on, as the Linux kernel counts it.
+/// The peak memory of this process from now on, as the Linux kernel counts it.
 class PeakMemory {
  public:
-  /// Resets the kernel's mark; where it does not allow that, the mark is that of the whole run.
+  /// Resets the kernel's peak. If the kernel does not allow that, the peak is that of the whole
+  /// run.
   PeakMemory();
 
-  /// In GiB (2^30 bytes); 0 where the system does not tell.
+  /// Returns the peak in GiB (2^30 bytes); 0 if the system does not report it.
   double gib() const;
 };
 

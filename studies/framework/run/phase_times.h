@@ -7,7 +7,7 @@
 
 namespace smoothfem {
 
-/// How many seconds the phases of a run have taken.
+/// The seconds that the phases of a run have taken.
 class PhaseTimes {
  public:
   template <class Work>
@@ -19,7 +19,7 @@ class PhaseTimes {
     phase_.clear();
   }
 
-  /// By phase; up to now for the one under way.
+  /// Returns the seconds of each phase; of the present phase, the seconds up to now.
   std::map<std::string, double> seconds() const {
     auto result = seconds_;
     if (!phase_.empty())
@@ -31,7 +31,7 @@ class PhaseTimes {
   using Clock = std::chrono::steady_clock;
 
   std::map<std::string, double> seconds_;
-  std::string phase_;  ///< under way; empty: none
+  std::string phase_;  ///< the present one; empty: none
   Clock::time_point started_;
 };
 

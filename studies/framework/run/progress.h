@@ -7,25 +7,25 @@
 
 namespace smoothfem {
 
-/// "3.2 s", "12 min 05 s".
+/// Returns "3.2 s" or "12 min 05 s".
 std::string duration_text(double seconds);
 
-/// Tells on standard error how far a run is: a bar that is drawn over on a terminal, a plain line
-/// now and then elsewhere, nothing when quiet.
+/// Prints the progress of a run to standard error. A terminal gets a bar that is redrawn. Other
+/// outputs get a plain line now and then. Nothing is printed when quiet.
 class Progress {
  public:
   explicit Progress(bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
 
-  /// A phase with n_steps steps begins.
+  /// Begins a phase with n_steps steps.
   void begin(const std::string& phase, std::size_t n_steps);
-  /// `done` steps of the phase are finished; `what`: what is being worked on. seconds_left: of the
-  /// phase, if that is known; the share that is done is then that of the time.
+  /// Notes that `done` steps of the phase are finished. what: the present work. seconds_left: time
+  /// left in the phase, if known; the displayed share is then that of the time.
   void update(std::size_t done, const std::string& what, std::optional<double> seconds_left = {});
-  /// The phase is over: its line says how long it took.
+  /// Ends the phase and prints how long it took.
   void end();
-  /// A line of its own.
+  /// Prints a line.
   void say(const std::string& text);
 
  private:

@@ -41,20 +41,20 @@ class StudyRun {
         data_{study, Checkpoint(options.out / "checkpoint")} {}
 
   void run() {
-    // Everything the user gave is checked before the first file is written.
+    // All of the user's input is checked before the first file is written.
     require_writable(options_.out);
     require_published_files(study_, options_.mesh_dir);
     lock_.emplace(options_.out);
-    if (options_.force) rename_existing(options_.out);
+    if (options_.force) move_old_results(options_.out);
     earlier_ = read_provenance(options_.out / "provenance.json");
-    require_same_settings(earlier_, study_.header, {}, {}, options_.out);
+    check_settings_match(earlier_, study_.header, {}, {}, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
-      require_same_settings(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
+      check_settings_match(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
       if (!study_.degrees.empty()) make_solutions();
     });
     if (earlier_.status == "complete") {
-      data_.checkpoint.remove();  // of a run that was killed after its last word
+      data_.checkpoint.remove();  // of a run that was killed at its very end
       return report_complete();
     }
     begin_writing();
@@ -91,7 +91,7 @@ class StudyRun {
     progress_.end();
   }
 
-  /// Expressions are checked at nodes of the first mesh.
+  /// Makes the solutions. Expressions are checked at nodes of the first mesh.
   void make_solutions() {
     const auto& points = data_.meshes.front().mesh.coordinates();
     std::vector<Point<spacedim>> sample;
@@ -105,11 +105,11 @@ class StudyRun {
     }
   }
 
-  /// What a method moves nodes by; null: the study solves nothing.
+  /// Returns the problem that a method moves nodes by; null if the study solves nothing.
   std::shared_ptr<const Problem<spacedim>> problem_of(const StudyMethod& method) {
     if constexpr (dim == spacedim) {
       if (data_.solutions.empty()) return nullptr;
-      std::vector<std::size_t> chosen;  // by number among the study's solutions
+      std::vector<std::size_t> chosen;  // indices of the study's solutions
       const auto all = solutions_of(study_);
       for (const auto& label : method.smooth_for)
         for (std::size_t s = 0; s < all.size(); ++s)
@@ -131,23 +131,25 @@ class StudyRun {
     return nullptr;
   }
 
-  /// The provenance first: results of an earlier run are then not taken for those of this one.
+  /// Begins with the provenance, so that results of an earlier run are not taken for those of this
+  /// one.
   void begin_writing() {
     writing_ = true;
     if (earlier_.status.empty()) {
       make_results_folder(options_.out, lock_);
-      data_.checkpoint.remove();  // of a run whose provenance is gone
+      data_.checkpoint.remove();  // of a run whose provenance is missing
       write_provenance("running");
       for (auto& prepared : data_.meshes) write_initial_mesh(prepared, options_.out);
     } else {
       remove_unfinished_files(options_.out);
       for (auto& prepared : data_.meshes) require_same_mesh(prepared, earlier_, options_.out);
-      progress_.say("Going on where the run in " + options_.out.string() + " was.");
+      progress_.say("Resuming the run in " + options_.out.string() + ".");
     }
     write_provenance("running");  // now with the checksums
   }
 
-  /// A smoother that waits for another program sees the interruption by itself.
+  /// Smooths all meshes. A smoother that waits for another program notices the interruption by
+  /// itself.
   void smooth_meshes() {
     try {
       smooth_all();
@@ -175,7 +177,7 @@ class StudyRun {
     progress_.end();
   }
 
-  /// "simultaneous 120, q_mean 0.7312"
+  /// Returns for example "simultaneous 120, q_mean 0.7312".
   static std::string iteration_text(const IterationRecord& record) {
     char q_mean[16];
     std::snprintf(q_mean, sizeof(q_mean), "%.4f", record.quality.q_mean);
@@ -206,7 +208,7 @@ class StudyRun {
     return trajectory;
   }
 
-  /// trajectory: its name.
+  /// Returns the folders for a method's files. trajectory: its name.
   SmootherFolders folders_of(const std::string& trajectory) const {
     return {study_.folder,
             std::filesystem::absolute(options_.out) / "logs" / (trajectory + ".log")};
@@ -223,60 +225,62 @@ class StudyRun {
     progress_.begin("Finite elements", data_.tasks.size());
     run_tasks(open);
     progress_.end();
-    tell_points();
+    report_gauss_points();
   }
 
-  /// Gauss points of hexahedra, where they were chosen; of all records, those of earlier sessions
-  /// too.
-  void tell_points() {
+  /// Reports the chosen numbers of Gauss points of hexahedra. It covers all records, including
+  /// those of earlier sessions.
+  void report_gauss_points() {
     for (const auto& task : data_.tasks) {
       if (task.solution.most_points == 0) continue;
-      int& most = data_.meshes[task.job.mesh].most_points[study_.degrees[task.job.degree]];
-      most = std::max(most, task.solution.most_points);
+      int& n_points = data_.meshes[task.job.mesh].max_points[study_.degrees[task.job.degree]];
+      n_points = std::max(n_points, task.solution.most_points);
     }
     for (const auto& mesh : data_.meshes)
-      for (const auto& [degree, most] : mesh.most_points)
+      for (const auto& [degree, n_points] : mesh.max_points)
         progress_.say("Cells of " + mesh.description.name + ", degree " + std::to_string(degree) +
                       ": " + std::to_string(adaptive_quadrature::rule_sequence.front()) + " to " +
-                      std::to_string(most) +
-                      " Gauss points per direction, each cell as many as it needs.");
+                      std::to_string(n_points) +
+                      " Gauss points per direction, chosen for each cell.");
   }
 
-  /// Tasks that are not done, those first that tell soon what all the others cost. Of volume meshes
-  /// verified condition numbers go from record to record of a job, whose order then has to be that
-  /// of the records.
+  /// Returns the tasks to do. Representative ones come first, so that the estimate of the remaining
+  /// time is soon good.
+  /// In a job on a volume mesh, each verified condition number starts from the record before. Such
+  /// jobs keep the order of the records.
   std::vector<SolveTask*> open_tasks() {
     const bool any_order =
         dim == 2 || study_.finite_elements.condition_number != ConditionNumberMethod::verified;
     std::vector<SolveTask*> first, others;
     for (auto begin = data_.tasks.begin(); begin != data_.tasks.end();) {
       const SolveJob& job = begin->job;
-      const auto telling = telling_records(job.n_tasks);
+      const auto representative = representative_records(job.n_tasks);
       for (std::size_t i = 0; i < job.n_tasks; ++i, ++begin) {
         if (begin->done) continue;
-        const bool tells =
-            any_order && std::find(telling.begin(), telling.end(), i) != telling.end();
-        (tells ? first : others).push_back(&*begin);
+        const bool is_representative =
+            any_order &&
+            std::find(representative.begin(), representative.end(), i) != representative.end();
+        (is_representative ? first : others).push_back(&*begin);
       }
     }
     first.insert(first.end(), others.begin(), others.end());
     return first;
   }
 
-  /// What is to come, before the first of it.
+  /// Reports the number of tasks to do and their estimated time.
   void announce(std::size_t n_open) {
     constexpr double long_time = 60.0;
     const double seconds = seconds_left();
-    std::string text = std::to_string(n_open) + " finite element solves are to come, some " +
-                       duration_text(seconds);
+    std::string text =
+        std::to_string(n_open) + " finite element solves to do, about " + duration_text(seconds);
     if (seconds > long_time)
       text += " by a rough estimate; 'set record every = " +
               std::to_string(10 * study_.record_every.default_interval) +
-              "' or '--scale quick' takes fewer";
+              "' or '--scale quick' needs fewer solves";
     if (n_open > 0) progress_.say(text + ".");
   }
 
-  /// Until the tasks that are not done are: those under way count as not begun.
+  /// Estimates the seconds until all tasks are done. Tasks under way count as not begun.
   double seconds_left() const { return costs_.seconds_to_come() / n_workers_; }
 
   std::vector<SolveQueue::Worker> workers(const std::vector<SolveTask*>& open) {
@@ -288,7 +292,7 @@ class StudyRun {
       return solve_workers(data_, open, team_);
   }
 
-  /// Waits for the queue; writes the rows there are every few seconds.
+  /// Waits for the queue, and writes the available rows every few seconds.
   void run_tasks(const std::vector<SolveTask*>& open) {
     using Clock = std::chrono::steady_clock;
     constexpr auto look = std::chrono::milliseconds(50);
@@ -318,8 +322,8 @@ class StudyRun {
     queue.rethrow();
   }
 
-  /// Tasks may be under way on other threads, for a long time: the process ends without them. What
-  /// is done is in the checkpoint.
+  /// Ends the process if the user has interrupted it. Tasks may run on other threads for a long
+  /// time, so it does not wait for them. Finished work is in the checkpoint.
   void stop_if_interrupted() {
     if (options_.interrupted == nullptr || !*options_.interrupted) return;
     if (!writing_) {
@@ -330,7 +334,7 @@ class StudyRun {
     write_provenance("interrupted");
     progress_.say("Interrupted: the " + std::to_string(rows) + " rows finished so far are in " +
                   (options_.out / "iterations.csv").string() +
-                  "; the same command goes on from here.");
+                  "; the same command resumes from here.");
     std::_Exit(130);
   }
 
@@ -340,7 +344,8 @@ class StudyRun {
     return rows.size();
   }
 
-  /// Those of meshes of which results only are solved do not say when an error fell.
+  /// Rows without those of meshes for which only results are solved: they do not show when an error
+  /// fell.
   std::vector<IterationRow> rows_with_every_record() const {
     auto rows = finished_rows(data_);
     for (const auto& mesh : data_.meshes)
@@ -391,14 +396,14 @@ class StudyRun {
 
   const Study& study_;
   const StudyOptions& options_;
-  SolverTeam team_;  ///< the other ranks wait for its orders from the beginning
+  SolverTeam team_;  ///< the other ranks wait for its commands from the beginning
   unsigned int n_workers_;
   mutable Progress progress_;
   StudyData<dim, spacedim> data_;
   SolveCosts costs_;
   EarlierRun earlier_;
   std::optional<FolderLock> lock_;
-  bool writing_ = false;  ///< the folder of the results holds files of this run
+  bool writing_ = false;  ///< the results folder has files of this run
   const std::string started_ = now_utc();
   PhaseTimes times_;
 };

@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The first bytes of each file; another number for each other format of the contents.
+/// The first bytes of each file. A new format of the contents needs a new number.
 constexpr std::string_view format = "smoothfem checkpoint 2\n";
 
-/// What precedes the content.
+/// Returns the bytes before the content.
 std::string seal(const std::string& name, std::string_view content) {
   const std::string content_sha256 = sha256(content);
   return std::string(format) +
@@ -27,9 +27,10 @@ std::string seal(const std::string& name, std::string_view content) {
 }  // namespace
 
 void refuse_damaged(const fs::path& path) {
-  throw InputError(path.string() +
-                   " is damaged: it is not what an earlier run of this version has written; start "
-                   "the study anew with --force, which keeps its results under another name");
+  throw InputError(
+      path.string() +
+      " is damaged: an earlier run of this version has not written it like this; start "
+      "the study anew with --force, which keeps its results under another name");
 }
 
 void write_sealed(const fs::path& folder, const std::string& name, std::string_view content) {
@@ -42,7 +43,8 @@ std::optional<std::string> read_sealed(const fs::path& folder, const std::string
   const fs::path path = folder / name;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
-    if (fs::exists(path)) throw InputError("cannot read " + path.string() + "; check who may");
+    if (fs::exists(path))
+      throw InputError("cannot read " + path.string() + "; check its permissions");
     return std::nullopt;
   }
   std::string content(std::istreambuf_iterator<char>(stream), {});

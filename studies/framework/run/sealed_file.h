@@ -8,17 +8,17 @@
 
 namespace smoothfem {
 
-/// Writes `content` to folder/name in one piece, with a seal: a checksum of the name, the length
-/// and the content. Throws InputError.
+/// Writes `content` to folder/name as a whole, with a seal: a checksum of the name, the length and
+/// the content. Throws InputError.
 void write_sealed(const std::filesystem::path& folder, const std::string& name,
                   std::string_view content);
 
-/// The content of folder/name, or nothing if there is no such file. Throws InputError if the file
-/// is not what write_sealed has written under this name: cut off, changed, or another one's.
+/// Returns the content of folder/name, or nothing if there is no such file. Throws InputError if
+/// write_sealed did not write the file under this name, or if it is cut off or changed.
 std::optional<std::string> read_sealed(const std::filesystem::path& folder,
                                        const std::string& name);
 
-/// What is said of a file that is not.
+/// Throws InputError that the file is damaged.
 [[noreturn]] void refuse_damaged(const std::filesystem::path& path);
 
 }  // namespace smoothfem

@@ -55,8 +55,8 @@ void SolveCosts::fit() const {
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
-  // In units of the scatter of one task: a factor of 1.2. Effects are expected within 2, that of
-  // the machine within 5, that of being an initial mesh within 10.
+  // Weights are in units of the scatter of one task: a factor of 1.2. Effects are expected within a
+  // factor of 2, the machine's within 5, and an initial mesh's within 10.
   constexpr double scatter = 0.2;
   constexpr std::array<double, 6> expected{1.6, 0.7, 0.7, 0.7, 0.7, 2.3};
   for (const auto& [effect, column] : columns)

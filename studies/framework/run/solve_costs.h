@@ -10,49 +10,51 @@
 
 namespace smoothfem {
 
-/// A task; those with the same key() are of one kind, and cost about the same.
+/// A task. Tasks with the same key() are of one kind, and cost about the same.
 struct SolveKind {
-  std::size_t mesh, method, degree;  ///< any numbers that tell them apart
+  std::size_t mesh, method, degree;  ///< any distinct numbers
   bool is_initial, is_result;
   double n_nodes;
   int dimension;
   int polynomial_degree;
-  std::size_t record = 0;  ///< of the method: which one of the kind it is
+  std::size_t record = 0;  ///< of the method: its number within the kind
 
   auto key() const { return std::tuple(mesh, method, degree, is_result); }
 };
 
-/// Which of a job's n records tell what all of them cost: meshes get better, and cheaper to solve,
-/// fast at first and slowly then, so those of the Gauss rule with two points.
-inline std::array<std::size_t, 2> telling_records(std::size_t n) {
+/// Returns the two of a job's n records that represent the cost of all. Meshes get better and
+/// cheaper to solve, fast at first and slowly later. So the records are the points of the two-point
+/// Gauss rule.
+inline std::array<std::size_t, 2> representative_records(std::size_t n) {
   constexpr double gauss_point = 0.2113248654051871;  // (1 - 1 / sqrt(3)) / 2
   const auto at = static_cast<std::size_t>(gauss_point * static_cast<double>(n));
   return {at, n - 1 - at};
 }
 
-/// How long finite element tasks take, learned from those that are done. The logarithm of the
-/// seconds is taken for a sum: of a part that follows from the size of the system, and of what each
-/// mesh, method and degree, and being a result, adds to it; these are zero as long as nothing is
-/// known, and fitted by least squares, in which a zero weighs as much as a few tasks. The initial
-/// mesh, a method of its own here, may take ten times as long as others: its condition number is
-/// the hardest to find.
+/// Estimates the time of finite element tasks from finished tasks. The logarithm of the seconds is
+/// a sum. One part follows from the size of the system. The other parts are effects of the mesh,
+/// the method, the degree, and of being a result.
+/// Effects are fitted by least squares, in which a zero weighs as much as a few tasks. They are
+/// zero as long as nothing is known.
+/// The initial mesh counts as a method. It may take ten times as long as others, because its
+/// condition number is the hardest to find.
 class SolveCosts {
  public:
-  /// A task that took so long.
+  /// Adds a finished task with its seconds.
   void add(const SolveKind& kind, double seconds);
 
-  /// A task that is still to come, and that it is none any more.
+  /// Adds a task that is still to be done, or removes it.
   void expect(const SolveKind& kind) {
     open_.try_emplace(kind.key(), kind, std::set<std::size_t>())
         .first->second.second.insert(kind.record);
   }
   void forget(const SolveKind& kind) { open_.at(kind.key()).second.erase(kind.record); }
 
-  /// Expected seconds of all tasks to come, one after the other.
+  /// Returns the expected seconds of all tasks to do, one after the other.
   double seconds_to_come() const;
 
-  /// Expected seconds of one task: between those of the records of its kind that are known before
-  /// and after it. Before the first one of any kind is known: right within a factor of ten or so.
+  /// Returns the expected seconds of one task, between those of the known records of its kind
+  /// before and after it. Without any known record, it is right within a factor of about ten.
   double expected(const SolveKind& kind) const;
 
  private:
@@ -64,7 +66,7 @@ class SolveCosts {
     double at(std::size_t record) const;
   };
   using Effect =
-      std::pair<std::size_t, std::size_t>;  ///< what of: 0 all, 1 mesh, 2 method, ...; which
+      std::pair<std::size_t, std::size_t>;  ///< source (0 all, 1 mesh, 2 method, ...) and its index
 
   static double base(const SolveKind& kind);
   static std::array<Effect, 6> effects_of(const SolveKind& kind);

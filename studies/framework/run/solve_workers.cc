@@ -18,13 +18,13 @@ PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
   return options;
 }
 
-/// Results and series show nodal errors of the records; refined meshes are not shown.
+/// True if the record's nodal errors are kept. Results and series show them, refined meshes do not.
 bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
   return !task.job.is_refined && task.job.solution == 0 && (task.is_result || study.write_series);
 }
 
-/// Solves a task's mesh after its cells are split: `solve` gets that mesh. Where splitting makes
-/// cells invalid, as it may hexahedra, it is not called.
+/// Splits the cells of a task's mesh, and calls `solve` with the result. Splitting may make
+/// hexahedra invalid; then `solve` is not called.
 template <int dim, class Solve>
 SolutionRecord solve_refined(const StudyData<dim>& data, const SolveTask& task,
                              const Solve& solve) {
@@ -36,8 +36,8 @@ SolutionRecord solve_refined(const StudyData<dim>& data, const SolveTask& task,
   return record;
 }
 
-/// The solvers of planar meshes and degrees, made when first needed. Threads take copies, which
-/// share what depends on the topology.
+/// Solvers for planar meshes and degrees, made at first use. Threads take copies, which share
+/// everything that depends on the topology only.
 class PlanarSolvers {
  public:
   explicit PlanarSolvers(const StudyData<2>& data) : data_(data) {}
@@ -57,7 +57,7 @@ class PlanarSolvers {
   std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PoissonSolver<2>>> solvers_;
 };
 
-/// One thread's work on planar meshes.
+/// The work of one thread on planar meshes.
 class PlanarWorker {
  public:
   PlanarWorker(StudyData<2>& data, std::shared_ptr<PlanarSolvers> solvers)
@@ -100,8 +100,8 @@ class PlanarWorker {
   std::size_t mesh_ = 0, degree_ = 0;  ///< of the solver
 };
 
-/// The root's work on volume meshes. Eigenvectors go from record to record of a job, from job to
-/// job they do not: then it does not matter where a run was interrupted.
+/// The root's work on volume meshes. Eigenvectors are passed between the records of a job, but not
+/// between jobs. So an interruption between jobs does not change results.
 class TeamWorker {
  public:
   TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team) {}

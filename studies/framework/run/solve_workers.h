@@ -8,20 +8,21 @@
 
 namespace smoothfem {
 
-/// One of the study's solutions; expressions are checked at the points of `sample`.
+/// Makes one of the study's solutions. Expressions are checked at the points of `sample`.
 template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
                                          std::span<const Point<dim>> sample);
 
-/// Whether a study's solves need Trilinos, and with it MPI: on volume meshes, and for multigrid.
+/// True if a study's solves need Trilinos and so MPI: on volume meshes, and for multigrid.
 bool needs_mpi(const Study& study);
 
-/// How many of a study's records are solved at once. Trilinos is for one thread at a time.
+/// Returns the number of records that are solved at once. Trilinos runs on one thread at a time.
 unsigned int n_solve_workers(const Study& study, const StudyOptions& options);
 
-/// Workers for a queue of these tasks, whose outcomes are noted in the data and in its checkpoint.
-/// Planar meshes: n_workers, each with its own solvers; volume meshes: one, which leads the team.
-/// All arguments must outlive them.
+/// Returns workers for a queue of these tasks. They store the results in the data and in its
+/// checkpoint.
+/// Planar meshes have n_workers workers, each with its own solvers. Volume meshes have one worker,
+/// which leads the team. All arguments must outlive the workers.
 std::vector<SolveQueue::Worker> solve_workers(StudyData<2>& data,
                                               const std::vector<SolveTask*>& tasks,
                                               unsigned int n_workers);
@@ -29,7 +30,7 @@ std::vector<SolveQueue::Worker> solve_workers(StudyData<3>& data,
                                               const std::vector<SolveTask*>& tasks,
                                               SolverTeam& team);
 
-/// On ranks other than the root: takes part in the solves of a volume study until the root's team
+/// Takes part in the solves of a volume study, on ranks other than the root, until the root's team
 /// ends.
 void serve_solves(const Study& study, const Ranks& ranks);
 

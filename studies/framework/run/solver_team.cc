@@ -34,7 +34,7 @@ struct Command {
   std::size_t energy_solver = 0;
 };
 
-/// Waiting in MPI would keep a core busy that smoothing may need.
+/// Waits with pauses, because waiting in MPI would keep a core busy that smoothing may need.
 void wait_without_spinning(MPI_Request& request) {
   int done = 0;
   for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done;
@@ -49,8 +49,8 @@ void exchange(const Ranks& ranks, Command& command) {
   wait_without_spinning(request);
 }
 
-/// What all ranks do alike may end in the same InputError on each. Anything else has hit one of
-/// them, and the others wait for it for ever.
+/// Runs the work that all ranks do alike. An InputError is the same on each rank and is thrown. Any
+/// other exception is on one rank only, and the others would wait forever, so it ends all ranks.
 template <class Work>
 auto all_or_nothing(const Ranks& ranks, const Work& work) {
   try {
@@ -59,16 +59,16 @@ auto all_or_nothing(const Ranks& ranks, const Work& work) {
     throw;
   } catch (const std::exception& error) {
     if (ranks.size() == 1) throw;
-    std::fprintf(stderr,
-                 "smoothfem: process %d of %d failed (%s); the study goes on where it was "
-                 "if you start it again\n",
-                 ranks.rank(), ranks.size(), error.what());
+    std::fprintf(
+        stderr,
+        "smoothfem: process %d of %d failed (%s); the study resumes if you start it again\n",
+        ranks.rank(), ranks.size(), error.what());
     MPI_Abort(ranks.communicator(), 1);
     throw;
   }
 }
 
-/// The root's part of a solver that all ranks have, and what tells the others to do theirs.
+/// The root's part of a solver that all ranks share. It sends the other ranks their commands.
 class TeamEnergySolver final : public EnergySolver<3> {
  public:
   TeamEnergySolver(const Ranks& ranks, std::size_t number, std::unique_ptr<EnergySolver<3>> part)
@@ -159,7 +159,7 @@ std::unique_ptr<EnergySolver<3>> SolverTeam::make_energy_solver(
 
 void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
                        const std::vector<ManufacturedSolution<3>>& solutions) {
-  set_n_threads(1);  // the ranks are as many as there are cores
+  set_n_threads(1);  // there is one rank for each core
   std::unique_ptr<PoissonSolver<3>> solver;
   std::map<std::size_t, std::unique_ptr<EnergySolver<3>>> energy_solvers;
   const auto follow = [&](const Command& command) {
@@ -209,7 +209,7 @@ void SolverTeam::serve(const Ranks& ranks, const PoissonOptions& options,
     try {
       all_or_nothing(ranks, [&] { follow(command); });
     } catch (const InputError&) {
-      // The root has thrown the same one, and says it.
+      // The root has thrown the same error, and reports it.
     }
   }
 }

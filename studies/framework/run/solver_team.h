@@ -9,24 +9,24 @@
 
 namespace smoothfem {
 
-/// Finite elements on several processes: the root says what is to be done, and the others do their
-/// part of it. While the root does something else, such as smoothing, they sleep. For volume
-/// meshes; with one process it is a solver like any other.
+/// Finite elements on several processes, for volume meshes. The root sends commands, and the other
+/// ranks do their part. They sleep while the root does something else, such as smoothing. With one
+/// process it is an ordinary solver.
 class SolverTeam {
  public:
-  /// On the root.
+  /// Makes the root's team.
   explicit SolverTeam(const Ranks& ranks) : ranks_(ranks) {}
-  /// Releases the workers: `serve` returns on the other ranks.
+  /// Ends the team: `serve` returns on the other ranks.
   ~SolverTeam();
   SolverTeam(const SolverTeam&) = delete;
 
-  /// On all ranks but the root: takes part until the root's team ends. options: the degree is the
-  /// root's.
+  /// Takes part on a rank other than the root until the root's team ends. options: except the
+  /// degree, which the root sends.
   static void serve(const Ranks& ranks, const PoissonOptions& options,
                     const std::vector<ManufacturedSolution<3>>& solutions);
 
-  /// The functions of PoissonSolver, on the root. The solver before is given up first. solutions:
-  /// those that the others have; number: of the one to solve.
+  /// These are the functions of PoissonSolver, on the root. A new solver replaces the one before.
+  /// solutions: the solutions of the other ranks. number: index of the solution to solve.
   void make_solver(const Mesh<3>& mesh, const PoissonOptions& options);
   SolutionRecord solve(std::span<const Point<3>> coordinates,
                        const std::vector<ManufacturedSolution<3>>& solutions, std::size_t number,
@@ -35,9 +35,9 @@ class SolverTeam {
   std::vector<double> eigenvectors();
   void set_eigenvectors(const std::vector<double>& eigenvectors);
 
-  /// See the function make_energy_solver. There may be several beside each other and beside that
-  /// solver; all have to end before the team does. options: degree and natural groups. solutions,
-  /// number: as above.
+  /// Makes a solver (see the function make_energy_solver). There may be several at a time, in
+  /// addition to the solver above. All must end before the team does. options: degree and natural
+  /// groups. solutions, number: as above.
   std::unique_ptr<EnergySolver<3>> make_energy_solver(
       const Mesh<3>& mesh, const PoissonOptions& options,
       const std::vector<ManufacturedSolution<3>>& solutions, std::size_t number);
@@ -45,7 +45,7 @@ class SolverTeam {
  private:
   const Ranks ranks_;
   std::unique_ptr<PoissonSolver<3>> solver_;
-  std::size_t n_energy_solvers_ = 0;  ///< made so far: they are known by number
+  std::size_t n_energy_solvers_ = 0;  ///< made so far, which is the next one's number
 };
 
 }  // namespace smoothfem

@@ -12,8 +12,8 @@ namespace {
 
 using Tasks = std::vector<SolveTask*>;
 
-/// What a row says about finite elements: one entry per degree whose task is done, or the reason
-/// why there are no numbers.
+/// The finite element columns of a row. There is one entry per degree whose task is done, or one
+/// with the reason why there are no numbers.
 struct Outcome {
   int degree = 0;
   std::optional<SolutionRecord> solved{};
@@ -46,7 +46,7 @@ void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::si
                     warpage, outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
 }
 
-/// failure: why the row has no result; empty if it has one.
+/// Appends rows of summary.csv. failure: why the row has no result; empty if it has one.
 void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
                     const std::string& failure, std::vector<SummaryRow>& rows) {
   for (auto& outcome : outcomes(study.degrees, tasks, row.quality.n_invalid > 0)) {
@@ -57,7 +57,8 @@ void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
   }
 }
 
-/// The tasks of a method's resulting mesh: those of the initial mesh if it improved nothing.
+/// Returns the tasks of a method's resulting mesh. If the method improved nothing, they are those
+/// of the initial mesh.
 template <int dim, int spacedim>
 const Tasks& result_tasks(const StudyData<dim, spacedim>& data, std::size_t mesh,
                           std::size_t method) {
@@ -68,7 +69,7 @@ const Tasks& result_tasks(const StudyData<dim, spacedim>& data, std::size_t mesh
   return data.mesh_tasks[mesh].initial;
 }
 
-/// A mesh of a trajectory: record 0 is the initial one.
+/// Returns a mesh of a trajectory; record 0 is the initial mesh.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> mesh_of(const StudyData<dim, spacedim>& data, std::size_t m, std::size_t k,
                             std::size_t record) {
@@ -109,7 +110,7 @@ void write_series(const StudyData<dim, spacedim>& data, std::size_t m, std::size
   }
 }
 
-/// Jobs and their tasks come into being side by side; rows look tasks up by snapshot.
+/// Makes jobs and their tasks together. Rows find tasks by snapshot.
 template <int dim, int spacedim>
 class TaskMaker {
  public:
@@ -145,7 +146,7 @@ class TaskMaker {
     }
   }
 
-  /// Labels have no '~'.
+  /// Makes the tasks of refined meshes. Labels never contain '~'.
   void make_refined(std::size_t m, MeshTasks& of_mesh) {
     const auto& degrees = data_.study.degrees;
     const std::string& mesh = data_.meshes[m].description.name;
@@ -178,8 +179,9 @@ class TaskMaker {
         });
   }
 
-  /// Calls visit(method plus one, its name, that of its trajectory, record) for the initial mesh
-  /// (0, no trajectory) and each method's result, unless it is the initial mesh or not valid.
+  /// Calls visit(method plus one, its name, name of its trajectory, record) for the initial mesh
+  /// (0, no trajectory) and each method's result. It skips results that are the initial mesh or not
+  /// valid.
   template <class Visit>
   void for_each_result(std::size_t m, const Visit& visit) {
     const std::string& mesh = data_.meshes[m].description.name;
@@ -228,7 +230,7 @@ std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const Solv
 template <int dim, int spacedim>
 SolveKind StudyData<dim, spacedim>::kind_of(const SolveTask& task) const {
   const SolveJob& job = task.job;
-  // A refined mesh has 2^dim times the nodes, and costs of its own.
+  // A refined mesh has 2^dim times as many nodes, and its own costs.
   const double times = job.is_refined ? 1 << dim : 1;
   return {.mesh = job.mesh,
           .method = job.method + (job.is_refined ? study.methods.size() + 1 : 0),

@@ -20,7 +20,7 @@ namespace smoothfem {
 /// The status of meshes with invalid cells, which are not solved.
 inline constexpr const char* invalid_mesh = "invalid mesh";
 
-/// The finite element records of one mesh, method (or the initial mesh) and degree: what is
+/// The finite element records of one mesh, method (or the initial mesh) and degree. They are
 /// checkpointed together.
 struct SolveJob {
   SolveJob(std::string name_, std::string trajectory_, std::size_t mesh_, std::size_t degree_,
@@ -38,7 +38,7 @@ struct SolveJob {
   std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
   std::size_t method;        ///< index into the study's methods plus one; 0: the initial mesh
   bool is_refined;           ///< of the mesh with split cells
-  std::size_t solution;      ///< index into the study's; 0: that of the records
+  std::size_t solution;      ///< index into the study's solutions; 0: that of the records
   std::size_t n_tasks = 0;
   SolvedRecords solved{};
   std::chrono::steady_clock::time_point saved{};
@@ -54,22 +54,25 @@ struct SolveTask {
   std::size_t record;  ///< of the trajectory
   bool is_result;      ///< an initial or resulting mesh
   SolutionRecord solution{};
-  double seconds = 0.0;           ///< that it took
-  std::atomic<bool> done{false};  ///< set last: then the others may be read by other threads
+  double seconds = 0.0;           ///< of the solve
+  std::atomic<bool> done{false};  ///< set last; if true, other threads may read the other fields
 };
 
-/// The finite element tasks of one mesh: those of the initial mesh, shared by all methods, and
-/// those of each method's snapshots; one per degree in each list, none where the mesh is invalid.
+/// The finite element tasks of one mesh: those of the initial mesh, which all methods share, and
+/// those of each method's snapshots. Each list has one task per degree, or none if the mesh is
+/// invalid.
 struct MeshTasks {
   std::vector<SolveTask*> initial;
   std::vector<std::vector<std::vector<SolveTask*>>> methods;  ///< [method][snapshot][degree]
-  /// [method plus one; 0: initial][refined degree]; nothing of methods that improved nothing.
+  /// Tasks by [method plus one; 0: initial][refined degree]. Empty for methods that improved
+  /// nothing.
   std::vector<std::vector<SolveTask*>> refined{};
-  /// [method plus one; 0: initial][further solution][degree]; likewise.
+  /// Tasks by [method plus one; 0: initial][further solution][degree]. Empty for methods that
+  /// improved nothing.
   std::vector<std::vector<std::vector<SolveTask*>>> further{};
 };
 
-/// What a study has computed so far.
+/// The numbers that a study has computed so far.
 template <int dim, int spacedim = dim>
 struct StudyData {
   const Study& study;
@@ -77,52 +80,53 @@ struct StudyData {
   std::vector<PreparedMesh<dim, spacedim>> meshes{};
   std::vector<ManufacturedSolution<spacedim>> solutions{};  ///< empty: the study solves none
   std::vector<std::vector<Trajectory>> trajectories{};      ///< [mesh][method]
-  std::list<SolveJob> jobs{};                               ///< both stay where they are
-  std::list<SolveTask> tasks{};                             ///< by mesh, degree, job, record
+  std::list<SolveJob> jobs{};    ///< addresses of jobs and tasks stay valid
+  std::list<SolveTask> tasks{};  ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
 
-  /// Of the mesh before its cells are split, if they are.
+  /// Returns the coordinates of a task's mesh, before its cells are split (if they are).
   std::vector<Point<spacedim>> coordinates_of(const SolveTask& task) const;
   SolveKind kind_of(const SolveTask& task) const;
 };
 
-/// Makes the jobs and tasks of all trajectories; those that the checkpoint knows are done.
+/// Makes the jobs and tasks of all trajectories. Tasks in the checkpoint are done.
 template <int dim, int spacedim>
 void make_tasks(StudyData<dim, spacedim>& data);
 
-/// Notes a task's outcome, and how many seconds it has taken. The checkpoint follows at the end of
-/// a job and about every second.
+/// Stores a task's solution and its seconds. The checkpoint is saved at the end of a job and about
+/// every second.
 void finish_task(SolveTask& task, SolutionRecord solution, double seconds,
                  std::vector<double> eigenvectors, const Checkpoint& checkpoint);
 
-/// Rows for iterations.csv of all records that are done, in the order of meshes, methods, records
-/// and degrees. Safe while tasks are under way.
+/// Returns rows for iterations.csv of all finished records, in the order of meshes, methods,
+/// records and degrees. Safe while tasks are running.
 template <int dim, int spacedim>
 std::vector<IterationRow> finished_rows(const StudyData<dim, spacedim>& data);
 
-/// Rows for summary.csv; all tasks must be done.
+/// Returns rows for summary.csv; all tasks must be done.
 template <int dim, int spacedim>
 std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data);
 
-/// Rows for refined.csv; all tasks must be done.
+/// Returns rows for refined.csv; all tasks must be done.
 template <int dim, int spacedim>
 std::vector<RefinedRow> refined_rows(const StudyData<dim, spacedim>& data);
 
-/// Rows for solutions.csv; all tasks must be done.
+/// Returns rows for solutions.csv; all tasks must be done.
 template <int dim, int spacedim>
 std::vector<SolutionRow> solution_rows(const StudyData<dim, spacedim>& data);
 
-/// Rows for metrics.csv of all recorded meshes, in the order of meshes, methods, records and
-/// metrics; those that none of its cells has are left out. Calls `watch` between two meshes.
+/// Returns rows for metrics.csv of all recorded meshes, in the order of meshes, methods, records
+/// and metrics. Metrics that are defined on none of a mesh's cells are left out. Calls `watch`
+/// between two meshes.
 template <int dim, int spacedim>
 std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
                                    const std::function<void()>& watch);
 
-/// Where a method's mesh, or the mesh called `initial`, is written.
+/// Returns the path for a method's mesh, or for the mesh called `initial`.
 std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,
                                 const std::string& method, const std::string& extension);
 
-/// Initial and resulting meshes with their fields, and the series if the study asks for them; all
+/// Writes initial and resulting meshes with their fields, and the series if the study sets it. All
 /// tasks must be done. Throws InputError.
 template <int dim, int spacedim>
 void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::path& out);

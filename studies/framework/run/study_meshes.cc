@@ -32,14 +32,15 @@ Mesh<dim, spacedim> read_valid_mesh(const std::filesystem::path& path) {
   return mesh;
 }
 
-/// Where a mesh comes from.
+/// The origin of a mesh.
 struct Source {
   std::filesystem::path file;  ///< empty: generated
   bool published = false;
   std::string generated{};   ///< the domain and its elements
-  std::string distortion{};  ///< empty: as it is
+  std::string distortion{};  ///< empty: none
 
-  /// A published mesh is known by its name; which folder it was found in is the machine's affair.
+  /// Returns the origin as text. A published mesh is known by its name, because its folder depends
+  /// on the machine.
   std::string origin() const {
     return file.empty() || published ? setting() : file.string() + distortion;
   }
@@ -110,10 +111,10 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                                          const std::filesystem::path& mesh_dir,
                                          const std::filesystem::path& earlier) {
   const Source source = source_of(description, mesh_dir);
-  // The text format of planar and volume meshes knows no surfaces.
+  // The text format of planar and volume meshes does not store surfaces.
   const std::string initial =
       "meshes/" + description.name + "_initial" + (dim == spacedim ? ".mesh" : ".vtk");
-  // Nor does it know groups of the boundary.
+  // The format does not store groups of the boundary either.
   const bool again = (!source.file.empty() && (source.published || !is_distorted(description))) ||
                      !study.finite_elements.natural_groups.empty();
   Mesh<dim, spacedim> mesh =
@@ -125,9 +126,10 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
     for (const int degree : study.degrees)
       require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
     if (const int exponent = extreme_exponent(std::as_const(mesh).coordinates()); exponent != 0)
-      throw InputError("mesh " + description.name + " is about 2^" + std::to_string(exponent) +
-                       " wide, where finite elements leave the range of numbers; scale it to an "
-                       "ordinary size");
+      throw InputError(
+          "mesh " + description.name + " is about 2^" + std::to_string(exponent) +
+          " wide, which is outside the range of numbers of finite elements; scale it to an "
+          "ordinary size");
   }
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),

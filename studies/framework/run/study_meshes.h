@@ -15,23 +15,25 @@ struct PreparedMesh : MeshFacts {
   Mesh<dim, spacedim> mesh;
 };
 
-/// Reads or generates, and distorts, one mesh. mesh_dir: folder of published meshes, or empty.
-/// earlier: folder of the results of an earlier run of the same study, or empty; if the mesh is
-/// there, it is taken in place of a generated or distorted one (not in that of a surface mesh,
-/// which would not know its initial surface). Throws InputError for files and meshes that cannot be
-/// used; the mesh returned is valid and, if finite elements are to be solved on it, of cells they
+/// Reads or generates one mesh, and distorts it if the study says so. mesh_dir: folder of published
+/// meshes, or empty.
+/// earlier: results folder of an earlier run of the same study, or empty. If it has the mesh, the
+/// mesh is read instead of generated or distorted. Surface meshes are not, because the file lacks
+/// the initial surface.
+/// Throws InputError for files and meshes that cannot be used. The returned mesh is valid. If
+/// finite elements are to be solved on it, they support its cells.
 /// can have.
 template <int dim, int spacedim = dim>
 PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Study& study,
                                          const std::filesystem::path& mesh_dir,
                                          const std::filesystem::path& earlier);
 
-/// Writes a mesh that smoothing starts from into the folder of results, and notes its checksum.
+/// Writes an initial mesh into the results folder, and notes its checksum.
 template <int dim, int spacedim>
 void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesystem::path& out);
 
-/// Throws InputError if the file of an earlier run there has been changed since; writes it if that
-/// run was stopped before it had, or had noted it.
+/// Throws InputError if the mesh file of an earlier run has been changed since. Writes the file if
+/// that run was stopped before it had written or noted it.
 template <int dim, int spacedim>
 void require_same_mesh(PreparedMesh<dim, spacedim>& prepared, const EarlierRun& run,
                        const std::filesystem::path& out);

@@ -11,27 +11,28 @@
 
 namespace smoothfem {
 
-/// After which of a study's phases a run ends; the next one goes on from there.
+/// The phase of a study after which a run ends. The next run resumes from there.
 enum class RunUntil { meshes, smoothing, results };
 
-/// How a study is run, whatever its kind.
+/// Settings of a run, for studies of all kinds.
 struct StudyOptions {
   std::filesystem::path out;       ///< folder of the results; made if it is not there
   std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
   bool force = false;              ///< start anew; the folder of an earlier run is renamed
   bool quiet = false;
   RunUntil until = RunUntil::results;     ///< of studies of smoothing methods
-  bool initial_meshes_are_there = false;  ///< in `out`, though no run has begun there
-  bool dry_run = false;                   ///< say what would be done, and do nothing
+  bool initial_meshes_are_there = false;  ///< in `out`, although no run has begun there
+  bool dry_run = false;                   ///< only print the plan
   unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
   unsigned int smoothing_threads = 1;
-  std::string shard{};   ///< "3/10": of a collection the third part of ten only; empty: all
-  int task_socket = -1;  ///< where another process of the same run says what to do; -1: none does
+  std::string shard{};   ///< "3/10": the third of ten parts of a collection; empty: all
+  int task_socket = -1;  ///< for commands of another process of the same run; -1: none
   Ranks ranks{};         ///< that share the finite elements of volume meshes, or members
-  /// Set from outside to stop: the rows finished so far are written and the process ends with 130.
+  /// Set by other code to stop the run. The finished rows are then written, and the process ends
+  /// with exit code 130.
   const std::atomic<bool>* interrupted = nullptr;
 
-  /// n_threads, or as many as there are cores.
+  /// Returns n_threads, or the number of cores.
   unsigned int threads() const {
     return n_threads > 0 ? n_threads : std::max(1U, std::thread::hardware_concurrency());
   }

@@ -14,7 +14,7 @@ namespace smoothfem {
 
 namespace {
 
-/// How many iterations a method makes is known when it has made them.
+/// The number of iterations of a method is not known before it has run.
 constexpr int assumed_iterations = 40;
 
 double n_dofs_of(const Topology& topology, int degree) {
@@ -30,8 +30,8 @@ double n_dofs_of(const Topology& topology, int degree) {
   return n + edges + inner;
 }
 
-/// A row of a matrix has about as many entries as a dof has neighbours; it is kept in three
-/// layouts.
+/// Estimates the bytes of a matrix. A row has about as many entries as a dof has neighbours. The
+/// matrix is kept in three layouts.
 double matrix_bytes(const Topology& topology, int degree) {
   constexpr double bytes_per_entry = 12.0, n_layouts = 3.0, share_of_own = 0.6;
   double entries = 0.0;
@@ -55,7 +55,7 @@ std::string size_text(double bytes) {
 }
 
 struct Totals {
-  double n_solves = 0.0, solve_seconds = 0.0, most_bytes = 0.0, disk_bytes = 0.0;
+  double n_solves = 0.0, solve_seconds = 0.0, max_bytes = 0.0, disk_bytes = 0.0;
 };
 
 template <int dim, int spacedim>
@@ -77,12 +77,12 @@ class Plan {
                 study_.timing_runs, study_.timing_runs == 1 ? "" : "s");
     if (!study_.degrees.empty())
       std::printf(
-          "Finite elements: some %.0f solves if each method makes %d iterations, about %s by a "
+          "Finite elements: about %.0f solves if each method makes %d iterations, about %s by a "
           "rough estimate.\n",
           totals_.n_solves, assumed_iterations,
           duration_text(totals_.solve_seconds / n_workers()).c_str());
     std::printf("Memory: about %s. Disk: about %s in %s. Nothing has been written.\n",
-                size_text(totals_.most_bytes).c_str(), size_text(totals_.disk_bytes).c_str(),
+                size_text(totals_.max_bytes).c_str(), size_text(totals_.disk_bytes).c_str(),
                 options_.out.c_str());
   }
 
@@ -110,7 +110,7 @@ class Plan {
       plan_solves(m, d, n_nodes, degree);
     }
     std::printf("%s\n", is_distorted(study_.meshes[m]) ? ", then distorted" : "");
-    totals_.most_bytes = std::max(totals_.most_bytes, bytes);
+    totals_.max_bytes = std::max(totals_.max_bytes, bytes);
     const double kept = study_.degrees.empty() && !study_.write_series ? 1.0 : records_per_method();
     const double bytes_per_record = 8.0 * (spacedim + static_cast<double>(study_.degrees.size()));
     totals_.disk_bytes += n_methods * n_nodes * (kept * bytes_per_record + 200.0);

@@ -6,9 +6,9 @@
 
 namespace smoothfem {
 
-/// Prints what a study would do: its meshes with their sizes (they are generated, but not
-/// distorted), methods, records, and by rough rules how long it would take, in what memory, and
-/// what it would write. Nothing is written. Throws InputError as run_study does before it writes.
+/// Prints the plan of a study: meshes with sizes (generated, but not distorted), methods, records,
+/// and output. Rough rules estimate the time and the memory. Nothing is written. Throws InputError
+/// as run_study does before it writes.
 void print_plan(const Study& study, const StudyOptions& options);
 
 }  // namespace smoothfem

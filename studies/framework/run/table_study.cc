@@ -19,8 +19,8 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
     throw InputError("the study " + study.name +
                      " has no work for several processes: start it without mpirun");
   if (options.dry_run) {
-    std::printf("%s\n\nTables, of no meshes, in %s; nothing has been written:\n",
-                study.title.c_str(), options.out.c_str());
+    std::printf("%s\n\nTables (no meshes) in %s; nothing has been written:\n", study.title.c_str(),
+                options.out.c_str());
     for (const auto& table : tables) std::printf("  %s\n", table.file.c_str());
     return;
   }
@@ -29,9 +29,9 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
     throw InputError("--mesh-dir is given, but the study " + study.name +
                      " has no meshes; leave it out");
   std::optional<FolderLock> lock(options.out);
-  if (options.force) rename_existing(options.out);
+  if (options.force) move_old_results(options.out);
   const EarlierRun earlier = read_provenance(options.out / "provenance.json");
-  require_same_settings(earlier, study, {}, {}, options.out);
+  check_settings_match(earlier, study, {}, {}, options.out);
 
   Progress progress(options.quiet);
   if (earlier.status == "complete") {

@@ -10,16 +10,17 @@
 
 namespace smoothfem {
 
-/// A CSV file of a study, and what computes its text.
+/// A CSV file of a study, and the function that computes its text.
 struct StudyTable {
   std::string file;  ///< name in the folder of the results
   std::function<std::string()> compute;
 };
 
-/// Runs a study whose results are tables and nothing else: computes one after the other and writes
-/// each in one piece, and provenance.json. A complete run with the same parameters is left as it
-/// is; one that was interrupted starts anew. Throws InputError for a folder that cannot be written,
-/// for results of other parameters in it, for --mesh-dir, and for more than one process.
+/// Runs a study whose results are only tables. It computes one table after the other, writes each
+/// as a whole, and writes provenance.json.
+/// A complete run with the same parameters is left unchanged; an interrupted one starts anew.
+/// Throws InputError for a folder that cannot be written, for results with other parameters in it,
+/// for --mesh-dir, and for more than one process.
 void run_table_study(const StudyHeader& study, const StudyOptions& options,
                      const std::vector<StudyTable>& tables);
 

@@ -16,7 +16,7 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// The times of several runs, of a whole run or up to one of its records.
+/// The times of several runs, for a whole run or up to one of its records.
 class RecordTimes {
  public:
   template <class Timed>
@@ -42,8 +42,8 @@ class RecordTimes {
   std::vector<double> smoothing_, preparation_, solves_;
 };
 
-/// Tells for record after record whether it is to be kept: every k-th of all, or of its stage if
-/// that has a number of its own.
+/// Decides for each record whether it is kept. Every k-th record is kept, counted in its stage if
+/// the stage has its own interval.
 class Schedule {
  public:
   explicit Schedule(const RecordEvery& every) : every_(every) {}

@@ -11,27 +11,27 @@
 
 namespace smoothfem {
 
-/// Everything that smoothing one mesh by one method went through: the numbers of every iteration,
-/// and which of them finite elements will be solved at.
+/// The course of smoothing one mesh by one method: the numbers of every iteration, and the records
+/// at which finite elements will be solved.
 struct Trajectory {
   std::vector<IterationRecord> records;  ///< the initial mesh first
   std::vector<std::size_t> snapshots;  ///< ascending indices into records, without the initial mesh
-  std::size_t result_record = 0;       ///< whose mesh is the method's result
+  std::size_t result_record = 0;       ///< the record whose mesh is the method's result
   std::string iterations_text;         ///< "40/2800"
   double smoothing_seconds = 0.0;      ///< of the whole run
-  double preparation_seconds = 0.0;    ///< the same
+  double preparation_seconds = 0.0;    ///< of the whole run
   std::optional<double> wall_seconds;  ///< of the result, see StepReport
   MeshQuality quality;                 ///< of the result
   std::vector<CellsBelow> cells_below;          ///< of the result
   MeshWarpage warpage;                          ///< of the result; planar meshes: none
   std::vector<MeshWarpage> warpage_of_records;  ///< one per record, or empty
   double peak_memory_gib = 0.0;  ///< of the process, the study's other meshes included
-  /// Why the method failed; empty if it did not. Its result is then the initial mesh, and the
-  /// records are those before.
+  /// Why the method failed; empty if it did not. The result of a failed method is the initial mesh,
+  /// and the records are those before the failure.
   std::string failure;
 };
 
-/// Warpage of the quadrilateral faces of a volume mesh; others have none.
+/// Returns the warpage of a volume mesh's quadrilateral faces; empty for other meshes.
 template <int dim, int spacedim>
 MeshWarpage warpage_of(const Mesh<dim, spacedim>& mesh);
 
@@ -40,17 +40,18 @@ template <int spacedim>
 using KeepSnapshot =
     std::function<void(std::size_t record, std::span<const Point<spacedim>> coordinates)>;
 
-/// Sees every iteration of every run, between two of them.
+/// Function that is called at every iteration of every run.
 using WatchIteration = std::function<void(const IterationRecord&)>;
 
-/// Runs a method timing_runs times on copies of the mesh and keeps the median of the accumulated
-/// times of each record; the meshes are the same every time. Snapshots: every k-th record of each
-/// stage, the result and the last, as the study says, or (only_results) the result and the last;
-/// `keep` gets their meshes in any order, and
-/// may get others too. A study that neither solves nor writes series nor metrics needs the result's
-/// mesh only: then `keep` gets no other. What `keep` or `watch` throw ends it; a method that fails
-/// is a trajectory with a `failure`. problem: for methods that need one; null otherwise. folders:
-/// of the method's files.
+/// Runs a method timing_runs times on copies of the mesh, and keeps the median times of each
+/// record. The meshes are the same every time.
+/// Snapshots are every k-th record of each stage, the result and the last record, as the study
+/// says. only_results: only the result and the last record.
+/// keep: gets the snapshots' meshes in any order, and possibly others. If the study needs no
+/// solves, series or metrics, it gets only the result's mesh.
+/// Exceptions of `keep` and `watch` end the run. A method that fails gives a trajectory with a
+/// `failure`.
+/// problem: for methods that need one; otherwise null. folders: for the method's files.
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
                              const Study& study, bool only_results,

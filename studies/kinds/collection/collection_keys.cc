@@ -18,12 +18,12 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Goes through the lines of a study file and knows in which subsections they are.
+/// Reads the lines of a study file one by one, and knows the subsection of each.
 class OwnLines {
  public:
   explicit OwnLines(std::vector<std::string> solutions) : solutions_(std::move(solutions)) {}
 
-  /// Whether the next line belongs to the collection alone.
+  /// True if the next line belongs to the collection alone.
   bool operator()(const std::string& line) {
     static const std::regex begin("\\s*subsection\\s+(.*?)\\s*(#.*)?"), end("\\s*end\\s*(#.*)?"),
         set("\\s*set\\s+(.*?)\\s*=.*");
@@ -50,7 +50,7 @@ class OwnLines {
     return !sections_.empty() && sections_.front().starts_with(prefix) &&
            contains(solutions_, sections_.front().substr(prefix.size()));
   }
-  /// Of the file, or of a scale.
+  /// True in the file's top level and in a scale, which may have keys of collections.
   bool has_own_keys() const {
     return sections_.empty() || (sections_.size() == 1 && sections_[0].starts_with("scale "));
   }
@@ -63,23 +63,23 @@ class OwnLines {
 
 void declare_collection(ParameterHandler& p) {
   p.declare_entry("kind", "collection", Patterns::Selection("collection"),
-                  "What the study does; other kinds have other keys.");
+                  "Kind of study; other kinds have other keys.");
   declare_scales(p);
   p.declare_entry("meshes", "", Patterns::Anything(),
-                  "Not for collections, whose meshes are those of the keys below.");
+                  "Not for collections; the keys below name their meshes.");
   p.declare_entry("collection", "", Patterns::Anything(),
-                  "Mesh files of any format, relative to this file, with * and ? as a shell has "
-                  "them, separated by commas.");
+                  "Mesh files of any format, relative to this file, with the shell's * and ?, "
+                  "separated by commas.");
   p.declare_entry("domains", "", Patterns::Anything(),
                   "Domains to generate (see 'list'), separated by commas; 'NAME: FACTOR' has edges "
-                  "longer by this factor, besides the sizes.");
+                  "longer by this factor, in addition to the sizes.");
   p.declare_entry("elements", "", Patterns::Anything(),
-                  "Elements of generated meshes, separated by commas, as far as a domain has them; "
+                  "Elements of generated meshes, separated by commas, where a domain has them; "
                   "empty: all.");
   p.declare_entry("sizes", "1", Patterns::List(Patterns::Double(0.0), 1),
                   "Edge scales of generated meshes: 2 has edges twice as long.");
   p.declare_entry("distortions", "0", Patterns::List(Patterns::Double(0.0, 1.0), 1),
-                  "Mean qualities to distort generated meshes to; 0: as they are.");
+                  "Mean qualities to distort generated meshes to; 0: not distorted.");
   p.declare_entry("seeds", "1", Patterns::Anything(),
                   "Seeds, separated by commas; generated meshes that depend on chance are made "
                   "once for each.");
@@ -93,7 +93,7 @@ void declare_collection(ParameterHandler& p) {
 void declare_collection_scale(ParameterHandler& p, const std::string& scale) {
   const Subsection subsection(p, "scale " + scale);
   for (const auto& key : collection_lists)
-    p.declare_entry(key, "", Patterns::Anything(), "In place of the value above; empty: as it is.");
+    p.declare_entry(key, "", Patterns::Anything(), "Replaces the value above; empty: no change.");
 }
 
 void declare_collection_solution(ParameterHandler& p, const std::string& name) {

@@ -17,7 +17,7 @@ namespace {
 using dealii::ParameterHandler;
 namespace fs = std::filesystem;
 
-/// The files that a pattern means, sorted. Throws InputError if there are none.
+/// Returns the files that match a pattern, sorted. Throws InputError if there are none.
 std::vector<fs::path> matching_files(const fs::path& pattern) {
   glob_t found{};
   const int outcome = ::glob(pattern.c_str(), 0, nullptr, &found);
@@ -33,14 +33,15 @@ std::vector<fs::path> matching_files(const fs::path& pattern) {
   return files;
 }
 
-/// Letters, digits, '.', '_' and '-' as they are, anything else as '-'.
+/// Keeps letters, digits, '.', '_' and '-', and replaces anything else by '-'.
 std::string label_of(std::string text) {
   for (char& c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
   return text;
 }
 
-/// Files of the same name in several folders, or with several endings, are told apart by both.
+/// Makes one member per file. Files with the same name get their folder, and if
+/// necessary their extension, as part of their name.
 std::vector<Member> file_members(const std::vector<fs::path>& files) {
   std::map<std::string, int> n_called, n_in_folder;
   for (const auto& file : files) {
@@ -63,7 +64,7 @@ std::vector<Member> file_members(const std::vector<fs::path>& files) {
   return members;
 }
 
-/// "NAME: FACTOR" or "NAME".
+/// Reads "NAME: FACTOR" or "NAME".
 std::pair<std::string, double> read_domain(const std::string& item) {
   const auto colon = item.find(':');
   const auto name = split_list(item.substr(0, colon));
@@ -75,13 +76,13 @@ std::pair<std::string, double> read_domain(const std::string& item) {
     const double factor = std::stod(text, &end);
     if (factor > 0.0 && text.find_first_not_of(" \t", end) == std::string::npos)
       return {name.front(), factor};
-  } catch (const std::logic_error&) {  // said below
+  } catch (const std::logic_error&) {  // reported below
   }
   throw InputError("'domains' has '" + item +
                    "'; write NAME, or NAME: FACTOR with a factor above 0");
 }
 
-/// Of the elements wanted those that the domain has; all if none are wanted.
+/// Returns the wanted elements that the domain has; all of its elements if none are wanted.
 std::vector<std::string> elements_of(const Domain& domain, const std::vector<std::string>& wanted) {
   std::vector<std::string> elements;
   for (const auto& name : domain.elements)

@@ -6,10 +6,11 @@
 
 namespace smoothfem {
 
-/// The members that the keys of a collection name, sorted by name: files matching its patterns
-/// (relative to the folder), and domains x elements x sizes x distortions x seeds, each with every
-/// solution. Throws InputError if there are none, for names that are not known, and if two would
-/// have one name.
+/// Returns the members that the keys of a collection describe, sorted by name: files that match its
+/// patterns (relative to the folder), and domains x elements x sizes x distortions x seeds. Each
+/// occurs with every solution.
+/// Throws InputError if there are no members, for unknown names, and if two members would have the
+/// same name.
 std::vector<Member> expand_members(dealii::ParameterHandler& p,
                                    const std::filesystem::path& folder);
 

@@ -34,10 +34,10 @@ void add_fields(CsvText& csv, const std::vector<std::string>& columns, const Mem
 std::string leading_fields(const MemberRow& row) {
   CsvText csv("");
   add_fields(csv, leading_columns(), row);
-  return csv.text().substr(1);  // without the empty heading
+  return csv.text().substr(1);  // without the empty header
 }
 
-/// One table of all members, one line after the other.
+/// One table of all members, written one line at a time.
 class CollectedTable {
  public:
   CollectedTable(const fs::path& out, const std::string& name) : out_(out), name_(name) {}
@@ -57,9 +57,9 @@ class CollectedTable {
     std::ifstream table(path, std::ios::binary);
     std::string line;
     if (!std::getline(table, line))
-      throw InputError(path.string() +
-                       " is missing, though the member is complete; take its folder away to have "
-                       "it made again");
+      throw InputError(
+          path.string() +
+          " is missing, although the member is complete; remove its folder to make it again");
     if (columns_.empty()) {
       columns_ = line;
       stream << header(leading_columns()) << ',' << columns_ << '\n';
@@ -123,9 +123,9 @@ MemberRow read_row(const fs::path& folder) {
   std::getline(stream, line);
   const auto names = csv_fields(columns), fields = csv_fields(line);
   if (names != member_columns() || fields.size() != names.size())
-    throw InputError((folder / row_file).string() +
-                     " is not what this program writes; take the folder away to have the member "
-                     "made again");
+    throw InputError(
+        (folder / row_file).string() +
+        " is not a row of this program; remove the folder to have the member made again");
   MemberRow row;
   for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = fields[i];
   return row;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The word for meshes of cells of one type, as domains have it.
+/// Returns the elements of a mesh as domains name them, for meshes of cells of one type.
 std::string elements_of(const Topology& topology) {
   std::string elements;
   for (CellIndex c = 0; c < topology.n_cells(); ++c) {
@@ -48,7 +48,8 @@ AnyMesh undistorted_mesh(const Collection& collection, const StudyMesh& mesh) {
   return domain.generate({.elements = mesh.elements, .edge_scale = edge_scale, .seed = mesh.seed});
 }
 
-/// "((x - 0.5) / 2)": six digits are enough, since any box near the mesh's will do.
+/// Returns for example "((x - 0.5) / 2)". Six digits are enough, because any box near the mesh's
+/// will do.
 std::string scaled(char coordinate, double origin, double length) {
   char text[80];
   std::snprintf(text, sizeof(text), "((%c - (%.6g)) / %.6g)", coordinate, origin, length);
@@ -72,7 +73,7 @@ StudySolution solution_of(const Collection& collection, const Member& member, co
   return solution;
 }
 
-/// What provenance.json says besides the parameters that all members have.
+/// Returns the parameters for provenance.json that are the member's own.
 StudyParameters own_parameters(const Study& study) {
   const StudyMesh& mesh = study.meshes.front();
   const std::string section = "mesh " + mesh.name + "/";

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the member's provenance says of its mesh.
+/// Returns the facts about the mesh from the member's provenance.
 std::string facts_of(const fs::path& folder, const MeshOutline& outline) {
   std::ifstream stream(folder / "provenance.json");
   const auto provenance = nlohmann::json::parse(stream);
@@ -46,7 +46,7 @@ std::string MemberWorker::run(const Member& member) {
   const MeshOutline outline = outline_of(collection_, member, options_.out);
   const Study study = member_study(collection_, member, outline);
   if (options_.until == RunUntil::smoothing) share_smoothing(member, study);
-  // Methods that need the problem solve it while they smooth.
+  // Methods that need the problem also solve it while they smooth.
   if (options_.until != RunUntil::meshes && needs_mpi(study)) {
     if (!mpi_) mpi_.emplace();
     options_.ranks = Ranks(MPI_COMM_WORLD);
@@ -67,8 +67,8 @@ std::optional<fs::path> MemberWorker::at_another(const Member& member, const std
   return std::nullopt;
 }
 
-/// A mesh is made once for all members that it has, one for each solution. Returns whether it is
-/// there.
+/// Takes over the mesh from another member with the same mesh and another solution. Returns true if
+/// the mesh is then there.
 bool MemberWorker::share_mesh(const Member& member) const {
   if (member.mesh.domain.empty()) return false;  // files are read again
   const fs::path name = fs::path("meshes") / (member.mesh.name + "_initial.mesh");
@@ -80,8 +80,8 @@ bool MemberWorker::share_mesh(const Member& member) const {
   return true;
 }
 
-/// A mesh is smoothed once for all members that it has, one for each solution: the trajectories of
-/// one of them are those of the others, unless the method moves nodes by the solution.
+/// Takes over trajectories from another member with the same mesh and another solution. Methods
+/// that move nodes by the solution are smoothed anew.
 void MemberWorker::share_smoothing(const Member& member, const Study& study) const {
   const auto other = at_another(member, member_smoothed, "checkpoint");
   if (!other) return;

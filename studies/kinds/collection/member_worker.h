@@ -13,18 +13,18 @@ namespace smoothfem {
 /// Works on members in a process that does nothing else.
 class MemberWorker {
  public:
-  /// options: of the collection. mpi: the process's, begun when a solve needs it; it must outlive
-  /// this.
+  /// options: those of the collection. mpi: the process's MPI, started when a solve needs it; it
+  /// must outlive this object.
   MemberWorker(const Collection& collection, const StudyOptions& options, RunUntil until,
                std::optional<MpiSession>& mpi);
 
-  /// Goes on with the member's study up to the end of the phase. Returns what there is to know of
-  /// its mesh, for add_facts, or nothing. Throws InputError for members that cannot be used.
+  /// Resumes the member's study up to the end of the phase. Returns facts about its mesh for
+  /// add_facts, or nothing. Throws InputError for members that cannot be used.
   std::string run(const Member& member);
 
  private:
   std::filesystem::path folder_of(const Member& member) const;
-  /// What another member with the same mesh has in its folder, if one has come to this status.
+  /// Returns the folder of another member with the same mesh and this status, if there is one.
   std::optional<std::filesystem::path> at_another(const Member& member, const std::string& status,
                                                   const std::filesystem::path& name) const;
   bool share_mesh(const Member& member) const;
@@ -36,7 +36,7 @@ class MemberWorker {
   std::optional<MpiSession>& mpi_;
 };
 
-/// Adds to a row what a worker has found out of the mesh.
+/// Adds a worker's facts about the mesh to a row.
 void add_facts(const std::string& facts, MemberRow& row);
 
 }  // namespace smoothfem

@@ -22,7 +22,7 @@ Json read_json(const fs::path& path) {
   return Json::parse(stream);
 }
 
-/// Throws InputError unless all are results of one collection.
+/// Throws InputError if the folders are not results of one collection.
 void require_one_collection(const std::vector<fs::path>& folders) {
   const EarlierRun first = read_provenance(folders.front() / "provenance.json");
   for (const auto& folder : folders) {
@@ -40,7 +40,7 @@ void require_one_collection(const std::vector<fs::path>& folders) {
   }
 }
 
-/// The first with all sessions.
+/// Returns the first folder's provenance with the sessions of all.
 Json merged_provenance(const std::vector<fs::path>& folders) {
   Json merged = read_json(folders.front() / "provenance.json");
   std::map<std::string, double> seconds;
@@ -57,7 +57,7 @@ Json merged_provenance(const std::vector<fs::path>& folders) {
   return merged;
 }
 
-/// Which folder each member is taken from.
+/// Returns the folder that each member is taken from.
 std::map<std::string, fs::path> folders_of_members(const std::vector<fs::path>& folders) {
   std::map<std::string, fs::path> chosen;
   std::map<std::string, bool> is_complete;

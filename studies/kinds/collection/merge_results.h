@@ -6,10 +6,11 @@
 
 namespace smoothfem {
 
-/// Puts results folders of one collection, of several shards or machines, together into a new one
-/// that is as if one run had made it. A member that several have is taken where it is complete,
-/// from the first of them. Throws InputError for folders without results of a collection, for those
-/// of different parameters, and for an `out` that is there already; leaves nothing half written.
+/// Merges results folders of one collection, from several shards or machines, into a new folder as
+/// if one run had made it. A member that several folders have is taken from the first one in which
+/// it is complete.
+/// Throws InputError for folders without results of a collection, for folders with different
+/// parameters, and if `out` exists. It leaves nothing half written.
 void merge_results(const std::vector<std::filesystem::path>& folders,
                    const std::filesystem::path& out);
 

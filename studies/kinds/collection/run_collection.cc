@@ -41,12 +41,12 @@ const char* title_of(const Phase& phase) {
                                               : "Finite elements";
 }
 
-/// What a process is asked to do.
+/// Returns a process's task as text.
 std::string task_text(const Phase& phase, const Member& member) {
   return std::string(phase.name) + " " + member.name;
 }
 
-/// The reverse. Throws InputError if there is no such member any more.
+/// Reads a task's text. Throws InputError if the member does not exist any more.
 std::pair<const Phase&, const Member&> phase_and_member(const Collection& collection,
                                                         const std::string& task) {
   const auto blank = task.find(' ');
@@ -61,7 +61,7 @@ std::pair<const Phase&, const Member&> phase_and_member(const Collection& collec
   return {*phase, *member};
 }
 
-/// What a member's work grows with; 1 as long as nothing is known of it.
+/// Returns a number that a member's work grows with; 1 as long as it is not known.
 double size_of(const MemberRow& row) {
   const auto n_cells = row.find("n_cells");
   return n_cells == row.end() || n_cells->second.empty() ? 1.0 : std::stod(n_cells->second);
@@ -84,9 +84,9 @@ class CollectionRun {
     team_.emplace(options_.ranks, n_processes_);
     require_writable(options_.out);
     lock_.emplace(options_.out);
-    if (options_.force) rename_existing(options_.out);
+    if (options_.force) move_old_results(options_.out);
     earlier_ = read_provenance(options_.out / "provenance.json");
-    require_same_settings(earlier_, collection_.header, {}, {}, options_.out);
+    check_settings_match(earlier_, collection_.header, {}, {}, options_.out);
     read_rows_of_members();
     if (earlier_.status == "complete" && is_complete()) return report_complete();
     if (earlier_.status.empty()) make_results_folder(options_.out, lock_);
@@ -140,8 +140,8 @@ class CollectionRun {
         rows_.begin(), rows_.end(), [&](const auto& row) { return row.at("status") == status; }));
   }
 
-  /// Members that the phase is for: the smaller ones first, and before them, as long as meshes are
-  /// made, one of each mesh, which the others of it take over.
+  /// Returns the members that the phase is for, the smaller ones first. When meshes are made, one
+  /// member of each mesh comes first, and the others take over its mesh.
   std::vector<std::size_t> members_for(const Phase& phase) const {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -187,7 +187,7 @@ class CollectionRun {
     progress_.end();
   }
 
-  /// Writes what a member has come to.
+  /// Writes a member's new status.
   void note(std::size_t i, const Phase& phase, const TaskAnswer& end) {
     MemberRow& row = rows_[i];
     row["status"] = end.failure.empty() ? phase.makes : member_failed;
@@ -200,12 +200,12 @@ class CollectionRun {
   void write_tables() { write_collected_tables(options_.out, rows_); }
 
   void end_interrupted() {
-    team_.reset();  // before what it works on is collected
+    team_.reset();  // before its results are collected
     write_collected_tables(options_.out, rows_);
     write_provenance("interrupted");
     progress_.say("Interrupted: " + std::to_string(count(member_complete)) + " of " +
                   std::to_string(rows_.size()) +
-                  " members are complete; the same command goes on from here.");
+                  " members are complete; the same command resumes from here.");
     std::_Exit(130);
   }
 
@@ -247,10 +247,10 @@ class CollectionRun {
   std::optional<TaskTeam> team_;
 };
 
-/// Does what CollectionRun gives to one of its processes.
+/// Does the tasks that CollectionRun gives to one of its processes.
 void work_on_members(const Collection& collection, const StudyOptions& options) {
   std::optional<MpiSession> mpi;
-  std::map<std::string, MemberWorker> workers;  // of the phases
+  std::map<std::string, MemberWorker> workers;  // by phase
   answer_tasks(options.task_socket, [&](const std::string& task) {
     const auto [phase, member] = phase_and_member(collection, task);
     return workers.try_emplace(phase.name, collection, options, phase.until, mpi)
@@ -264,8 +264,8 @@ void run_collection(const Collection& collection, const StudyOptions& options) {
   if (options.task_socket >= 0) return work_on_members(collection, options);
   if (!options.mesh_dir.empty())
     throw InputError("--mesh-dir is given, but the meshes of the study " + collection.header.name +
-                     " are those it names itself; leave it out");
-  CollectionRun run(collection, options);  // on all ranks, which so find the same faults
+                     " are named by the study; leave it out");
+  CollectionRun run(collection, options);  // on all ranks, so that all find the same faults
   if (!options.ranks.is_root()) {
     if (!options.dry_run) serve_task_team(options.ranks);
   } else if (options.dry_run) {

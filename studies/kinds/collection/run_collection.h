@@ -6,14 +6,17 @@
 
 namespace smoothfem {
 
-/// Runs the members of a collection, or one shard of them, each in its own folder
-/// members/MEMBER: all initial meshes, on several processes; then smoothing, one member after the
-/// other with nothing else of ours running on its machine; then finite elements, on several
-/// processes; smaller meshes first. The processes are those of a TaskTeam. Then writes the tables
-/// of all. A member that cannot be used, or whose process dies, is a row in members.csv with the
-/// reason. A run that is killed goes on where it was, and tries again what has failed; a complete
-/// one with the same members is left as it is. Throws InputError for a folder that cannot be
-/// written, results of other parameters in it, and --mesh-dir.
+/// Runs the members of a collection, or one shard of them, each in its own folder members/MEMBER.
+/// Smaller meshes come first.
+/// There are three phases. Initial meshes are made by several processes. Members are then smoothed
+/// one after the other, without other processes of smoothfem on the same machine. Then several
+/// processes solve finite elements. The processes are those of a TaskTeam. The tables of all
+/// members follow.
+/// If a member cannot be used or its process dies, its row in members.csv has the reason. A killed
+/// run resumes, and tries failed members again. A complete run with the same members is left
+/// unchanged.
+/// Throws InputError for a folder that cannot be written, for results with other parameters in it,
+/// and for --mesh-dir.
 void run_collection(const Collection& collection, const StudyOptions& options);
 
 }  // namespace smoothfem

@@ -8,7 +8,7 @@ namespace smoothfem {
 
 namespace {
 
-/// FNV-1a, which has the same value everywhere, as std::hash need not.
+/// FNV-1a, which has the same value on every machine. std::hash need not.
 std::uint64_t hash_of(const std::string& text) {
   constexpr std::uint64_t basis = 14695981039346656037ULL, prime = 1099511628211ULL;
   std::uint64_t hash = basis;
@@ -27,7 +27,7 @@ Shard Shard::parse(const std::string& text) {
   if (!has_slash || second.ec != std::errc() || second.ptr != end || shard.k < 1 ||
       shard.k > shard.n)
     throw InputError("--shard is '" + text +
-                     "'; write the part and how many there are, from 1/10 to 10/10");
+                     "'; write the part and the number of parts, for example 1/10 to 10/10");
   return shard;
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr char done = 'd', failed = 'f';
 
-/// Returns false if nobody listens any more.
+/// Sends a line. Returns false if the other end is closed.
 bool send_line(int socket, std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   text += '\n';
@@ -37,7 +37,7 @@ bool send_line(int socket, std::string text) {
   return true;
 }
 
-/// Appends what has come, waiting for it. Returns false at the end of it.
+/// Waits for text and appends it. Returns false at the end of the stream.
 bool receive(int socket, std::string& unread) {
   char buffer[4096];
   const auto n = ::recv(socket, buffer, sizeof(buffer), 0);
@@ -53,7 +53,7 @@ std::optional<std::string> take_line(std::string& unread) {
   return line;
 }
 
-/// A letter, and what there is to say.
+/// Returns a letter (done or failed), followed by the result or the reason.
 std::string answer_to(const std::string& task,
                       const std::function<std::string(const std::string&)>& work) {
   try {
@@ -75,7 +75,7 @@ std::string answer_to(const std::string& task,
 TaskProcess::~TaskProcess() {
   if (process_ < 0) return;
   if (is_busy_) ::kill(process_, SIGKILL);
-  bury();
+  reap();
 }
 
 void TaskProcess::start() {
@@ -89,9 +89,9 @@ void TaskProcess::start() {
   const std::vector<char*> environment = environment_of_children();
   const pid_t parent = ::getpid();
   process_ = ::fork();
-  if (process_ == 0) {                      // nothing but calls of the system is safe here
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);     // it ends with the process that gives the tasks
-    if (::getppid() != parent) ::_exit(1);  // which has ended before that
+  if (process_ == 0) {                      // only system calls are safe here
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);     // it ends with its parent
+    if (::getppid() != parent) ::_exit(1);  // the parent has already ended
     ::fcntl(ends[1], F_SETFD, 0);
     ::execve("/proc/self/exe", arguments.data(), environment.data());
     ::_exit(127);
@@ -108,7 +108,7 @@ void TaskProcess::start() {
 void TaskProcess::give(const std::string& task) {
   if (process_ < 0) start();
   is_busy_ = true;
-  send_line(socket_, task);  // where it is dead, answer() finds it so
+  send_line(socket_, task);  // if the process is dead, answer() reports it
 }
 
 std::optional<TaskAnswer> TaskProcess::answer() {
@@ -119,15 +119,15 @@ std::optional<TaskAnswer> TaskProcess::answer() {
     const auto line = take_line(unread_);
     if (is_alive && !line) continue;
     is_busy_ = false;
-    if (!line) return TaskAnswer{"", "the process that worked on it " + bury()};
+    if (!line) return TaskAnswer{"", "the process that worked on it " + reap()};
     return (*line)[0] == done ? TaskAnswer{line->substr(1), ""} : TaskAnswer{"", line->substr(1)};
   }
   return std::nullopt;
 }
 
-/// Returns how it ended.
-std::string TaskProcess::bury() {
-  ::close(socket_);  // it goes when it sees that
+/// Waits for the process to end, and returns how it ended.
+std::string TaskProcess::reap() {
+  ::close(socket_);  // the process ends when it sees that
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
   process_ = -1;

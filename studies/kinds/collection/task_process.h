@@ -10,34 +10,35 @@
 
 namespace smoothfem {
 
-/// What a task has come to.
+/// The result of a task.
 struct TaskAnswer {
   std::string outcome;  ///< what it returned
-  std::string failure;  ///< what it threw, or what killed its process; empty: it is done
+  std::string failure;  ///< its exception, or what killed its process; empty: it is done
 };
 
-/// Another process of this program that does one task after the other, so that one that crashes, or
-/// takes all memory, costs no other: the next one has a new process. Unlike a copy of this process
-/// it may be started where threads run and MPI is in use, and has an MPI of its own.
+/// Another process of this program that does one task after the other. If a task crashes it or
+/// takes all memory, only that task is lost: the next task has a new process.
+/// Unlike a copy of this process, it may be started while threads run and MPI is in use. It has its
+/// own MPI.
 class TaskProcess {
  public:
-  /// command: the words it is started with, to which `--task-socket=NUMBER` is added, for
+  /// command: words that start the process. `--task-socket=NUMBER` is added to them, for
   /// answer_tasks.
   explicit TaskProcess(std::vector<std::string> command) : command_(std::move(command)) {}
-  /// It ends, in the middle of a task if there is one.
+  /// Ends the process, even in the middle of a task.
   ~TaskProcess();
   TaskProcess(const TaskProcess&) = delete;
   TaskProcess& operator=(const TaskProcess&) = delete;
 
-  /// A task is one line of text, given when the one before is answered. Throws InputError if no
-  /// process can be started.
+  /// Gives a task: one line of text. The task before must have been answered. Throws InputError if
+  /// no process can be started.
   void give(const std::string& task);
-  /// To the task, once, when it has ended.
+  /// Returns the answer to the task once, when the task has ended.
   std::optional<TaskAnswer> answer();
 
  private:
   void start();
-  std::string bury();
+  std::string reap();
 
   std::vector<std::string> command_;
   pid_t process_ = -1;
@@ -46,11 +47,11 @@ class TaskProcess {
   std::string unread_;
 };
 
-/// The words that this process has been started with.
+/// Returns the words that started this process.
 std::vector<std::string> own_command();
 
-/// In a TaskProcess: does the tasks that come from this socket until it is closed. What `work`
-/// throws is an answer, too.
+/// Runs in a TaskProcess: does the tasks from this socket until it is closed. An exception of
+/// `work` is an answer, too.
 void answer_tasks(int socket, const std::function<std::string(const std::string&)>& work);
 
 }  // namespace smoothfem

@@ -11,8 +11,8 @@ namespace smoothfem {
 
 namespace {
 
-/// Between two looks at what has come: without it, waiting would take a processor of those that
-/// work.
+/// Time between two checks for answers. Without it, waiting would take a processor from the
+/// workers.
 constexpr auto pause = std::chrono::milliseconds(2);
 
 enum Tag : int { outcome_tag, failure_tag, task_tag, end_tag };
@@ -26,7 +26,7 @@ struct RankMessage {
   std::string text;
 };
 
-/// What a rank has sent, if anything.
+/// Returns a rank's message, if it has sent one.
 std::optional<RankMessage> receive(const Ranks& ranks, int from) {
   int is_there = 0, size = 0;
   MPI_Status status;
@@ -39,7 +39,7 @@ std::optional<RankMessage> receive(const Ranks& ranks, int from) {
   return RankMessage{static_cast<Tag>(status.MPI_TAG), std::move(text)};
 }
 
-/// Of each rank, on the root: whether it is the first one of its machine. Collective.
+/// Returns for each rank, on the root, if it is the first rank of its machine. Collective.
 std::vector<char> first_of_machines(const Ranks& ranks) {
   if (ranks.size() == 1) return {1};
   MPI_Comm machine = MPI_COMM_NULL;
@@ -52,16 +52,16 @@ std::vector<char> first_of_machines(const Ranks& ranks) {
 
 }  // namespace
 
-class TaskTeam::Hand {
+class TaskTeam::Worker {
  public:
-  virtual ~Hand() = default;
+  virtual ~Worker() = default;
   virtual void give(const std::string& task) = 0;
   virtual std::optional<TaskAnswer> answer() = 0;
 
-  std::optional<std::size_t> task;  ///< number of the one it works on
+  std::optional<std::size_t> task;  ///< number of its present task
 };
 
-class TaskTeam::OwnHand : public Hand {
+class TaskTeam::OwnWorker : public Worker {
  public:
   void give(const std::string& task) override { process_.give(task); }
   std::optional<TaskAnswer> answer() override { return process_.answer(); }
@@ -70,10 +70,10 @@ class TaskTeam::OwnHand : public Hand {
   TaskProcess process_{own_command()};
 };
 
-class TaskTeam::HandOfRank : public Hand {
+class TaskTeam::RankWorker : public Worker {
  public:
-  HandOfRank(const Ranks& ranks, int rank) : ranks_(ranks), rank_(rank) {}
-  ~HandOfRank() override { send(ranks_, rank_, end_tag, ""); }
+  RankWorker(const Ranks& ranks, int rank) : ranks_(ranks), rank_(rank) {}
+  ~RankWorker() override { send(ranks_, rank_, end_tag, ""); }
 
   void give(const std::string& task) override { send(ranks_, rank_, task_tag, task); }
   std::optional<TaskAnswer> answer() override {
@@ -91,12 +91,12 @@ class TaskTeam::HandOfRank : public Hand {
 TaskTeam::TaskTeam(const Ranks& ranks, unsigned int n_processes) {
   for (const char is_first : first_of_machines(ranks))
     is_first_of_machine_.push_back(is_first != 0);
-  hands_.push_back(std::make_unique<OwnHand>());
+  workers_.push_back(std::make_unique<OwnWorker>());
   for (int rank = 1; rank < ranks.size(); ++rank)
-    hands_.push_back(std::make_unique<HandOfRank>(ranks, rank));
-  while (ranks.size() == 1 && hands_.size() < n_processes)
-    hands_.push_back(std::make_unique<OwnHand>());
-  is_first_of_machine_.resize(hands_.size(), false);
+    workers_.push_back(std::make_unique<RankWorker>(ranks, rank));
+  while (ranks.size() == 1 && workers_.size() < n_processes)
+    workers_.push_back(std::make_unique<OwnWorker>());
+  is_first_of_machine_.resize(workers_.size(), false);
 }
 
 TaskTeam::~TaskTeam() = default;
@@ -108,18 +108,18 @@ void TaskTeam::run(const std::vector<std::string>& tasks, AtOnce at_once,
   auto waited = std::chrono::steady_clock::now();
   std::size_t n_given = 0, n_ended = 0;
   while (n_ended < tasks.size()) {
-    for (std::size_t h = 0; h < hands_.size(); ++h) {
-      Hand& hand = *hands_[h];
-      if (const auto answer = hand.task ? hand.answer() : std::nullopt) {
-        const std::size_t task = *hand.task;
-        hand.task.reset();
+    for (std::size_t w = 0; w < workers_.size(); ++w) {
+      Worker& worker = *workers_[w];
+      if (const auto answer = worker.task ? worker.answer() : std::nullopt) {
+        const std::size_t task = *worker.task;
+        worker.task.reset();
         ++n_ended;
         on_end(task, *answer);
       }
-      const bool takes_part = at_once == AtOnce::all || is_first_of_machine_[h];
-      if (takes_part && !hand.task && n_given < tasks.size()) {
-        hand.give(tasks[n_given]);
-        hand.task = n_given++;
+      const bool takes_part = at_once == AtOnce::all || is_first_of_machine_[w];
+      if (takes_part && !worker.task && n_given < tasks.size()) {
+        worker.give(tasks[n_given]);
+        worker.task = n_given++;
       }
     }
     std::this_thread::sleep_for(pause);

@@ -13,7 +13,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXcd;
 
-/// Of one step about the centroid: the transformation less the mean of the nodes.
+/// Returns the matrix of one step about the centroid: the transformation minus the mean of the
+/// nodes.
 Matrix centred_matrix(std::size_t n, double theta, double lambda) {
   Matrix matrix(n, n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -35,8 +36,8 @@ Polygon product(const Matrix& matrix, const Polygon& polygon) {
   return result;
 }
 
-/// n / (2 pi) times the angle between nodes and the ones before them, and how alike these are: 1 if
-/// every node is the one before, turned by the same angle.
+/// The rotation of nodes against the ones before them. It has n / (2 pi) times the angle, and a
+/// likeness: 1 if every node is the one before, turned by the same angle.
 struct Symmetry {
   double index, purity;
 };

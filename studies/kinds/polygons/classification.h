@@ -7,7 +7,7 @@
 
 namespace smoothfem {
 
-/// One pair of parameters: the domain that classify() says, and that found by iteration.
+/// One pair of parameters, with the domain from classify() and the domain found by iteration.
 struct ClassificationRow {
   std::size_t n;
   double theta, lambda;
@@ -16,10 +16,11 @@ struct ClassificationRow {
   bool agree() const { return predicted == iterated; }
 };
 
-/// What a random n-gon becomes in 2^doublings scaled steps, told from the polygon alone: D_0 if it
-/// shrinks to its centroid, otherwise by the angle about which each node is turned against the one
-/// before it. The matrix of the transformation is squared, so that also parameters very near to an
-/// intersection line are decided.
+/// Classifies the limit of a random n-gon after 2^doublings scaled steps, from the polygon alone.
+/// It is D_0 if the polygon shrinks to its centroid. Otherwise the angle by which each node is
+/// turned against the one before it decides.
+/// The matrix of the transformation is squared repeatedly, so that parameters very near to an
+/// intersection line are decided, too.
 ClassificationRow classify_by_iteration(std::size_t n, double theta, double lambda, int doublings,
                                         std::uint64_t seed);
 

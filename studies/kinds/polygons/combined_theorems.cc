@@ -12,7 +12,8 @@ struct Parameters {
   double theta, lambda;
 };
 
-/// Drawn anew until lambda, as a function of theta, is in (0, 1) and iteration takes not too long.
+/// Draws again until lambda, a function of theta, is in (0, 1) and iteration does not take too
+/// long.
 template <class LambdaOf>
 Parameters parameters_of(std::size_t n, SplitMix64& random, const LambdaOf& lambda_of) {
   constexpr double slowest = 0.99;
@@ -23,7 +24,7 @@ Parameters parameters_of(std::size_t n, SplitMix64& random, const LambdaOf& lamb
   }
 }
 
-/// Of the domain D_k: between its two lines, or one line and the border.
+/// Draws parameters of the domain D_k: between its two lines, or between one line and the border.
 Parameters parameters_of_domain(std::size_t n, std::size_t k, SplitMix64& random) {
   return parameters_of(n, random, [&](double theta) {
     const double from = k == n / 2 ? 0.0 : std::max(0.0, intersection_line(n, 2 * k + 1, theta));
@@ -98,8 +99,8 @@ void check_limits(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
     largest.above((growth - *std::max_element(values.begin(), values.end())) / growth, 0.0);
     Polygon z = random_polygon(n, random);
     const Polygon limit = limit_polygon(z, {.dominant = expected});
-    // About the centroid at the beginning (2.35): that of an iterate is off by rounding, and that
-    // error would not be scaled down again.
+    // About the initial centroid (2.35). An iterate's centroid has rounding errors, which would not
+    // be scaled down again.
     const Complex middle = centroid(z);
     for (std::size_t i = 0; i < study.steps; ++i)
       z = scaled_about(middle, transformed(z, p.lambda, p.theta), 1.0 / growth);

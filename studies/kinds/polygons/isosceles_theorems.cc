@@ -8,12 +8,13 @@ namespace {
 
 enum Stream : std::uint64_t { eigen = 200, between, on_angles, shapes, regular };
 
-/// The base angle at which limits change from kind k to k + 1 (Lemma 2.10).
+/// Returns the base angle at which limits change from kind k to k + 1 (Lemma 2.10).
 double characteristic_angle(std::size_t n, std::size_t k) {
   return pi * (2.0 * as_double(k) + 1.0) / (2.0 * as_double(n));
 }
 
-/// Between characteristic angles k - 1 and k, a quarter of the way off them at least.
+/// Draws an angle between the characteristic angles k - 1 and k, at least a quarter of the interval
+/// away from them.
 double angle_of_domain(std::size_t n, std::size_t k, SplitMix64& random) {
   const double from = k == 0 ? 0.0 : characteristic_angle(n, k - 1);
   const double to = k == n / 2 ? 0.5 * pi : characteristic_angle(n, k);
@@ -53,7 +54,7 @@ void check_eigenvalues(const PolygonStudy& study, std::vector<TheoremRow>& rows)
   for (const auto& check : {values, decomposition, dominant, pairs}) rows.push_back(check.row());
 }
 
-/// The iterate after scaled steps.
+/// Returns the iterate after n_steps scaled steps.
 Polygon iterated(std::size_t n_steps, Polygon z, double theta, double growth) {
   const Complex middle = centroid(z);
   for (std::size_t i = 0; i < n_steps; ++i)
@@ -104,7 +105,7 @@ void check_limits(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
   for (const auto& check : {domains, angles, shift, growth, collapse}) rows.push_back(check.row());
 }
 
-/// Nodes that coincide with node m, itself included.
+/// Counts nodes that coincide with node m, including m.
 std::size_t multiplicity(const Polygon& polygon, std::size_t m) {
   const double same = 1e-9 * radius(polygon);
   return static_cast<std::size_t>(
@@ -112,7 +113,7 @@ std::size_t multiplicity(const Polygon& polygon, std::size_t m) {
                     [&](const Complex& z) { return std::abs(z - polygon[m]) < same; }));
 }
 
-/// All corners to the left, and one turn from a vertex to itself.
+/// True if all corners turn left, and the polygon turns once around.
 bool is_convex(const Polygon& polygon, std::size_t vertices) {
   double turning = 0.0;
   for (std::size_t m = 0; m < vertices; ++m) {

@@ -13,7 +13,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Rows that begin with `keys` and end with a node's number and coordinates.
+/// Adds rows that begin with `keys` and end with a node's number and coordinates.
 template <class Keys>
 void add_nodes(CsvText& csv, const Polygon& polygon, const Keys& keys) {
   for (std::size_t m = 0; m < polygon.size(); ++m) {
@@ -26,8 +26,9 @@ double angle(double part, std::size_t n) {
   return 0.5 * pi * part / static_cast<double>(n);
 }
 
-/// Base angles in the middle of each interval of Lemma 2.10, and its characteristic angles but for
-/// the first one, where the limit is that beside it.
+/// Returns base angles in the middle of each interval of Lemma 2.10, and its characteristic angles.
+/// The first characteristic angle is left out, because its limit is that of an interval
+/// next to it.
 std::vector<double> pictured_angles(std::size_t n) {
   std::vector<double> angles;
   for (std::size_t k = 0; k <= n / 2; ++k) {
@@ -68,7 +69,7 @@ std::string domains_csv(const PolygonStudy& study) {
     csv.integer(n).field(line).number(theta).number(lambda).field(domain_name(limit));
     csv.number(limit.growth).number(limit.convergence).end_line();
   };
-  constexpr std::size_t finer = 8;  // lines than the grid
+  constexpr std::size_t finer = 8;  // for lines, compared with the grid
   const std::size_t points = study.domain_points;
   for (const std::size_t n : study.domain_nodes) {
     for (std::size_t i = 0; i < points; ++i)
@@ -86,7 +87,7 @@ std::string domains_csv(const PolygonStudy& study) {
 
 std::string limits_csv(const PolygonStudy& study) {
   CsvText csv("n,theta,domain,shape,growth,steps,node,x,y");
-  const std::size_t steps = 2 * ((study.steps + 1) / 2);  // even ones and odd ones differ by a turn
+  const std::size_t steps = 2 * ((study.steps + 1) / 2);  // even and odd steps differ by a turn
   for (const std::size_t n : study.limit_nodes) {
     const Polygon initial = picture_polygon(n, study.seed);
     add_nodes(csv, initial,
@@ -139,7 +140,7 @@ std::string side_ratios_csv(const PolygonStudy& study) {
                        const auto& defect_of) {
     Polygon triangle = picture_polygon(3, study.seed);
     if (signed_area(triangle) < 0.0) std::swap(triangle[1], triangle[2]);
-    double first[2] = {0.0, 0.0};  // bounds are of every other step
+    double first[2] = {0.0, 0.0};  // bounds apply to every second step
     for (std::size_t i = 0; i <= n_steps; ++i) {
       const double defect = defect_of(sides_of(triangle));
       if (i < 2) first[i] = defect;

@@ -5,7 +5,8 @@
 
 #include "studies/kinds/polygons/polygon_study.h"
 
-/// The tables that figures are drawn from, as CSV texts (columns: studies/columns.json).
+/// Functions for the tables that figures are drawn from, as CSV texts (columns:
+/// studies/columns.json).
 namespace smoothfem {
 
 std::string decomposition_csv(const PolygonStudy& study);  ///< Fig. 2.10

@@ -21,10 +21,11 @@ std::string theorems_csv(const PolygonStudy& study) {
   return csv.text();
 }
 
-/// Pairs of a grid, and for each of its angles the points on the lines S_k.
+/// Returns the pairs of a grid, and for each of its angles the points on the lines S_k.
 std::vector<std::pair<double, double>> classified_parameters(const PolygonStudy& study,
                                                              std::size_t n) {
-  // Nearer to lambda = 1 the transformation is nearly the identity: too many iterations are needed.
+  // Closer to lambda = 1 the transformation is nearly the identity, and would need too many
+  // iterations.
   constexpr double border = 1e-5;
   std::vector<std::pair<double, double>> pairs;
   for (std::size_t i = 0; i < study.theta_points; ++i) {

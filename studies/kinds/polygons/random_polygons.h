@@ -10,12 +10,12 @@ namespace smoothfem {
 
 constexpr double pi = std::numbers::pi;
 
-/// Uniform in (from, to).
+/// Returns a uniform random number in (from, to).
 inline double uniform(SplitMix64& random, double from, double to) {
   return from + (to - from) * random.uniform();
 }
 
-/// Nodes uniform in the square from -1 - i to 1 + i.
+/// Returns a polygon whose nodes are uniform in the square from -1 - i to 1 + i.
 inline Polygon random_polygon(std::size_t n, SplitMix64& random) {
   Polygon polygon;
   for (std::size_t k = 0; k < n; ++k) {
@@ -25,13 +25,13 @@ inline Polygon random_polygon(std::size_t n, SplitMix64& random) {
   return polygon;
 }
 
-/// The polygon that all pictures of n-gons of a study start from.
+/// Returns the polygon that all pictures of n-gons of a study start from.
 inline Polygon picture_polygon(std::size_t n, std::uint64_t seed) {
   SplitMix64 random = counter_random(seed, 0, n);
   return random_polygon(n, random);
 }
 
-/// Point i of a grid of n in the middles of the parts of (0, length).
+/// Returns point i of n grid points, in the middles of equal parts of (0, length).
 inline double grid_point(std::size_t i, std::size_t n, double length) {
   return length * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
 }

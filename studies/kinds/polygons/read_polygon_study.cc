@@ -27,27 +27,28 @@ void declare_keys(ParameterHandler& p) {
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of the random polygons.");
   p.declare_entry("nodes", "3, 4, 5, 6, 7, 8, 9, 10, 11, 12", node_numbers(16),
                   "Numbers of nodes in the checks of theorems and in the classification, up to 16: "
-                  "the more nodes, the slower limits are reached.");
+                  "with more nodes, limits are reached more slowly.");
   p.declare_entry("cases", "40", Patterns::Integer(1),
                   "Random polygons of each theorem and number of nodes.");
   p.declare_entry("steps", "4000", Patterns::Integer(1),
                   "Steps after which the limits of theorems count as reached.");
   p.declare_entry("theta points", "60", Patterns::Integer(1),
-                  "Of the classification's grid over (0, pi/2).");
-  p.declare_entry("lambda points", "60", Patterns::Integer(1), "The same over (0, 1).");
+                  "Points of the classification's grid over (0, pi/2).");
+  p.declare_entry("lambda points", "60", Patterns::Integer(1), "Points of this grid over (0, 1).");
   p.declare_entry("domain points", "150", Patterns::Integer(2),
-                  "Of both directions of the grid of Fig. 2.11.");
+                  "Points in both directions of the grid of Fig. 2.11.");
   p.declare_entry("doublings", "26", Patterns::Integer(1, 40),
                   "The classification iterates polygons 2^k times.");
   p.declare_entry("decomposition nodes", "5, 6", node_numbers(99), "Polygons of Fig. 2.10.");
   p.declare_entry("domain nodes", "5, 6", node_numbers(99), "Polygons of Fig. 2.11.");
   p.declare_entry("limit nodes", "10, 11", node_numbers(99),
-                  "Polygons of Fig. 2.3; the first one is that of Fig. 2.5.");
+                  "Polygons of Fig. 2.3; the first one is also in Fig. 2.5.");
   p.declare_entry("isosceles steps", "0, 1, 2, 3, 5, 10, 20, 100", step_numbers(),
                   "Steps that Fig. 2.5 shows.");
   p.declare_entry("combined steps", "0, 1, 2, 3, 5, 100", step_numbers(),
                   "Steps that Fig. 2.12 shows.");
-  p.declare_entry("sequence nodes", "6", Patterns::Integer(3, 99), "Of the polygon of Fig. 2.12.");
+  p.declare_entry("sequence nodes", "6", Patterns::Integer(3, 99),
+                  "Nodes of the polygon of Fig. 2.12.");
   p.declare_entry("sequences",
                   "1/16: 0.75, 1/16: S0, 1/6: 0.6, 1/16: S1, 1/3: 0.4, 7/16: S2, 7/16: 0.25",
                   Patterns::Anything(),
@@ -68,7 +69,7 @@ std::size_t count(ParameterHandler& p, const std::string& key) {
   return static_cast<std::size_t>(p.get_integer(key));
 }
 
-/// "1/16: 0.75" or "1/16: S0".
+/// Reads "1/16: 0.75" or "1/16: S0".
 SequenceParameters sequence(const std::string& text, std::size_t n) {
   double above = 0.0, below = 0.0, lambda = 0.0;
   char bar = ' ', colon = ' ';

@@ -11,18 +11,18 @@
 
 namespace smoothfem {
 
-/// A row of theorems.csv: what a theorem says of a quantity, and what many random polygons have.
-/// All numbers are those of the worst case.
+/// A row of theorems.csv: a theorem's value of a quantity, and the measured value of many random
+/// polygons. All numbers are those of the worst case.
 struct TheoremRow {
   std::string theorem, statement, quantity;
   std::size_t cases = 0;
   double measured = 0.0, expected = 0.0;
-  double max_deviation = 0.0;  ///< of measured from expected; of bounds: by what they are broken
-  double tolerance = 0.0;      ///< that rounding and a finite number of steps leave
+  double max_deviation = 0.0;  ///< of measured from expected; for bounds: the excess
+  double tolerance = 0.0;      ///< for rounding and a finite number of steps
   bool holds = true;
 };
 
-/// Gathers the cases of one row.
+/// Collects the cases of one row.
 class TheoremCheck {
  public:
   TheoremCheck(std::string theorem, std::string statement, std::string quantity, double tolerance) {
@@ -59,7 +59,7 @@ inline double as_double(std::size_t k) {
   return static_cast<double>(k);
 }
 
-/// Calls visit(random numbers) for every case of a check; each check has a stream of its own.
+/// Calls visit(random numbers) for every case of a check. Each check has its own random stream.
 template <class Visit>
 void for_cases(const PolygonStudy& study, std::uint64_t stream, const Visit& visit) {
   for (std::size_t i = 0; i < study.cases; ++i) {
@@ -68,14 +68,14 @@ void for_cases(const PolygonStudy& study, std::uint64_t stream, const Visit& vis
   }
 }
 
-/// The same for every number of nodes: visit(n, random numbers).
+/// Calls visit(n, random numbers) for every case and number of nodes.
 template <class Visit>
 void for_polygons(const PolygonStudy& study, std::uint64_t stream, const Visit& visit) {
   for (const std::size_t n : study.nodes)
     for_cases(study, stream + 1000 * n, [&](SplitMix64& random) { visit(n, random); });
 }
 
-/// Sections 2.1, 2.2 and 2.3 of the thesis.
+/// Check the theorems of Sections 2.1, 2.2 and 2.3 of the thesis.
 std::vector<TheoremRow> triangle_theorems(const PolygonStudy& study);
 std::vector<TheoremRow> isosceles_theorems(const PolygonStudy& study);
 std::vector<TheoremRow> combined_theorems(const PolygonStudy& study);

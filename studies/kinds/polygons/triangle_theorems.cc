@@ -25,7 +25,7 @@ double random_angle(SplitMix64& random) {
   return uniform(random, 0.02, 0.5 * pi - 0.02);
 }
 
-/// Counterclockwise.
+/// Returns a counterclockwise triangle.
 Polygon random_triangle(SplitMix64& random) {
   Polygon triangle = random_polygon(3, random);
   if (signed_area(triangle) < 0.0) std::swap(triangle[1], triangle[2]);
@@ -36,12 +36,12 @@ Polygon unit_sized(const Polygon& triangle) {
   return scaled_about_centroid(triangle, 1.0 / radius(triangle));
 }
 
-/// 1 - shorter / longer.
+/// Returns 1 - shorter / longer.
 double defect(double a, double b) {
   return 1.0 - std::min(a, b) / std::max(a, b);
 }
 
-double least_side(const Polygon& triangle) {
+double min_side(const Polygon& triangle) {
   const auto [x, y, z] = sides_of(triangle);
   return std::min({x, y, z});
 }
@@ -81,18 +81,18 @@ void check_no_side_vanishes(const PolygonStudy& study, Step step, const std::str
     const Polygon ends = random_polygon(2, random);
     const double theta = random_angle(random), where = random.uniform();
     for (const Complex third : {ends[0] + where * (ends[1] - ends[0]), ends[0], ends[1]})
-      check.above(least_side(step(unit_sized({ends[0], ends[1], third}), theta)), 0.0);
+      check.above(min_side(step(unit_sized({ends[0], ends[1], third}), theta)), 0.0);
   });
   rows.push_back(check.row());
 }
 
-/// Compares defects of at least 1e-6: of smaller ones rounding decides.
+/// Compares defects of at least 1e-6, because rounding decides smaller ones.
 void shrinks(TheoremCheck& check, double before, double after, double factor) {
   constexpr double least = 1e-6;
   if (factor * before >= least) check.at_most(after / (factor * before), 1.0);
 }
 
-/// A statement on two steps; defect_of(triangle): what shrinks.
+/// Checks a statement on two steps. defect_of(triangle): the number that shrinks.
 template <class Defect>
 void check_two_steps(const PolygonStudy& study, Step step, Angles factor, TheoremCheck check,
                      const Defect& defect_of, std::vector<TheoremRow>& rows) {
@@ -131,8 +131,8 @@ void check_convergence(const PolygonStudy& study, std::vector<TheoremRow>& rows)
       rows);
 }
 
-/// Proposition 2.2: its factors are those of its proof; for theta > pi/6 that depends on the
-/// triangle, too.
+/// Checks Proposition 2.2. Its factors are those of its proof. For theta > pi/6 the factor also
+/// depends on the triangle.
 void check_one_step(const PolygonStudy& study, std::vector<TheoremRow>& rows) {
   constexpr int n_steps = 20;
   const std::string quantity = "defect after a step / (factor * defect before)";
@@ -168,7 +168,7 @@ struct LimitCase {
   std::string growth_theorem, growth, angles_theorem, angles, orientation_theorem;
   Step step;
   Angles growth_of;
-  double steady_theta;  ///< for which sizes do not change
+  double steady_theta;  ///< theta for which sizes do not change
   TriangleAngles limit;
 };
 

@@ -14,14 +14,14 @@ namespace smoothfem {
 
 namespace {
 
-/// Elements while they are drawn: the coordinates of n_lanes of them, node by node.
+/// Coordinates of n_lanes elements, node by node, while they are drawn.
 template <std::size_t n>
 using ElementLanes = std::array<Vector3<Lanes>, n>;
 
 template <std::size_t n>
 using Element = std::array<Vector3<double>, n>;
 
-/// The `attempt`-th random element of a number.
+/// Returns the `attempt`-th random element of a number.
 template <std::size_t n>
 Element<n> random_element(std::uint64_t seed, std::uint64_t number, std::uint64_t attempt) {
   SplitMix64 random = counter_random(seed, number, attempt);
@@ -68,7 +68,8 @@ struct Tally {
   }
 };
 
-/// Transformations until each of n_lanes elements is regular; max + 1 where it is not by then.
+/// Returns the transformations until each of n_lanes elements is regular; max + 1 if it is not
+/// regular by then.
 template <std::size_t n>
 [[gnu::flatten]] void count_lanes(const ElementRegularization<3>& transformation,
                                   ElementLanes<n> elements, double regular, int max,

@@ -12,7 +12,7 @@ namespace {
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
-/// What is transformed, and how: Fig. 3.4 has the first, Fig. 3.8 the others.
+/// An element type and its transformation. Fig. 3.4 shows the first, Fig. 3.8 the others.
 struct Subject {
   ElementType element_type;
   const char* transformation;
@@ -32,12 +32,13 @@ void declare_keys(ParameterHandler& p) {
   p.declare_entry("seed", "1", Patterns::Integer(0), "Seed of the random elements.");
   p.declare_entry("elements", "100000", Patterns::Integer(1), "Random elements of each type.");
   p.declare_entry("largest sigma", "2", Patterns::Double(1e-3),
-                  "Scaling factors of the normals lie in equal distances from 0 to this one.");
-  p.declare_entry("sigmas", "101", Patterns::Integer(2), "How many of them, both ends included.");
+                  "Scaling factors of the normals are equally spaced from 0 to this one.");
+  p.declare_entry("sigmas", "101", Patterns::Integer(2),
+                  "Number of these factors, both ends included.");
   p.declare_entry("tolerance", "1e-6", Patterns::Double(1e-12, 0.5),
-                  "Elements are regular from the mean ratio 1 - tolerance on.");
+                  "Elements are regular if their mean ratio is at least 1 - tolerance.");
   p.declare_entry("most transformations", "1000", Patterns::Integer(1, 1000000),
-                  "Of one element; one that takes more counts as not regularized.");
+                  "Of one element; an element that needs more counts as not regularized.");
 }
 
 const std::vector<std::string> scaled_numbers{"elements"};

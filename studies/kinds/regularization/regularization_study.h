@@ -10,21 +10,21 @@
 
 namespace smoothfem {
 
-/// A study of how fast transformations of volume elements make random ones regular (thesis,
-/// Sections 3.2 and 3.3, Figures 3.4 and 3.8).
+/// A study of how fast transformations make random volume elements regular (thesis, Sections 3.2
+/// and 3.3, Figures 3.4 and 3.8).
 struct RegularizationStudy {
   StudyHeader header;
   std::vector<RegularizationSeries> series;
 };
 
-/// Reads a study file of kind `regularization`; throws InputError as read_study does.
+/// Reads a study file of kind `regularization`. Throws InputError as read_study does.
 RegularizationStudy read_regularization_study(const std::filesystem::path& file,
                                               const std::string& scale = {});
 
-/// A commented study file with every key and its default.
+/// Returns a commented study file with every key and its default.
 std::string regularization_study_template();
 
-/// regularization.csv and validity.csv (studies/columns.json).
+/// Returns regularization.csv and validity.csv (studies/columns.json).
 std::vector<StudyTable> regularization_tables(const RegularizationStudy& study);
 
 }  // namespace smoothfem
