@@ -73,16 +73,17 @@ if(SMOOTHFEM_BUILD_TESTS)
   smoothfem_precompile(smoothfem_test_headers <gtest/gtest.h> <gmock/gmock.h>)
 endif()
 
-# smoothfem_add_test(NAME label [SERIAL] [SHARDS n] SOURCES source... LIBRARIES library...): a GoogleTest program, which
+# smoothfem_add_test(NAME label [SERIAL] [ALSO_LONG] [SHARDS n] SOURCES source... LIBRARIES library...): a GoogleTest program, which
 # is one entry of ctest, or n of them that share its cases. A program a case would start 2,000 processes, each of which
 # loads up to 225 libraries; NAME --gtest_filter=CASE in the folder tests runs one. The labels are unit, integration or
-# long, the library of the calling folder, and compiled. Waiting threads sleep, as other tests run meanwhile. SERIAL: nothing else runs meanwhile. Tests find the repository
-# and the meshes that are not part of it.
+# long, the library of the calling folder, and compiled. Waiting threads sleep, as other tests run meanwhile. SERIAL: nothing else runs meanwhile.
+# ALSO_LONG: the long tests run the program once more, with the sizes that its tests choose then (test::short_or_long).
+# Tests find the repository and the meshes that are not part of it.
 function(smoothfem_add_test name label)
   if(NOT SMOOTHFEM_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "SERIAL" "SHARDS" "SOURCES;LIBRARIES;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;ALSO_LONG" "SHARDS" "SOURCES;LIBRARIES;DEFINITIONS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE smoothfem_options ${ARG_LIBRARIES} GTest::gtest GTest::gmock
                                         GTest::gtest_main)
@@ -94,6 +95,11 @@ function(smoothfem_add_test name label)
     ${ARG_DEFINITIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   smoothfem_list_test(${name} ${label} "${ARG_SERIAL}" "${ARG_SHARDS}")
+  if(ARG_ALSO_LONG)
+    add_test(NAME ${name}_long COMMAND ${name} --gtest_brief=1)
+    set_tests_properties(${name}_long PROPERTIES LABELS long
+      ENVIRONMENT "SMOOTHFEM_LONG_TESTS=1;OMP_WAIT_POLICY=passive")
+  endif()
 endfunction()
 
 # The entries of ctest of a test program, and the targets that build it.

@@ -9,7 +9,9 @@ import unittest
 from pathlib import Path
 
 from .build_folder import BUILD, SOURCE, run
+from .test_new_smoother import Study, make
 
+ABI_MARK = b"smoothfem plugin types:\0"
 PROGRAM = Path(__file__).with_name("installed_program")
 STUDY = """set title   = Small
 set meshes  = square
@@ -27,7 +29,7 @@ end
 """
 
 
-class Installed(unittest.TestCase):
+class Installed(Study, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
@@ -124,20 +126,46 @@ class Installed(unittest.TestCase):
         self.smoothfem_run("smooth", "gear.msh", "-m", "getme", "-o", "theirs.mesh")
         self.assertEqual((self.folder / "mine.mesh").read_bytes(), (self.folder / "theirs.mesh").read_bytes())
 
-    def test_plugin_of_somebody_else(self):
-        """What new-smoother writes is built against the installation alone, and is a method of the installed program."""
-        self.smoothfem_run("new-smoother", "mine")
-        mine = self.folder / "mine"
-        run("cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Debug", folder=mine)
-        cache = (mine / "build" / "CMakeCache.txt").read_text(encoding="utf-8")
-        for folder in (SOURCE, BUILD):
-            self.assertNotIn(f"{folder}/", cache)
-        run("cmake", "--build", "build", folder=mine)
-        self.assertIn("100% tests passed", run("ctest", "--test-dir", "build", folder=mine).stdout)
-        listed = run(self.smoothfem, "list", "--plugin", "./libmine.so", folder=mine).stdout
-        self.assertRegex(listed, r"\n  mine: ")
+    @classmethod
+    def plugin(cls):
+        """The folder of a smoother in C++ that new-smoother has made, built once against the installation alone."""
+        if not hasattr(cls, "built"):
+            cls.built = make(cls.folder, "ab-cd", smoothfem=cls.smoothfem)
+            run("cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Debug", folder=cls.built)
+            run("cmake", "--build", "build", folder=cls.built)
+        return cls.built
 
-    def test_missing_python_is_told(self):
+    def test_plugin_of_somebody_else(self):
+        folder = self.plugin()
+        cache = (folder / "build" / "CMakeCache.txt").read_text(encoding="utf-8")
+        for other in (SOURCE, BUILD):
+            self.assertNotIn(f"{other}/", cache)
+        self.assertIn("100% tests passed", run("ctest", "--test-dir", "build", folder=folder).stdout)
+        self.assertIn("\n  ab-cd: AbCd\n", run(self.smoothfem, "list", "--plugin", "./libab_cd.so", folder=folder).stdout)
+        self.study(folder, "ab-cd")
+        provenance = (folder / "results" / "ab-cd" / "provenance.json").read_text()
+        self.assertRegex(provenance, r'"name": "libab_cd.so",\s+"sha256": "[0-9a-f]{64}"')
+        self.assertNotIn(str(folder), provenance)
+
+    def test_refuses_other_files_as_plugins(self):
+        self.assertIn("there is no plugin none.so", self.refused("list", "--plugin", "none.so"))
+        (self.folder / "text.so").write_text("text")
+        self.assertIn("is not a shared library", self.refused("list", "--plugin", "text.so"))
+        other = next(self.prefix.rglob("libsmoothfem_fem.so*"))
+        self.assertIn("is not a plugin of smoothfem", self.refused("list", "--plugin", other))
+        library = self.plugin() / "libab_cd.so"
+        good = library.read_bytes()
+        at = good.index(ABI_MARK) + len(ABI_MARK)
+        (self.folder / "old.so").write_bytes(re.sub(re.escape(good[at - len(ABI_MARK):at + 4]),
+                                                    ABI_MARK + b"\xff\0\0\0", good))
+        self.assertIn("was built against another smoothfem", self.refused("list", "--plugin", "old.so"))
+        (self.folder / "half.so").write_bytes(good[:len(good) * 3 // 4])
+        self.assertIn("is incomplete", self.refused("list", "--plugin", "half.so"))
+        copy = self.folder / "copy.so"
+        copy.write_bytes(good)
+        self.assertIn("'ab-cd'", self.refused("list", "--plugin", library, "--plugin", copy))
+
+    def test_reports_a_missing_python(self):
         # No interpreter starts with this home.
         outcome = subprocess.run([self.prefix / "libexec" / "smoothfem" / "find_python"], text=True,
                                  capture_output=True, check=False, stdin=subprocess.DEVNULL,

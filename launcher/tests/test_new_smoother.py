@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What new-smoother makes builds and runs at once, in each language; wrong plugins are refused."""
+"""What new-smoother makes runs at once. launcher/tests/test_installed.py builds and runs the smoother in C++."""
 
 import csv
 import re
@@ -7,9 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from .build_folder import BUILD, SMOOTHFEM, run
-
-ABI_MARK = b"smoothfem plugin types:\0"
+from .build_folder import SMOOTHFEM, run
 
 
 def rows(path):
@@ -18,9 +16,9 @@ def rows(path):
         return list(csv.DictReader(stream))
 
 
-def make(folder, name, *options):
+def make(folder, name, *options, smoothfem=SMOOTHFEM):
     """Makes a new smoother below a folder; returns its own folder."""
-    shown = run(SMOOTHFEM, "new-smoother", name, *options, folder=folder).stdout
+    shown = run(smoothfem, "new-smoother", name, *options, folder=folder).stdout
     if f"{name}/README.md says what to do next:" not in shown:
         raise AssertionError(shown)
     for path in (folder / name).iterdir():
@@ -29,25 +27,14 @@ def make(folder, name, *options):
     return folder / name
 
 
-class NewSmoother(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        """The smoother in C++, built once."""
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.built = make(Path(temporary.name), "ab-cd")
-        run("cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Debug", folder=cls.built)
-        run("cmake", "--build", "build", folder=cls.built)
-        cls.library = cls.built / "libab_cd.so"
+class Study:
+    """For tests of a folder that new-smoother has made."""
 
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+    smoothfem = SMOOTHFEM
 
     def study(self, folder, name):
         """Rows of the summary of the study that comes with it."""
-        run(SMOOTHFEM, "study", f"{name}.prm", "--quiet", "--no-figures", folder=folder)
+        run(self.smoothfem, "study", f"{name}.prm", "--quiet", "--no-figures", folder=folder)
         found = rows(folder / "results" / name / "summary.csv")
         mine = [row for row in found if row["method"] == name]
         self.assertEqual({row["status"] for row in mine}, {"ok"})
@@ -58,15 +45,18 @@ class NewSmoother(unittest.TestCase):
         tables = "".join(path.read_text() for path in (folder / "results" / name / "tables").glob("*.md"))
         self.assertIn(name, tables.replace("AbCd", name))
 
-    def test_cpp(self):
-        folder = self.built
-        told = run("ctest", "--test-dir", "build", "--output-on-failure", folder=folder).stdout
-        self.assertIn("100% tests passed", told)
-        self.assertIn("\n  ab-cd: AbCd\n", run(SMOOTHFEM, "list", "--plugin", "./libab_cd.so", folder=folder).stdout)
-        self.study(folder, "ab-cd")
-        provenance = (folder / "results" / "ab-cd" / "provenance.json").read_text()
-        self.assertRegex(provenance, r'"name": "libab_cd.so",\s+"sha256": "[0-9a-f]{64}"')
-        self.assertNotIn(str(folder), provenance)
+    def refused(self, *words):
+        """The one line that a refused command prints."""
+        outcome = run(self.smoothfem, *words, folder=self.folder, check=False)
+        self.assertEqual((outcome.returncode, outcome.stderr.count("\n")), (2, 1), outcome.stderr)
+        return outcome.stderr
+
+
+class NewSmoother(Study, unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
 
     def test_python(self):
         folder = make(self.folder, "ab-cd", "--python")
@@ -79,35 +69,11 @@ class NewSmoother(unittest.TestCase):
         self.study(folder, "ab-cd")
         self.assertTrue((folder / "results" / "ab-cd" / "logs" / "tri_ab-cd.log").is_file())
 
-    def refused(self, *words):
-        """The one line that a refused command prints."""
-        outcome = run(SMOOTHFEM, *words, folder=self.folder, check=False)
-        self.assertEqual((outcome.returncode, outcome.stderr.count("\n")), (2, 1), outcome.stderr)
-        return outcome.stderr
-
     def test_names_that_cannot_be(self):
         (self.folder / "here").mkdir()
         self.assertIn("use lower-case letters", self.refused("new-smoother", "Ab_cd"))
         self.assertIn("'here' exists here", self.refused("new-smoother", "here"))
         self.assertIn("a method 'laplace' exists", self.refused("new-smoother", "laplace"))
-
-    def test_plugins_that_are_none(self):
-        self.assertIn("there is no plugin none.so", self.refused("list", "--plugin", "none.so"))
-        (self.folder / "text.so").write_text("text")
-        self.assertIn("is not a shared library", self.refused("list", "--plugin", "text.so"))
-        other = next(BUILD.glob("lib/libsmoothfem_fem.so*"))
-        self.assertIn("is not a plugin of smoothfem", self.refused("list", "--plugin", other))
-        library = self.library
-        good = library.read_bytes()
-        at = good.index(ABI_MARK) + len(ABI_MARK)
-        (self.folder / "old.so").write_bytes(re.sub(re.escape(good[at - len(ABI_MARK):at + 4]),
-                                                    ABI_MARK + b"\xff\0\0\0", good))
-        self.assertIn("was built against another smoothfem", self.refused("list", "--plugin", "old.so"))
-        (self.folder / "half.so").write_bytes(good[:len(good) * 3 // 4])
-        self.assertIn("is incomplete", self.refused("list", "--plugin", "half.so"))
-        copy = self.folder / "copy.so"
-        copy.write_bytes(good)
-        self.assertIn("'ab-cd'", self.refused("list", "--plugin", library, "--plugin", copy))
 
 
 if __name__ == "__main__":

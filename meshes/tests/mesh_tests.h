@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -27,6 +28,21 @@ inline void PrintTo(const MeshFormat& format, std::ostream* out) {
 inline void PrintTo(ElementType type, std::ostream* out) {
   *out << name_of(type);
 }
+
+namespace test {
+/// True in the long tests (`./run test --all`).
+inline bool is_long() {
+  return std::getenv("SMOOTHFEM_LONG_TESTS") != nullptr;
+}
+/// Skips a test whose mesh has the size of the thesis, unless the long tests run.
+#define SKIP_UNLESS_LONG() \
+  if (!test::is_long()) GTEST_SKIP() << "run by the long tests"
+
+/// Returns the sizes that a test takes: small ones, and in the long tests all.
+inline std::vector<double> short_or_long(std::vector<double> small, std::vector<double> all) {
+  return is_long() ? all : small;
+}
+}  // namespace test
 
 /// Returns the content of a file; empty if it does not exist.
 inline std::string content_of(const std::filesystem::path& path) {

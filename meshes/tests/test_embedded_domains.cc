@@ -101,7 +101,10 @@ TEST(Aorta, HasBranchesWithoutCreases) {
 }
 
 TEST(EmbeddedDomains, AreTheSameEveryTime) {
-  for (const char* domain : {"ring", "plate", "aorta"})
+  // The aorta and the plate have one size only.
+  std::vector<std::string> names{"ring"};
+  if (test::is_long()) names.insert(names.end(), {"plate", "aorta"});
+  for (const auto& domain : names)
     expect_same_mesh(mesh_of_domain<3>(domain), mesh_of_domain<3>(domain));
 }
 

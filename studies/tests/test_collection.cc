@@ -55,7 +55,7 @@ class Collections : public CommandLine {
 };
 
 TEST_F(Collections, BrokenMeshesAreRowsWithTheReason) {
-  write_good_meshes(34);
+  write_good_meshes(20);
   write_study();
   file_with("meshes/rubbish.vtk", "not a mesh\n");
   file_with("meshes/empty.msh", "");
@@ -70,11 +70,11 @@ TEST_F(Collections, BrokenMeshesAreRowsWithTheReason) {
   const Outcome outcome = smoothfem({"study", "all.prm", "--out", "out", "--threads", "2"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err,
-              ::testing::HasSubstr("34 members are complete, 6 have failed; out/members.csv"));
+              ::testing::HasSubstr("20 members are complete, 6 have failed; out/members.csv"));
 
   const CsvTable members = table("out/members.csv");
   EXPECT_EQ(members.columns, documented_columns("members.csv"));
-  EXPECT_EQ(members.select({{"status", "complete"}, {"reason", ""}}).size(), 34u);
+  EXPECT_EQ(members.select({{"status", "complete"}, {"reason", ""}}).size(), 20u);
   std::set<std::string> failed;
   for (const auto& row : members.select({{"status", "failed"}})) {
     failed.insert(row.at("member"));
@@ -84,11 +84,11 @@ TEST_F(Collections, BrokenMeshesAreRowsWithTheReason) {
             (std::set<std::string>{"cut", "empty", "letter", "pentagon", "rubbish", "tangled"}));
   EXPECT_EQ(members.select({{"elements", "hexahedra"}, {"dimension", "3"}}).size(), 1u);
   // Each member has rows for the initial mesh and for the result of each method.
-  EXPECT_EQ(table("out/summary.csv").rows.size(), 34u * 2);
+  EXPECT_EQ(table("out/summary.csv").rows.size(), 20u * 2);
   const CsvTable iterations = table("out/iterations.csv");
   std::set<std::string> with_rows;
   for (const auto& row : iterations.rows) with_rows.insert(row.at("member"));
-  EXPECT_EQ(with_rows.size(), 34u);
+  EXPECT_EQ(with_rows.size(), 20u);
   // Columns before the members' own columns.
   const auto own = documented_columns("iterations.csv");
   EXPECT_EQ(std::vector(iterations.columns.begin() + 8, iterations.columns.end()), own);
@@ -261,13 +261,13 @@ TEST(TaskProcess, ACrashingTaskDoesNotAffectOthers) {
 }
 
 TEST_F(Collections, OnRanksOfMpirunTheyAreTheSame) {
-  write_good_meshes(10);
+  write_good_meshes(5);
   write_study("set solutions = sine, linear\n");
   file_with("meshes/rubbish.vtk", "not a mesh\n");
   ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "alone", "--quiet"}).exit_code, 0);
   const Outcome outcome = smoothfem_on_ranks(3, {"study", "all.prm", "--out", "ranks"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, ::testing::HasSubstr("20 members are complete, 2 have failed"));
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("10 members are complete, 2 have failed"));
   EXPECT_THAT(content_of(file("ranks/provenance.json")),
               ::testing::HasSubstr("\"finite_element_threads\": 3"));
   expect_same_tables("alone", "ranks");

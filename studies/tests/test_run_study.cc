@@ -28,7 +28,8 @@ class RunStudy : public FileTest {
                                 "set meshes = grid\n"
                                 "set methods = laplace, getme\n"
                                 "set timing runs = 1\n"
-                                "subsection mesh grid\n set file = grid.mesh\nend\n" +
+                                "subsection mesh grid\n set file = grid.mesh\nend\n"
+                                "subsection method getme\n set sequential.max_cycles = 12\nend\n" +
                                     more));
   }
 
