@@ -101,9 +101,9 @@ def candidates(results, meshes, rule):
         for each in everywhere:
             for mesh in meshes:
                 n_invalid += int(np.nansum(each.summary.select(mesh=mesh, method=method).number("n_invalid")))
-                ours, base = (rule.numbers(each, mesh, m) for m in (method, first))
+                own, base = (rule.numbers(each, mesh, m) for m in (method, first))
                 for name in COLUMNS:
-                    ratios[name] += list(ours[name] / base[name])
+                    ratios[name] += list(own[name] / base[name])
         means = {name: geometric_mean(values) for name, values in ratios.items()}
         found.append(Candidate(method, means, n_invalid, rule.most_time))
     return found

@@ -137,7 +137,7 @@ class Installed(unittest.TestCase):
         listed = run(self.smoothfem, "list", "--plugin", "./libmine.so", folder=mine).stdout
         self.assertRegex(listed, r"\n  mine: ")
 
-    def test_missing_python_is_told(self):
+    def test_missing_python_is_reported(self):
         # No interpreter starts with this home.
         outcome = subprocess.run([self.prefix / "libexec" / "smoothfem" / "find_python"], text=True,
                                  capture_output=True, check=False, stdin=subprocess.DEVNULL,

@@ -23,7 +23,7 @@ HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
 COARSE = "too coarse to judge"  # in place of `does not hold`, on meshes that are made to be quick
 # More numbers than these are shown as a range.
 MOST_SHOWN = 4
-# A number in a note: ours, or the printed one.
+# A number in a note: the computed or the printed one.
 NUMBER_IN_NOTE = re.compile(r"\{(printed )?(.+?)\}")
 
 
@@ -34,7 +34,7 @@ class Outcome:
     claim: dict
     verdict: str
     printed: str
-    ours: str
+    computed: str
     note: str = ""  # what our numbers show of why it may not hold
     guess: str = ""  # why that may be, as far as no run has tested it
     seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
@@ -43,9 +43,9 @@ class Outcome:
     tests: tuple = ()  # of reasons, with the claim's Outcome on the study that tests it; None if it was not run
 
     @property
-    def is_beside(self):
+    def is_revised_criterion(self):
         """True if it judges a claim once more, by a later criterion in addition to the first one."""
-        return "beside" in self.claim
+        return "revises" in self.claim
 
 
 def read_claims(study):
@@ -65,11 +65,11 @@ def read_claims(study):
 def check_claims(claims, results, printed):
     """The outcome of each claim; `printed` as in make_tables. Where a study was repeated with several
     seeds, a claim is judged by the median of each of its quantities."""
-    ours = values_of(results)
+    computed = values_of(results)
     rows = {content: table.rows for content, table in printed.items()}
     theirs = Values([row for content in rows if content != "thresholds" for row in rows[content]],
                     rows.get("thresholds", []))
-    outcomes = [with_tests(check_claim(claim, ours, theirs), theirs) for claim in claims]
+    outcomes = [with_tests(check_claim(claim, computed, theirs), theirs) for claim in claims]
     return [replace(outcome, verdict=COARSE) if results.is_quick and outcome.verdict == FAILS else outcome
             for outcome in outcomes]
 
@@ -91,35 +91,35 @@ def with_tests(outcome, theirs):
     return replace(outcome, tests=tuple(tested))
 
 
-def check_claim(claim, ours, theirs):
-    """Returns the outcome of one claim: it holds if all of its checks hold. measured: values of each seed."""
+def check_claim(claim, computed, theirs):
+    """Returns the outcome of one claim: it holds if all of its checks hold. computed: values of each seed."""
     if not claim["checks"]:
         return Outcome(claim, UNKNOWN, claim.get("printed", MISSING), claim["reason"])
     verdicts, printed, own, all_met, chance = [], [], [], [], []
     for check in claim["checks"]:
         cases = cases_of(check)
         numbers = [number_of(check["quantity"], case, theirs) for case in cases]
-        found = [median_of(check["quantity"], case, ours) for case in cases]
+        found = [median_of(check["quantity"], case, computed) for case in cases]
         met = met_in(check, found, numbers)
         all_met += met
         verdicts.append(verdict_of(met, check.get("at_least", len(cases))))
         if verdicts[-1] == FAILS:
-            chance += [varies(check["quantity"], case, ours) for case, is_met in zip(cases, met) if not is_met]
+            chance += [varies(check["quantity"], case, computed) for case, is_met in zip(cases, met) if not is_met]
         printed.append(check.get("printed") or
                        shown(numbers, cases, met_in(check, numbers, numbers)))
         own.append(shown(found, cases, met))
     worst = next(v for v in (FAILS, UNKNOWN, HOLDS) if v in verdicts)
     missing = ""
     if worst == UNKNOWN:
-        is_divided = any(divides_by_zero(check, ours) for check in claim["checks"])
+        is_divided = any(divides_by_zero(check, computed) for check in claim["checks"])
         missing = "a quotient by 0" if is_divided else claim.get("reason")
     seeds = ""
-    if len(ours) > 1:
-        alone = [check_claim(claim, [one], theirs).verdict for one in ours]
+    if len(computed) > 1:
+        alone = [check_claim(claim, [one], theirs).verdict for one in computed]
         known = len(alone) - alone.count(UNKNOWN)
         seeds = f"{alone.count(HOLDS)} of {known} seeds" if known > 1 else ""
     return Outcome(claim, worst, "; ".join(printed), missing or "; ".join(own),
-                   filled(claim.get("note", ""), ours, theirs), claim.get("guess", ""), seeds,
+                   filled(claim.get("note", ""), computed, theirs), claim.get("guess", ""), seeds,
                    chance=any(chance), met=(all_met.count(True), len(all_met)))
 
 
@@ -146,10 +146,10 @@ def divides_by_zero(check, values):
     return any(divides(case, of_seed) for case in cases_of(check) for of_seed in values)
 
 
-def filled(note, ours, theirs):
+def filled(note, computed, theirs):
     """A note with the numbers for which it has expressions in braces."""
     def number(match):
-        value = number_of(match[2], {}, theirs) if match[1] else median_of(match[2], {}, ours)
+        value = number_of(match[2], {}, theirs) if match[1] else median_of(match[2], {}, computed)
         return MISSING if value is None else written(value)
     return NUMBER_IN_NOTE.sub(number, note)
 

@@ -17,11 +17,11 @@ def claims_as_markdown(outcomes, results):
     """All claims of a study as a Markdown table."""
     lines = [f"# {results.study_title}: what holds of the thesis", "", totals(outcomes) + ".", ""]
     lines += [sentence + "  " for sentence in caveats(results)]
-    lines += ["", "| | Section | Claim | Criterion | Printed | Ours | |", "|:--|:--|:--|:--|:--|:--|:--|"]
+    lines += ["", "| | Section | Claim | Criterion | Printed | smoothfem | |", "|:--|:--|:--|:--|:--|:--|:--|"]
     for outcome in outcomes:
         claim = outcome.claim
         cells = (claim["id"], claim["section"], claim["statement"], criterion_of(claim),
-                 outcome.printed, outcome.ours)
+                 outcome.printed, outcome.computed)
         lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
                      + f" | {verdict_cell(outcome)} |")
     lines += known_reasons(outcomes)
@@ -31,7 +31,7 @@ def claims_as_markdown(outcomes, results):
 def criterion_of(claim):
     """The criterion, and when it was written where a reader has to know."""
     history = claim.get("history")
-    is_plain = history is None or ("beside" not in claim and history.is_as_it_should_be)
+    is_plain = history is None or ("revises" not in claim and history.is_as_it_should_be)
     return claim["criterion"] + ("" if is_plain else f" ({history})")
 
 
@@ -45,9 +45,9 @@ def totals(outcomes):
         counts = ", ".join(f"{number} {PHRASES[verdict][number != 1]}" for verdict, number in numbers.items()
                            if verdict != left_out)
         return f"{len(chosen)} {one if len(chosen) == 1 else many} {counts}"
-    text = "Of " + counted([o for o in outcomes if not o.is_beside], "claim", "claims")
-    beside = [o for o in outcomes if o.is_beside]
-    return text + ("; of " + counted(beside, "later criterion", "later criteria") if beside else "")
+    text = "Of " + counted([o for o in outcomes if not o.is_revised_criterion], "claim", "claims")
+    revised = [o for o in outcomes if o.is_revised_criterion]
+    return text + ("; of " + counted(revised, "later criterion", "later criteria") if revised else "")
 
 
 def verdict_cell(outcome):
@@ -91,7 +91,7 @@ def of_test(test, tested, outcome):
         found = "the claim cannot be judged, as numbers for it are missing"
     printed = "" if tested.printed == MISSING else f" (printed {tested.printed})"
     return (f"Suspected: {test['reason']} Tested by `{test['study']}`, {test['change']}: with this change "
-            f"{found}{of_seeds(tested)}; {tested.ours}{printed}.")
+            f"{found}{of_seeds(tested)}; {tested.computed}{printed}.")
 
 
 def known_reasons(outcomes):

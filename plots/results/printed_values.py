@@ -81,6 +81,6 @@ def comparison_notes(table, results):
     known = {entry["name"] for entry in entries(results.provenance, "meshes") if "published" in entry}
     names = ", ".join(stand_ins)
     if not known.issuperset(stand_ins):
-        return [f"{note} Whether ours are these meshes is not recorded for: {names}.", *own]
+        return [f"{note} The results do not record whether these meshes were used for: {names}.", *own]
     return [f"{note} Not these meshes but stand-ins for them, whose numbers cannot be compared digit "
             f"for digit: {names}.", *own]

@@ -19,7 +19,7 @@ class Measure:
     format: Optional[Callable]  # None: the field as it stands in the file
     difference: bool = True  # whether a relative difference from the print makes sense
     unremarkable: tuple = ()  # the column is left out where all fields are one of these
-    if_printed: bool = False  # the column is left out where the print has none
+    only_if_printed: bool = False  # the column is left out where the print has none
     detail: bool = False  # the same where the table of details stands beside this one
     ranks_methods: bool = True  # whether the methods' order by it is compared with the printed one
 
@@ -67,7 +67,7 @@ SMOOTHING = TableDescription(
         Measure("preparation_seconds", Heading("Preparation (s)", "Preparation (s)"), form.format_seconds,
                 difference=False, ranks_methods=False),
         Measure("peak_memory_gib", Heading("Memory (GiB)", "Memory (GiB)"), form.format_memory,
-                difference=False, if_printed=True, ranks_methods=False),
+                difference=False, only_if_printed=True, ranks_methods=False),
         Measure("q_min", SYMBOLS["q_min"], form.format_quality),
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality, detail=True),
         Measure("q_mean", SYMBOLS["q_mean"], form.format_quality),

@@ -87,20 +87,20 @@ def pays_table(results):
     rows = [(key, both) for key, both in rows if both is not None]
     if not rows:
         return None
-    ours, refined = [both[0] for _, both in rows], [both[1] for _, both in rows]
-    beside = zip(formatted([at_equal_time(*three) for _, three in rows], ".2f"),
-                 formatted([equal_refinement(*three) for _, three in rows], ".1f"),
-                 [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")])
+    here, refined = [both[0] for _, both in rows], [both[1] for _, both in rows]
+    against = zip(formatted([at_equal_time(*three) for _, three in rows], ".2f"),
+                  formatted([equal_refinement(*three) for _, three in rows], ".1f"),
+                  [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")])
 
     def group(heading, name, specification):
-        texts = zip(formatted([each[name] for each in ours], specification),
+        texts = zip(formatted([each[name] for each in here], specification),
                     formatted([each[name] for each in refined], specification))
         return numbers(heading, ("here", "refined"), texts)
     verdicts = tuple((text_cell(verdict(*both[:2])),) for _, both in rows)
     cells, rules = key_cells([key for key, _ in rows], results)
     return Table(study=results.study, name="table_energy_pays", keys=cells, rules=rules,
                  groups=(group("H1 error", "error", ".3e"), group("Seconds", "seconds", ".3f"),
-                         numbers("Against refinement", ("at equal time", "unknowns", "solves until it pays"), beside),
+                         numbers("Against refinement", ("at equal time", "unknowns", "solves until it pays"), against),
                          Group(Heading("", ""), ("Verdict",), verdicts)),
                  caption=f"{results.study_title}: against {results.title(reference)} on the refined mesh",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
@@ -126,7 +126,7 @@ def many_table(results):
     if not rows or not len(results.solutions):
         return None
     same = [refinement_with_same_error(*three) for _, three in rows]
-    ours = [three[0] for _, three in rows]
+    here = [three[0] for _, three in rows]
     refined = [once + each for once, each in same]
 
     def one_column(heading, texts):
@@ -134,9 +134,9 @@ def many_table(results):
     errors = zip(formatted([three[0]["error"] for _, three in rows], ".3f"),
                  formatted([error_of_others(results, key, reference) for key, _ in rows], ".3f"),
                  formatted([three[1]["error"] for _, three in rows], ".3f"))
-    seconds = zip(formatted([each["smoothing"] for each in ours], ".3f"),
-                  formatted([each["solution"] for each in ours], ".3f"), formatted(refined, ".3f"))
-    verdicts = tuple((text_cell(verdict_of(here["seconds"], there)),) for here, there in zip(ours, refined))
+    seconds = zip(formatted([each["smoothing"] for each in here], ".3f"),
+                  formatted([each["solution"] for each in here], ".3f"), formatted(refined, ".3f"))
+    verdicts = tuple((text_cell(verdict_of(each["seconds"], others)),) for each, others in zip(here, refined))
     until = [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")]
     cells, rules = key_cells([key for key, _ in rows], results)
     title = results.title(reference)
@@ -244,7 +244,7 @@ def error_of_others(results, key, reference):
                for name in others] for which in (method, reference)]
     if not others or not all(len(each) for of_method in errors for each in of_method):
         return math.nan
-    return math.exp(np.mean([np.log(ours[0] / theirs[0]) for ours, theirs in zip(*errors)]))
+    return math.exp(np.mean([np.log(own[0] / others[0]) for own, others in zip(*errors)]))
 
 
 def at_equal_time(here, refined, unrefined):

@@ -63,28 +63,28 @@ def grouped(text):
     return "/".join(f"{int(count):,}" for count in text.split("/"))
 
 
-def relative_difference(ours, printed):
-    """(ours - printed) / printed in percent; "=" if ours has all the printed digits; from ten times
+def relative_difference(computed, printed):
+    """(computed - printed) / printed in percent; "=" if computed has all the printed digits; from ten times
     the printed number on the factor, such as ×12.
 
-    The sign is left out where one decimal would leave only a zero. `ours` is a number,
+    The sign is left out where one decimal would leave only a zero. `computed` is a number,
     `printed` the string of the print; MISSING where there is nothing to compare or the print is zero
-    and ours is not.
+    and computed is not.
     """
     try:
         reference = float(printed)
     except ValueError:
         return MISSING
-    if math.isnan(ours):
+    if math.isnan(computed):
         return MISSING
-    if as_printed(ours, printed) == as_printed(reference, printed):
+    if as_printed(computed, printed) == as_printed(reference, printed):
         return "="
     if reference == 0:
         return MISSING
-    percent = 100 * (ours - reference) / reference
+    percent = 100 * (computed - reference) / reference
     if abs(percent) < 0.05:
         return "<0.1"
-    return f"{percent:+.1f}" if ours / reference < FACTOR_FROM else f"×{ours / reference:,.0f}"
+    return f"{percent:+.1f}" if computed / reference < FACTOR_FROM else f"×{computed / reference:,.0f}"
 
 
 def as_printed(value, printed):

@@ -31,10 +31,10 @@ def compared(heading, texts, printed):
     """A group of our numbers, the printed ones and their difference; without print our numbers."""
     if not any(printed):
         return Group(Heading(heading, heading), ("",), tuple((number_cell(t),) for t in texts))
-    return Group(Heading(heading, heading), ("ours", "printed", "%"), tuple(
-        (number_cell(ours), number_cell(theirs or MISSING),
-         number_cell(relative_difference(float(ours), theirs or "")))
-        for ours, theirs in zip(texts, printed)))
+    return Group(Heading(heading, heading), ("smoothfem", "printed", "%"), tuple(
+        (number_cell(computed), number_cell(theirs or MISSING),
+         number_cell(relative_difference(float(computed), theirs or "")))
+        for computed, theirs in zip(texts, printed)))
 
 
 def make_regularization_tables(results):

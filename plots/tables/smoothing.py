@@ -49,7 +49,7 @@ def make_table(description, results, printed):
     compared = any(printed_row for _, printed_row in pairs)
     notes = Notes(printed.deviations if printed and compared else [], pairs)
     detailed = has_what_it_needs(DETAILS, rows)
-    groups = [make_group(measure, pairs, notes, measure.if_printed or (measure.detail and detailed))
+    groups = [make_group(measure, pairs, notes, measure.only_if_printed or (measure.detail and detailed))
               for measure in description.measures]
     groups = tuple(group for group in groups if group is not None)
     if not rows or not groups:
@@ -151,16 +151,16 @@ def unreached(rows, results):
     return (("", f"No threshold was reached by: {names}."),) if never else ()
 
 
-def make_group(measure, pairs, notes, if_printed):
-    """The columns of one measure, or None if they have nothing worth showing; with `if_printed` also if the thesis
+def make_group(measure, pairs, notes, only_if_printed):
+    """The columns of one measure, or None if they have nothing worth showing; with `only_if_printed` also if the thesis
     prints no value."""
-    fields = [ours.get(measure.column, "") for ours, _ in pairs]
+    fields = [computed.get(measure.column, "") for computed, _ in pairs]
     # None: the print has no such row or column; empty: it has, and leaves it empty.
     prints = [printed.get(measure.column) for _, printed in pairs]
-    if not any(prints) and (if_printed or all(field in ("", *measure.unremarkable) for field in fields)):
+    if not any(prints) and (only_if_printed or all(field in ("", *measure.unremarkable) for field in fields)):
         return None
     values, texts = measure.numbers(fields)
-    columns, subheadings = [[number_cell(text) for text in texts]], ["ours"]
+    columns, subheadings = [[number_cell(text) for text in texts]], ["smoothfem"]
     if any(prints):
         marks = ["" if printed is None else notes.letter(measure.column, row)
                  for row, printed in enumerate(prints)]

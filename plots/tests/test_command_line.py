@@ -230,9 +230,9 @@ class Library(CommandLine):
         os.chdir(self.folder)
         names = {}
         exec(compile(code, "README.md", "exec"), names)  # the text is the repository's own
-        self.assertEqual((self.folder / "ours.pdf").read_bytes()[:4], b"%PDF")
+        self.assertEqual((self.folder / "getme.pdf").read_bytes()[:4], b"%PDF")
         self.assertEqual(names["results"].methods, ("getme",))
-        self.assertIn("GETMe, ours", [text.get_text() for text in names["figure"].legends[0].get_texts()])
+        self.assertIn("GETMe of smoothfem", [text.get_text() for text in names["figure"].legends[0].get_texts()])
 
     def test_the_readmes_command_lines(self):
         text = (PACKAGE / "README.md").read_text(encoding="utf-8")

@@ -21,9 +21,9 @@ def definition_in(path, name, once):
     again; otherwise it is run again when its text has changed. Raises InputError."""
     known = _known.get(path)
     if known is None or not once:
-        source = _told(path, f"{path} cannot be read", lambda: _read(path))
+        source = _with_context(path, f"{path} cannot be read", lambda: _read(path))
         if known is None or known[0] != source:
-            known = _known[path] = (source, _told(path, f"{path} cannot be run", lambda: _run_file(path, source)))
+            known = _known[path] = (source, _with_context(path, f"{path} cannot be run", lambda: _run_file(path, source)))
     module = known[1]
     if not inspect.isclass(getattr(module, name, None)):
         classes = sorted(key for key, value in vars(module).items() if inspect.isclass(value) and callable(
@@ -92,9 +92,9 @@ class Run:
         """values: of its parameters, by name. mesh: lent, its points a read-only copy."""
         self.definition = definition
         self.fixed = mesh.fixed
-        self.smoother = self._told("cannot be made", lambda: self._made(definition.cls, values))
+        self.smoother = self._with_context("cannot be made", lambda: self._made(definition.cls, values))
         if hasattr(self.smoother, "initialize"):
-            self._told("initialize failed", lambda: self.smoother.initialize(mesh))
+            self._with_context("initialize failed", lambda: self.smoother.initialize(mesh))
 
     @staticmethod
     def _made(cls, values):
@@ -104,14 +104,14 @@ class Run:
         smoother.__init__()
         return smoother
 
-    def _told(self, what, call):
-        return _told(self.definition.path, f"{self.definition.name}: {what}", call)
+    def _with_context(self, what, call):
+        return _with_context(self.definition.path, f"{self.definition.name}: {what}", call)
 
     def step(self, mesh):
         """One step. Raises InputError, with the mesh as it was, for what a smoother must not do."""
         before = mesh.points.copy()
         try:
-            returned = self._told("step failed", lambda: self.smoother.step(mesh))
+            returned = self._with_context("step failed", lambda: self.smoother.step(mesh))
             if returned is not None and returned is not mesh.points:
                 mesh.points[:] = self._new_points(returned, before.shape)
             self._require_allowed(mesh.points, before)
@@ -120,7 +120,7 @@ class Run:
             raise
 
     def _new_points(self, returned, shape):
-        points = self._told("step returned no array", lambda: np.asarray(returned, dtype=float))
+        points = self._with_context("step returned no array", lambda: np.asarray(returned, dtype=float))
         if points.shape != shape:
             raise InputError(f"{self.definition.name}: step returned an array of the shape {points.shape}, but the points "
                              f"of the mesh have the shape {shape}; return all points, or change mesh.points in place")
@@ -137,7 +137,7 @@ class Run:
                              "the nodes in mesh.free may move")
 
 
-def _told(path, what, call):
+def _with_context(path, what, call):
     """call(), whose exceptions become one sentence with file, line and their text."""
     try:
         return call()
