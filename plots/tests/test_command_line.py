@@ -89,7 +89,7 @@ class Options(CommandLine):
         self.assertIn("column `w_mean` has no numbers", self.refused("--y", "w_mean"))
 
     def test_values_that_cannot_be_used(self):
-        for options, said in ((("--width", "84cm"), "is no width from 2in to 30in"),
+        for options, said in ((("--width", "84cm"), "is not a width from 2in to 30in"),
                               (("--width", "1mm"), "such as 84mm or 3.3in"), (("--format", "jpg"), "choose from pdf, png"),
                               (("--y", "e_max", "--no-figures"), "leave out --no-figures"), (("--wide",), "unrecognized")):
             self.assertIn(said, self.refused(*options))
