@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What new-smoother makes builds and runs at once, in each language; wrong plugins are refused."""
+"""The files of new-smoother build and run without changes, in each language. Invalid plugins are refused."""
 
 import csv
 import re
@@ -13,13 +13,13 @@ ABI_MARK = b"smoothfem plugin types:\0"
 
 
 def rows(path):
-    """A CSV file's rows as dictionaries."""
+    """Returns the rows of a CSV file as dictionaries."""
     with open(path, newline="", encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
 
 
 def make(folder, name, *options):
-    """Makes a new smoother below a folder; returns its own folder."""
+    """Creates a new smoother below a folder; returns the smoother's folder."""
     shown = run(SMOOTHFEM, "new-smoother", name, *options, folder=folder).stdout
     if f"{name}/README.md says what to do next:" not in shown:
         raise AssertionError(shown)
@@ -32,7 +32,7 @@ def make(folder, name, *options):
 class NewSmoother(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """The smoother in C++, built once."""
+        """Builds the smoother in C++ once."""
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.built = make(Path(temporary.name), "ab-cd")
@@ -46,7 +46,7 @@ class NewSmoother(unittest.TestCase):
         self.folder = Path(temporary.name)
 
     def study(self, folder, name):
-        """Rows of the summary of the study that comes with it."""
+        """Returns the rows of summary.csv of the generated study."""
         run(SMOOTHFEM, "study", f"{name}.prm", "--quiet", "--no-figures", folder=folder)
         found = rows(folder / "results" / name / "summary.csv")
         mine = [row for row in found if row["method"] == name]
@@ -80,7 +80,7 @@ class NewSmoother(unittest.TestCase):
         self.assertTrue((folder / "results" / "ab-cd" / "logs" / "tri_ab-cd.log").is_file())
 
     def refused(self, *words):
-        """The one line that a refused command prints."""
+        """Returns the line that a refused command prints."""
         outcome = run(SMOOTHFEM, *words, folder=self.folder, check=False)
         self.assertEqual((outcome.returncode, outcome.stderr.count("\n")), (2, 1), outcome.stderr)
         return outcome.stderr
