@@ -229,7 +229,7 @@ class Library(CommandLine):
         self.addCleanup(os.chdir, here)
         os.chdir(self.folder)
         names = {}
-        exec(compile(code, "README.md", "exec"), names)  # the text is the repository's own
+        exec(compile(code, "README.md", "exec"), names)  # the text is part of this repository
         self.assertEqual((self.folder / "getme.pdf").read_bytes()[:4], b"%PDF")
         self.assertEqual(names["results"].methods, ("getme",))
         self.assertIn("GETMe of smoothfem", [text.get_text() for text in names["figure"].legends[0].get_texts()])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A folder with smoothers as users write them, mine.py, and the sentences for those that do what they must not."""
+"""A folder with examples of smoothers (mine.py), and the messages for smoothers that violate rules."""
 
 import os
 import tempfile
