@@ -7,7 +7,7 @@ from ..tables.formats import escape_markdown
 from ..tables.number_format import MISSING
 from .check import COARSE, FAILS, HOLDS, UNKNOWN
 
-# What is said of one and of several.
+# Phrases for one claim and for several.
 PHRASES = {HOLDS: ("holds", "hold"), FAILS: ("does not hold", "do not hold"),
            COARSE: ("is on meshes too coarse to judge", "are on meshes too coarse to judge"),
            UNKNOWN: ("cannot be checked", "cannot be checked")}
@@ -15,7 +15,7 @@ PHRASES = {HOLDS: ("holds", "hold"), FAILS: ("does not hold", "do not hold"),
 
 def claims_as_markdown(outcomes, results):
     """All claims of a study as a Markdown table."""
-    lines = [f"# {results.study_title}: what holds of the thesis", "", totals(outcomes) + ".", ""]
+    lines = [f"# {results.study_title}: claims of the thesis", "", totals(outcomes) + ".", ""]
     lines += [sentence + "  " for sentence in caveats(results)]
     lines += ["", "| | Section | Claim | Criterion | Printed | smoothfem | |", "|:--|:--|:--|:--|:--|:--|:--|"]
     for outcome in outcomes:
@@ -29,15 +29,15 @@ def claims_as_markdown(outcomes, results):
 
 
 def criterion_of(claim):
-    """The criterion, and when it was written where a reader has to know."""
+    """Returns the criterion, with its date if a reader has to know it."""
     history = claim.get("history")
     is_plain = history is None or ("revises" not in claim and history.is_as_it_should_be)
     return claim["criterion"] + ("" if is_plain else f" ({history})")
 
 
 def totals(outcomes):
-    """Counts the claims that hold by their first criterion, and those that hold by a later one."""
-    # At the scale `quick` one verdict stands in place of another.
+    """Counts the claims that hold by their first criterion, and the claims that hold by a later one."""
+    # At the scale `quick` the verdict COARSE replaces FAILS.
     left_out = FAILS if any(o.verdict == COARSE for o in outcomes) else COARSE
 
     def counted(chosen, one, many):
@@ -51,7 +51,7 @@ def totals(outcomes):
 
 
 def verdict_cell(outcome):
-    """The verdict, and of how many seeds alone the claim holds."""
+    """Returns the verdict, and the number of single seeds for which the claim holds."""
     return emphasized(outcome.verdict) + of_seeds(outcome)
 
 
@@ -61,7 +61,7 @@ def of_seeds(outcome):
 
 
 def emphasized(verdict):
-    """A verdict as a table shows it: bold where a reader is to look."""
+    """Returns a verdict for a table: bold if it needs attention."""
     return f"**{verdict}**" if verdict in (FAILS, UNKNOWN) else verdict
 
 
@@ -104,14 +104,14 @@ def known_reasons(outcomes):
             reason = " ".join(filter(None, (outcome.note, of_chance(outcome), *tests, guess))) or "Reason not known."
             found.setdefault(reason, []).append(outcome.claim["id"])
     lines = [f"- {', '.join(ids)}: {escape_markdown(reason)}" for reason, ids in found.items()]
-    return ["", "What is known of why claims do not hold, and what is guessed:", "", *lines] if lines else []
+    return ["", "Known and supposed reasons why claims do not hold:", "", *lines] if lines else []
 
 
 def caveats(results):
     """Warnings that a reader needs before comparing the numbers, as sentences."""
     found = [results.note] if results.note else []
-    found += ["All numbers come from the CSV files of this folder; printed ones from the tables and the "
-              "text of the thesis. A dash is a number that is not there."]
+    found += ["All numbers come from the CSV files of this folder. Printed values come from the "
+              "tables and the text of the thesis. A dash marks a missing number."]
     sizes = [f"{entry['name']} ({entry['n_cells']:,} cells)"
              for entry in entries(results.provenance, "meshes")
              if entry["name"] in results.meshes and isinstance(entry.get("n_cells"), int)]
@@ -121,8 +121,8 @@ def caveats(results):
                      "condition numbers and times depend on the size.")
     if results.seeds:
         seeds = ", ".join(str(seed) for seed in results.seeds)
-        found.append(f"Repeated with the seeds {seeds}: {', '.join(results.repeated)}. Ours are medians over "
-                     "the seeds, and claims are judged by them.")
+        found.append(f"Repeated with the seeds {seeds}: {', '.join(results.repeated)}. Numbers of smoothfem "
+                     "are medians over the seeds, and claims are judged by them.")
     own = [mesh for mesh in results.meshes if not results.is_published(mesh)]
     if own:
         found.append(f"Not the meshes of the thesis but stand-ins for them: {', '.join(own)}.")

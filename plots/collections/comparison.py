@@ -12,7 +12,7 @@ from .problems import ERROR
 N_SAMPLES = 500
 NEAR_LEAST = 1.05  # of the least error that any method reaches: a problem that is solved
 INITIAL_MESH = "initial"
-AS_IS, NEXT_DEGREE, SPLIT = "", "degree", "split"  # what is done besides smoothing
+AS_IS, NEXT_DEGREE, SPLIT = "", "degree", "split"  # changes in addition to smoothing
 
 
 @dataclass(frozen=True)

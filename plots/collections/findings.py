@@ -59,7 +59,7 @@ def what_predicts(predictions):
         best = max(known, key=lambda p: abs(p.across))
         low, high = best.across_interval
         verdict = "goes best with the error" if low * high > 0 else "comes nearest to predicting the error, but its sign is not sure"
-        # Of many, those nearest to it and those that this program smooths by.
+        # Of many qualities: the nearest ones, and the ones that methods of this program optimize.
         by_strength = sorted((p for p in known if p is not best), key=lambda p: -abs(p.across))
         others = ", ".join(f"{symbol_of(p.quality).text} {p.across:.2f}{bracket(p.across_interval)}"
                            for i, p in enumerate(by_strength) if i < 3 or p.quality in QUALITIES)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the printed tables that a study is compared with, and what is known about deviations.
+"""Reads the printed tables that a study is compared with, and known reasons of deviations.
 
 The values stand in studies/thesis/; its README.md says where each of them is printed.
 """
@@ -19,7 +19,7 @@ class PrintedTable:
     number: str = ""
     measured_on: str = ""
     rows: list = field(default_factory=list)  # dictionaries from column name to string
-    # table, mesh, degree, method, column, known_from, note; where nothing is known the note says so.
+    # table, mesh, degree, method, column, known_from, note; if known_from is empty, the note says so.
     deviations: list = field(default_factory=list)
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Methods that solve beside what one does without them: the next degree, every cell split, or a finer mesh, each on the
-mesh as it is and on that of the first method that does not solve.
+"""Compares solution-adaptive methods with alternatives: the next degree, every cell split, or a finer mesh. Each alternative
+uses the unsmoothed mesh or the mesh of the first method that does not solve.
 
 A method pays on a mesh if none of these has an error as small in no more time: smoothing, the method's own solves and the
-last solution counted for all. This was written on 26 November 2026, when results were known, beside the verdict of
-table_energy_pays, which compares with the one method on the finer mesh alone.
+last solution counted for all. This rule was written on 26 November 2026, when results were known. The verdict of
+table_energy_pays compares with that method on the finer mesh only.
 """
 
 import math
@@ -58,16 +58,16 @@ def alternatives_table(results):
                          column("Gain", formatted(gains, ".2f")),
                          Group(Heading("", ""), ("Verdict",),
                                tuple((text_cell(verdict(*both)),) for both in zip(own_ways, best)))),
-                 caption=f"{results.study_title}: beside the next degree, split cells and finer meshes",
+                 caption=f"{results.study_title}: compared with the next degree, split cells and finer meshes",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=("way", "Verdict"),
-                 notes=(("", "True H1 errors, and seconds in all: smoothing, with what comes before it and the method's own "
-                             "solves (of which solves), and the solution on the resulting mesh. Best without: least error of "
-                             f"the mesh as it is and of {results.title(reference)}'s, each also with the next degree (d), with "
-                             "every cell split, and on the finer mesh, as far as the study has them, in no more time than the "
-                             "method; nothing is refined twice, which would be the better way beside methods that take far "
-                             "longer than split cells. Gain: its error over the method's. A method pays where no such way has "
-                             "an error as small. "
+                 notes=(("", "H1 errors are true errors. Seconds are total times: smoothing, with its preparation and the method's "
+                             "own solves (of which solves), and the solution on the resulting mesh. Best without: the alternative "
+                             "with the smallest error in no more time than the method. Alternatives use the unsmoothed mesh or that "
+                             f"of {results.title(reference)}. They are the mesh itself, the next degree (d), every cell split, and "
+                             "the finer mesh, if the study has them. No mesh is refined twice. For methods that take much longer "
+                             "than split cells, this would be a better alternative. Gain: the error of the alternative over that "
+                             "of the method. A method pays if no alternative has an error as small. "
                              "This verdict was written on 2026-11-26, when results were known."),))
 
 

@@ -27,12 +27,13 @@ class Entry:
 
 
 def order_notes(description, pairs, results):
-    """Sentences on the order of the methods in a table: one where it is that of the print, else one
-    more for each case where it is not, with the numbers.
+    """Returns sentences on the order of the methods in a table, compared with the thesis.
+
+    The first sentence states the agreement. Each case of another order adds a sentence with the numbers.
 
     `pairs` are (computed row, printed row or {}). Numbers that the table shows alike, computed or printed,
-    have no order, and the mesh before smoothing is no method. Empty if the print has no two methods
-    to compare.
+    have no order, and the mesh before smoothing is no method. Empty if the thesis does not
+    print two methods to compare.
     """
     if "method" not in description.keys:
         return []

@@ -68,8 +68,8 @@ def relative_difference(computed, printed):
     the printed number on the factor, such as ×12.
 
     The sign is left out where one decimal would leave only a zero. `computed` is a number,
-    `printed` the string of the print; MISSING where there is nothing to compare or the print is zero
-    and computed is not.
+    `printed` the printed string. Returns MISSING if there is nothing to compare, or if only the printed value
+    is zero.
     """
     try:
         reference = float(printed)

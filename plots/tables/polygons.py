@@ -41,8 +41,8 @@ def theorem_table(results):
                 column("Measured", values["measured"]), column("Expected", values["expected"]),
                 column("Deviation", numbers["max_deviation"]),
                 column("Tolerance", numbers["tolerance"]), column("Holds", verdicts)),
-        notes=(("", "Of the worst of all cases, each with random nodes and angles. Where the quantity is to "
-                    "stay above or below the expected number, the deviation is by how much it does not."),
+        notes=(("", "Numbers of the worst of all cases, each with random nodes and angles. If the quantity has to "
+                    "stay above or below the expected number, the deviation is the amount of the violation."),
                ("", "t = tan(theta). The factor of Proposition 2.2 for theta > pi/6 is that of its proof, "
                     "1 / (1 + min(1, z/x)^2), which depends on the triangle.")))
 

@@ -42,7 +42,7 @@ def seed_table(description, results):
                  caption=f"{results.study_title}: {description.caption}, over {len(results.seeds)} seeds",
                  key_headings=tuple(KEY_HEADINGS[key] for key in description.keys), keys=cells, rules=rules,
                  left_aligned=(), groups=groups,
-                 notes=(("", f"Median, least and greatest number over the seeds {seeds} of generation and "
+                 notes=(("", f"Median, smallest and largest number over the seeds {seeds} of generation and "
                              "distortion; the other tables and the figures show the first of them. A dash: "
                              "at least one seed has no number there."),))
 

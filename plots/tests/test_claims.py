@@ -158,7 +158,7 @@ class ClaimsOfTheThesis(InFolder):
                 self.assertTrue(claim["checks"] or claim["reason"])
                 for check in claim["checks"]:
                     numbers = [number_of(check["quantity"], case, theirs) for case in cases_of(check)]
-                    if "printed" not in check:  # in words, where the print has no numbers
+                    if "printed" not in check:  # in words, if the thesis prints no numbers
                         met = met_in(check, numbers, numbers)
                         self.assertEqual(verdict_of(met, check.get("at_least", len(met))), HOLDS, claim["id"])
 
@@ -229,7 +229,7 @@ class ClaimsOfTheThesis(InFolder):
         text = claims_as_markdown(outcomes, results)
         for verdict in (FAILS, UNKNOWN):
             self.assertEqual(text.count(f"**{verdict}**"), sum(o.verdict == verdict for o in outcomes))
-        reasons = text.partition("What is known of why")[2]
+        reasons = text.partition("Known and supposed reasons why")[2]
         for outcome in outcomes:
             self.assertEqual(outcome.claim["id"] in re.findall(r"[GV]\d+b?", reasons), outcome.verdict == FAILS)
 

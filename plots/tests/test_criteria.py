@@ -107,4 +107,4 @@ class Words(unittest.TestCase):
         for claim in claims:
             for key in ("note", "guess"):
                 self.assertNotRegex(self.NAMES.sub("", claim.get(key, "")), r"\d", claim["id"])
-            self.assertNotIn("{", claim.get("guess", ""), "what is measured is no guess")
+            self.assertNotIn("{", claim.get("guess", ""), "a measured number is not a guess")

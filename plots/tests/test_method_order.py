@@ -60,7 +60,7 @@ class Order(unittest.TestCase):
         for numbers in ({"a": ("0.91204", "0.8"), "b": ("0.91201", "0.9")},
                         {"a": ("0.7", "0.5000"), "b": ("0.6", "0.5")}):
             self.assertEqual(len(notes("q_mean", numbers)), 1)
-        # Times differ in the digits shown, not in those of the print.
+        # Times differ in the digits shown, not in those of the printed values.
         times = {"a": ("0.0007", "0.03"), "b": ("0.0006", "0.08")}
         self.assertEqual(len(notes("smoothing_seconds", times)), 2)
 

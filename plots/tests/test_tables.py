@@ -70,7 +70,7 @@ class Tables(InFolder):
         self.assertEqual([cell.text for cell in quality.cells[2]], ["0.2046", "invalid", "–"])
         solver = tables["table_6_6_solver"]
         self.assertIn("with AMG", [group.heading.text for group in solver.groups])
-        # What the print leaves empty has the mark of the note that says why.
+        # A field that the thesis leaves empty has the mark of the note with the reason.
         condition = solver.groups[0].cells[2]
         self.assertEqual([(c.text, c.mark) for c in condition[1:]], [("–", "a"), ("–", "")])
         for name in ("table_6_5_smoothing", "table_6_6_solver", "table_6_7_errors"):
