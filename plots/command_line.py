@@ -149,8 +149,8 @@ def planned_figures(outputs, request, only, width):
 
 
 def make_study(options):
-    """Makes the tables and figures of a study; raises ResultsError or OSError. What can be wrong with
-    the results is found before the first file is written."""
+    """Makes the tables and figures of a study; raises ResultsError or OSError. Problems of
+    the results are found before the first file is written."""
     request = Request(options.methods, options.meshes, options.x, options.y, options.log_x, options.log_y)
     outputs = outputs_of(options.folder, request)
     figures = [] if options.no_figures else planned_figures(outputs, request, options.only, options.width)
@@ -178,7 +178,7 @@ def make_study(options):
     if whole:
         try:
             paths.append(outputs.write_page())
-        except NoLibrary as error:  # the tables and figures are there without the page
+        except NoLibrary as error:  # tables and figures are complete without the page
             warn(str(error))
     if options.verbose:
         for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
@@ -188,7 +188,7 @@ def make_study(options):
 
 
 def summary_of(paths, folder):
-    """One sentence on what has been written where."""
+    """Returns a sentence with the number of files and their folder."""
     page = [path for path in paths if path.suffix == ".html"]
     count = f"{len(paths)} file{'' if len(paths) == 1 else 's'}"
     return (f"Wrote {count} to {folder}; --verbose lists them." +
@@ -208,7 +208,7 @@ def own_names(names, stem):
 
 
 def make_chosen_figures(options, chosen, study_title):
-    """Draws the figures chosen into the file asked for, or into such files; raises ResultsError or OSError."""
+    """Draws the chosen figures into the given file, or into several such files; raises ResultsError or OSError."""
     from .figures.planned import save_figures
     renamed = [replace(figure, name=name)
                for figure, name in zip(chosen, own_names([figure.name for figure in chosen], options.out.stem))]

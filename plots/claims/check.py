@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the thesis claims in words, checked against the CSV files of a study.
+"""Checks claims of the thesis' text against the CSV files of a study.
 
-The claims stand in studies/thesis/claims.json; its README.md says how they are written.
+The claims are in studies/thesis/claims.json; the README.md of that folder describes the format.
 """
 
 import itertools
@@ -20,8 +20,8 @@ from .reasons import results_of_test
 from .values import Values
 
 HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
-COARSE = "too coarse to judge"  # in place of `does not hold`, on meshes that are made to be quick
-# More numbers than these are shown as a range.
+COARSE = "too coarse to judge"  # replaces `does not hold` on the coarse meshes of quick studies
+# A larger number of values is shown as a range.
 MOST_SHOWN = 4
 # A number in a note: the computed or the printed one.
 NUMBER_IN_NOTE = re.compile(r"\{(printed )?(.+?)\}")
@@ -29,22 +29,22 @@ NUMBER_IN_NOTE = re.compile(r"\{(printed )?(.+?)\}")
 
 @dataclass(frozen=True)
 class Outcome:
-    """A claim and what became of it; texts for the table."""
+    """A claim and its result, as texts for the table."""
 
     claim: dict
     verdict: str
     printed: str
     computed: str
-    note: str = ""  # what our numbers show of why it may not hold
-    guess: str = ""  # why that may be, as far as no run has tested it
-    seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
-    chance: bool = True  # whether seeds change a number that decides; of no meaning where there is one seed
+    note: str = ""  # computed numbers that may explain why it does not hold
+    guess: str = ""  # a possible reason that no run has tested
+    seeds: str = ""  # number of seeds for which it holds alone; empty for one seed
+    chance: bool = True  # True if seeds change a deciding number; meaningless for one seed
     met: tuple = ()  # cases that meet their condition, and cases in all; empty if there are no checks
-    tests: tuple = ()  # of reasons, with the claim's Outcome on the study that tests it; None if it was not run
+    tests: tuple = ()  # (test of a reason, Outcome on the study that tests it; None if it was not run)
 
     @property
     def is_revised_criterion(self):
-        """True if it judges a claim once more, by a later criterion in addition to the first one."""
+        """True if the claim revises another claim: a later criterion in addition to the first one."""
         return "revises" in self.claim
 
 
@@ -147,7 +147,7 @@ def divides_by_zero(check, values):
 
 
 def filled(note, computed, theirs):
-    """A note with the numbers for which it has expressions in braces."""
+    """Returns a note with numbers in place of its expressions in braces."""
     def number(match):
         value = number_of(match[2], {}, theirs) if match[1] else median_of(match[2], {}, computed)
         return MISSING if value is None else written(value)
@@ -155,7 +155,7 @@ def filled(note, computed, theirs):
 
 
 def cases_of(check):
-    """All combinations of what the check is said for: a list of dictionaries from name to value."""
+    """Returns all cases of a check: a list of dictionaries from name to value."""
     lists = check.get("for", {})
     return [dict(zip(lists, values)) for values in itertools.product(*lists.values())]
 
@@ -192,7 +192,7 @@ def no_functions(name, _):
 
 
 def shown(numbers, cases, met):
-    """The numbers for the table: each with its case, or of many the range and how many meet the
+    """Returns the numbers for the table: each with its case. Of many numbers it returns the range and how many meet the
     condition."""
     present = [(case, number) for case, number in zip(cases, numbers) if number is not None]
     if not present:
@@ -212,7 +212,7 @@ def label(name, value):
 
 
 def written(number):
-    """Three digits, whole numbers as they are."""
+    """Writes a number with three digits, and whole numbers with all digits."""
     if math.isinf(number):
         return "never"
     whole = number == int(number) and abs(number) < 1e6

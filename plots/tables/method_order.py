@@ -55,8 +55,8 @@ def order_notes(description, pairs, results):
 
 
 def entries_of(measure, description, pairs, results):
-    """Name of a mesh (and degree) -> entries of the methods that have both numbers. A method that
-    is shown like one before it, such as the same one on several threads, would add nothing."""
+    """Name of a mesh (and degree) -> entries of the methods that have both numbers. A method
+    with the displayed numbers of an earlier one, such as the same method on several threads, is left out."""
     values, texts = measure.numbers([computed.get(measure.column, "") for computed, _ in pairs])
     found = {}
     for (computed, printed), value, text in zip(pairs, values, texts):
@@ -91,8 +91,8 @@ def printed_sign(one, other):
 
 
 def disagreements(entries):
-    """Sentences on pairs whose order is not the printed one. The method that stands wrong to most
-    others comes first, so that one that alone is misplaced takes one sentence."""
+    """Sentences on pairs whose order is not the printed one. The method
+    with the most such pairs comes first, so that a single misplaced method takes one sentence."""
     wrong = [pair for pair in combinations(entries, 2) if computed_sign(*pair) * printed_sign(*pair) < 0]
     sentences = []
     while wrong:

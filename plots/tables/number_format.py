@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Format of numbers in tables: measured numbers with fixed digits, and their difference from the printed values."""
+"""Formats numbers of tables: computed numbers with fixed digits, and their difference from the printed values."""
 
 import math
 import re
@@ -33,7 +33,7 @@ def format_quality(values):
 
 
 def format_seconds(values):
-    """Milliseconds resolved, and as many decimals more as the shortest time needs for two digits."""
+    """Formats times with at least three decimals, and more if the shortest time needs them for two digits."""
     shortest = min((v for v in values if v > 0), default=1.0)
     decimals = min(max(3, 1 - math.floor(math.log10(shortest))), 6)
     return formatted(values, f".{decimals}f")
@@ -65,7 +65,7 @@ def grouped(text):
 
 def relative_difference(computed, printed):
     """(computed - printed) / printed in percent; "=" if computed has all the printed digits; from ten times
-    the printed number on the factor, such as ×12.
+    the printed number on, the factor, such as ×12.
 
     The sign is left out where one decimal would leave only a zero. `computed` is a number,
     `printed` the printed string. Returns MISSING if there is nothing to compare, or if only the printed value

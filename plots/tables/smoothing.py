@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fills the tables of Chapters 5 and 6 of the thesis: computed numbers, printed numbers, their difference.
 
-One mechanism for all tables; what differs stands in descriptions.py.
+All tables have one mechanism; descriptions.py has their differences.
 """
 
 from dataclasses import replace
