@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """gmsh_optimize.py IN OUT METHOD ITERATIONS: Gmsh's smoothers and optimizers on a .msh file.
 
-METHOD: Laplace2D, Relocate2D, Relocate3D, or `default`, Gmsh's optimizer of tetrahedra, which swaps and
-collapses edges: its meshes are refused where it does. Needs python3-gmsh."""
+METHOD: Laplace2D, Relocate2D, Relocate3D or `default`. `default` is Gmsh's optimizer of tetrahedra. It swaps and
+collapses edges; smoothfem refuses meshes with changed cells. Needs python3-gmsh."""
 
 import sys
 import time
@@ -12,15 +12,15 @@ import gmsh
 
 
 def main(source, target, method, n_iterations):
-    """Prints the time of the optimizer alone."""
+    """Optimizes the mesh and prints the time of the optimizer alone."""
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
     gmsh.option.setNumber("Mesh.Renumber", 0)  # nodes keep their numbers
     gmsh.option.setNumber("Mesh.SaveAll", 1)
     gmsh.open(source)
-    gmsh.model.mesh.createTopology()  # without curves and surfaces, boundary nodes would be inner ones
+    gmsh.model.mesh.createTopology()  # without curves and surfaces, Gmsh treats boundary nodes as inner ones
     if gmsh.model.getDimension() == 2:
-        gmsh.model.mesh.createGeometry()  # nodes of surfaces move in their parameters
+        gmsh.model.mesh.createGeometry()  # surface nodes move in the parameter plane of their surface
     start = time.perf_counter()
     if int(n_iterations) > 0:
         gmsh.model.mesh.optimize("" if method == "default" else method, force=True, niter=int(n_iterations))

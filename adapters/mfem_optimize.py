@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """mfem_optimize.py PROGRAM IN OUT ITERATIONS [OPTION...]: MFEM's mesh-optimizer (TMOP) on a legacy VTK file of text.
 
-PROGRAM is mesh-optimizer or its path; options such as -mid 2 -tid 1 are handed to it. It keeps nodes of the boundary
-(-fix-bnd), not other fixed ones. Its Newton iterations start anew from IN. Needs python3-numpy."""
+PROGRAM is mesh-optimizer or its path; options such as -mid 2 -tid 1 are passed to it. It keeps nodes of the boundary
+(-fix-bnd), but no other fixed nodes. Its Newton iterations start again from IN in each call. Needs python3-numpy."""
 
 import shutil
 import subprocess
@@ -13,7 +13,7 @@ import numpy as np
 
 
 def optimized_points(path):
-    """The nodes of MFEM's file, n x 2 or n x 3: linear elements have them in the order of the vertices."""
+    """Returns the nodes of MFEM's file, n x 2 or n x 3. Linear elements have their nodes in the order of the vertices."""
     with open(path, encoding="utf-8") as stream:
         space, values = stream.read().split("\nnodes\n")[1].split("\n\n", 1)
     facts = dict(line.split(": ") for line in space.splitlines() if ": " in line)
@@ -23,7 +23,7 @@ def optimized_points(path):
 
 
 def main(program, source, target, n_iterations, *options):
-    """OUT is IN with the nodes where MFEM has them."""
+    """Writes IN with the node positions of MFEM to OUT."""
     if not shutil.which(program):
         sys.exit(f"there is no program {program}")
     end = subprocess.run([program, "-m", source, "-o", "1", "-ni", n_iterations, "-fix-bnd", "-no-vis", *options],

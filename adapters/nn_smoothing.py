@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Smoothing of planar triangles by a neural network: each free node moves to where the network sees the best
-place for it in the polygon of its neighbours (Guo et al., Computational Mechanics 69, 2022). The weights are yours:
-a folder of TorchScript files (`torch.jit.save`), which do what a network does and nothing else; pickles are not
-loaded (nn_weights.py takes the published numbers out of them). Needs python3-torch.
+"""Smoothing of planar triangles by a neural network: each free node moves to the position that the network
+predicts in the polygon of its neighbours (Guo et al., Computational Mechanics 69, 2022). You provide the weights: a folder
+of TorchScript files (`torch.jit.save`), which can only evaluate a network. Pickles are not loaded; nn_weights.py
+extracts the published numbers from them. Needs python3-torch.
 
     subsection method nn
       set type    = python:nn_smoothing.py:NeuralNetwork
       set weights = FOLDER
     end
 
-FOLDER has a file N.pt for each number N of neighbours: from N x 2 coordinates, the node's polygon counterclockwise
-moved and scaled into the unit square, to the 2 coordinates of the node in it."""
+FOLDER has a file N.pt for each number N of neighbours. Its network takes N x 2 coordinates: the node's polygon,
+counterclockwise, moved and scaled into the unit square. It returns the 2 coordinates of the node in this square."""
 
 from pathlib import Path
 
@@ -18,14 +18,14 @@ import numpy as np
 
 
 class NeuralNetwork:
-    """Each free node moves to where a network places it among its neighbours."""
+    """Each free node moves to the position that a network predicts from its neighbours."""
 
     title = "Neural network"
     parameters = {"weights": ("weights", "folder of the networks, a TorchScript file N.pt for N neighbours")}
 
     def initialize(self, mesh):
-        """The rings of neighbours, counterclockwise, and the networks for their sizes."""
-        import torch  # only where this is used
+        """Stores the rings of neighbours, counterclockwise, and loads the networks for their sizes."""
+        import torch  # torch is needed by this method only
 
         if list(mesh.blocks) != ["triangle"]:
             raise ValueError("meshes of triangles only")
@@ -45,7 +45,7 @@ class NeuralNetwork:
         self.tensor = torch.as_tensor
 
     def step(self, mesh):
-        """One after the other; nodes with a number of neighbours that no network is for stay."""
+        """Moves the nodes one after the other. Nodes without a network for their number of neighbours stay."""
         for node, ring in self.rings.items():
             if len(ring) not in self.networks:
                 continue

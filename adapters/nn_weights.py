@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""nn_weights.py FROM TO: networks published for NN-Smoothing (files optN.pkl for N neighbours, of linear layers with
-sigmoids between them) as TorchScript for nn_smoothing.py, N.pt. The pickles are not loaded, which would execute what
-they hold: only the numbers are taken out of them. Needs python3-torch."""
+"""nn_weights.py FROM TO: converts the published networks of NN-Smoothing to TorchScript files N.pt for nn_smoothing.py.
+
+The published files are optN.pkl for N neighbours: linear layers with sigmoids between them. The pickles are not loaded, as
+this could execute code in them. The program extracts their numbers only. Needs python3-torch."""
 
 import io
 import pickletools
@@ -15,7 +16,7 @@ import torch
 
 
 class Network(torch.nn.Module):
-    """From 1 x N x 2 coordinates to 2."""
+    """Maps 1 x N x 2 coordinates to 2 coordinates."""
 
     def __init__(self, layers):
         super().__init__()
@@ -26,8 +27,10 @@ class Network(torch.nn.Module):
 
 
 def arrays(content):
-    """The arrays of torch's format before 1.6, in the order in which the network names them: five pickles (the fourth
-    is the network, the fifth lists the arrays' keys) and then each array, its length in eight bytes before it."""
+    """Returns the arrays of a file in torch's format before 1.6, in the order of the network.
+
+    The file has five pickles (the fourth is the network, the fifth lists the keys of the arrays), then each array after its
+    length in eight bytes."""
     stream = io.BytesIO(content)
     pickles = [[arg for op, arg, _ in pickletools.genops(stream) if op.name == "BINUNICODE"] for _ in range(5)]
     keys = pickles[4]
@@ -41,7 +44,7 @@ def arrays(content):
 
 
 def network(content, n_neighbours):
-    """Weights and biases by turns; their lengths tell the layers."""
+    """Returns a network of these arrays: alternately weights and biases, whose lengths determine the layers."""
     numbers = arrays(content)
     layers, n_in = [], 2 * n_neighbours
     for weights, biases in zip(numbers[::2], numbers[1::2]):
@@ -59,7 +62,7 @@ def network(content, n_neighbours):
 
 
 def main(source, target):
-    """A file for each."""
+    """Converts each file."""
     Path(target).mkdir(parents=True, exist_ok=True)
     for path in sorted(Path(source).glob("opt*.pkl")):
         n_neighbours = int(re.fullmatch(r"opt(\d+)", path.stem)[1])

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""sfepy_taubin.py IN OUT ITERATIONS: sfepy's mesh smoothing (Taubin's, steps with 0.6307 and -0.6347 by turns)
-on a legacy VTK file. It moves the boundary, too: fixed nodes are put back at the end. Needs python3-sfepy."""
+"""sfepy_taubin.py IN OUT ITERATIONS: sfepy's mesh smoothing (Taubin's, alternating steps with 0.6307 and -0.6347)
+on a legacy VTK file. It also moves the boundary, so fixed nodes are reset at the end. Needs python3-sfepy."""
 
 import sys
 import time
@@ -15,7 +15,7 @@ from vtkmodules.vtkIOLegacy import vtkUnstructuredGridReader, vtkUnstructuredGri
 
 
 def main(source, target, n_iterations):
-    """Prints the time of the smoothing alone."""
+    """Smooths the mesh and prints the time of the smoothing alone."""
     output.set_output(quiet=True)
     reader = vtkUnstructuredGridReader()
     reader.SetFileName(source)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""reference_pages.py PROGRAM PAGES: writes the reference pages that are made from the program itself into the folder PAGES."""
+"""reference_pages.py PROGRAM PAGES: writes the reference pages, which are generated from the program, into the folder PAGES."""
 
 import json
 import re
@@ -13,32 +13,32 @@ SECTION = re.compile(r"^([A-Z]+)(?: \((.*)\))?$", re.MULTILINE)
 
 
 def printed(*command):
-    """What a command prints."""
+    """Returns the output of a command."""
     return subprocess.run([str(word) for word in command], text=True, check=True, capture_output=True).stdout
 
 
 def fenced(text):
-    """A literal block."""
+    """Returns a literal block."""
     return f"```text\n{text.strip(chr(10)).rstrip()}\n```\n"
 
 
 def cell(text):
-    """A text in a cell of a table: the program's texts are no Markdown."""
+    """Returns a text for a table cell, with escapes: the program's texts are not Markdown."""
     return re.sub(r"([\\`*_|<>\[\]])", r"\\\1", text)
 
 
 def table(heading, rows):
-    """Lines of a Markdown table."""
+    """Returns the lines of a Markdown table."""
     return "\n".join("| " + " | ".join(row) + " |" for row in (heading, ["---"] * len(heading), *rows)) + "\n"
 
 
 def code(text):
-    """Code in a cell of a table."""
+    """Returns code for a table cell."""
     return "`" + text.replace("|", "\\|") + "`"
 
 
 def commands(program):
-    """commands.md: the help of every command."""
+    """Returns commands.md: the help of every command."""
     whole = printed(program, "--help")
     names = re.findall(r"^  ([a-z][a-z-]*) ", whole.partition("Subcommands")[2], re.MULTILINE)
     names += [name for name in ("plot", "report") if name not in names]
@@ -49,7 +49,7 @@ def commands(program):
 
 
 def study_keys(program):
-    """study-keys.md: the keys of study files."""
+    """Returns study-keys.md: the keys of study files."""
     parts = ["# Study keys", "", "A study file sets keys: `set KEY = VALUE`. Subsections group keys. `include FILE` takes the keys of another file, which "
              "later lines change. `smoothfem list --study-keys` prints the same.", ""]
     for section in re.split(r"^# Keys of studies of the kind ", printed(program, "list", "--study-keys"), flags=re.MULTILINE)[1:]:
@@ -59,7 +59,7 @@ def study_keys(program):
 
 
 def sections(program):
-    """{heading: (where the names are used, text)} of `smoothfem list`."""
+    """Returns {heading: (use of the names, text)} of `smoothfem list`."""
     text = printed(program, "list")
     found = list(SECTION.finditer(text))
     ends = [match.start() for match in found[1:]] + [len(text)]
@@ -67,7 +67,7 @@ def sections(program):
 
 
 def methods(text):
-    """methods.md: methods with their parameters."""
+    """Returns methods.md: methods with their parameters."""
     parts = ["# Methods and parameters", "", "`smooth -m NAME` and `set methods` in a study take these names. `--set KEY=VALUE`, or `set KEY = VALUE` in a "
              "method's subsection, sets a parameter. `smoothfem list` prints the same.", ""]
     for block in re.split(r"\n\n", text):
@@ -85,7 +85,7 @@ def methods(text):
 
 
 def parameter(line):
-    """Cells of a parameter's line: name, default, meaning."""
+    """Returns the cells of a parameter's line: name, default, meaning."""
     match = re.fullmatch(r" {6}(\S+) +(\S.*)", line)
     if match is None:
         raise SystemExit(f"reference_pages.py: this is not a parameter of `smoothfem list`: {line}")
@@ -97,7 +97,7 @@ def parameter(line):
 
 
 def named(title, where, text, note=""):
-    """A page of names with descriptions, one a line."""
+    """Returns a page of names with descriptions, one a line."""
     rows = [re.fullmatch(r"  (\S+):? +(\S.*)", line) for line in text.splitlines() if line.strip()]
     if None in rows:
         raise SystemExit(f"reference_pages.py: the section {title} of `smoothfem list` has another form")
@@ -107,7 +107,7 @@ def named(title, where, text, note=""):
 
 
 def presets(where, text):
-    """presets.md: presets with the parameters that they set."""
+    """Returns presets.md: presets with the parameters that they set."""
     parts = [named("Presets", where, text), ""]
     for path in sorted((SOURCE / "studies" / "presets").glob("*.json")):
         parts += [f"## {path.stem}", "", "```json", path.read_text(encoding="utf-8").strip(), "```", ""]
@@ -115,7 +115,7 @@ def presets(where, text):
 
 
 def columns():
-    """columns.md: every column once, and the columns of each file."""
+    """Returns columns.md: every column once, and the columns of each file."""
     data = json.loads((SOURCE / "studies" / "columns.json").read_text(encoding="utf-8"))
     parts = ["# Columns", "", "`smoothfem list --columns FILE` prints the columns of a file with their meaning. Sections, tables and equations are those of "
              "the thesis.", "", "## Files", ""]
@@ -129,18 +129,18 @@ def columns():
 
 
 def markdown(text):
-    """A text of columns.json in a cell: code stays code."""
+    """Returns a text of columns.json for a table cell; code stays code."""
     return "".join(part if k % 2 else re.sub(r"([|<>_*])", r"\\\1", part) for k, part in enumerate(re.split(r"(`[^`]*`)", text)))
 
 
 def studies(program):
-    """studies.md: the studies of the program."""
+    """Returns studies.md: the studies of the program."""
     return "\n".join(("# Studies", "", "`smoothfem study NAME` runs a study of the program. `smoothfem study --list` prints the same.", "",
                       fenced(printed(program, "study", "--list"))))
 
 
 def claims():
-    """claims.md: all claims of the thesis."""
+    """Returns claims.md: all claims of the thesis."""
     from plots.claims.overview import overview
     from plots.claims.reasons import reference
 
@@ -149,7 +149,7 @@ def claims():
 
 
 def pages(program):
-    """{path of a page: Markdown}."""
+    """Returns {path of a page: Markdown}."""
     listed = sections(program)
     made = {f"reference/{name.lower()}.md": named(name.capitalize(), *listed[name]) for name in ("METRICS", "DOMAINS", "SOLUTIONS", "FORMATS")}
     return {**made, "reference/commands.md": commands(program), "reference/study-keys.md": study_keys(program),

@@ -22,7 +22,7 @@ struct SolutionRecord {
   /// Gauss points in each direction of the hexahedron with the highest-order rule; 0 if no rules
   /// were chosen.
   int most_points = 0;
-  std::string status;  ///< "ok", or what is wrong with the numbers
+  std::string status;  ///< "ok", or the problem with the numbers
 };
 
 }  // namespace smoothfem

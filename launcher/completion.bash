@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
-# Completion of smoothfem's command line in bash. Commands, options and names are asked of the program.
+# Completes smoothfem's command line in bash. The program provides commands, options and names.
 
 _smoothfem() {
   local program=${COMP_WORDS[0]} word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} words=''
@@ -22,7 +22,7 @@ _smoothfem() {
     esac
   fi
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
-  # Anything else is a file or a folder.
+  # All other words are files or folders.
   [[ -z $words || $previous == study ]] && mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -f -- "$word")
 }
 

@@ -4,7 +4,7 @@ python3 -m plots histogram COUNTS.csv FIGURE: numbers of cells by mean ratio as 
 
 import sys
 
-# What is imported from elsewhere -> the Debian package that has it.
+# Imported package -> its Debian package.
 NEEDED = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib"}
 
 

@@ -33,7 +33,7 @@ def width(text):
     match = re.fullmatch(r"\s*(\d+\.?\d*|\.\d+)\s*(mm|in|)\s*", text)
     inches = float(match[1]) / (MILLIMETRES if match[2] == "mm" else 1.0) if match else 0.0
     if not WIDTHS[0] <= inches <= WIDTHS[1]:
-        raise argparse.ArgumentTypeError(f"'{text}' is no width from {WIDTHS[0]:.0f}in to {WIDTHS[1]:.0f}in, "
+        raise argparse.ArgumentTypeError(f"'{text}' is not a width from {WIDTHS[0]:.0f}in to {WIDTHS[1]:.0f}in, "
                                          "such as 84mm or 3.3in")
     return inches
 
@@ -42,7 +42,7 @@ def formats(text):
     """The formats in "pdf, svg", for argparse."""
     wanted = names(text)
     if not wanted or not set(wanted) <= set(FORMATS):
-        raise argparse.ArgumentTypeError(f"'{text}' is no list of formats; choose from {', '.join(FORMATS)}")
+        raise argparse.ArgumentTypeError(f"'{text}' is not a list of formats; choose from {', '.join(FORMATS)}")
     return wanted
 
 
@@ -50,7 +50,7 @@ class Parser(argparse.ArgumentParser):
     """Refuses a command line in one sentence."""
 
     def error(self, message):
-        self.exit(2, f"{self.prog}: {message}; --help shows what there is.\n")
+        self.exit(2, f"{self.prog}: {message}; --help lists the options.\n")
 
 
 def is_figure(path):
@@ -61,32 +61,31 @@ def is_figure(path):
 def parse_study(arguments):
     """The command line for a results folder."""
     parser = Parser(
-        prog="smoothfem plot", description="Makes tables and figures of a results folder anew.",
+        prog="smoothfem plot", description="Regenerates tables and figures of a results folder.",
         epilog="Lists are separated by commas. From the sources: python3 -m plots FOLDER. "
                f"python3 -m plots {HISTOGRAM} --help: numbers of cells by mean ratio as a figure.")
     parser.add_argument("folder", help="results folder of a study, e.g. results/gear")
     parser.add_argument("--only", type=names, default=(), metavar="NAMES",
-                        help="these figures and tables only, by their file names with or without number; "
-                        "patterns such as 'history*' too")
-    parser.add_argument("--methods", type=names, default=(), help="with these methods only")
-    parser.add_argument("--meshes", type=names, default=(), help="with these meshes only")
+                        help="only these figures and tables, by their file names with or without number; "
+                        "patterns such as 'history*' are allowed")
+    parser.add_argument("--methods", type=names, default=(), help="only these methods")
+    parser.add_argument("--meshes", type=names, default=(), help="only these meshes")
     parser.add_argument("--y", type=names, default=(), metavar="COLUMNS",
-                        help="draw these columns of iterations.csv, by their names or headings such as 'cond(A)', a row of panels "
-                        "each; without --only "
-                        "nothing else is made")
+                        help="draw these columns of iterations.csv, by their names or headings such as 'cond(A)', each in a "
+                        "row of panels; without --only nothing else is made")
     parser.add_argument("--x", default="", metavar="COLUMN",
-                        help="the same against this column, not against the smoothing time")
-    parser.add_argument("--log-x", action="store_true", help="the same with a logarithmic horizontal axis")
-    parser.add_argument("--log-y", action="store_true", help="the same with logarithmic vertical axes")
+                        help="horizontal axis of these panels: this column (default: smoothing time)")
+    parser.add_argument("--log-x", action="store_true", help="logarithmic horizontal axis for these panels")
+    parser.add_argument("--log-y", action="store_true", help="logarithmic vertical axes for these panels")
     parser.add_argument("--width", type=width, metavar="WIDTH",
-                        help="width of the figures in inches or, with mm behind it, millimetres: 3.3, 84mm; "
-                        "7 inches unless given, less where there is little to show")
+                        help="width of the figures in inches, or in millimetres with the suffix mm: 3.3, 84mm "
+                        "(default: 7 inches, narrower where there is little to show)")
     parser.add_argument("--format", type=formats, default=FORMATS[:2], metavar="FORMATS",
-                        help="pdf, png or svg; pdf,png unless given")
+                        help="pdf, png or svg (default: pdf,png)")
     parser.add_argument("-o", "--out", type=Path, metavar="PATH",
-                        help="folder for the folders tables and figures, FOLDER unless given; or, with the suffix "
-                        f"{', '.join(f'.{name}' for name in FORMATS[:-1])} or .{FORMATS[-1]}, a file for the figure chosen, without tables; of several "
-                        "each name says which it is")
+                        help="folder for the folders tables and figures (default: FOLDER). With the suffix "
+                        f"{', '.join(f'.{name}' for name in FORMATS[:-1])} or .{FORMATS[-1]}: a file for the chosen figure, without "
+                        "tables; of several figures, each file name has the name of its figure")
     parser.add_argument("--no-figures", action="store_true", help="make the tables only")
     parser.add_argument("--verbose", action="store_true", help="print all tables and the paths of all files")
     parser.add_argument("--quiet", action="store_true", help="print nothing but warnings")
@@ -106,7 +105,7 @@ def parse_histogram(arguments):
     parser.add_argument("counts", type=Path, help="CSV file with the columns lower, upper, count and, if "
                         "there is more than one type, cell_type")
     parser.add_argument("figure", type=Path, help="file to write: .pdf, .png or .svg")
-    parser.add_argument("--title", help="what stands over the figure; the name of the CSV file if not given")
+    parser.add_argument("--title", help="title of the figure (default: the name of the CSV file)")
     parser.add_argument("--q-min", type=float, help="lowest mean ratio, drawn as a line")
     parser.add_argument("--q-mean", type=float, help="arithmetic mean, drawn as a line")
     parser.add_argument("--n-invalid", type=int, default=0, help="invalid cells, named in the title")
@@ -118,11 +117,11 @@ def parse_report(arguments):
     parser = Parser(
         prog="smoothfem report", description="Writes a results folder as one page, report.html, that opens without a "
         "network: tables to sort and filter, curves, meshes, claims, provenance.",
-        epilog="A study writes its page when it ends; this makes it anew, or compares. Example: "
+        epilog="A study writes its page when it ends; this command regenerates it, or compares two folders. Example: "
                "smoothfem report results/gear --against results/gear-before")
     parser.add_argument("folder", type=Path, help="results folder of a study, e.g. results/gear")
     parser.add_argument("--against", type=Path, metavar="DIR", help="another results folder of the same study, to compare with")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="page to write; FOLDER/report.html unless given")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="page to write (default: FOLDER/report.html)")
     parser.add_argument("--quiet", action="store_true", help="do not print the path")
     return parser.parse_args(arguments)
 
@@ -150,8 +149,8 @@ def planned_figures(outputs, request, only, width):
 
 
 def make_study(options):
-    """Makes the tables and figures of a study; raises ResultsError or OSError. What can be wrong with
-    the results is found before the first file is written."""
+    """Makes the tables and figures of a study; raises ResultsError or OSError. Problems of
+    the results are found before the first file is written."""
     request = Request(options.methods, options.meshes, options.x, options.y, options.log_x, options.log_y)
     outputs = outputs_of(options.folder, request)
     figures = [] if options.no_figures else planned_figures(outputs, request, options.only, options.width)
@@ -179,7 +178,7 @@ def make_study(options):
     if whole:
         try:
             paths.append(outputs.write_page())
-        except NoLibrary as error:  # the tables and figures are there without the page
+        except NoLibrary as error:  # tables and figures are complete without the page
             warn(str(error))
     if options.verbose:
         for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
@@ -189,7 +188,7 @@ def make_study(options):
 
 
 def summary_of(paths, folder):
-    """One sentence on what has been written where."""
+    """Returns a sentence with the number of files and their folder."""
     page = [path for path in paths if path.suffix == ".html"]
     count = f"{len(paths)} file{'' if len(paths) == 1 else 's'}"
     return (f"Wrote {count} to {folder}; --verbose lists them." +
@@ -209,7 +208,7 @@ def own_names(names, stem):
 
 
 def make_chosen_figures(options, chosen, study_title):
-    """Draws the figures chosen into the file asked for, or into such files; raises ResultsError or OSError."""
+    """Draws the chosen figures into the given file, or into several such files; raises ResultsError or OSError."""
     from .figures.planned import save_figures
     renamed = [replace(figure, name=name)
                for figure, name in zip(chosen, own_names([figure.name for figure in chosen], options.out.stem))]

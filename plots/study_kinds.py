@@ -41,7 +41,7 @@ class Outputs:
     plan_of_meshes: Callable = lambda report: []
     texts: dict = field(default_factory=dict)
     remarks: tuple = ()  # sentences on what a user may look for in vain
-    warnings: tuple = ()  # sentences on what is wrong with the results
+    warnings: tuple = ()  # sentences on problems of the results
     least_width: float = 0.0  # inches that the words in the figures need
     write_report: Callable = None  # (against, path) -> the path of the page written; None: that of tables and figures
     plots: Callable = lambda: None  # of that page in place of figures, as data

@@ -2,18 +2,18 @@
 """python3 -m plots.tuning FOLDER: which of a study's methods has the lowest errors, found on half of its
 meshes and confirmed on the other half.
 
-The first method is what the others are compared with. Every number is a geometric mean of ratios to it
+All methods are compared with the first method. Every number is a geometric mean of ratios to it
 over meshes, seeds and degrees, so that no mesh counts more than another. There are two rules.
 
 At the end: the winner is the method with the lowest true errors (L2 and H1) on the first, third, ... mesh of
-the study, among those that leave no cell invalid there, smooth in at most 1.1 times the time, and keep at least
+the study, among the methods that leave no cell invalid there, smooth in at most 1.1 times the time, and keep at least
 half of q*_min. It is confirmed if its errors are below those of the first method on the second, fourth, ...
 mesh, too.
 
 At equal time (of 2026-11-25, after the first rule had been applied in the plane): the same with the numbers that
 each method has after the time the first method takes to its end, on a straight line between two records, and
-without a condition on time. By the first rule a method that is ahead all the time, and goes on, loses: the time
-to the end is mostly that of the sequential stage, which looks for a better worst cell and hardly changes errors.
+without a condition on time. By the first rule, a method that is ahead at all times but continues longer loses. Most of
+the time to the end is that of the sequential stage, which improves the worst cell and hardly changes errors.
 """
 
 import math
@@ -101,16 +101,16 @@ def candidates(results, meshes, rule):
         for each in everywhere:
             for mesh in meshes:
                 n_invalid += int(np.nansum(each.summary.select(mesh=mesh, method=method).number("n_invalid")))
-                ours, base = (rule.numbers(each, mesh, m) for m in (method, first))
+                own, base = (rule.numbers(each, mesh, m) for m in (method, first))
                 for name in COLUMNS:
-                    ratios[name] += list(ours[name] / base[name])
+                    ratios[name] += list(own[name] / base[name])
         means = {name: geometric_mean(values) for name, values in ratios.items()}
         found.append(Candidate(method, means, n_invalid, rule.most_time))
     return found
 
 
 def winner(found):
-    """The candidate with the lowest errors among those that may win."""
+    """Returns the candidate with the lowest errors among candidates that may win."""
     return min((c for c in found if c.is_allowed and not math.isnan(c.error)), key=lambda c: c.error)
 
 

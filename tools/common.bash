@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2154
-# What ./run and the scripts in tools/commands share. The caller sets root.
+# Functions of ./run and the scripts in tools/commands. The caller sets root.
 build=$root/build/release
 
 say() { printf '%s\n' "$*" >&2; }
 fail() { say "run: $*"; exit 1; }
 
-# Names in the given sections of packages.txt, without the comments.
+# Prints the names in the given sections of packages.txt, without comments.
 packages() {
   local section
   for section in "$@"; do
@@ -36,7 +36,7 @@ install_packages() {
   rm -f "$log"
 }
 
-# quietly NAME COMMAND...: runs a command, and shows its log only if it fails.
+# quietly NAME COMMAND...: runs a command, and prints its log only if it fails.
 quietly() {
   local log=$build/$1.log; shift
   mkdir -p "$build"
@@ -44,8 +44,8 @@ quietly() {
                          fail "the build failed; the whole log is $log"; }
 }
 
-# Configures once: after that the build notices by itself when a CMakeLists.txt changes. In CI warnings are errors,
-# and no compilation is taken from a cache.
+# Configures once. Later, the build detects changes of a CMakeLists.txt. In CI, warnings are errors, and ccache is not
+# used.
 configure() {
   [ -f "$build/build.ninja" ] && [ -z "${CI:-}" ] && return
   local options=()

@@ -13,16 +13,16 @@ from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parent
 AT_A_TIME = 2
-SECONDS_A_FILE = 10  # a longer run is a finding
+SECONDS_A_FILE = 10  # a longer run of one file is a finding
 MEMORY_MB = 1500  # limit of the process, with libraries and sanitizers
 ALLOCATION_MB = 300  # limit of a single allocation
 LARGEST_FILE = 1 << 16
-MAX_FINDINGS = 5  # of a target, which then ends
+MAX_FINDINGS = 5  # after this number of findings a target ends
 
 
 @dataclass
 class Outcome:
-    """Results of a target, over all of its starts."""
+    """Results of a target, summed over all of its starts."""
     target: str
     runs: int = 0
     seconds: float = 0.0
@@ -35,7 +35,7 @@ class Outcome:
         def last(pattern: str) -> int:
             found = re.findall(pattern, log)
             return int(found[-1]) if found else 0
-        # A run that is cut off prints its progress, but no statistics.
+        # An interrupted run prints its progress, but no statistics.
         self.runs += last(r'stat::number_of_executed_units: *(\d+)') or last(r'\n#(\d+)')
         self.coverage = max(self.coverage, last(r' cov: (\d+)'))
         self.memory_mb = max(self.memory_mb, last(r'stat::peak_rss_mb: *(\d+)') or last(r' rss: (\d+)'))
@@ -44,8 +44,8 @@ class Outcome:
 
 
 def run_target(fuzzer: Path, folder: Path, seconds: float) -> Outcome:
-    """Runs a target until the time is over, and restarts it after each finding. Files that reach new
-    lines are kept in a folder, from which the next run starts."""
+    """Runs a target until the time is over, and restarts it after each finding. Files that reach
+    new lines are kept in a folder, and the next run starts with them."""
     corpus, findings = folder / 'corpus' / fuzzer.name, folder / 'findings'
     for needed in (corpus, findings):
         needed.mkdir(parents=True, exist_ok=True)
@@ -63,7 +63,7 @@ def run_target(fuzzer: Path, folder: Path, seconds: float) -> Outcome:
         (folder / f'{fuzzer.name}.log').write_text(log)
         known = len(outcome.findings)
         outcome.add(log)
-        if run.returncode != 0 and len(outcome.findings) == known:  # the same finding again, or none
+        if run.returncode != 0 and len(outcome.findings) == known:  # a repeated finding, or no finding
             outcome.findings += [] if known else [f'see {folder}/{fuzzer.name}.log']
             break
     outcome.seconds = time.monotonic() - begin

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the benchmarks whose numbers are spoken of, and writes what they print, with commit and machine.
+"""Runs the benchmarks that the manual quotes, and writes their output with commit and machine.
 
     speed.py SOURCE BENCHMARKS OUT.md
 
-BENCHMARKS: the folder of the programs, built from SOURCE. Takes a quarter of an hour of a quiet machine."""
+BENCHMARKS: the folder of the programs, built from SOURCE. Takes a quarter of an hour on an idle machine."""
 
 import json
 import os
@@ -17,19 +17,18 @@ from make_reference import git, has_changes
 
 HEADER = """# Speed
 
-What `./run bench speed` printed on {date}, commit {commit}: {cpu}, {cores} cores. Times of other machines are others; ratios are
-what to look at.
+Output of `./run bench speed` on {date}, commit {commit}: {cpu}, {cores} cores. Times depend on the machine; compare ratios.
 
 ## Methods on volume meshes
 
-Whole runs of the methods' main loops, medians of {repetitions}, and their preparation, on tetrahedra and hexahedra that are distorted at random
-(`meshes/bench/volume_bench.cc`; their counts stand below, where equal care is looked at).
+Whole runs of the methods' main loops, medians of {repetitions}, and their preparation, on randomly distorted tetrahedra and hexahedra
+(`meshes/bench/volume_bench.cc`). The section on equal care has their counts.
 
 | method | cells | threads | seconds | preparation, s | q_min | q_mean |
 |:--|:--|--:|--:|--:|--:|--:|
 """
 ITERATIONS = """
-One iteration of the first stage, and how many times as long it takes as the bytes that it has to move take at the bandwidth of the memory:
+Time of one iteration of the first stage, and its ratio to the time for moving the necessary bytes at the memory bandwidth:
 
 | method | cells | threads | ms | times the bandwidth's |
 |:--|:--|--:|--:|--:|
@@ -37,8 +36,8 @@ One iteration of the first stage, and how many times as long it takes as the byt
 GRADIENT = """
 ## The energy's gradient
 
-What a step down the energy needs beside its solve by CG with algebraic multigrid, on the flange of Section 6.3 at the size of the
-thesis (`studies/bench/fem_bench.cc`), {cores} threads:
+Time of the gradient in a descent step of the energy, compared with its solve by CG with algebraic multigrid, on the flange of
+Section 6.3 at the size of the thesis (`studies/bench/fem_bench.cc`), {cores} threads:
 
 | cells | degree | solve, s | gradient, s | gradient / solve |
 |:--|--:|--:|--:|--:|
@@ -46,7 +45,7 @@ thesis (`studies/bench/fem_bench.cc`), {cores} threads:
 FAIRNESS = """
 ## Equal care
 
-Nanoseconds per node or element visited, beside what each method must at least compute and read (`./run bench fairness`,
+Nanoseconds per visited node or element, compared with the least that each method must compute and read (`./run bench fairness`,
 `meshes/bench/fairness_bench.cc`):
 
 ```
@@ -55,30 +54,30 @@ REPETITIONS = 3
 
 
 def printed(*command):
-    """What a command prints."""
+    """Returns the output of a command."""
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True).stdout
 
 
 def benchmarks(program, chosen, repetitions):
-    """Results of a program's benchmarks whose names match: the medians, or the runs where there is one."""
+    """Returns results of the benchmarks with matching names: the medians, or the runs if there is one repetition."""
     found = json.loads(printed(program, f"--benchmark_filter={chosen}", "--benchmark_format=json",
                                f"--benchmark_repetitions={repetitions}"))["benchmarks"]
     return [one for one in found if repetitions == 1 or one.get("aggregate_name") == "median"]
 
 
 def cpu():
-    """Name of the processor."""
+    """Returns the name of the processor."""
     lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     return next((line.partition(": ")[2] for line in lines if line.startswith("model name")), "unknown processor")
 
 
 def commit_of(source):
-    """The sources' commit in short, and whether there are changes beside it."""
+    """Returns the short commit of the sources, marked if there are uncommitted changes."""
     return git(source, "rev-parse", "--short=7", "HEAD") + (" with changes" if has_changes(source) else "")
 
 
 def pages(source, folder):
-    """The parts of the text, as they are measured."""
+    """Yields the parts of the text as they are measured."""
     cores = os.cpu_count()
     yield HEADER.format(date=date.today(), commit=commit_of(source), cpu=cpu(), cores=cores, repetitions=REPETITIONS)
     for one in benchmarks(folder / "volume_bench", "^run/", REPETITIONS):

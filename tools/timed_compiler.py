@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs a compiler and appends its cost to SMOOTHFEM_TIMING_LOG: seconds, CPU seconds, peak memory in MB,
-and the file it made. A compiler launcher for CMake."""
+"""Runs a compiler as a compiler launcher of CMake. Appends its cost to SMOOTHFEM_TIMING_LOG: seconds, CPU seconds, peak
+memory in MB, and the output file."""
 
 import os
 import resource

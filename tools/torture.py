@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Does to the program what befalls programs: kills it at random moments, fills its disk, damages its
-checkpoints, starts it twice, points it to where nobody may write. Prints a table of what was tried and
-what was found; exit code 1 if anything was.
+"""Injects faults that happen to programs: kills the program at random moments, fills its disk, damages its
+checkpoints, starts it twice, and gives it unwritable paths. Prints a table of tries and
+findings; the exit code is 1 if there are findings.
 
     torture.py PROGRAM [--scale F] [--seed N] [--out FILE.md]
 
@@ -55,7 +55,7 @@ end
 
 
 class Torture:
-    """One kind of experiment after the other, in a folder of its own; collects the table."""
+    """Runs kinds of experiments one after the other in a temporary folder, and collects the table."""
 
     def __init__(self, program, folder, scale, seed):
         self.program, self.folder, self.scale = program, folder, scale
@@ -66,7 +66,7 @@ class Torture:
         return max(3, round(self.scale * at_full_scale))
 
     def start(self, *words, limit=None):
-        """limit: no file may become larger than this many bytes, as if the disk were full."""
+        """Starts the program. limit: largest size of a file in bytes, which simulates a full disk."""
         def before():
             os.setsid()
             if limit is not None:
@@ -98,16 +98,16 @@ class Torture:
         return [p for p in folder.rglob(".*") if p.is_file()]
 
     def expect_refusal(self, what, outcome, *words):
-        """Exit code 2 and one sentence, in which the words occur."""
+        """Asserts exit code 2 and one sentence with these words."""
         code, _, err = outcome
         lines = err.strip().splitlines()
         if code != 2 or len(lines) != 1 or not all(word in err for word in words):
             self.found(f"{what}: exit code {code}, '{err.strip()[:300]}'")
 
-    # What is done to it.
+    # Experiments.
 
     def kill_smooth(self):
-        """The output is whole or not there; the input stays."""
+        """The output is complete or missing; the input does not change."""
         mesh, out = self.folder / "solid.vtu", self.folder / "out.vtu"
         content = mesh.read_bytes()
         started = time.monotonic()
@@ -126,12 +126,12 @@ class Torture:
             if out.exists():
                 complete += 1
                 if out.read_bytes() != whole:
-                    self.found("smooth, killed: the output is not whole")
+                    self.found("smooth, killed: the output is incomplete")
         if mesh.read_bytes() != content:
             self.found("smooth, killed: the input has changed")
         for path in self.leftovers(self.folder):
             path.unlink()
-        return n, f"{complete} outputs there, and whole"
+        return n, f"{complete} outputs exist and are complete"
 
     def rows_of(self, folder):
         result = {}
@@ -142,7 +142,7 @@ class Torture:
         return result
 
     def kill_study(self, study):
-        """Killed again and again, it ends with the rows of a run that was not."""
+        """A repeatedly killed study ends with the rows of an uninterrupted run."""
         unbroken, killed = self.folder / f"{study}_unbroken", self.folder / f"{study}_killed"
         started = time.monotonic()
         code, _, err = self.run("study", f"{study}.prm", "--out", unbroken, "--quiet")
@@ -158,22 +158,22 @@ class Torture:
             os.killpg(process.pid, signal.SIGKILL) if not done else None
             _, err = process.communicate()
             if done and process.returncode != 0:
-                self.found(f"study {study}, going on: exit code {process.returncode}, {err.strip()}")
+                self.found(f"study {study}, resuming: exit code {process.returncode}, {err.strip()}")
                 shutil.rmtree(killed, ignore_errors=True)
             elif done:
                 n_ends += 1
                 if self.rows_of(killed) != expected:
-                    self.found(f"study {study}, killed: other rows than unbroken")
+                    self.found(f"study {study}, killed: rows differ from an uninterrupted run")
                 shutil.rmtree(killed)
         code, _, err = self.run("study", f"{study}.prm", "--out", killed, "--quiet")
         if code != 0 or self.rows_of(killed) != expected:
             self.found(f"study {study}, killed: exit code {code}, {err.strip()}")
         if self.leftovers(killed):
-            self.found(f"study {study}, killed: files left over {self.leftovers(killed)}")
-        return n, f"{n_ends + 1} ends, with the rows of an unbroken run"
+            self.found(f"study {study}, killed: remaining files {self.leftovers(killed)}")
+        return n, f"{n_ends + 1} completed, with the rows of an uninterrupted run"
 
     def full_disk(self):
-        """Every writer says so, and leaves nothing."""
+        """Every writer reports the full disk and leaves no file."""
         n, written = 0, 0
         disk = self.folder / "disk"
         commands = [(ext, ["smooth", "grid.msh", "-m", "smart-laplace", "-o", disk / f"o{ext}"])
@@ -194,12 +194,12 @@ class Torture:
                 disk.mkdir()
                 n += 1
                 outcome = self.run(*words, limit=limit)
-                if outcome[0] == 0:  # what it writes is smaller than the limit
+                if outcome[0] == 0:  # its output is smaller than the limit
                     written += 1
                     continue
                 self.expect_refusal(f"full disk, {name}, {limit} bytes", outcome, "cannot write")
                 if self.leftovers(disk):
-                    self.found(f"full disk, {name}, {limit} bytes: {self.leftovers(disk)} left over")
+                    self.found(f"full disk, {name}, {limit} bytes: {self.leftovers(disk)} remain")
         for words in (["list"], ["quality", "grid.msh"], ["smooth", "grid.msh", "-m", "smart-laplace", "-o",
                                                           "o.msh"]):
             n += 1
@@ -211,7 +211,7 @@ class Torture:
         return n, f"{n - written} refused in a sentence, {written} small enough to fit"
 
     def damaged_checkpoint(self):
-        """Each damage is refused, or does not change a row."""
+        """A damaged checkpoint is refused, or does not change a row."""
         half, out = self.folder / "half", self.folder / "damaged"
         process = self.start("study", "planar.prm", "--out", half, "--quiet")
         while not any((half / "checkpoint").glob("*_d2.solved")) and process.poll() is None:
@@ -243,7 +243,7 @@ class Torture:
             outcome = self.run("study", "planar.prm", "--out", out, "--quiet")
             if outcome[0] == 0:
                 if self.rows_of(out) != expected:
-                    self.found(f"checkpoint, {path.name} {kind}: believed, and other rows")
+                    self.found(f"checkpoint, {path.name} {kind}: accepted, but the rows differ")
             else:
                 refused += 1
                 self.expect_refusal(f"checkpoint, {path.name} {kind}", outcome, "is damaged")
@@ -256,7 +256,7 @@ class Torture:
         return bytes(damaged)
 
     def two_at_once(self):
-        """One of two runs on a folder ends, the other one says who is writing."""
+        """One of two runs on a folder ends, the other reports the process that is writing."""
         n = self.tries(20)
         expected = self.rows_of(self.folder / "planar_unbroken")
         for i in range(n):
@@ -272,11 +272,11 @@ class Torture:
             if codes != [0, 2] or not all("is writing" in m or "another run" in m for m in messages):
                 self.found(f"two at once: exit codes {codes}, {messages}")
             elif self.rows_of(out) != expected:
-                self.found("two at once: other rows")
-        return n, "one ends, the other one is refused"
+                self.found("two at once: the rows differ")
+        return n, "one ends, the other is refused"
 
     def unwritable(self):
-        """Where nothing can be written, nothing is computed either."""
+        """If nothing can be written, nothing is computed."""
         (self.folder / "file").write_text("a file, not a folder", encoding="utf-8")
         places = [self.folder / "file", Path("/proc/smoothfem"), Path("/dev/null/x")]
         if os.geteuid() != 0:
@@ -307,9 +307,9 @@ class Torture:
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path)
-    parser.add_argument("--scale", type=float, default=1.0, help="tries, as a fraction of all")
+    parser.add_argument("--scale", type=float, default=1.0, help="number of tries, as a fraction of the full number")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--out", type=Path, help="write the table to this file, too")
+    parser.add_argument("--out", type=Path, help="also write the table to this file")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="smoothfem-torture-") as folder:
         torture = Torture(arguments.program.resolve(), Path(folder), arguments.scale, arguments.seed)
@@ -327,12 +327,12 @@ def main():
         torture.experiment("full disk, every writer", torture.full_disk)
         torture.experiment("damaged checkpoints", torture.damaged_checkpoint)
         torture.experiment("two runs, one folder", torture.two_at_once)
-        torture.experiment("places where nobody may write", torture.unwritable)
+        torture.experiment("unwritable paths", torture.unwritable)
         table = torture.table()
     print(table)
     if arguments.out:
         arguments.out.parent.mkdir(parents=True, exist_ok=True)
-        arguments.out.write_text(f"What `./run torture` tried last, and found.\n\n{table}\n",
+        arguments.out.write_text(f"Tries and findings of the last run of `./run torture`.\n\n{table}\n",
                                  encoding="utf-8")
     sys.exit(1 if torture.findings else 0)
 

@@ -21,22 +21,22 @@ class Block:
 
 
 def pages():
-    """{name: path} of README.md, CONTRIBUTING.md and the manual's pages, names as how-to/pandas."""
+    """Returns {name: path} of README.md, CONTRIBUTING.md and the manual's pages; a name is, for example, how-to/pandas."""
     found = {path.stem: path for path in (SOURCE / "README.md", SOURCE / "CONTRIBUTING.md")}
     found |= {path.relative_to(DOCS).with_suffix("").as_posix(): path for path in sorted(DOCS.rglob("*.md")) if path.name != "doxygen.md"}
     return found
 
 
 def blocks(path):
-    """The fenced blocks of a page."""
+    """Returns the fenced blocks of a page."""
     return [Block(*match.group("file", "language", "text")) for match in BLOCK.finditer(path.read_text(encoding="utf-8"))]
 
 
 def has_commands(path):
-    """Whether a page has commands that are run."""
+    """Returns True if a page has commands that are run."""
     return any(block.language == "sh" for block in blocks(path))
 
 
 def test_name(name):
-    """The name of the test of a page."""
+    """Returns the name of the test of a page."""
     return "test_" + re.sub(r"\W", "_", name).lower()

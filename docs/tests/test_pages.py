@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands of README.md and of the manual are run: a page's `sh` blocks are one session of a shell.
+"""Runs the commands of README.md and of the manual: the `sh` blocks of a page are one session of a shell.
 
-A block after a line with a file name in backticks and a colon is a file, which is written first. ctest has an entry for each page."""
+A block after a line with a file name in backticks and a colon is a file. It is written first. ctest has an entry for each page."""
 
 import os
 import re
@@ -33,7 +33,7 @@ SHORTER = {
     "smoothfem study energy-layer --scale quick": "begin_and_stop smoothfem study energy-layer --scale quick",
     "smoothfem study gear --quick --quiet --force": "begin_and_stop smoothfem study gear --quick --force",
     "smoothfem study polygons --quick --quiet": "begin_and_stop smoothfem study polygons --quick",
-    # Coarser meshes and no optimization: the templates' own test (launcher/tests/test_new_smoother.py) runs them as they are.
+    # Coarser meshes and no optimization: launcher/tests/test_new_smoother.py runs the unchanged templates.
     "smoothfem study mine.prm --quiet": "sed -i '/edge scale/s/2/3/; /max_iterations/s/16/2/; /^subsection mesh quad/,/^end/d; /^set meshes/s/, quad//' mine.prm; "
                                         "smoothfem study mine.prm --quiet",
     "smoothfem study half-laplace.prm --quiet": "sed -i '/edge scale/s/2/3/; /^subsection mesh quad/,/^end/d; /^set meshes/s/, quad//' half-laplace.prm; "
@@ -56,12 +56,12 @@ LISTINGS = {
     ("how-to/smoother-in-cpp", "cpp"): "studies/CMakeLists.txt compiles it into documented_smoother_test",
     ("explanation/architecture", "text"): "the data flow",
 }
-# Commands of one page alone: drawing all figures of a study takes 12 s, and launcher/tests/test_installed.py does it.
+# Commands of one page: drawing all figures of a study takes 12 s, and launcher/tests/test_installed.py tests it.
 SHORTER_ON_PAGE = {
     ("tutorials/first-study", "smoothfem study gear --quick --quiet"):
         "smoothfem study gear --quick --quiet --no-figures; smoothfem plot results/gear --only history --quiet",
 }
-# What the session of a page prints.
+# Texts in the output of the session of a page.
 EXPECTED = {
     "readme": r"true errors, as factors",
     "tutorials/first-study": r"(?s)Nothing has been written.*iterations\.csv.*\.pdf.*Smart Laplace.*Peak resident memory",
@@ -76,7 +76,7 @@ EXPECTED = {
     "how-to/restart-and-mpi": r"volume",
     "explanation/reducing-the-error": r"(?s)energy-descent.*\| moving \|",
 }
-# Files that have to be there after the session.
+# Files that have to exist after the session.
 MADE = {
     "readme": ("out.vtu", "results/gear/summary.csv", ".local/bin/smoothfem"),
     "tutorials/first-study": ("results/gear/figures",),
@@ -88,7 +88,7 @@ MADE = {
 
 
 def session(name, path):
-    """The lines of a page's commands, long ones replaced."""
+    """Returns the lines of a page's commands, with replacements for long commands."""
     lines = ["set -eu"]
     for block in blocks(path):
         if block.language == "sh" and not block.file:
@@ -113,7 +113,7 @@ def published(test, lines, folder):
 
 
 class Pages(unittest.TestCase):
-    """One test for each page with commands, made below."""
+    """One test for each page with commands; add_test creates them."""
 
     maxDiff = None
 
@@ -134,7 +134,7 @@ class Pages(unittest.TestCase):
                     if block.text.startswith("#!"):
                         (folder / block.file).chmod(0o755)
             more = published(self, lines, folder)
-            more["SMOOTHFEM_NO_FIGURES"] = "1"  # those that a page shows are drawn by `plot`
+            more["SMOOTHFEM_NO_FIGURES"] = "1"  # `plot` draws the figures of a page
             shown = run("bash", "-c", "\n".join(lines), folder=folder, HOME=folder, SMOOTHFEM_SOURCE=SOURCE, SMOOTHFEM_BUILD=BUILD,
                         PATH=os.pathsep.join((str(BUILD / "bin"), str(tools), os.environ["PATH"])),
                         PYTHONPATH=BUILD / "lib" / "python3" / "dist-packages", CMAKE_PREFIX_PATH=BUILD, **more).stdout

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manual as a site, in a browser (headless Chromium): narrow and wide screens, search, links."""
+"""Tests the manual as a site in a browser (headless Chromium): narrow and wide screens, search, links."""
 
 import functools
 import http.server
@@ -20,14 +20,14 @@ SECONDS = 30
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
-    """Serves files without a line for each."""
+    """Serves files without logging each request."""
 
     def log_message(self, *_):
-        """Says nothing."""
+        """Logs nothing."""
 
 
 class Links(HTMLParser):
-    """The links and the anchors of a page."""
+    """Collects the links and the anchors of a page."""
 
     def __init__(self, text):
         super().__init__()
@@ -46,7 +46,7 @@ class Links(HTMLParser):
 
 
 def html_pages():
-    """Paths of the manual's own pages, relative to the site; Doxygen's are below cpp."""
+    """Returns the paths of the manual's pages, relative to the site, without Doxygen's pages below cpp."""
     return sorted(path.relative_to(SITE).as_posix() for path in SITE.rglob("*.html")
                   if path.relative_to(SITE).parts[0] not in ("cpp", "_static"))
 
@@ -88,7 +88,7 @@ class Site(unittest.TestCase):
         self.assertIn("smoothfem.smooth", (SITE / "reference" / "python.html").read_text(encoding="utf-8"))
 
     def browser(self, width):
-        """A browser with a window of a width."""
+        """Returns a browser whose window has this width."""
         from selenium import webdriver
         from selenium.webdriver.chrome.service import Service
 

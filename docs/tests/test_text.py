@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links and options in README.md and the manual, without running their commands."""
+"""Tests links and options in README.md and the manual, without running their commands."""
 
 import re
 import unittest
@@ -13,12 +13,12 @@ MADE = {"reference/commands.md", "reference/study-keys.md", "reference/columns.m
         "reference/metrics.md", "reference/domains.md", "reference/solutions.md", "reference/formats.md", "reference/studies.md",
         "explanation/claims.md"}
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-# Options of other programs.
+# Options of external programs.
 OTHERS = {"--exclusive", "--gtest"}
 
 
 def texts():
-    """{path: text without fenced blocks} of all pages, and of the READMEs that link to them."""
+    """Returns {path: text without fenced blocks} of all pages, and of the READMEs that link to them."""
     paths = [*pages().values(), SOURCE / "results" / "README.md", SOURCE / "adapters" / "README.md", SOURCE / "studies" / "thesis" / "README.md",
              SOURCE / "studies" / "reasons" / "README.md"]
     return {path: BLOCK.sub("", path.read_text(encoding="utf-8")) for path in paths}

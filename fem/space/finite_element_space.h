@@ -54,7 +54,7 @@ struct FiniteElementSpace {
 
   std::vector<ElementCells> groups;
   std::vector<NaturalFacets>
-      natural_facets;  ///< at least those that contribute to equations of this rank
+      natural_facets;  ///< at least the facets that contribute to equations of this rank
   /// Local nodes whose mean is a dof's position: one node, or the ends of an edge, the corners of a
   /// face or of a cell.
   CompressedRows<NodeIndex> dof_nodes;

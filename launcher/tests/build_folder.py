@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the tests find what was built: SMOOTHFEM_BUILD, which ctest sets."""
+"""Paths of the build folder for tests: SMOOTHFEM_BUILD, which ctest sets."""
 
 import os
 import subprocess
@@ -9,11 +9,11 @@ SOURCE = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("SMOOTHFEM_BUILD", SOURCE / "build" / "release"))
 SMOOTHFEM = BUILD / "bin" / "smoothfem"
 COMMANDS = ("study", "smooth", "quality", "generate", "list", "merge", "new-smoother")
-DRAWING = ("plot", "report")  # the launcher's, not the program's
+DRAWING = ("plot", "report")  # commands of the launcher, not of the program
 
 
 def environment(**more):
-    """This process' environment as a user would have it, and more; None takes a variable away."""
+    """Returns the environment of a user, with additional variables; the value None removes a variable."""
     merged = {**os.environ, **more}
     for name in ("SMOOTHFEM_DATA", "SMOOTHFEM_PUBLISHED_URL", "CI", "MAKEFLAGS"):
         if name not in more:
@@ -22,7 +22,7 @@ def environment(**more):
 
 
 def run(*command, folder=None, check=True, timeout=600, **more):
-    """What a command prints; raises AssertionError with its messages if it fails."""
+    """Runs a command and returns its result; raises AssertionError with its messages if it fails."""
     outcome = subprocess.run([str(word) for word in command], cwd=folder, env=environment(**more), text=True,
                              stdin=subprocess.DEVNULL, capture_output=True, check=False, timeout=timeout)
     if check and outcome.returncode != 0:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The adapters, and programs that need none, take part in a study, a record per iteration. Tests of programs that are
-not on PATH are skipped."""
+"""Adapters, and external programs without an adapter, take part in a study, with a record for each iteration. Tests of programs
+that are not on PATH are skipped."""
 
 import csv
 import importlib.util
@@ -33,7 +33,7 @@ end
 
 
 def adapter(command, file_format, iterations):
-    """Keys of a method that is an adapter which prints its time."""
+    """Returns the keys of a method that runs an adapter. The adapter prints its time."""
     return {"command": SOURCE / "adapters" / command, "format": file_format, "max_iterations": iterations,
             "time_pattern": "time ([0-9.]+) s"}
 
@@ -46,7 +46,7 @@ needs_torch = unittest.skipUnless(importlib.util.find_spec("torch"), "python3-to
 
 
 class Study(unittest.TestCase):
-    """A folder, and studies in it."""
+    """Runs studies in a folder."""
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -54,7 +54,7 @@ class Study(unittest.TestCase):
         self.folder = Path(temporary.name)
 
     def study(self, methods, degrees="", **mesh):
-        """Rows of summary.csv by method, and of iterations.csv. methods: their keys."""
+        """Returns the rows of summary.csv by method, and of iterations.csv. methods: their keys."""
         text = STUDY.format(methods=", ".join(methods), degrees=degrees, **mesh)
         for label, keys in methods.items():
             text += f"subsection method {label}\n" + "".join(f"  set {key} = {keys[key]}\n" for key in keys) + "end\n"
@@ -67,8 +67,8 @@ class Study(unittest.TestCase):
         return {row["method"]: row for row in tables[0]}, tables[1]
 
     def check(self, summary, rows, label, iterations, resolution=0.0):
-        """A method has moved nodes, for the better, and has a record of each of these iterations, with a time: 0 if it
-        is below the resolution."""
+        """Asserts that a method has improved the mesh and has a record of each of these iterations, with a time. The time is 0
+        if it is below the resolution."""
         self.assertEqual(summary[label]["status"], "not solved", label)
         self.assertGreater(float(summary[label]["q_mean"]), float(summary["initial"]["q_mean"]), label)
         mine = [row for row in rows if row["method"] == label]
@@ -79,7 +79,7 @@ class Study(unittest.TestCase):
 
 
 class Debian(Study):
-    """Programs that Debian has."""
+    """Tests of programs that are Debian packages."""
 
     def test_planar(self):
         summary, rows = self.study(
@@ -104,7 +104,7 @@ class Debian(Study):
         self.assertRegex(summary["swaps"]["status"], r"^not solved$|^failed: its mesh has ")
 
     def test_netgen(self):
-        """The driver, compiled as its first lines say."""
+        """Compiles the driver as its first lines describe."""
         text = (SOURCE / "adapters" / "netgen_driver.cc").read_text(encoding="utf-8")
         lines = text[text.index("//   mpicxx"):text.index("// LIB:")].replace("//", "").replace("\\\n", "")
         library = next(path for path in run("dpkg", "-L", "libnglib-dev").stdout.split() if path.endswith("/netgen/libmesh.so"))
@@ -138,7 +138,7 @@ class Mmg(Study):
 
     @needs("mmg3d_O3")
     def test_volume(self):
-        """Without insertions and swaps the sizes that it aims at count for nothing, and a second run moves nothing."""
+        """Without insertions and swaps, target sizes have no effect, and a second run moves no nodes."""
         summary, rows = self.study({"mmg": self.mmg("mmg3d_O3", 2), "optim": self.mmg("mmg3d_O3", 1, "-optim"),
                                     "sizes": self.mmg("mmg3d_O3", 1, "-hsiz 0.3")}, **FLANGE)
         self.check(summary, rows, "mmg", ["0", "1", "2"], resolution=1e-9)
@@ -154,7 +154,7 @@ class HexSmoothing(Study):
 
     @needs("parallelMixedSmoothing")
     def test_boundary_stays_where_the_file_has_it(self):
-        """It fixes the nodes of faces in the file and no others, and its VTK has four decimals."""
+        """Only nodes of faces in the file are fixed. The VTK output has four decimals."""
         summary, rows = self.study(
             {"medit": self.hexsmoothing(), "bare": self.hexsmoothing(format="mesh"),
              "rounded": self.hexsmoothing(out_format="vtk")}, **FLANGE)
@@ -182,7 +182,7 @@ class Mfem(Study):
                 self.check(summary, rows, "mfem", ["0", "1", "2", "4"], resolution=1e-9)
 
     def test_its_nodes_are_those_of_the_file(self):
-        """What it writes, by hand: all x, then all y."""
+        """The fake program writes all x, then all y."""
         program = self.folder / "optimizer"
         program.write_text("#!/bin/sh\necho $* > words\ncat > optimized.mesh << end\n" + textwrap.dedent("""\
             MFEM mesh v1.0
@@ -225,8 +225,8 @@ class Mfem(Study):
 @needs_torch
 class Networks(Study):
     def test_exact_network(self):
-        """Networks that know the mean of the neighbours make Laplace smoothing, but for the digits of a float. In the
-        convex square that makes no cell invalid, from which smoothers in Python are kept."""
+        """Networks that return the mean of the neighbours give Laplace smoothing, up to the precision of float. In the convex
+        square it makes no cell invalid, so the loop resets no node."""
         import torch
 
         class Mean(torch.nn.Module):
@@ -248,7 +248,7 @@ class Networks(Study):
                 self.assertTrue(math.isclose(float(row[column]), float(known[column]), rel_tol=1e-4, abs_tol=1e-6), column)
 
     def test_weights_are_taken_out_of_pickles(self):
-        """A network of linear layers in torch's old format, and one that would do something when loaded."""
+        """Converts a network in torch's old format, and a pickle that would execute code if it were loaded."""
         import torch
 
         torch.manual_seed(3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Published meshes come from a server on the loopback address, into a cache of the test's own."""
+"""Tests fetch published meshes from a server on the loopback address into a temporary cache."""
 
 import hashlib
 import http.server
@@ -19,7 +19,7 @@ CONTENT = b"planar_polygonal_mesh\nnodes 0\n"
 
 
 class Server:
-    """Serves what is in `files`, counts what was asked for; ends with the test."""
+    """Serves the contents of `files` and counts requests; ends with the test."""
 
     def __init__(self, files):
         outer = self
@@ -52,7 +52,7 @@ class Server:
 
 
 def free_port():
-    """A port of the loopback address that nobody listens at."""
+    """Returns an unused port of the loopback address."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
@@ -75,7 +75,7 @@ class FetchPublished(unittest.TestCase):
         self.cache = self.folder / "cache" / "smoothfem" / "published"
 
     def serve(self, files):
-        """A server that ends with the test."""
+        """Starts a server that ends with the test."""
         server = Server(files)
         self.addCleanup(server.close)
         return server
@@ -90,7 +90,7 @@ class FetchPublished(unittest.TestCase):
                               capture_output=True, check=False)
 
     def assert_one_sentence(self, outcome, *parts):
-        """Exit code 2 and one line that holds some parts, no traceback."""
+        """Asserts exit code 2 and one line with these parts, without a traceback."""
         self.assertEqual(outcome.returncode, 2)
         last = [line for line in outcome.stderr.splitlines() if "fetching" not in line]
         self.assertEqual(len(last), 1, outcome.stderr)
@@ -99,7 +99,7 @@ class FetchPublished(unittest.TestCase):
         self.assertEqual(outcome.stdout, "")
 
     def kept(self):
-        """Names in the cache."""
+        """Returns the names of the files in the cache."""
         return sorted(path.name for path in self.cache.iterdir()) if self.cache.is_dir() else []
 
     def test_meshes_come_once(self):
@@ -125,7 +125,7 @@ class FetchPublished(unittest.TestCase):
 
     def test_without_network(self):
         outcome = self.fetch(url=f"http://127.0.0.1:{free_port()}")
-        self.assert_one_sentence(outcome, "a.mesh cannot be fetched", "a.mesh and b.mesh by hand", "--mesh-dir")
+        self.assert_one_sentence(outcome, "a.mesh cannot be fetched", "download a.mesh and b.mesh into a folder", "--mesh-dir")
         self.assertEqual(self.kept(), [])
 
     def test_missing_at_the_server(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An installation in an empty folder: runs, draws, completes names, and is built against."""
+"""Tests an installation in an empty folder: it runs, draws, completes names, and other programs are built with it."""
 
 import os
 import re
@@ -45,7 +45,7 @@ class Installed(Study, unittest.TestCase):
         return run(self.smoothfem, *words, folder=self.folder, **more)
 
     def test_names_no_folder_of_the_build(self):
-        """Neither libraries nor scripts know where the sources are."""
+        """Libraries and scripts do not contain paths of the sources."""
         for path in self.prefix.rglob("*"):
             if path.is_file():
                 self.assertNotIn(str(SOURCE).encode(), path.read_bytes(), path)
@@ -75,7 +75,7 @@ class Installed(Study, unittest.TestCase):
         self.assertIn("did you mean 'history'?", refused.stderr)
 
     def test_python_module(self):
-        """The installed one, which smooths as the installed program does, also by a smoother in Python."""
+        """The installed module gives the results of the installed program, also with a smoother in Python."""
         packages = self.prefix / "lib" / "python3" / "dist-packages"
         self.smoothfem_run("generate", "gear", "-o", "py.vtu", "--edge-scale", "4", "--distort-to", "0.45")
         (self.folder / "mine.py").write_text("class Mine:\n    def step(self, mesh):\n        mesh.points[mesh.free] *= 1 + 1e-9\n")

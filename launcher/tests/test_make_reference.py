@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `./run reference` refuses: one sentence, exit code 2, nothing written; and which references it says to be of the
-program of a commit."""
+"""Tests what `./run reference` refuses (one sentence, exit code 2, no files), and which references it assigns to the program of a
+commit."""
 
 import json
 import os
@@ -16,14 +16,14 @@ SOURCE = Path(__file__).resolve().parents[2]
 
 
 def run_script(source, work, *words):
-    """The script, finished, with words behind the paths, as ./run has them."""
+    """Runs the script with arguments after the paths, as ./run does."""
     command = [sys.executable, "-B", SOURCE / "tools" / "make_reference.py", source, "no-program", work, *words]
     return subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, "PYTHONPATH": str(SOURCE)})
 
 
 class MakeReference(unittest.TestCase):
     def refused(self, source, work, *words):
-        """What the script says of words that it cannot do anything with."""
+        """Returns the message for arguments that the script refuses."""
         found = run_script(source, work, *words)
         self.assertEqual((found.returncode, found.stdout), (2, ""), found.stderr)
         self.assertEqual(len(found.stderr.splitlines()), 1, found.stderr)
@@ -43,7 +43,7 @@ class MakeReference(unittest.TestCase):
 
 
 class ProgramOf(unittest.TestCase):
-    """A repository of one source file, a test, and the studies a and b, which includes a."""
+    """Tests a repository with one source file, a test, the study a, and the study b, which includes a."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -74,7 +74,7 @@ class ProgramOf(unittest.TestCase):
         return self.git("rev-parse", "HEAD")
 
     def of_program(self, commit):
-        """The studies that are said to be of a commit's program."""
+        """Returns the studies that the script assigns to a commit's program."""
         found = run_script(self.source, self.source, "--program-of", commit)
         self.assertEqual((found.returncode, found.stderr), (0, ""))
         records = read_records(self.source / "results" / "reference")

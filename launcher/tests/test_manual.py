@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manual page says what the program's own help says."""
+"""The manual page has the options of the program's help."""
 
 import re
 import unittest
@@ -11,7 +11,7 @@ OPTION = re.compile(r"(?<![\w-])--?[a-z][a-z-]*")
 
 
 def sections():
-    """The page's text on each command."""
+    """Returns the page's text on each command."""
     text = PAGE.read_text(encoding="utf-8").replace("\\-", "-").replace("\\fR", " ")
     parts = re.split(r"^\.S[SH] (.*)$", text, flags=re.MULTILINE)
     return {title.split()[1]: body for title, body in zip(parts[1::2], parts[2::2]) if title.startswith("smoothfem ")}

@@ -11,7 +11,7 @@ from .build_folder import SMOOTHFEM, run
 
 
 def rows(path):
-    """A CSV file's rows as dictionaries."""
+    """Returns the rows of a CSV file as dictionaries."""
     with open(path, newline="", encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
 

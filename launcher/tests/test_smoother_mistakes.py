@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the compiler says of a smoother that lacks something: a sentence, before anything else."""
+"""For an incomplete smoother, the first compiler message is a sentence that names the missing part."""
 
 import os
 import subprocess

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volume files written by hand: what each format documents, and what is refused.
+// Hand-written volume files: the features that each format documents, and refused files.
 #include <functional>
 #include <map>
 
@@ -11,7 +11,7 @@ namespace smoothfem {
 namespace {
 
 // A unit cube, a pyramid of volume 1/3 on it, a prism of volume 1/2 at its side and a tetrahedron
-// of volume 5/24 at the pyramid. Written by hand in the node order that each format documents.
+// of volume 5/24 at the pyramid. Hand-written in the node order that each format documents.
 
 const std::string points[] = {"0 0 0", "1 0 0", "1 1 0",   "0 1 0",  "0 0 1",  "1 0 1",
                               "1 1 1", "0 1 1", ".5 .5 2", "2 .5 0", "2 .5 1", ".5 -1 1.5"};
@@ -49,7 +49,7 @@ const std::string hand_written_medit =
 std::string hand_written_abaqus() {
   std::string nodes = node_lines([](int n) { return std::to_string(n) + " "; }, "");
   std::replace(nodes.begin(), nodes.end(), ' ', ',');
-  return "*Heading\nwritten by hand, 2 lines\n** a comment\n*Node\n" + nodes +
+  return "*Heading\nwritten manually, 2 lines\n** a comment\n*Node\n" + nodes +
          "*Element, type=C3D8R,\nelset=Cube\n1, 1, 2, 3, 4, 5,\n6, 7, 8\n"
          "*ELEMENT, TYPE=C3D5\n2, 5, 6, 7, 8, 9\n*element, type=C3D6\n3, 2, 10, 3, 6, 11, 7\n"
          "*Element, Type=DC3D4\n4, 5, 6, 9, 12\n";

@@ -13,8 +13,8 @@ namespace smoothfem {
 class GridRegion {
  public:
   /// Takes the squares whose corners all lie inside the first polygon and outside the others,
-  /// without those that would touch others at a corner only. The lines begin half a spacing inside
-  /// the box around the first polygon.
+  /// without squares that would touch others at a corner only. The lines begin half a spacing
+  /// inside the box around the first polygon.
   GridRegion(const Polygons& polygons, double spacing);
 
   std::size_t n_cells() const { return n_cells_; }

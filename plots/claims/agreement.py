@@ -17,13 +17,13 @@ def agreement(folder):
     def pairs(content, *columns):
         return paired(results.summary.records(), printed[content].rows, columns)
     quality = pairs("smoothing", "q_min", "q_mean")
-    counts = [(row, ours, theirs) for row, ours, theirs in pairs("smoothing", "iterations")
+    counts = [(row, computed, theirs) for row, computed, theirs in pairs("smoothing", "iterations")
               if row["method"] != OPTIMIZER]
     worst = [row for row, *_ in pairs("errors", "e_max")
              if (row["mesh"], row["degree"], row["method"]) == ("tri", "2", INITIAL)]
     errors = pairs("errors", *ERRORS)
     condition = pairs("solver", "condition_number")
-    halved = [float(theirs) / float(ours) for row, ours, theirs in condition if row["method"] == AREA_WEIGHTED]
+    halved = [float(theirs) / float(computed) for row, computed, theirs in condition if row["method"] == AREA_WEIGHTED]
     cg = pairs("solver", "cg_iterations")
     reached = {method: [r["method_seconds"] != "" for r in results.thresholds.select(method=method).records()]
                for method in ("getme", "smart-laplace")}
@@ -49,22 +49,22 @@ def paired(records, printed, columns):
     found = []
     for row in printed:
         keys = [key for key in ("mesh", "degree", "method") if key in row]
-        ours = next(record for record in records if all(record[key] == row[key] for key in keys))
-        found += [(row, ours[column], row[column]) for column in columns if row.get(column)]
+        computed = next(record for record in records if all(record[key] == row[key] for key in keys))
+        found += [(row, computed[column], row[column]) for column in columns if row.get(column)]
     return found
 
 
 def same(pairs):
     """Counts the measured numbers that have all digits of the printed ones."""
-    n_same = sum(ours == theirs or ("/" not in theirs and as_printed(float(ours), theirs) == theirs)
-                 for _, ours, theirs in pairs)
+    n_same = sum(computed == theirs or ("/" not in theirs and as_printed(float(computed), theirs) == theirs)
+                 for _, computed, theirs in pairs)
     return f"{n_same} of {len(pairs)}"
 
 
 def within(pairs, chosen):
     """The largest relative difference of the chosen rows beyond the rounding of the printed values."""
-    largest = max(max(0.0, abs(float(ours) - float(theirs)) - half_a_unit(theirs)) / float(theirs)
-                  for row, ours, theirs in pairs if chosen(row))
+    largest = max(max(0.0, abs(float(computed) - float(theirs)) - half_a_unit(theirs)) / float(theirs)
+                  for row, computed, theirs in pairs if chosen(row))
     return f"within {100 * largest:.1f} %"
 
 

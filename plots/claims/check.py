@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the thesis claims in words, checked against the CSV files of a study.
+"""Checks claims of the thesis' text against the CSV files of a study.
 
-The claims stand in studies/thesis/claims.json; its README.md says how they are written.
+The claims are in studies/thesis/claims.json; the README.md of that folder describes the format.
 """
 
 import itertools
@@ -20,32 +20,32 @@ from .reasons import results_of_test
 from .values import Values
 
 HOLDS, FAILS, UNKNOWN = "holds", "does not hold", "cannot be checked"
-COARSE = "too coarse to judge"  # in place of `does not hold`, on meshes that are made to be quick
-# More numbers than these are shown as a range.
+COARSE = "too coarse to judge"  # replaces `does not hold` on the coarse meshes of quick studies
+# A larger number of values is shown as a range.
 MOST_SHOWN = 4
-# A number in a note: ours, or the printed one.
+# A number in a note: the computed or the printed one.
 NUMBER_IN_NOTE = re.compile(r"\{(printed )?(.+?)\}")
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """A claim and what became of it; texts for the table."""
+    """A claim and its result, as texts for the table."""
 
     claim: dict
     verdict: str
     printed: str
-    ours: str
-    note: str = ""  # what our numbers show of why it may not hold
-    guess: str = ""  # why that may be, as far as no run has tested it
-    seeds: str = ""  # of how many seeds' results alone it holds; empty where there is one seed
-    chance: bool = True  # whether seeds change a number that decides; of no meaning where there is one seed
+    computed: str
+    note: str = ""  # computed numbers that may explain why it does not hold
+    guess: str = ""  # a possible reason that no run has tested
+    seeds: str = ""  # number of seeds for which it holds alone; empty for one seed
+    chance: bool = True  # True if seeds change a deciding number; meaningless for one seed
     met: tuple = ()  # cases that meet their condition, and cases in all; empty if there are no checks
-    tests: tuple = ()  # of reasons, with the claim's Outcome on the study that tests it; None if it was not run
+    tests: tuple = ()  # (test of a reason, Outcome on the study that tests it; None if it was not run)
 
     @property
-    def is_beside(self):
-        """True if it judges a claim once more, by a later criterion in addition to the first one."""
-        return "beside" in self.claim
+    def is_revised_criterion(self):
+        """True if the claim revises another claim: a later criterion in addition to the first one."""
+        return "revises" in self.claim
 
 
 def read_claims(study):
@@ -65,11 +65,11 @@ def read_claims(study):
 def check_claims(claims, results, printed):
     """The outcome of each claim; `printed` as in make_tables. Where a study was repeated with several
     seeds, a claim is judged by the median of each of its quantities."""
-    ours = values_of(results)
+    computed = values_of(results)
     rows = {content: table.rows for content, table in printed.items()}
     theirs = Values([row for content in rows if content != "thresholds" for row in rows[content]],
                     rows.get("thresholds", []))
-    outcomes = [with_tests(check_claim(claim, ours, theirs), theirs) for claim in claims]
+    outcomes = [with_tests(check_claim(claim, computed, theirs), theirs) for claim in claims]
     return [replace(outcome, verdict=COARSE) if results.is_quick and outcome.verdict == FAILS else outcome
             for outcome in outcomes]
 
@@ -91,35 +91,35 @@ def with_tests(outcome, theirs):
     return replace(outcome, tests=tuple(tested))
 
 
-def check_claim(claim, ours, theirs):
-    """Returns the outcome of one claim: it holds if all of its checks hold. measured: values of each seed."""
+def check_claim(claim, computed, theirs):
+    """Returns the outcome of one claim: it holds if all of its checks hold. computed: values of each seed."""
     if not claim["checks"]:
         return Outcome(claim, UNKNOWN, claim.get("printed", MISSING), claim["reason"])
     verdicts, printed, own, all_met, chance = [], [], [], [], []
     for check in claim["checks"]:
         cases = cases_of(check)
         numbers = [number_of(check["quantity"], case, theirs) for case in cases]
-        found = [median_of(check["quantity"], case, ours) for case in cases]
+        found = [median_of(check["quantity"], case, computed) for case in cases]
         met = met_in(check, found, numbers)
         all_met += met
         verdicts.append(verdict_of(met, check.get("at_least", len(cases))))
         if verdicts[-1] == FAILS:
-            chance += [varies(check["quantity"], case, ours) for case, is_met in zip(cases, met) if not is_met]
+            chance += [varies(check["quantity"], case, computed) for case, is_met in zip(cases, met) if not is_met]
         printed.append(check.get("printed") or
                        shown(numbers, cases, met_in(check, numbers, numbers)))
         own.append(shown(found, cases, met))
     worst = next(v for v in (FAILS, UNKNOWN, HOLDS) if v in verdicts)
     missing = ""
     if worst == UNKNOWN:
-        is_divided = any(divides_by_zero(check, ours) for check in claim["checks"])
+        is_divided = any(divides_by_zero(check, computed) for check in claim["checks"])
         missing = "a quotient by 0" if is_divided else claim.get("reason")
     seeds = ""
-    if len(ours) > 1:
-        alone = [check_claim(claim, [one], theirs).verdict for one in ours]
+    if len(computed) > 1:
+        alone = [check_claim(claim, [one], theirs).verdict for one in computed]
         known = len(alone) - alone.count(UNKNOWN)
         seeds = f"{alone.count(HOLDS)} of {known} seeds" if known > 1 else ""
     return Outcome(claim, worst, "; ".join(printed), missing or "; ".join(own),
-                   filled(claim.get("note", ""), ours, theirs), claim.get("guess", ""), seeds,
+                   filled(claim.get("note", ""), computed, theirs), claim.get("guess", ""), seeds,
                    chance=any(chance), met=(all_met.count(True), len(all_met)))
 
 
@@ -146,16 +146,16 @@ def divides_by_zero(check, values):
     return any(divides(case, of_seed) for case in cases_of(check) for of_seed in values)
 
 
-def filled(note, ours, theirs):
-    """A note with the numbers for which it has expressions in braces."""
+def filled(note, computed, theirs):
+    """Returns a note with numbers in place of its expressions in braces."""
     def number(match):
-        value = number_of(match[2], {}, theirs) if match[1] else median_of(match[2], {}, ours)
+        value = number_of(match[2], {}, theirs) if match[1] else median_of(match[2], {}, computed)
         return MISSING if value is None else written(value)
     return NUMBER_IN_NOTE.sub(number, note)
 
 
 def cases_of(check):
-    """All combinations of what the check is said for: a list of dictionaries from name to value."""
+    """Returns all cases of a check: a list of dictionaries from name to value."""
     lists = check.get("for", {})
     return [dict(zip(lists, values)) for values in itertools.product(*lists.values())]
 
@@ -192,7 +192,7 @@ def no_functions(name, _):
 
 
 def shown(numbers, cases, met):
-    """The numbers for the table: each with its case, or of many the range and how many meet the
+    """Returns the numbers for the table: each with its case. Of many numbers it returns the range and how many meet the
     condition."""
     present = [(case, number) for case, number in zip(cases, numbers) if number is not None]
     if not present:
@@ -212,7 +212,7 @@ def label(name, value):
 
 
 def written(number):
-    """Three digits, whole numbers as they are."""
+    """Writes a number with three digits, and whole numbers with all digits."""
     if math.isinf(number):
         return "never"
     whole = number == int(number) and abs(number) < 1e6

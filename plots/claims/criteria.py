@@ -12,12 +12,12 @@ YES = "yes"
 
 @dataclass(frozen=True)
 class Criterion:
-    """A line of the file: dates as 2026-11-21, `changed` empty if it never was."""
+    """A line of the file. Dates are, for example, 2026-11-21; `changed` is empty for an unchanged criterion."""
 
     written: str
     changed: str
-    commit: str  # that made the criterion what it is
-    results_known: bool  # whether our results were, when it was written
+    commit: str  # commit with the present words of the criterion
+    results_known: bool  # True if results of smoothfem were known when it was written
 
     @property
     def is_as_it_should_be(self):
@@ -30,7 +30,7 @@ class Criterion:
 
 
 def read_criteria():
-    """Name of the claim -> Criterion."""
+    """Returns {name of the claim: Criterion}."""
     rows = read_rows(thesis_folder() / "criteria.csv", COLUMNS).records()
     found = {row["id"]: Criterion(row["written"], row["changed"], row["commit"], row["results_known"] == YES)
              for row in rows}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arithmetic and comparisons in text, with named values and functions: no more of Python than that."""
+"""Evaluates arithmetic and comparisons in text, with named values and functions. No other Python code is allowed."""
 
 import ast
 import math
@@ -12,11 +12,11 @@ OPERATORS = {
 
 
 class Missing(Exception):
-    """A number that is needed is not there."""
+    """A necessary number is missing."""
 
 
 class DividedByZero(Missing):
-    """It would be a quotient by zero."""
+    """The number is a quotient by zero."""
 
 
 def evaluate(text, names, call):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An overview of all claims of the thesis, from the results in results/reference: a page of the manual."""
+"""Writes an overview of all claims of the thesis from results/reference, as a page of the manual."""
 
 import re
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ SHORT_COMMIT = 7  # digits
 
 @dataclass(frozen=True)
 class Study:
-    """A study with claims, its outcomes, and of which run they are."""
+    """A study with claims, their outcomes, and the provenance of its run."""
 
     name: str
     title: str
@@ -29,7 +29,7 @@ class Study:
 
 
 def studies(folders):
-    """The studies of which there are claims, by name; `folders` is the folder of results folders."""
+    """Returns the studies with claims, by name; `folders` is the folder of results folders."""
     found = []
     for path in study_files().values():
         claims = read_claims(path.stem)
@@ -77,10 +77,10 @@ def runs(found, folders):
     again = read_records(folders)
     commits = {commit for study in everything for commit in commits_of(study)}
     commit, covered = most_covered([study for study in everything if study.provenance], again)
-    lines = [f"The results come from {len(commits)} commits of the program, those of a study from one. {len(covered)} of the "
-             f"{len(everything)} studies are of commit {commit}, were made by a program with the same sources, or, run again "
-             "there, have every number of their tables the same to the last digit, but for times and memory. Times of different "
-             "commits are not for comparing.", "",
+    lines = [f"The results come from {len(commits)} commits of the program; results of a study come from one commit. "
+             f"{len(covered)} of the {len(everything)} studies belong to commit {commit}: it made them, or its program has the same "
+             "sources, or it reproduces every number of their tables to the last digit, except times and memory. Times of "
+             "different commits cannot be compared.", "",
              "| study | scale | written | commit | run again at, or the same program as | system |", "|:--|:--|:--|:--|:--|:--|"]
     for study in everything:
         run = study.provenance or {}
@@ -103,7 +103,7 @@ def again_cell(row, run):
 
 
 def most_covered(found, again):
-    """The commit, in short, that most studies are of, or have the same numbers as when run again there, and their names."""
+    """Returns (short commit, names of studies). The commit made, or reproduces the numbers of, the largest number of studies."""
     covered = {}
     for study in found:
         row = again.get(study.name, {})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results of the studies that test reasons why claims do not hold: each changes the one thing (studies/reasons), and
-the claim itself is judged on its results."""
+"""Finds results of studies that test why claims do not hold. Each of these studies changes one thing (studies/reasons), and
+the claim is judged on its results."""
 
 from functools import lru_cache
 
@@ -12,7 +12,7 @@ REASONS = "reasons"  # the folder's name, in studies and in results/reference
 
 
 def reference():
-    """The folder of results folders that come with the program."""
+    """Returns the folder results/reference of the program."""
     return data_folder() / "results" / "reference"
 
 

@@ -7,7 +7,7 @@ from ..tables.formats import escape_markdown
 from ..tables.number_format import MISSING
 from .check import COARSE, FAILS, HOLDS, UNKNOWN
 
-# What is said of one and of several.
+# Phrases for one claim and for several.
 PHRASES = {HOLDS: ("holds", "hold"), FAILS: ("does not hold", "do not hold"),
            COARSE: ("is on meshes too coarse to judge", "are on meshes too coarse to judge"),
            UNKNOWN: ("cannot be checked", "cannot be checked")}
@@ -15,13 +15,13 @@ PHRASES = {HOLDS: ("holds", "hold"), FAILS: ("does not hold", "do not hold"),
 
 def claims_as_markdown(outcomes, results):
     """All claims of a study as a Markdown table."""
-    lines = [f"# {results.study_title}: what holds of the thesis", "", totals(outcomes) + ".", ""]
+    lines = [f"# {results.study_title}: claims of the thesis", "", totals(outcomes) + ".", ""]
     lines += [sentence + "  " for sentence in caveats(results)]
-    lines += ["", "| | Section | Claim | Criterion | Printed | Ours | |", "|:--|:--|:--|:--|:--|:--|:--|"]
+    lines += ["", "| | Section | Claim | Criterion | Printed | smoothfem | |", "|:--|:--|:--|:--|:--|:--|:--|"]
     for outcome in outcomes:
         claim = outcome.claim
         cells = (claim["id"], claim["section"], claim["statement"], criterion_of(claim),
-                 outcome.printed, outcome.ours)
+                 outcome.printed, outcome.computed)
         lines.append("| " + " | ".join(escape_markdown(cell) for cell in cells)
                      + f" | {verdict_cell(outcome)} |")
     lines += known_reasons(outcomes)
@@ -29,15 +29,15 @@ def claims_as_markdown(outcomes, results):
 
 
 def criterion_of(claim):
-    """The criterion, and when it was written where a reader has to know."""
+    """Returns the criterion, with its date if a reader has to know it."""
     history = claim.get("history")
-    is_plain = history is None or ("beside" not in claim and history.is_as_it_should_be)
+    is_plain = history is None or ("revises" not in claim and history.is_as_it_should_be)
     return claim["criterion"] + ("" if is_plain else f" ({history})")
 
 
 def totals(outcomes):
-    """Counts the claims that hold by their first criterion, and those that hold by a later one."""
-    # At the scale `quick` one verdict stands in place of another.
+    """Counts the claims that hold by their first criterion, and the claims that hold by a later one."""
+    # At the scale `quick` the verdict COARSE replaces FAILS.
     left_out = FAILS if any(o.verdict == COARSE for o in outcomes) else COARSE
 
     def counted(chosen, one, many):
@@ -45,13 +45,13 @@ def totals(outcomes):
         counts = ", ".join(f"{number} {PHRASES[verdict][number != 1]}" for verdict, number in numbers.items()
                            if verdict != left_out)
         return f"{len(chosen)} {one if len(chosen) == 1 else many} {counts}"
-    text = "Of " + counted([o for o in outcomes if not o.is_beside], "claim", "claims")
-    beside = [o for o in outcomes if o.is_beside]
-    return text + ("; of " + counted(beside, "later criterion", "later criteria") if beside else "")
+    text = "Of " + counted([o for o in outcomes if not o.is_revised_criterion], "claim", "claims")
+    revised = [o for o in outcomes if o.is_revised_criterion]
+    return text + ("; of " + counted(revised, "later criterion", "later criteria") if revised else "")
 
 
 def verdict_cell(outcome):
-    """The verdict, and of how many seeds alone the claim holds."""
+    """Returns the verdict, and the number of single seeds for which the claim holds."""
     return emphasized(outcome.verdict) + of_seeds(outcome)
 
 
@@ -61,7 +61,7 @@ def of_seeds(outcome):
 
 
 def emphasized(verdict):
-    """A verdict as a table shows it: bold where a reader is to look."""
+    """Returns a verdict for a table: bold if it needs attention."""
     return f"**{verdict}**" if verdict in (FAILS, UNKNOWN) else verdict
 
 
@@ -91,7 +91,7 @@ def of_test(test, tested, outcome):
         found = "the claim cannot be judged, as numbers for it are missing"
     printed = "" if tested.printed == MISSING else f" (printed {tested.printed})"
     return (f"Suspected: {test['reason']} Tested by `{test['study']}`, {test['change']}: with this change "
-            f"{found}{of_seeds(tested)}; {tested.ours}{printed}.")
+            f"{found}{of_seeds(tested)}; {tested.computed}{printed}.")
 
 
 def known_reasons(outcomes):
@@ -104,14 +104,14 @@ def known_reasons(outcomes):
             reason = " ".join(filter(None, (outcome.note, of_chance(outcome), *tests, guess))) or "Reason not known."
             found.setdefault(reason, []).append(outcome.claim["id"])
     lines = [f"- {', '.join(ids)}: {escape_markdown(reason)}" for reason, ids in found.items()]
-    return ["", "What is known of why claims do not hold, and what is guessed:", "", *lines] if lines else []
+    return ["", "Known and supposed reasons why claims do not hold:", "", *lines] if lines else []
 
 
 def caveats(results):
     """Warnings that a reader needs before comparing the numbers, as sentences."""
     found = [results.note] if results.note else []
-    found += ["All numbers come from the CSV files of this folder; printed ones from the tables and the "
-              "text of the thesis. A dash is a number that is not there."]
+    found += ["All numbers come from the CSV files of this folder. Printed values come from the "
+              "tables and the text of the thesis. A dash marks a missing number."]
     sizes = [f"{entry['name']} ({entry['n_cells']:,} cells)"
              for entry in entries(results.provenance, "meshes")
              if entry["name"] in results.meshes and isinstance(entry.get("n_cells"), int)]
@@ -121,8 +121,8 @@ def caveats(results):
                      "condition numbers and times depend on the size.")
     if results.seeds:
         seeds = ", ".join(str(seed) for seed in results.seeds)
-        found.append(f"Repeated with the seeds {seeds}: {', '.join(results.repeated)}. Ours are medians over "
-                     "the seeds, and claims are judged by them.")
+        found.append(f"Repeated with the seeds {seeds}: {', '.join(results.repeated)}. Numbers of smoothfem "
+                     "are medians over the seeds, and claims are judged by them.")
     own = [mesh for mesh in results.meshes if not results.is_published(mesh)]
     if own:
         found.append(f"Not the meshes of the thesis but stand-ins for them: {', '.join(own)}.")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values that claims can use: columns of summary.csv and thresholds.csv by name, and the functions of iterations.csv
-below. The same names give the printed values where the thesis prints them."""
+"""Provides values for claims: columns of summary.csv and thresholds.csv by name, and the functions of iterations.csv
+below. The same names give the printed values, if the thesis prints them."""
 
 import numpy as np
 
@@ -38,7 +38,7 @@ class Values:
                                     arguments) != "")
         if name in COLUMNS_OF_THRESHOLDS:
             field = self.field(self.thresholds, name, KEYS_OF_THRESHOLDS, arguments)
-            # An empty field is no gap: the method never gets there.
+            # An empty field is not a gap: the method never reaches the threshold.
             field = field or NEVER.get(name, "")
         else:
             field = self.field(self.summary, name, ("mesh", "method", "degree"), arguments)
@@ -53,7 +53,7 @@ class Values:
         for record in records:
             if name in record and all(record.get(k) == a for k, a in zip(keys, arguments)):
                 return record[name]
-        raise Missing(f"{name}({', '.join(arguments)}) is not there")
+        raise Missing(f"{name}({', '.join(arguments)}) is missing")
 
 
 def trajectory(rows, column, mesh, method, degree):
@@ -164,7 +164,7 @@ def seconds_per_iteration(rows, mesh, method):
     """Mean time of an iteration of the first stage."""
     rows = of_one_degree(rows, mesh, method)
     stage = in_first_stage(rows)
-    start = rows.number("smoothing_seconds")[0]  # 0, but for results that count preparations as smoothing
+    start = rows.number("smoothing_seconds")[0]  # 0, except in results that count preparations as smoothing
     return (rows.number("smoothing_seconds")[stage][-1] - start) / rows.number("iteration")[stage][-1]
 
 
@@ -182,7 +182,7 @@ def in_first_stage(rows):
 
 def require_all_iterations(rows):
     """Raises Missing if there are no iterations, or if not each one of the first stage is recorded:
-    what happened in between is not known then. (Later stages may count many steps per row.)"""
+    the iterations in between are unknown then. (Later stages may count many steps per row.)"""
     numbers = rows.number("iteration")[in_first_stage(rows)]
     if not len(numbers) or numbers[0] > 1 or (np.diff(numbers) > 1).any():
         raise Missing("a record of every iteration")

@@ -10,9 +10,9 @@ from ..statistics.profiles import ranks_of_problems, time_to_target
 from .problems import ERROR
 
 N_SAMPLES = 500
-NEAR_LEAST = 1.05  # of the least error that any method reaches: a problem that is solved
+NEAR_LEAST = 1.05  # a problem counts as solved below this multiple of the smallest error of any method
 INITIAL_MESH = "initial"
-AS_IS, NEXT_DEGREE, SPLIT = "", "degree", "split"  # what is done besides smoothing
+AS_IS, NEXT_DEGREE, SPLIT = "", "degree", "split"  # changes in addition to smoothing
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,9 @@ def solving_costs(problems, methods):
 
 
 def errors_at_budget(problems, methods):
-    """Method -> error over the initial one, with the time that the middle one of the methods takes in all; 1 where
-    the method has nothing better by then, or has ended with invalid cells: one goes back to the initial mesh."""
+    """Returns {method: error over the initial error} at a budget of time, the median total time of the methods.
+
+    The value is 1 if the method has no better mesh by then or ends with invalid cells: the initial mesh is used instead."""
     errors = {method: [] for method in methods}
     for problem in problems:
         budget = np.median([curve["seconds"][-1] for curve in problem.curves.values()])
@@ -89,8 +90,8 @@ def ranking(problems, methods):
 
 
 def payoffs(problems, methods):
-    """Every method in every family at every degree, as it is and with every cell split; and so the unsmoothed mesh, which
-    also has the next degree."""
+    """Returns the payoffs of every method in every family at every degree, without changes and with every cell split. The unsmoothed
+    mesh also has the next degree."""
     by_key = {(problem.member, problem.degree): problem for problem in problems}
     collected = {}
     for problem in problems:

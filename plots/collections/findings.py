@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings on a collection, as sentences: each has its number and the interval of it."""
+"""Writes findings on a collection as sentences, each with its number and interval."""
 
 import math
 from collections import Counter
@@ -12,7 +12,7 @@ from ..statistics.bootstrap import interval
 from .comparison import AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT
 from .problems import ERROR
 
-SURE = 0.05  # a paired test below this tells two methods apart
+SURE = 0.05  # a paired test below this distinguishes two methods
 SCALES = "Error: the true H1 error, if nothing else is said. In brackets: intervals that hold 95 % of bootstrap samples."
 
 
@@ -38,7 +38,7 @@ def bracket(low_high, form=".2f"):
 
 
 def what_was_run(results, problems):
-    """Members, and why some have failed."""
+    """Reports the numbers of members, and why some have failed."""
     states = Counter(results.members.text("status"))
     sentences = [f"{states['complete']} of {len(results.members)} members are complete: {len(problems)} problems, a member "
                  f"at a degree each, and {len(results.methods)} methods."]
@@ -49,7 +49,7 @@ def what_was_run(results, problems):
 
 
 def what_predicts(predictions):
-    """For each type of elements and degree the quality that goes best with the error."""
+    """Reports the quality with the highest correlation with the error, for each type of elements and degree."""
     sentences = []
     for elements, degree in sorted({(p.elements, p.degree) for p in predictions}):
         known = [p for p in predictions if (p.elements, p.degree, p.outcome) == (elements, degree, ERROR)
@@ -59,7 +59,7 @@ def what_predicts(predictions):
         best = max(known, key=lambda p: abs(p.across))
         low, high = best.across_interval
         verdict = "goes best with the error" if low * high > 0 else "comes nearest to predicting the error, but its sign is not sure"
-        # Of many, those nearest to it and those that this program smooths by.
+        # Of many qualities: the nearest ones, and the ones that methods of this program optimize.
         by_strength = sorted((p for p in known if p is not best), key=lambda p: -abs(p.across))
         others = ", ".join(f"{symbol_of(p.quality).text} {p.across:.2f}{bracket(p.across_interval)}"
                            for i, p in enumerate(by_strength) if i < 3 or p.quality in QUALITIES)
@@ -72,7 +72,7 @@ def what_predicts(predictions):
 
 
 def what_is_enough(thresholds):
-    """By mean quality, the number that has most to do with all cells."""
+    """Reports thresholds of the mean quality, the number that depends most on all cells."""
     return [f"{elements.capitalize()}, d = {degree}: from {symbol_of(quality).text} {value:.3f}{bracket(between, '.3f')} on the "
             "error falls by less than 5 %." for elements, degree, quality, value, between in thresholds
             if quality == "q_mean" and math.isfinite(value)]

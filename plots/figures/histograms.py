@@ -21,7 +21,7 @@ LEAST_DIFFERENCE = 10.0  # on an axis that is logarithmic on both sides of zero:
 def draw_histograms(results, meshes, qualities, logarithmic=False):
     """A panel for each of the meshes with a stepped line for each method.
 
-    `qualities` maps (mesh, method) to the mean ratios of all cells; what is missing has no line.
+    `qualities` maps (mesh, method) to the mean ratios of all cells; a missing entry has no line.
     """
     figure, axes, styles = panels(results, meshes, qualities, markers=False)
     for ax, mesh in zip(axes, meshes):

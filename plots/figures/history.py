@@ -24,7 +24,7 @@ LINEAR = ("q_min", "q_star_min", "q_mean")
 RESULT = {"marker": "o", "markersize": 7.0, "markerfacecolor": "none", "markeredgewidth": 0.8}
 INVALID = {"marker": "x", "markersize": 5.5, "markeredgewidth": 1.4}
 TITLE_LINE = 0.15  # inches
-# Of sentences in a panel or above it, and for finding a place for them beside the lines.
+# Sizes of sentences in a panel or above it, to place them next to the lines.
 LETTERS_OF_AN_INCH, POINTS_OF_A_SEGMENT = 15, 20
 
 
@@ -149,8 +149,8 @@ def annotate_free_area(ax, sentences):
     def distance(place):
         side, y = place
         low, high = (0.98 - width, 0.98) if side == "right" else (0.02, 0.02 + width)
-        beside = (points[:, 0] >= low) & (points[:, 0] <= high)
-        return np.abs(points[beside, 1] - y).min(initial=1.0)
+        nearby = (points[:, 0] >= low) & (points[:, 0] <= high)
+        return np.abs(points[nearby, 1] - y).min(initial=1.0)
     side, y = max(((side, y) for side in ("right", "left") for y in np.linspace(0.1, 0.9, 9)), key=distance)
     words.set(x=0.98 if side == "right" else 0.02, y=y, ha=side)
 

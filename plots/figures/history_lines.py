@@ -12,7 +12,7 @@ from ..results.smoothing import INITIAL
 # Of the mesh, hence the same for every degree.
 QUALITY = ("q_min", "q_star_min", "q_mean", "w_max", "w_mean", "n_invalid", "n_reset", TIME, "iteration")
 COUNTS = ("iteration", "n_solves")  # whole numbers
-FROM_ZERO = (TIME, *COUNTS)  # what is counted from a beginning on
+FROM_ZERO = (TIME, *COUNTS)  # columns that start at zero
 
 # One method that takes so many times as long as every other would squeeze all of them into a line:
 # then a linear axis ends at so many times the second longest time, and says when that one ends.

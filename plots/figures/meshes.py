@@ -19,7 +19,7 @@ DETAIL_ASPECT = 1.3
 DETAIL_CENTRE, DETAIL_WIDTH = (0.83, 0.62), 0.33
 QUALITY_RANGE = Normalize(0.0, 1.0)
 
-# Heights in inches of what is not a panel.
+# Heights in inches of everything except panels.
 CAPTION, BLOCK_TITLE, FOOT = 0.21, 0.26, 0.62
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The look of all figures: sizes, fonts, colours, and how a method is told from the others.
+"""Defines the style of all figures: sizes, fonts, colours, and the colour, marker and dashes of each method.
 
 Colours are those of M. Okabe and K. Ito, "Color Universal Design" (2008), without its yellow, which
 is too light for thin lines. Marker and dashes differ as well, so that print in grey stays readable.

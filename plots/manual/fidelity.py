@@ -30,7 +30,7 @@ def read_causes():
 
 def failing(found):
     """Names of the claims that do not hold, without later criteria."""
-    return [o.claim["id"] for study in found for o in study.outcomes if o.verdict == FAILS and not o.is_beside]
+    return [o.claim["id"] for study in found for o in study.outcomes if o.verdict == FAILS and not o.is_revised_criterion]
 
 
 def kind_of(study):
@@ -65,7 +65,7 @@ def kinds(found):
     """Claims that hold by kind of mesh."""
     counts = {}
     for study in found:
-        chosen = [o for o in study.outcomes if not o.is_beside]
+        chosen = [o for o in study.outcomes if not o.is_revised_criterion]
         count = counts.setdefault(kind_of(study), [[], 0, 0, 0])
         count[0].append(f"`{study.name}`")
         for k, verdict in ((1, HOLDS), (2, FAILS)):

@@ -61,13 +61,13 @@ def comparison(results, against):
     """Divides this folder's numbers by another's, row by row of those in both. Raises ResultsError if there is no
     common row."""
     other = read_results(against)
-    theirs = {tuple(row[key] for key in KEYS): row for row in other.summary.records()}
+    others = {tuple(row[key] for key in KEYS): row for row in other.summary.records()}
     rows = []
     for row in results.summary.records():
         key = tuple(row[key] for key in KEYS)
-        if key in theirs:
+        if key in others:
             rows.append([{"text": results.title(row["mesh"])}, {"text": results.title(row["method"])},
-                         {"text": row["degree"]}, *(ratio(row.get(name), theirs[key].get(name)) for name in COMPARED)])
+                         {"text": row["degree"]}, *(ratio(row.get(name), others[key].get(name)) for name in COMPARED)])
     if not rows:
         raise ResultsError(f"{against}: no mesh, method and degree of this folder is in {results.folder}; compare "
                            "results of the same study.")
@@ -75,17 +75,17 @@ def comparison(results, against):
             "made_by": other.provenance.get("program", {}).get("commit", ""), "study": other.study_title}
 
 
-def ratio(ours, theirs):
+def ratio(this, others):
     """Returns the quotient of both numbers, `=` if they are bitwise identical."""
     try:
-        ours, theirs = float(ours or "nan"), float(theirs or "nan")
+        this, others = float(this or "nan"), float(others or "nan")
     except ValueError:
-        ours = theirs = math.nan
-    if not (math.isfinite(ours) and math.isfinite(theirs)):
+        this = others = math.nan
+    if not (math.isfinite(this) and math.isfinite(others)):
         return {"text": ""}
-    if ours == theirs:
+    if this == others:
         return {"text": "=", "order": 1.0}
-    return {"text": f"{ours / theirs:.4g}", "order": ours / theirs} if theirs else {"text": f"{ours:.4g} / 0"}
+    return {"text": f"{this / others:.4g}", "order": this / others} if others else {"text": f"{this:.4g} / 0"}
 
 
 def contents(results):

@@ -16,7 +16,7 @@ from ..results.rows import ResultsError
 from ..results.smoothing import INITIAL
 from ..results.vtu import NoVtk, read_vtu, vtk_grid, vtk_module
 
-# Metrics of VTK (Verdict), by what its filter calls them for each type of cell. Ours is first on the page.
+# Metrics of VTK (Verdict), by the names that its filter uses for each type of cell. The mean ratio of smoothfem is first.
 MEAN_RATIO = "mean_ratio"
 VERDICT = {"scaled_jacobian": "ScaledJacobian", "shape": "Shape"}
 VERDICT_CELLS = {5: "Triangle", 9: "Quad", 10: "Tet", 12: "Hex"}

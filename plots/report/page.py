@@ -47,10 +47,10 @@ def claims_section(outcomes):
     if not outcomes:
         return ""
     rows = [[{"text": text} for text in (o.claim["id"], o.claim["section"], o.claim["statement"], criterion_of(o.claim),
-                                         o.printed, o.ours, verdict_cell(o))] for o in outcomes]
-    table = {"headings": ["Claim", "Section", "Statement", "Criterion", "Printed", "Ours", "Verdict"], "rows": rows}
-    return (f'<section id="claims"><h2>What holds of the thesis</h2><p>{escape(totals(outcomes))}.</p>'
-            + html_table(table, "Claims, their criteria and what came out", "claims-table", ("Verdict",)) + "</section>")
+                                         o.printed, o.computed, verdict_cell(o))] for o in outcomes]
+    table = {"headings": ["Claim", "Section", "Statement", "Criterion", "Printed", "smoothfem", "Verdict"], "rows": rows}
+    return (f'<section id="claims"><h2>Claims of the thesis</h2><p>{escape(totals(outcomes))}.</p>'
+            + html_table(table, "Claims, criteria and results", "claims-table", ("Verdict",)) + "</section>")
 
 
 def against_section(results, against):

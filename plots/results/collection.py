@@ -28,7 +28,7 @@ SUMMARY = ("member", "elements", "solution", "method", "degree", "n_invalid", "q
 NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
 
 
-@dataclass(frozen=True, eq=False)  # compared by identity: what is computed from it is kept
+@dataclass(frozen=True, eq=False)  # compared by identity, as computed values are cached
 class CollectionResults:
     """One results folder."""
 

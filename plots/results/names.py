@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names that a user gives: found, or refused with the nearest one."""
+"""Finds names that a user gives; for unknown names, the error names the nearest one."""
 
 import difflib
 import re
@@ -15,7 +15,7 @@ PREFIX = re.compile(r"^(figure|table)_((\d+_\d+-?)+_)?")
 def no_such_name(what, wanted, names, nearest=None):
     """The error for an unknown name, in the words of the program. nearest: one of the names (default: found here)."""
     if not names:
-        return ResultsError(f"there is no {what} '{wanted}'; there is none to choose.")
+        return ResultsError(f"there is no {what} '{wanted}'; none is available.")
     nearest = nearest or next(iter(difflib.get_close_matches(wanted, names, 1)), None)
     question = f"did you mean '{nearest}'? " if nearest else ""
     return ResultsError(f"there is no {what} '{wanted}'; {question}choose one of {', '.join(names)}.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the printed tables that a study is compared with, and what is known about deviations.
+"""Reads the printed tables that a study is compared with, and known reasons of deviations.
 
 The values stand in studies/thesis/; its README.md says where each of them is printed.
 """
@@ -19,7 +19,7 @@ class PrintedTable:
     number: str = ""
     measured_on: str = ""
     rows: list = field(default_factory=list)  # dictionaries from column name to string
-    # table, mesh, degree, method, column, known_from, note; where nothing is known the note says so.
+    # table, mesh, degree, method, column, known_from, note; if known_from is empty, the note says so.
     deviations: list = field(default_factory=list)
 
 
@@ -81,6 +81,6 @@ def comparison_notes(table, results):
     known = {entry["name"] for entry in entries(results.provenance, "meshes") if "published" in entry}
     names = ", ".join(stand_ins)
     if not known.issuperset(stand_ins):
-        return [f"{note} Whether ours are these meshes is not recorded for: {names}.", *own]
+        return [f"{note} The results do not record whether these meshes were used for: {names}.", *own]
     return [f"{note} Not these meshes but stand-ins for them, whose numbers cannot be compared digit "
             f"for digit: {names}.", *own]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads how many cells of a mesh have which mean ratio."""
+"""Reads the numbers of cells of a mesh by mean ratio."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,7 +38,7 @@ def read_quality_histogram(path, title, q_min=None, q_mean=None, n_invalid=0):
     refuse_unless(np.isfinite([lower, upper, count]).all(), rows, "holds an empty or infinite number")
     refuse_unless((lower < upper).all(), rows, "has a bin whose `upper` is not above its `lower`")
     refuse_unless((count == np.round(count)).all() and (count >= 0).all(), rows,
-                  "has a `count` that is no number of cells")
+                  "has a `count` that is not a number of cells")
     refuse_unless(count.any(), rows, "counts no cell")
     bins = np.unique(np.column_stack([lower, upper]), axis=0)
     refuse_unless((bins[1:, 0] >= bins[:-1, 1]).all(), rows, "has bins that overlap")

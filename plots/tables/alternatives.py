@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Methods that solve beside what one does without them: the next degree, every cell split, or a finer mesh, each on the
-mesh as it is and on that of the first method that does not solve.
+"""Compares solution-adaptive methods with alternatives: the next degree, every cell split, or a finer mesh. Each alternative
+uses the unsmoothed mesh or the mesh of the first method that does not solve.
 
 A method pays on a mesh if none of these has an error as small in no more time: smoothing, the method's own solves and the
-last solution counted for all. This was written on 26 November 2026, when results were known, beside the verdict of
-table_energy_pays, which compares with the one method on the finer mesh alone.
+last solution counted for all. This rule was written on 26 November 2026, when results were known. The verdict of
+table_energy_pays compares with that method on the finer mesh only.
 """
 
 import math
@@ -35,14 +35,14 @@ def alternatives_table(results):
     """The table of the best alternative, in no more time, to each solution-adaptive method; None without
     alternatives."""
     reference = reference_method(results)
-    rows = [(key, others, beside(results, key, others)) for key, _ in solving_groups(results)
+    rows = [(key, others, with_best_alternative(results, key, others)) for key, _ in solving_groups(results)
             for others in [ways_without(results, key[0], key[1], reference)] if len(others) > 0]
     if not rows:
         return None
-    ours = [both[0] for _, _, both in rows]
+    own_ways = [both[0] for _, _, both in rows]
     best = [both[1] for _, _, both in rows]
     solves = [method_solve_seconds(results, key) for key, _, _ in rows]
-    gains = [way.error / here.error if way and here.error > 0 else math.nan for here, way in zip(ours, best)]
+    gains = [way.error / here.error if way and here.error > 0 else math.nan for here, way in zip(own_ways, best)]
 
     def column(heading, texts):
         return Group(Heading(heading, heading), ("",), tuple((number_cell(text),) for text in texts))
@@ -50,24 +50,24 @@ def alternatives_table(results):
               for way, text in zip(best, formatted([way.error if way else math.nan for way in best], ".3e"))]
     cells, rules = key_cells([key for key, _, _ in rows], results)
     return Table(study=results.study, name="table_energy_alternatives", keys=cells, rules=rules,
-                 groups=(column("H1 error", formatted([way.error for way in ours], ".3e")),
-                         column("Seconds", formatted([way.seconds for way in ours], ".3f")),
+                 groups=(column("H1 error", formatted([way.error for way in own_ways], ".3e")),
+                         column("Seconds", formatted([way.seconds for way in own_ways], ".3f")),
                          column("of which solves", formatted(solves, ".3f")),
                          Group(Heading("Best without, in no more time", "Best without, in no more time"),
                                ("way", "H1 error"), tuple(inside)),
                          column("Gain", formatted(gains, ".2f")),
                          Group(Heading("", ""), ("Verdict",),
-                               tuple((text_cell(verdict(*both)),) for both in zip(ours, best)))),
-                 caption=f"{results.study_title}: beside the next degree, split cells and finer meshes",
+                               tuple((text_cell(verdict(*both)),) for both in zip(own_ways, best)))),
+                 caption=f"{results.study_title}: compared with the next degree, split cells and finer meshes",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=("way", "Verdict"),
-                 notes=(("", "True H1 errors, and seconds in all: smoothing, with what comes before it and the method's own "
-                             "solves (of which solves), and the solution on the resulting mesh. Best without: least error of "
-                             f"the mesh as it is and of {results.title(reference)}'s, each also with the next degree (d), with "
-                             "every cell split, and on the finer mesh, as far as the study has them, in no more time than the "
-                             "method; nothing is refined twice, which would be the better way beside methods that take far "
-                             "longer than split cells. Gain: its error over the method's. A method pays where no such way has "
-                             "an error as small. "
+                 notes=(("", "H1 errors are true errors. Seconds are total times: smoothing, with its preparation and the method's "
+                             "own solves (of which solves), and the solution on the resulting mesh. Best without: the alternative "
+                             "with the smallest error in no more time than the method. Alternatives use the unsmoothed mesh or that "
+                             f"of {results.title(reference)}. They are the mesh itself, the next degree (d), every cell split, and "
+                             "the finer mesh, if the study has them. No mesh is refined twice. For methods that take much longer "
+                             "than split cells, this would be a better alternative. Gain: the error of the alternative over that "
+                             "of the method. A method pays if no alternative has an error as small. "
                              "This verdict was written on 2026-11-26, when results were known."),))
 
 
@@ -94,14 +94,14 @@ def way(title, solved, smoothed):
     return [Way(title, solved.number(ERROR)[0], smoothing_seconds(smoothed) + solving_seconds(solved)[0])]
 
 
-def beside(results, key, others):
+def with_best_alternative(results, key, others):
     """(the method's Way, the best of the others in no more time or None)."""
     mesh, degree, method = key
     rows = results.summary.select(mesh=mesh, degree=degree, method=method)
     found = way(results.title(method), rows, rows)
-    ours = found[0] if found else Way(results.title(method), math.nan, math.nan)
-    in_time = [other for other in others if other.seconds <= ours.seconds and not math.isnan(other.error)]
-    return ours, min(in_time, key=lambda other: other.error, default=None)
+    own = found[0] if found else Way(results.title(method), math.nan, math.nan)
+    in_time = [other for other in others if other.seconds <= own.seconds and not math.isnan(other.error)]
+    return own, min(in_time, key=lambda other: other.error, default=None)
 
 
 def method_solve_seconds(results, key):
@@ -112,8 +112,8 @@ def method_solve_seconds(results, key):
     return known[-1] if len(known) else math.nan
 
 
-def verdict(ours, best):
+def verdict(own, best):
     """The verdict in words."""
-    if math.isnan(ours.error) or math.isnan(ours.seconds):
+    if math.isnan(own.error) or math.isnan(own.seconds):
         return MISSING
-    return PAYS if best is None or ours.error < best.error else DOES_NOT_PAY
+    return PAYS if best is None or own.error < best.error else DOES_NOT_PAY

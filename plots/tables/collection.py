@@ -12,7 +12,7 @@ from .gains import gains_table
 from .table import number_cell, text_cell
 
 INTERVALS = ("Intervals hold 95 % of bootstrap samples that draw families, or meshes where there are fewer than five "
-             "families. A dash: there is no number.")
+             "families. A dash marks a missing number.")
 
 
 def make_collection_tables(results):
@@ -37,7 +37,7 @@ def members_table(results):
         [("Family", [text_cell(key[0]) for key, _ in families])],
         [(heading, [("", [number_cell(str(count[i])) for count in counts])])
          for i, heading in enumerate(("Members", "Complete", "Failed"))],
-        ["The reasons of those that have failed are in members.csv."])
+        ["members.csv has the reasons of failed members."])
 
 
 def prediction_table(results, found):
@@ -53,8 +53,8 @@ def prediction_table(results, found):
                               ("interval", [between(p.within_interval) for p in found])]),
          ("Records", [("", [number_cell(str(p.n_records)) for p in found])]),
          ("Members", [("", [number_cell(str(p.n_members)) for p in found])])],
-        ["Spearman's rank correlation over the recorded meshes without invalid cells; across members each outcome is "
-         "divided by the least one of the same member, whose meshes differ by their nodes' positions alone. -1: higher "
+        ["Spearman's rank correlation over the recorded meshes without invalid cells. Across members, each outcome is divided by "
+         "the smallest outcome of the same member. The meshes of a member differ only in the positions of their nodes. -1: higher "
          "quality always goes with a lower outcome.", INTERVALS])
 
 
@@ -67,8 +67,8 @@ def threshold_table(results, found):
          ("Quality", [text_cell(symbol_of(quality).text) for _, _, quality, _, _ in found])],
         [("From", [("", [number(value, ".3f") for *_, value, _ in found]),
                    ("interval", [between(low_high, ".3f") for *_, low_high in found])])],
-        ["By the decreasing function of quality that is nearest to the logarithm of the error relative to the least "
-         "one of the same member.", INTERVALS])
+        ["By the decreasing function of quality that is nearest to the logarithm of the relative error. The relative error is "
+         "the error over the smallest error of the same member.", INTERVALS])
 
 
 def ranking_table(results, found):
@@ -81,10 +81,9 @@ def ranking_table(results, found):
          ("Error / initial", [("", [number(entry.ratio, ".3f") for entry in found]),
                               ("interval", [between(entry.ratio_interval, ".3f") for entry in found])]),
          ("p", [("", [number(entry.p_value, ".2g") for entry in found])])],
-        ["True H1 error, over all members and degrees, at the time that the middle one of the methods takes in all for "
-         "the same mesh; error / initial is a geometric mean, 1 for a method that has ended with invalid "
-         "cells. p: of a paired test of logarithms by sign flips against "
-         "the first method; what intervals draw together is swapped together.", INTERVALS])
+        ["True H1 error over all members and degrees at equal time. This time is the median total time of the methods for the same "
+         "mesh. Error / initial is a geometric mean; it is 1 for a method that ends with invalid cells. p: p-value of a paired "
+         "test of logarithms by sign flips against the first method. The test swaps together what the intervals draw together.", INTERVALS])
 
 
 def way_of(results, p):
@@ -105,9 +104,10 @@ def payoff_table(results, found):
          ("Error / unsmoothed at equal time", [("", [number(p.at_equal_time, ".3f") for p in found]),
                                                ("interval", [between(p.at_equal_time_interval, ".3f") for p in found])]),
          ("Problems", [("", [number_cell(str(p.n_problems)) for p in found])])],
-        ["Geometric means over a family's problems, beside the unsmoothed mesh at degree d: true H1 error, and time of "
-         "smoothing with its preparations, of assembly, and of the fastest solver that was run: CG alone, with the diagonal, "
-         "or with multigrid and its setup. Cells split: into 4, in space into 8. At equal time, the median: over the error that the unsmoothed "
-         "mesh has after the same time in all, by the power law through its errors as it is and with cells split; below 1 "
-         "smoothing pays. Problems that a method leaves with invalid cells are not counted.",
-         "Intervals hold 95 % of bootstrap samples that draw meshes. A dash: there is no number."])
+        ["Geometric means over a family's problems, relative to the unsmoothed mesh at degree d: true H1 error, and total time. The "
+         "time is that of smoothing with its preparations, of assembly, and of the fastest solver of the run. Solvers are CG alone, "
+         "with the diagonal, or with multigrid and its setup. Cells split: into 4, in space into 8. At equal time: median of the "
+         "error over that of the unsmoothed mesh after the same total time. Errors of the unsmoothed mesh follow the power law "
+         "through its error and the error with split cells. Below 1 smoothing pays. Problems that a method leaves with invalid "
+         "cells are not counted.",
+         "Intervals hold 95 % of bootstrap samples that draw meshes. A dash marks a missing number."])

@@ -17,10 +17,10 @@ class Measure:
     column: str
     heading: Heading
     format: Optional[Callable]  # None: the field as it stands in the file
-    difference: bool = True  # whether a relative difference from the print makes sense
+    difference: bool = True  # whether a relative difference from the printed value makes sense
     unremarkable: tuple = ()  # the column is left out where all fields are one of these
-    if_printed: bool = False  # the column is left out where the print has none
-    detail: bool = False  # the same where the table of details stands beside this one
+    only_if_printed: bool = False  # the column is left out if the thesis has no printed value
+    detail: bool = False  # the same if there is also a table of details
     ranks_methods: bool = True  # whether the methods' order by it is compared with the printed one
 
     def numbers(self, fields):
@@ -48,7 +48,7 @@ class TableDescription:
     measures: tuple
     degree_independent: bool = False  # the same numbers stand in the rows of every degree
     pivot: bool = False  # rows of different methods become columns
-    needs: str = ""  # the table is left out where our rows have nothing in this column
+    needs: str = ""  # the table is left out if the computed rows have nothing in this column
 
 
 KEY_HEADINGS = {"mesh": Heading("Mesh", "Mesh"), "method": Heading("Method", "Method"),
@@ -67,7 +67,7 @@ SMOOTHING = TableDescription(
         Measure("preparation_seconds", Heading("Preparation (s)", "Preparation (s)"), form.format_seconds,
                 difference=False, ranks_methods=False),
         Measure("peak_memory_gib", Heading("Memory (GiB)", "Memory (GiB)"), form.format_memory,
-                difference=False, if_printed=True, ranks_methods=False),
+                difference=False, only_if_printed=True, ranks_methods=False),
         Measure("q_min", SYMBOLS["q_min"], form.format_quality),
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality, detail=True),
         Measure("q_mean", SYMBOLS["q_mean"], form.format_quality),

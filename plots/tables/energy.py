@@ -72,12 +72,12 @@ def factor_table(results):
                  caption=f"{results.study_title}: factors by which true errors fall",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=(),
-                 notes=(("", "True errors of the mesh that the method's first stage ends with, divided by those after so "
-                             "many solves in all, or the last one where the method has stopped before; the degree is that "
-                             "of the elements the errors are of, the methods' own degree need not be the same. Below 1 the "
-                             "error has risen. Qualities are those of the resulting mesh, which need not be that after the "
-                             "last solve: it is the one of the least energy or estimate. Solves are not time: "
-                             "table_energy_alternatives has that."),))
+                 notes=(("", "Factors: true error on the mesh after the method's first stage over the true error after this total "
+                             "number of solves. If the method stops earlier, its last mesh counts. Below 1 the error has risen. "
+                             "The degree is that of the elements whose errors are measured; the method may use another degree. "
+                             "Qualities are those of the resulting mesh. The resulting mesh has the least energy or estimate and "
+                             "need not be the mesh after the last solve. The number of solves does not measure time; see "
+                             "table_energy_alternatives for times."),))
 
 
 def pays_table(results):
@@ -87,34 +87,33 @@ def pays_table(results):
     rows = [(key, both) for key, both in rows if both is not None]
     if not rows:
         return None
-    ours, refined = [both[0] for _, both in rows], [both[1] for _, both in rows]
-    beside = zip(formatted([at_equal_time(*three) for _, three in rows], ".2f"),
-                 formatted([equal_refinement(*three) for _, three in rows], ".1f"),
-                 [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")])
+    here, refined = [both[0] for _, both in rows], [both[1] for _, both in rows]
+    against = zip(formatted([at_equal_time(*three) for _, three in rows], ".2f"),
+                  formatted([equal_refinement(*three) for _, three in rows], ".1f"),
+                  [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")])
 
     def group(heading, name, specification):
-        texts = zip(formatted([each[name] for each in ours], specification),
+        texts = zip(formatted([each[name] for each in here], specification),
                     formatted([each[name] for each in refined], specification))
         return numbers(heading, ("here", "refined"), texts)
     verdicts = tuple((text_cell(verdict(*both[:2])),) for _, both in rows)
     cells, rules = key_cells([key for key, _ in rows], results)
     return Table(study=results.study, name="table_energy_pays", keys=cells, rules=rules,
                  groups=(group("H1 error", "error", ".3e"), group("Seconds", "seconds", ".3f"),
-                         numbers("Against refinement", ("at equal time", "unknowns", "solves until it pays"), beside),
+                         numbers("Against refinement", ("at equal time", "unknowns", "solves until it pays"), against),
                          Group(Heading("", ""), ("Verdict",), verdicts)),
                  caption=f"{results.study_title}: against {results.title(reference)} on the refined mesh",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=("Verdict",),
-                 notes=(("", "Seconds of smoothing, with what comes before it and the method's own solves, and for "
-                             "the solution on the resulting mesh of assembly, where the results have it, and of the "
-                             "fastest solver that was run. A method pays where neither its error nor its time is "
-                             "larger than on the refined mesh. At equal time: its error over the one that refinement has "
-                             "after the same time, by the power law through both meshes of "
-                             f"{results.title(reference)}, where its time grows with the mesh; below 1 the method is the "
-                             "better use of the time. Unknowns: how "
-                             "many times as many that law takes for the method's error. Solves until it pays: how many "
-                             "solutions, as of time steps, one mesh has to serve until the method has taken less time "
-                             "than that many unknowns, whose times are laws of the same kind."),))
+                 notes=(("", "Seconds: smoothing, with its preparation and the method's own solves, and the solution on the "
+                             "resulting mesh. The solution has the assembly, if the results have it, and the fastest solver of "
+                             "the run. A method pays if neither its error nor its time is larger than on the refined mesh. At "
+                             "equal time: error of the method over that of refinement after the same time. Below 1 the method "
+                             "uses the time better. Errors of refinement follow the power law through both meshes of "
+                             f"{results.title(reference)}, if its time grows with the mesh. Unknowns: how many times as many "
+                             "unknowns that law needs for the method's error. Solves until it pays: number of solutions on one "
+                             "mesh, for example time steps, from which on the method takes less time than that many unknowns. "
+                             "Their times follow power laws, too."),))
 
 
 def many_table(results):
@@ -126,7 +125,7 @@ def many_table(results):
     if not rows or not len(results.solutions):
         return None
     same = [refinement_with_same_error(*three) for _, three in rows]
-    ours = [three[0] for _, three in rows]
+    here = [three[0] for _, three in rows]
     refined = [once + each for once, each in same]
 
     def one_column(heading, texts):
@@ -134,9 +133,9 @@ def many_table(results):
     errors = zip(formatted([three[0]["error"] for _, three in rows], ".3f"),
                  formatted([error_of_others(results, key, reference) for key, _ in rows], ".3f"),
                  formatted([three[1]["error"] for _, three in rows], ".3f"))
-    seconds = zip(formatted([each["smoothing"] for each in ours], ".3f"),
-                  formatted([each["solution"] for each in ours], ".3f"), formatted(refined, ".3f"))
-    verdicts = tuple((text_cell(verdict_of(here["seconds"], there)),) for here, there in zip(ours, refined))
+    seconds = zip(formatted([each["smoothing"] for each in here], ".3f"),
+                  formatted([each["solution"] for each in here], ".3f"), formatted(refined, ".3f"))
+    verdicts = tuple((text_cell(verdict_of(each["seconds"], others)),) for each, others in zip(here, refined))
     until = [text.replace("inf", NEVER) for text in formatted([solves_to_pay(*three) for _, three in rows], ".0f")]
     cells, rules = key_cells([key for key, _ in rows], results)
     title = results.title(reference)
@@ -149,13 +148,14 @@ def many_table(results):
                  caption=f"{results.study_title}: one mesh for n solutions",
                  key_headings=tuple(KEY_HEADINGS[key] for key in ("mesh", "degree", "method")),
                  left_aligned=("Verdict",),
-                 notes=(("", f"n: solutions that the mesh is made for. Errors: true H1 errors over those on {title}'s mesh, the "
-                             f"geometric mean over the n; of the others: over the solutions that the mesh is not made for; "
-                             f"refined: {title}'s finer mesh. Seconds: of smoothing with the "
-                             "method's own solves, of the n solutions on its mesh, each with its own assembly, and of "
-                             "both on a refined mesh with the method's mean error, by the power laws through both "
-                             f"meshes of {title}. A method pays where its seconds are no more than these. Times until "
-                             "it pays: how often all n have to be solved on the mesh, as in time steps, until it does."),))
+                 notes=(("", "n: number of solutions that the mesh is made for. Errors: true H1 errors over those on the mesh of "
+                             f"{title}, as the geometric mean over the n solutions. Of the others: the same over the solutions "
+                             f"that the mesh is not made for. Refined: the finer mesh of {title}. Seconds: time of smoothing with "
+                             "the method's own solves; time of the n solutions on its mesh, each with its own assembly; and total "
+                             "time on a refined mesh with the mean error of the method. The latter follows the power laws through "
+                             f"both meshes of {title}. A method pays if it takes no more time than that. Times until it pays: how "
+                             "often all n solutions have to be computed on the mesh, for example in time steps, until the method "
+                             "pays."),))
 
 
 def orders_table(results):
@@ -244,7 +244,7 @@ def error_of_others(results, key, reference):
                for name in others] for which in (method, reference)]
     if not others or not all(len(each) for of_method in errors for each in of_method):
         return math.nan
-    return math.exp(np.mean([np.log(ours[0] / theirs[0]) for ours, theirs in zip(*errors)]))
+    return math.exp(np.mean([np.log(own[0] / others[0]) for own, others in zip(*errors)]))
 
 
 def at_equal_time(here, refined, unrefined):

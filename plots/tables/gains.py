@@ -48,7 +48,7 @@ def errors_of(rows):
 
 def factors(rows, others):
     """Returns an array for each error: over all members where both are known."""
-    ours = errors_of(rows)
-    both = [(others.get(key, (np.nan,) * len(ERRORS)), errors) for key, errors in ours.items()]
+    own_errors = errors_of(rows)
+    both = [(others.get(key, (np.nan,) * len(ERRORS)), errors) for key, errors in own_errors.items()]
     found = [np.array([other[which] / own[which] for other, own in both if own[which] > 0]) for which in range(len(ERRORS))]
     return [values[np.isfinite(values)] for values in found]

@@ -15,24 +15,25 @@ class Entry:
     """A number of one method: measured and printed, as values and as the table shows them."""
 
     method: str  # its title
-    ours: float
+    computed: float
     printed: float
-    ours_shown: str
+    computed_shown: str
     printed_shown: str
 
     @property
     def shown(self):
         """Both as the table shows them."""
-        return self.ours_shown, self.printed_shown
+        return self.computed_shown, self.printed_shown
 
 
 def order_notes(description, pairs, results):
-    """Sentences on the order of the methods in a table: one where it is that of the print, else one
-    more for each case where it is not, with the numbers.
+    """Returns sentences on the order of the methods in a table, compared with the thesis.
 
-    `pairs` are (our row, printed row or {}). Numbers that the table shows alike, ours or printed,
-    have no order, and the mesh before smoothing is no method. Empty if the print has no two methods
-    to compare.
+    The first sentence states the agreement. Each case of another order adds a sentence with the numbers.
+
+    `pairs` are (computed row, printed row or {}). Numbers that the table shows alike, computed or printed,
+    have no order, and the mesh before smoothing is no method. Empty if the thesis does not
+    print two methods to compare.
     """
     if "method" not in description.keys:
         return []
@@ -54,17 +55,17 @@ def order_notes(description, pairs, results):
 
 
 def entries_of(measure, description, pairs, results):
-    """Name of a mesh (and degree) -> entries of the methods that have both numbers. A method that
-    is shown like one before it, such as the same one on several threads, would add nothing."""
-    values, texts = measure.numbers([ours.get(measure.column, "") for ours, _ in pairs])
+    """Name of a mesh (and degree) -> entries of the methods that have both numbers. A method
+    with the displayed numbers of an earlier one, such as the same method on several threads, is left out."""
+    values, texts = measure.numbers([computed.get(measure.column, "") for computed, _ in pairs])
     found = {}
-    for (ours, printed), value, text in zip(pairs, values, texts):
+    for (computed, printed), value, text in zip(pairs, values, texts):
         theirs = number_or_nan(printed.get(measure.column))
-        if ours["method"] == INITIAL or math.isnan(value) or math.isnan(theirs):
+        if computed["method"] == INITIAL or math.isnan(value) or math.isnan(theirs):
             continue
-        case = results.title(ours["mesh"])
-        case += f", d = {ours['degree']}" if "degree" in description.keys else ""
-        entry = Entry(results.title(ours["method"]), value, theirs, grouped(text),
+        case = results.title(computed["mesh"])
+        case += f", d = {computed['degree']}" if "degree" in description.keys else ""
+        entry = Entry(results.title(computed["method"]), value, theirs, grouped(text),
                       grouped(printed[measure.column]))
         if all(entry.shown != other.shown for other in found.setdefault(case, [])):
             found[case].append(entry)
@@ -79,9 +80,9 @@ def number_or_nan(text):
         return math.nan
 
 
-def our_sign(one, other):
-    """1 or -1 if our number of one method is above or below that of another, 0 if shown alike."""
-    return 0 if one.ours_shown == other.ours_shown else 1 if one.ours > other.ours else -1
+def computed_sign(one, other):
+    """1 or -1 if the computed number of one method is above or below that of another, 0 if shown alike."""
+    return 0 if one.computed_shown == other.computed_shown else 1 if one.computed > other.computed else -1
 
 
 def printed_sign(one, other):
@@ -90,9 +91,9 @@ def printed_sign(one, other):
 
 
 def disagreements(entries):
-    """Sentences on pairs whose order is not the printed one. The method that stands wrong to most
-    others comes first, so that one that alone is misplaced takes one sentence."""
-    wrong = [pair for pair in combinations(entries, 2) if our_sign(*pair) * printed_sign(*pair) < 0]
+    """Sentences on pairs whose order is not the printed one. The method
+    with the most such pairs comes first, so that a single misplaced method takes one sentence."""
+    wrong = [pair for pair in combinations(entries, 2) if computed_sign(*pair) * printed_sign(*pair) < 0]
     sentences = []
     while wrong:
         counts = Counter(entry for pair in wrong for entry in pair)
@@ -100,11 +101,11 @@ def disagreements(entries):
         others = [entry for entry in entries
                   if (entry, misplaced) in wrong or (misplaced, entry) in wrong]
         wrong = [pair for pair in wrong if misplaced not in pair]
-        for side, ours, printed in ((1, ">", "<"), (-1, "<", ">")):
-            partners = [other for other in others if our_sign(misplaced, other) == side]
+        for side, computed, printed in ((1, ">", "<"), (-1, "<", ">")):
+            partners = [other for other in others if computed_sign(misplaced, other) == side]
             if partners:
-                named = ", ".join(f"{other.method} ({other.ours_shown})" for other in partners)
+                named = ", ".join(f"{other.method} ({other.computed_shown})" for other in partners)
                 numbers = ", ".join(other.printed_shown for other in partners)
-                sentences.append(f"{misplaced.method} ({misplaced.ours_shown}) {ours} {named}; "
+                sentences.append(f"{misplaced.method} ({misplaced.computed_shown}) {computed} {named}; "
                                  f"printed {misplaced.printed_shown} {printed} {numbers}")
     return sentences

@@ -7,7 +7,7 @@ class Notes:
 
     def __init__(self, deviations, pairs):
         self.pairs = pairs
-        meshes = {ours.get("mesh", "") for ours, _ in pairs} | {"*"}
+        meshes = {computed.get("mesh", "") for computed, _ in pairs} | {"*"}
         deviations = [d for d in deviations if d["mesh"] in meshes]
         self.cell_notes = [d for d in deviations if d["method"] != "*"]
         columns = {name for _, printed in pairs for name, field in printed.items() if field} | {"*"}

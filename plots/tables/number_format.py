@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Format of numbers in tables: measured numbers with fixed digits, and their difference from the printed values."""
+"""Formats numbers of tables: computed numbers with fixed digits, and their difference from the printed values."""
 
 import math
 import re
@@ -33,7 +33,7 @@ def format_quality(values):
 
 
 def format_seconds(values):
-    """Milliseconds resolved, and as many decimals more as the shortest time needs for two digits."""
+    """Formats times with at least three decimals, and more if the shortest time needs them for two digits."""
     shortest = min((v for v in values if v > 0), default=1.0)
     decimals = min(max(3, 1 - math.floor(math.log10(shortest))), 6)
     return formatted(values, f".{decimals}f")
@@ -63,28 +63,28 @@ def grouped(text):
     return "/".join(f"{int(count):,}" for count in text.split("/"))
 
 
-def relative_difference(ours, printed):
-    """(ours - printed) / printed in percent; "=" if ours has all the printed digits; from ten times
-    the printed number on the factor, such as ×12.
+def relative_difference(computed, printed):
+    """(computed - printed) / printed in percent; "=" if computed has all the printed digits; from ten times
+    the printed number on, the factor, such as ×12.
 
-    The sign is left out where one decimal would leave only a zero. `ours` is a number,
-    `printed` the string of the print; MISSING where there is nothing to compare or the print is zero
-    and ours is not.
+    The sign is left out where one decimal would leave only a zero. `computed` is a number,
+    `printed` the printed string. Returns MISSING if there is nothing to compare, or if only the printed value
+    is zero.
     """
     try:
         reference = float(printed)
     except ValueError:
         return MISSING
-    if math.isnan(ours):
+    if math.isnan(computed):
         return MISSING
-    if as_printed(ours, printed) == as_printed(reference, printed):
+    if as_printed(computed, printed) == as_printed(reference, printed):
         return "="
     if reference == 0:
         return MISSING
-    percent = 100 * (ours - reference) / reference
+    percent = 100 * (computed - reference) / reference
     if abs(percent) < 0.05:
         return "<0.1"
-    return f"{percent:+.1f}" if ours / reference < FACTOR_FROM else f"×{ours / reference:,.0f}"
+    return f"{percent:+.1f}" if computed / reference < FACTOR_FROM else f"×{computed / reference:,.0f}"
 
 
 def as_printed(value, printed):

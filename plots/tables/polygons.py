@@ -25,8 +25,8 @@ def theorem_table(results):
     names = list(rows.text("theorem"))
     numbers = {name: [number_cell(text) for text in format_scientific(rows.number(name))]
                for name in ("max_deviation", "tolerance")}
-    ours = {name: [number_cell(f"{value:.6g}") for value in rows.number(name)]
-            for name in ("measured", "expected")}
+    values = {name: [number_cell(f"{value:.6g}") for value in rows.number(name)]
+              for name in ("measured", "expected")}
     verdicts = [text_cell("yes" if text == "true" else "NO") for text in rows.text("holds")]
     return Table(
         study=results.study, name="table_theorems",
@@ -38,11 +38,11 @@ def theorem_table(results):
         groups=(column("Statement", [text_cell(text) for text in rows.text("statement")]),
                 column("Quantity", [text_cell(text) for text in rows.text("quantity")]),
                 column("Cases", [number_cell(text) for text in rows.text("cases")]),
-                column("Measured", ours["measured"]), column("Expected", ours["expected"]),
+                column("Measured", values["measured"]), column("Expected", values["expected"]),
                 column("Deviation", numbers["max_deviation"]),
                 column("Tolerance", numbers["tolerance"]), column("Holds", verdicts)),
-        notes=(("", "Of the worst of all cases, each with random nodes and angles. Where the quantity is to "
-                    "stay above or below the expected number, the deviation is by how much it does not."),
+        notes=(("", "Numbers of the worst of all cases, each with random nodes and angles. If the quantity has to "
+                    "stay above or below the expected number, the deviation is the amount of the violation."),
                ("", "t = tan(theta). The factor of Proposition 2.2 for theta > pi/6 is that of its proof, "
                     "1 / (1 + min(1, z/x)^2), which depends on the triangle.")))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of a regularization study: numbers of the thesis' Chapter 3 next to measured ones."""
+"""Tables of a regularization study: printed numbers of Chapter 3 next to computed ones."""
 
 import numpy as np
 
@@ -28,13 +28,13 @@ def printed_numbers():
 
 
 def compared(heading, texts, printed):
-    """A group of our numbers, the printed ones and their difference; without print our numbers."""
+    """Returns a group of computed numbers, printed numbers and their difference; only computed numbers if none are printed."""
     if not any(printed):
         return Group(Heading(heading, heading), ("",), tuple((number_cell(t),) for t in texts))
-    return Group(Heading(heading, heading), ("ours", "printed", "%"), tuple(
-        (number_cell(ours), number_cell(theirs or MISSING),
-         number_cell(relative_difference(float(ours), theirs or "")))
-        for ours, theirs in zip(texts, printed)))
+    return Group(Heading(heading, heading), ("smoothfem", "printed", "%"), tuple(
+        (number_cell(computed), number_cell(theirs or MISSING),
+         number_cell(relative_difference(float(computed), theirs or "")))
+        for computed, theirs in zip(texts, printed)))
 
 
 def make_regularization_tables(results):

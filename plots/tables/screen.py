@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A screen of results: what each method made of each mesh, on a few lines, for the end of a study."""
+"""Writes a short summary of the results of each method on each mesh for the end of a study."""
 
 import math
 

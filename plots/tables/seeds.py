@@ -32,7 +32,7 @@ def seed_table(description, results):
         raise ResultsError(f"{results.summary.path}: not every seed has the same meshes and methods; "
                            "run the study again.")
     groups = [seed_group(measure, [[found[key].get(measure.column, "") for key in keys] for found in of_seeds])
-              for measure in description.measures if measure.format and not measure.if_printed]
+              for measure in description.measures if measure.format and not measure.only_if_printed]
     groups = tuple(group for group in groups if group is not None)
     if not groups:
         return None
@@ -42,7 +42,7 @@ def seed_table(description, results):
                  caption=f"{results.study_title}: {description.caption}, over {len(results.seeds)} seeds",
                  key_headings=tuple(KEY_HEADINGS[key] for key in description.keys), keys=cells, rules=rules,
                  left_aligned=(), groups=groups,
-                 notes=(("", f"Median, least and greatest number over the seeds {seeds} of generation and "
+                 notes=(("", f"Median, smallest and largest number over the seeds {seeds} of generation and "
                              "distortion; the other tables and the figures show the first of them. A dash: "
                              "at least one seed has no number there."),))
 

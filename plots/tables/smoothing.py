@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fills the tables of Chapters 5 and 6 of the thesis: our numbers, the printed ones, their difference.
+"""Fills the tables of Chapters 5 and 6 of the thesis: computed numbers, printed numbers, their difference.
 
-One mechanism for all tables; what differs stands in descriptions.py.
+All tables have one mechanism; descriptions.py has their differences.
 """
 
 from dataclasses import replace
@@ -17,8 +17,8 @@ from .number_format import MISSING, relative_difference
 from .table import Cell, Group, Table, escape_tex, number_cell
 
 
-COLUMNS_NOTE = ("Columns: our value, the printed one, and where it makes sense the relative difference "
-                "in %, from ten times the printed one on as a factor (=: the same in all printed "
+COLUMNS_NOTE = ("Columns: the value of smoothfem, the printed value, and where it makes sense the relative difference "
+                "in %. From ten times the printed value on, the difference is a factor (=: equal in all printed "
                 "digits).")
 
 
@@ -49,7 +49,7 @@ def make_table(description, results, printed):
     compared = any(printed_row for _, printed_row in pairs)
     notes = Notes(printed.deviations if printed and compared else [], pairs)
     detailed = has_what_it_needs(DETAILS, rows)
-    groups = [make_group(measure, pairs, notes, measure.if_printed or (measure.detail and detailed))
+    groups = [make_group(measure, pairs, notes, measure.only_if_printed or (measure.detail and detailed))
               for measure in description.measures]
     groups = tuple(group for group in groups if group is not None)
     if not rows or not groups:
@@ -94,7 +94,7 @@ def first_degree(row, rows):
 
 
 def key_of(row, keys):
-    """The tuple by which our rows and printed rows are matched."""
+    """The tuple by which computed and printed rows are matched."""
     return tuple(row.get(key, "") for key in keys)
 
 
@@ -151,16 +151,16 @@ def unreached(rows, results):
     return (("", f"No threshold was reached by: {names}."),) if never else ()
 
 
-def make_group(measure, pairs, notes, if_printed):
-    """The columns of one measure, or None if they have nothing worth showing; with `if_printed` also if the thesis
+def make_group(measure, pairs, notes, only_if_printed):
+    """The columns of one measure, or None if they have nothing worth showing; with `only_if_printed` also if the thesis
     prints no value."""
-    fields = [ours.get(measure.column, "") for ours, _ in pairs]
-    # None: the print has no such row or column; empty: it has, and leaves it empty.
+    fields = [computed.get(measure.column, "") for computed, _ in pairs]
+    # None: the thesis has no such row or column; empty: it leaves the field empty.
     prints = [printed.get(measure.column) for _, printed in pairs]
-    if not any(prints) and (if_printed or all(field in ("", *measure.unremarkable) for field in fields)):
+    if not any(prints) and (only_if_printed or all(field in ("", *measure.unremarkable) for field in fields)):
         return None
     values, texts = measure.numbers(fields)
-    columns, subheadings = [[number_cell(text) for text in texts]], ["ours"]
+    columns, subheadings = [[number_cell(text) for text in texts]], ["smoothfem"]
     if any(prints):
         marks = ["" if printed is None else notes.letter(measure.column, row)
                  for row, printed in enumerate(prints)]

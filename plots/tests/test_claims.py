@@ -56,7 +56,7 @@ class Verdicts(InFolder):
 
     def test_holds_fails_unknown(self):
         factor = "e_max('tri', 'getme', 1) / e_max('tri', 'getme', 2)"
-        for quantity, condition, verdict, ours in (
+        for quantity, condition, verdict, computed in (
                 (factor, "value > 3", HOLDS, "4"), (factor, "value > 5", FAILS, "4"),
                 (factor, "printed < value", UNKNOWN, "4"),
                 ("e_max('tri', 'other', 2)", "value > 0", UNKNOWN, "–"),
@@ -66,7 +66,7 @@ class Verdicts(InFolder):
                 ("method_seconds('tri', 1, 'e_max', 'other')", "value < 1", FAILS, "never"),
                 ("max(q_min('tri', 'getme'), column('e_max', 'tri', 'getme', 1))", "value == 2", HOLDS, "2")):
             outcome = self.outcome({"quantity": quantity, "condition": condition})
-            self.assertEqual((outcome.verdict, outcome.ours), (verdict, ours), quantity)
+            self.assertEqual((outcome.verdict, outcome.computed), (verdict, computed), quantity)
 
     def test_one_failing_check_decides(self):
         holding, failing = ({"quantity": "1", "condition": f"value == {n}"} for n in (1, 2))
@@ -79,11 +79,11 @@ class Verdicts(InFolder):
                  "for": {"method": ["getme", "other"], "degree": [1, 2]}}
         outcome = self.outcome(check)
         self.assertEqual(outcome.verdict, FAILS)
-        self.assertEqual(outcome.ours, "getme: d = 1: 2, getme: d = 2: 0.5, other: d = 1: 4")
+        self.assertEqual(outcome.computed, "getme: d = 1: 2, getme: d = 2: 0.5, other: d = 1: 4")
         self.assertEqual(self.outcome({**check, "at_least": 2}).verdict, HOLDS)
         self.assertEqual(self.outcome({**check, "at_least": 3}).verdict, UNKNOWN)
         many = self.outcome({**check, "for": {"method": ["getme", "other"], "degree": [1, 2, 1]}})
-        self.assertEqual(many.ours, "0.5 to 4, met in 3 of 6")
+        self.assertEqual(many.computed, "0.5 to 4, met in 3 of 6")
 
     def test_numbers_in_a_note(self):
         note = ("{e_max('tri', 'getme', 1) / 3}, not {printed q_min('tri', 'getme')} "
@@ -158,7 +158,7 @@ class ClaimsOfTheThesis(InFolder):
                 self.assertTrue(claim["checks"] or claim["reason"])
                 for check in claim["checks"]:
                     numbers = [number_of(check["quantity"], case, theirs) for case in cases_of(check)]
-                    if "printed" not in check:  # in words, where the print has no numbers
+                    if "printed" not in check:  # in words, if the thesis prints no numbers
                         met = met_in(check, numbers, numbers)
                         self.assertEqual(verdict_of(met, check.get("at_least", len(met))), HOLDS, claim["id"])
 
@@ -191,11 +191,11 @@ class ClaimsOfTheThesis(InFolder):
             self.assertEqual(len(rows), 1 + len(read_claims(study)))
             self.assertEqual({row.count(" |") for row in rows}, {7})
             self.assertIn("stand-ins", text)
-            self.assertNotIn("A shape of our own.", text)
-            change_provenance(folder, note="A shape of our own.")
+            self.assertNotIn("A shape that the thesis does not print.", text)
+            change_provenance(folder, note="A shape that the thesis does not print.")
             self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
             text = (folder / "tables" / "claims.md").read_text()
-            self.assertLess(text.index("A shape of our own."), text.index("|"))
+            self.assertLess(text.index("A shape that the thesis does not print."), text.index("|"))
         folder = write_results(self.folder / "own", study="slab")
         self.assertEqual(main([str(folder), "--quiet", "--no-figures"]), 0)
         self.assertFalse((folder / "tables" / "claims.md").exists())
@@ -211,7 +211,7 @@ class ClaimsOfTheThesis(InFolder):
             texts[scale] = claims_as_markdown(outcomes, results)
         self.assertIn(FAILS, verdicts["default"])
         self.assertEqual(verdicts["quick"], [COARSE if v == FAILS else v for v in verdicts["default"]])
-        n = sum(o.verdict == COARSE and not o.is_beside for o in outcomes)
+        n = sum(o.verdict == COARSE and not o.is_revised_criterion for o in outcomes)
         self.assertIn(f" {n} do not hold", texts["default"])
         self.assertIn(f" {n} are on meshes too coarse to judge,", texts["quick"])
         self.assertIn(f"| {COARSE} |", texts["quick"])
@@ -229,7 +229,7 @@ class ClaimsOfTheThesis(InFolder):
         text = claims_as_markdown(outcomes, results)
         for verdict in (FAILS, UNKNOWN):
             self.assertEqual(text.count(f"**{verdict}**"), sum(o.verdict == verdict for o in outcomes))
-        reasons = text.partition("What is known of why")[2]
+        reasons = text.partition("Known and supposed reasons why")[2]
         for outcome in outcomes:
             self.assertEqual(outcome.claim["id"] in re.findall(r"[GV]\d+b?", reasons), outcome.verdict == FAILS)
 
@@ -290,11 +290,11 @@ class ClaimsOfTheThesis(InFolder):
                 if row["method"] == "getme":
                     row["status"] = "failed: it took too long"
             write_csv(folder / name, list(rows[0]), rows)
-        [ours] = values_of(read_results(folder))
+        [computed] = values_of(read_results(folder))
         for quantity in ("q_min('tri', 'getme')", "at_start('q_min', 'tri', 'getme', 1)",
                          "speedup('tri', 1, 'e_max', 'getme')"):
-            self.assertIsNone(number_of(quantity, {}, ours), quantity)
-        self.assertIsNotNone(number_of("q_min('tri', 'initial')", {}, ours))
+            self.assertIsNone(number_of(quantity, {}, computed), quantity)
+        self.assertIsNotNone(number_of("q_min('tri', 'initial')", {}, computed))
 
     def test_every_test_of_a_reason_is_a_study(self):
         for claim in json.loads((thesis_folder() / "claims.json").read_text(encoding="utf-8")):
@@ -329,12 +329,12 @@ class ClaimsOfTheThesis(InFolder):
         check = {"quantity": "1 / q_min('tri', 'other')", "condition": "value > 0"}
         claim = {"id": "X1", "checks": [check], "reason": "missing: column `q_min`"}
         outcome = check_claim(claim, [Values(ROWS, [])], Values([], []))
-        self.assertEqual((outcome.verdict, outcome.ours), (UNKNOWN, "a quotient by 0"))
+        self.assertEqual((outcome.verdict, outcome.computed), (UNKNOWN, "a quotient by 0"))
 
     def test_what_is_missing_stands_in_the_row(self):
         check = {"quantity": "n_cells('tri', 'getme')", "condition": "value > 0"}
         claim = {"id": "X1", "checks": [check], "reason": "missing: column `n_cells`"}
         outcome = check_claim(claim, [Values(ROWS, [])], Values([], []))
-        self.assertEqual((outcome.verdict, outcome.ours), (UNKNOWN, claim["reason"]))
+        self.assertEqual((outcome.verdict, outcome.computed), (UNKNOWN, claim["reason"]))
         there = check_claim(claim, [Values([{**ROWS[0], "n_cells": "3"}], [])], Values([], []))
-        self.assertEqual((there.verdict, there.ours), (HOLDS, "3"))
+        self.assertEqual((there.verdict, there.computed), (HOLDS, "3"))

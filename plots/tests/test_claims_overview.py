@@ -31,7 +31,7 @@ class Overview(unittest.TestCase):
             self.assertEqual(seeds is not None, bool(outcome.seeds), row)
 
     def test_totals(self):
-        first = [o for study in self.studies for o in study.outcomes if "beside" not in o.claim]
+        first = [o for study in self.studies for o in study.outcomes if "revises" not in o.claim]
         n = {verdict: sum(o.verdict == verdict for o in first) for verdict in (HOLDS, FAILS)}
         self.assertTrue(self.made.startswith(
             f"Of {len(first)} claims {n[HOLDS]} hold, {n[FAILS]} do not hold, "
@@ -66,7 +66,7 @@ class Overview(unittest.TestCase):
     def test_a_study_that_was_never_run_is_there(self):
         with tempfile.TemporaryDirectory() as folder:
             found = overview(Path(folder))
-        n = len([claim for claim in read_claims("ring") if "beside" not in claim])
+        n = len([claim for claim in read_claims("ring") if "revises" not in claim])
         section = found.partition("## Embedded ring\n")[2].partition("##")[0]
         self.assertIn(f"Of {n} claims 0 hold, 0 do not hold, {n} cannot be checked", section)
         self.assertIn("there are no results", section)
@@ -86,9 +86,9 @@ class Agreement(unittest.TestCase):
         self.assertEqual(within([near, far], lambda row: row["method"] == "near"), "within 0.0 %")
 
     def test_numbers_are_paired_by_their_keys(self):
-        ours = [{"mesh": mesh, "degree": "1", "method": "getme", "q": q} for mesh, q in (("a", "1"), ("b", "2"))]
+        computed = [{"mesh": mesh, "degree": "1", "method": "getme", "q": q} for mesh, q in (("a", "1"), ("b", "2"))]
         row, empty = {"mesh": "b", "method": "getme", "q": "2.5"}, {"mesh": "a", "method": "getme", "q": ""}
-        self.assertEqual(paired(ours, [empty, row], ["q"]), [(row, "2", "2.5")])
+        self.assertEqual(paired(computed, [empty, row], ["q"]), [(row, "2", "2.5")])
 
 
 if __name__ == "__main__":

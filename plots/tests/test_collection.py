@@ -122,7 +122,7 @@ class Collection(InFolder):
         self.assertEqual([[cell.text for cell in group.cells[0]] for group in found.groups],
                          [["8"], ["0.25", "2.00", "2.00"], ["0.06", "4.00", "4.00"], ["0.100"], ["1"]])
 
-    def test_at_equal_time_smoothing_is_beside_split_cells(self):
+    def test_at_equal_time_smoothing_is_compared_with_split_cells(self):
         """Split cells halve the error in four times the time: order 1/2. The mesh of `good` has half the error after twice
         the time of one solution, when the unsmoothed mesh has 1 / sqrt(2) of it."""
         common = {"assembly_seconds": 0, "cg_seconds": 2, "jacobi_cg_seconds": "", "amg_setup_seconds": "", "amg_cg_seconds": ""}

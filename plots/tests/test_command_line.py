@@ -89,7 +89,7 @@ class Options(CommandLine):
         self.assertIn("column `w_mean` has no numbers", self.refused("--y", "w_mean"))
 
     def test_values_that_cannot_be_used(self):
-        for options, said in ((("--width", "84cm"), "is no width from 2in to 30in"),
+        for options, said in ((("--width", "84cm"), "is not a width from 2in to 30in"),
                               (("--width", "1mm"), "such as 84mm or 3.3in"), (("--format", "jpg"), "choose from pdf, png"),
                               (("--y", "e_max", "--no-figures"), "leave out --no-figures"), (("--wide",), "unrecognized")):
             self.assertIn(said, self.refused(*options))
@@ -229,10 +229,10 @@ class Library(CommandLine):
         self.addCleanup(os.chdir, here)
         os.chdir(self.folder)
         names = {}
-        exec(compile(code, "README.md", "exec"), names)  # the text is the repository's own
-        self.assertEqual((self.folder / "ours.pdf").read_bytes()[:4], b"%PDF")
+        exec(compile(code, "README.md", "exec"), names)  # the text is part of this repository
+        self.assertEqual((self.folder / "getme.pdf").read_bytes()[:4], b"%PDF")
         self.assertEqual(names["results"].methods, ("getme",))
-        self.assertIn("GETMe, ours", [text.get_text() for text in names["figure"].legends[0].get_texts()])
+        self.assertIn("GETMe of smoothfem", [text.get_text() for text in names["figure"].legends[0].get_texts()])
 
     def test_the_readmes_command_lines(self):
         text = (PACKAGE / "README.md").read_text(encoding="utf-8")

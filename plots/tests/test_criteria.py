@@ -51,20 +51,20 @@ class Criteria(unittest.TestCase):
             for date in filter(None, (criterion.written, criterion.changed)):
                 self.assertRegex(date, r"^\d{4}-\d\d-\d\d$", claim_id)
 
-    def test_later_criteria_stand_beside_the_first_one(self):
+    def test_revised_criteria_follow_the_first_one(self):
         ids = list(self.claims)
         for claim_id, claim in self.claims.items():
-            if "beside" in claim:
-                first = self.claims[claim["beside"]]
-                self.assertEqual(ids.index(claim["beside"]) + 1, ids.index(claim_id), claim_id)
+            if "revises" in claim:
+                first = self.claims[claim["revises"]]
+                self.assertEqual(ids.index(claim["revises"]) + 1, ids.index(claim_id), claim_id)
                 self.assertEqual((claim["study"], claim["section"]), (first["study"], first["section"]))
                 self.assertNotEqual(judged_by(claim), judged_by(first), claim_id)
 
-    def test_a_reader_is_told_that_results_were_known(self):
+    def test_tables_say_that_results_were_known(self):
         for claim_id, criterion in self.criteria.items():
             shown = criterion_of({**self.claims[claim_id], "history": criterion})
             self.assertEqual("our results were known" in shown, criterion.results_known)
-            self.assertEqual(criterion.written in shown, "beside" in self.claims[claim_id]
+            self.assertEqual(criterion.written in shown, "revises" in self.claims[claim_id]
                              or criterion.results_known or bool(criterion.changed))
 
 
@@ -107,4 +107,4 @@ class Words(unittest.TestCase):
         for claim in claims:
             for key in ("note", "guess"):
                 self.assertNotRegex(self.NAMES.sub("", claim.get(key, "")), r"\d", claim["id"])
-            self.assertNotIn("{", claim.get("guess", ""), "what is measured is no guess")
+            self.assertNotIn("{", claim.get("guess", ""), "a measured number is not a guess")

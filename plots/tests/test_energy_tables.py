@@ -86,7 +86,7 @@ class EnergyTables(InFolder):
         pays = table(read_results(folder), "_pays")
         self.assertEqual(texts(pays.groups[2])[0], ["–", "64.0", "–"])
 
-    def beside(self, name, here, ways):
+    def cells_against(self, name, here, ways):
         """Cells of the first row compared with ways: (file, mesh, method, degree) -> (error, seconds of smoothing, of
         solving)."""
         folder = self.folder / name
@@ -105,28 +105,28 @@ class EnergyTables(InFolder):
         alternatives = table(read_results(folder), "_alternatives")
         return [text for group in alternatives.groups for text in texts(group)[0]]
 
-    def test_beside_the_best_of_what_takes_no_more_time(self):
+    def test_against_the_best_way_in_no_more_time(self):
         ways = {("summary", "tri", "initial", "1"): ("5", "", "0.1"),
                 ("summary", "tri", "weighted-laplace", "1"): ("3", "0.5", "0.1"),
                 ("summary", "tri", "weighted-laplace", "2"): ("0.4", "0.5", "0.6"),
                 ("refined", "tri", "initial", "1"): ("2.5", "", "0.9"),
                 ("refined", "tri", "weighted-laplace", "1"): ("1", "", "0.4"),
                 ("summary", "tri-fine", "weighted-laplace", "1"): ("0.9", "0.9", "0.3")}
-        cells = self.beside("a", ("0.5", "1.0"), ways)
+        cells = self.cells_against("a", ("0.5", "1.0"), ways)
         self.assertEqual(cells, ["5.000e-01", "1.000", "–", "weighted-laplace, split", "1.000e+00", "2.00", "pays"])
-        cells = self.beside("b", ("0.5", "1.2"), ways)
+        cells = self.cells_against("b", ("0.5", "1.2"), ways)
         self.assertEqual(cells[3:], ["weighted-laplace, d = 2", "4.000e-01", "0.80", "does not pay"])
-        cells = self.beside("c", ("0.8", "1.2"), {key: ways[key] for key in list(ways)[-1:]})
+        cells = self.cells_against("c", ("0.8", "1.2"), {key: ways[key] for key in list(ways)[-1:]})
         self.assertEqual(cells[3:], ["weighted-laplace, finer", "9.000e-01", "1.12", "pays"])
-        cells = self.beside("d", ("0.8", "0.05"), ways)
+        cells = self.cells_against("d", ("0.8", "0.05"), ways)
         self.assertEqual(cells[3:], ["–", "–", "–", "pays"])
-        cells = self.beside("e", ("", "1.0"), ways)
+        cells = self.cells_against("e", ("", "1.0"), ways)
         self.assertEqual(cells[-1], "–")
 
     def test_meshes_as_they_are_are_no_other_way(self):
         ways = {("summary", "tri", "weighted-laplace", "1"): ("3", "0.5", "0.1")}
         with self.assertRaises(StopIteration):
-            self.beside("f", ("0.5", "1.0"), ways)
+            self.cells_against("f", ("0.5", "1.0"), ways)
 
     def test_from_how_many_solves_on_a_method_pays(self):
         """Half the error by refinement: 4 times the smoothing, 8 times the solution. The method: a quarter, so 16 and 64."""

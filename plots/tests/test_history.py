@@ -69,7 +69,7 @@ class Histories(InFolder):
         figure = draw_history(results, ("q_min", "e_max"), "1")
         for axes, y in zip(figure.axes, (.3, 3)):
             self.assertEqual(self.marks(axes, "x"), [(.02, y)])
-            # The axis ends with what is drawn.
+            # The axis ends with the drawn data.
             self.assertAlmostEqual(axes.get_xlim()[1], 1.02 * .03)
         self.assertIn("Invalid from here", self.legend(figure))
         self.assertIn("laplace", self.legend(figure))

@@ -21,9 +21,9 @@ RESULTS = SimpleNamespace(title=lambda name: name)
 
 def pairs_of(column, numbers, mesh="tri", **keys):
     """Rows of a mesh: method -> (measured, printed); None for a printed row that does not exist."""
-    return [({"mesh": mesh, "method": method, column: ours, **keys},
+    return [({"mesh": mesh, "method": method, column: computed, **keys},
              {} if printed is None else {"mesh": mesh, "method": method, column: printed, **keys})
-            for method, (ours, printed) in numbers.items()]
+            for method, (computed, printed) in numbers.items()]
 
 
 def notes(column, numbers, description=SMOOTHING):
@@ -45,12 +45,12 @@ class Order(unittest.TestCase):
 
     def test_every_pair_in_another_order_is_named_once(self):
         methods = "abcd"
-        for ours in itertools.permutations("1234"):
+        for computed in itertools.permutations("1234"):
             # The printed numbers rise.
             expected = {frozenset((m, n)) for (m, x), (n, y)
-                        in itertools.combinations(zip(methods, ours), 2) if x > y}
+                        in itertools.combinations(zip(methods, computed), 2) if x > y}
             found = []
-            for sentence in notes("q_mean", dict(zip(methods, zip(ours, "5678"))))[1:]:
+            for sentence in notes("q_mean", dict(zip(methods, zip(computed, "5678"))))[1:]:
                 one, *others = re.findall(r"([a-d]) \(", sentence)
                 found += [frozenset((one, other)) for other in others]
             self.assertEqual(len(found), len(set(found)))
@@ -60,7 +60,7 @@ class Order(unittest.TestCase):
         for numbers in ({"a": ("0.91204", "0.8"), "b": ("0.91201", "0.9")},
                         {"a": ("0.7", "0.5000"), "b": ("0.6", "0.5")}):
             self.assertEqual(len(notes("q_mean", numbers)), 1)
-        # Times differ in the digits shown, not in those of the print.
+        # Times differ in the digits shown, not in those of the printed values.
         times = {"a": ("0.0007", "0.03"), "b": ("0.0006", "0.08")}
         self.assertEqual(len(notes("smoothing_seconds", times)), 2)
 

@@ -70,8 +70,8 @@ class QualityHistogram(InFolder):
         for text, said in (
                 ("lower,upper\n0,1\n", "column `count` is missing"), ("", "empty"),
                 (head + "0,1,,\n", "empty or infinite"), (head + "0,1,many,\n", "not a number"),
-                (head + "1,1,2,\n", "not above"), (head + "0,1,2.5,\n", "no number of cells"),
-                (head + "0,1,-2,\n", "no number of cells"), (head + "0,1,0,\n", "counts no cell"),
+                (head + "1,1,2,\n", "not above"), (head + "0,1,2.5,\n", "not a number of cells"),
+                (head + "0,1,-2,\n", "not a number of cells"), (head + "0,1,0,\n", "counts no cell"),
                 (head, "counts no cell"), (head + "0,0.6,1,\n0.5,1,1,\n", "overlap"),
                 (head + "0,1,1,prism\n0,1,1,prism\n", "a bin twice"),
                 (head + "0,1,1,wedge\n", "unknown cell type `wedge`; known are triangle")):

@@ -113,7 +113,7 @@ class Contents(InFolder):
         self.assertNotRegex(outside, r"(src|href)=[\"']?(https?:)?//")
         self.assertLess(len(text.encode()), MOST_BYTES)
 
-    def test_missing_library_and_folder_are_told(self):
+    def test_missing_library_and_folder_are_reported(self):
         folder = write_results(self.folder / "r")
         self.assertEqual(main(["report", str(folder), "--against", str(self.folder / "none")]), 2)
         with mock.patch.object(libraries, "PLOTLY", (self.folder / "plotly.js", "python3-plotly")):

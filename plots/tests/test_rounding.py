@@ -47,7 +47,7 @@ class Rounding(unittest.TestCase):
         self.assertTrue(0 < min(above) and .025 <= max(above) <= .03, above)
 
     def test_errors(self):
-        self.assertIn("move e_mean by 1.5 % and e_L2 by 0.4 %, more than either differs from the print, "
+        self.assertIn("move e_mean by 1.5 % and e_L2 by 0.4 %, more than either differs from the printed value, "
                       "which is not among them", notes()["6.3"])
         for column, percent in (("e_mean", 1.5), ("e_l2", .4)):
             errors = self.numbers("tri", "2", column)

@@ -80,7 +80,7 @@ class Seeds(InFolder):
                                           ("value > 0.25", FAILS, "1 of 3 seeds"),
                                           ("value == 0.2", HOLDS, "1 of 3 seeds")):
             outcome, = check_claims([claim(condition)], self.results(), {})
-            self.assertEqual((outcome.verdict, outcome.seeds, outcome.ours), (verdict, seeds, "0.2"))
+            self.assertEqual((outcome.verdict, outcome.seeds, outcome.computed), (verdict, seeds, "0.2"))
         outcome, = check_claims([claim("value > 0", "none")], self.results(), {})
         self.assertEqual(outcome.verdict, UNKNOWN)
 

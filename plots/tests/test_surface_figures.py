@@ -22,7 +22,7 @@ class Surfaces(unittest.TestCase):
                                 offsets=np.array([0, 4, 8]), types=np.array([9, 9], dtype=np.uint8),
                                 point_data={}, cell_data={"mean_ratio": np.array(quality)})
 
-    def test_is_told_from_a_planar_mesh_by_its_points(self):
+    def test_points_distinguish_a_surface_from_a_planar_mesh(self):
         flat, bent = self.grid(0.0), self.grid(0.5)
         self.assertTrue(flat.is_planar and not flat.is_surface)
         self.assertTrue(bent.is_surface and not bent.is_planar and not bent.is_volume)

@@ -24,12 +24,12 @@ from plots.tests.test_read_results import InFolder
 
 class Numbers(InFolder):
     def test_relative_difference(self):
-        for ours, printed, expected in (
+        for computed, printed, expected in (
                 (110.0, "100", "+10.0"), (0.33674, "0.3367", "="), (377.4, "7.39e+02", "-48.9"),
                 (1.0899e8, "1.09e+08", "="), (0.1, "0.0000", "–"), (math.nan, "1.0", "–"),
                 (1.0, "", "–"), (1.00006, "1.0000", "<0.1"),
                 (9.0, "1", "+800.0"), (30.0, "1", "×30"), (1.0, "0.0003", "×3,333")):
-            self.assertEqual(relative_difference(ours, printed), expected)
+            self.assertEqual(relative_difference(computed, printed), expected)
 
     def test_thousands(self):
         for text, expected in (("40/221700", "40/221,700"), ("999", "999"), ("1234", "1,234"), ("–", "–"),
@@ -52,7 +52,7 @@ class Tables(InFolder):
         self.assertEqual(list(tables), ["table_6_1_smoothing", "table_6_2_solver", "table_6_3_errors",
                                         "table_6_4_thresholds", "table_details"])
         q_min = next(g for g in tables["table_6_1_smoothing"].groups if g.heading.text == "q_min")
-        self.assertEqual(q_min.subheadings, ("ours", "printed", "%"))
+        self.assertEqual(q_min.subheadings, ("smoothfem", "printed", "%"))
         # Rows: initial, then in the order of the provenance GETMe, then area-weighted Laplace.
         self.assertEqual([cell.text for cell in q_min.cells[2]], ["0.2046", "0.2045", "<0.1"])
         condition = tables["table_6_2_solver"].groups[0]
@@ -70,7 +70,7 @@ class Tables(InFolder):
         self.assertEqual([cell.text for cell in quality.cells[2]], ["0.2046", "invalid", "–"])
         solver = tables["table_6_6_solver"]
         self.assertIn("with AMG", [group.heading.text for group in solver.groups])
-        # What the print leaves empty has the mark of the note that says why.
+        # A field that the thesis leaves empty has the mark of the note with the reason.
         condition = solver.groups[0].cells[2]
         self.assertEqual([(c.text, c.mark) for c in condition[1:]], [("–", "a"), ("–", "")])
         for name in ("table_6_5_smoothing", "table_6_6_solver", "table_6_7_errors"):
@@ -126,9 +126,9 @@ class Tables(InFolder):
 
     def test_note_of_the_study_is_below_the_printed_values(self):
         folder = write_results(self.folder / "n")
-        change_provenance(folder, note="The shape is our own.")
+        change_provenance(folder, note="The shape is not that of the thesis.")
         text = as_text(self.tables_of("n", "smoothing"))
-        self.assertIn("The shape is our own.", text[text.index("Printed values"):])
+        self.assertIn("The shape is not that of the thesis.", text[text.index("Printed values"):])
 
     def test_csv_can_be_read_by_programs(self):
         def row(*texts):
@@ -136,9 +136,9 @@ class Tables(InFolder):
         heading = Heading("Cells", "Cells")
         table = Table("s", "t", "A, b", (Heading("Mesh", ""), Heading("d", "")),
                       (row("tri", "1"), row("", "2"), row('a "b", c', "1")), (), (),
-                      (Group(heading, ("ours", "%"), (row("1,234,567", "="), row("–", "×3,333"), row("12/5,099", "-1.5"))),), ())
+                      (Group(heading, ("smoothfem", "%"), (row("1,234,567", "="), row("–", "×3,333"), row("12/5,099", "-1.5"))),), ())
         self.assertEqual(list(csv.reader(as_csv(table).splitlines())),
-                         [["Mesh", "d", "Cells ours", "Cells %"], ["tri", "1", "1234567", "="],
+                         [["Mesh", "d", "Cells smoothfem", "Cells %"], ["tri", "1", "1234567", "="],
                           ["tri", "2", "", "×3333"], ['a "b", c', "1", "12/5099", "-1.5"]])
         for table in self.tables().values():
             lines = list(csv.reader(as_csv(table).splitlines()))
@@ -179,7 +179,7 @@ class Tables(InFolder):
 
     def test_wide_tables_are_split_not_shrunk(self):
         keys = (Heading("Mesh", "Mesh"),)
-        groups = tuple(Group(Heading(f"Method number {i} (s)", ""), ("ours", "printed"),
+        groups = tuple(Group(Heading(f"Method number {i} (s)", ""), ("smoothfem", "printed"),
                              ((Cell("0.123"), Cell("0.1")),) * 3) for i in range(11))
         wide = Table("own", "table_thresholds", "", keys, ((Cell("tri"),),) * 3, (), (), groups, ())
         panels = panels_of(wide)

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""against_program.py BUILD MESH [--pairs 10] [--method getme]: what smoothing in memory costs from Python, beside the
-same call in C++ (BUILD/bench/smooth_call) and the program, on the same mesh. Every run is a new process on one thread;
-they take turns, and which one is first, too.
+"""against_program.py BUILD MESH [--pairs 10] [--method getme]: measures the cost of smoothing in memory from Python,
+compared with the same call in C++ (BUILD/bench/smooth_call) and with the program, on the same mesh. Every run is a new
+process on one thread. The runs alternate, and so does the first of them.
 
-loops: the methods' main loops, as all three tell them. call: the clock around smooth() in Python and in C++; the
-program tells no such time. Reading and writing count in neither."""
+loops: time of the methods' main loops, as all three report it. call: wall-clock time of smooth() in Python and in C++;
+the program does not report it. Both times exclude reading and writing."""
 
 import argparse
 import json
@@ -29,7 +29,7 @@ print(json.dumps({"loops": result.smoothing_seconds, "call": seconds, "iteration
 
 
 def python_run(build, mesh, method):
-    """Times in seconds, and what came out."""
+    """Returns times in seconds, and the result."""
     package = next(build.glob("lib/python3/*/smoothfem")).parent
     text = subprocess.run([sys.executable, "-c", CALL, mesh, method], env={"PYTHONPATH": str(package)}, check=True,
                           capture_output=True, text=True).stdout
@@ -37,13 +37,13 @@ def python_run(build, mesh, method):
 
 
 def call_run(build, mesh, method):
-    """Times in seconds, and what came out."""
+    """Returns times in seconds, and the result."""
     return json.loads(subprocess.run([build / "bench" / "smooth_call", mesh, method], check=True, capture_output=True,
                                      text=True).stdout)
 
 
 def program_run(build, mesh, method):
-    """Time of the loops in seconds, and what came out."""
+    """Returns the time of the loops in seconds, and the result."""
     with tempfile.TemporaryDirectory() as folder:
         text = subprocess.run([build / "bin" / "smoothfem", "smooth", mesh, "-m", method, "--threads", "1",
                                "-o", Path(folder) / "out.vtu"], check=True, capture_output=True, text=True).stdout

@@ -21,8 +21,8 @@ class OptimalDelaunay:
 
     def step(self, mesh):
         corners = mesh.points[self.cells]
-        edges = corners[:, 1:] - corners[:, :1]  # from the first corner, where the centre c has 2 e . c = e . e
-        volumes = np.linalg.det(edges)  # times a factor that the mean does not know
+        edges = corners[:, 1:] - corners[:, :1]  # from the first corner; relative to it, the centre c has 2 e . c = e . e
+        volumes = np.linalg.det(edges)  # up to a factor, which cancels in the mean
         centres = corners[:, 0] + np.linalg.solve(edges, 0.5 * (edges**2).sum(axis=2)[..., None])[..., 0]
 
         def sums(numbers):

@@ -4,7 +4,7 @@
 #include <pybind11/pybind11.h>
 
 /// The parts of the extension module smoothfem._core. Docstrings for users are those of the package
-/// (python/smoothfem): what is bound here takes its arguments as they are.
+/// (python/smoothfem): the functions bound here take their arguments unchecked.
 namespace smoothfem {
 
 void bind_mesh(pybind11::module_& module);

@@ -25,14 +25,14 @@ NodeIndex node_index(std::int64_t number, std::size_t cell) {
   return static_cast<NodeIndex>(number);
 }
 
-/// One row of whole numbers.
+/// Converts one row of whole numbers.
 void append_row(CompressedRows<NodeIndex>& rows, const std::int64_t* numbers, std::size_t n) {
   std::vector<NodeIndex> row(n);
   for (std::size_t k = 0; k < n; ++k) row[k] = node_index(numbers[k], rows.size());
   rows.append(row);
 }
 
-/// From a two-dimensional array, or any sequence of sequences.
+/// Converts a two-dimensional array, or any sequence of sequences.
 CompressedRows<NodeIndex> rows_of(const py::object& cells) {
   using Numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
   CompressedRows<NodeIndex> rows;
@@ -48,7 +48,7 @@ CompressedRows<NodeIndex> rows_of(const py::object& cells) {
   for (const py::handle cell : cells) {
     const auto given = py::array::ensure(cell);
     if (!given || given.ndim() != 1 || !has_whole_numbers(given)) {
-      throw CellError(rows.size(), "is no sequence of whole numbers, those of its nodes");
+      throw CellError(rows.size(), "is not a sequence of whole numbers (node numbers)");
     }
     const Numbers numbers(given);
     append_row(rows, numbers.data(), static_cast<std::size_t>(numbers.size()));
@@ -56,7 +56,7 @@ CompressedRows<NodeIndex> rows_of(const py::object& cells) {
   return rows;
 }
 
-/// One flag a node, from flags or from numbers of nodes; none from None.
+/// Converts flags or numbers of nodes to one flag for each node; no flags for None.
 std::optional<std::vector<bool>> flags_of(const py::object& given, std::size_t n_nodes) {
   if (given.is_none()) return std::nullopt;
   const auto fixed = py::array::ensure(given);
@@ -139,16 +139,16 @@ void bind_mesh(py::module_& module) {
   };
   py::class_<PythonMesh, std::shared_ptr<PythonMesh>>(
       module, "Mesh",
-      "A mesh: cells that never change, and points that do.\n\n"
+      "A mesh with constant cells and variable points.\n\n"
       "points: (n, 2) or (n, 3) finite numbers. cells: an array (n, k) or a sequence of sequences "
       "of\n"
-      "node numbers, counted from 0; planar cells counterclockwise. fixed: the nodes that "
+      "node numbers, counted from 0; planar cells are counterclockwise. fixed: the nodes that "
       "smoothing\n"
-      "must not move, as numbers or as n truth values; those of the boundary unless given. dim: "
-      "of\n"
-      "the cells, 2 or 3, as many as the points have coordinates unless given; with points in "
-      "space\n"
-      "and dim=2 the mesh is a surface. Raises InputError that names the first cell that is none.")
+      "must not move, as numbers or as n truth values (default: nodes of the boundary). dim: "
+      "dimension\n"
+      "of the cells, 2 or 3 (default: number of coordinates of a point); with points in space and "
+      "dim=2\n"
+      "the mesh is a surface. Raises InputError that names the first invalid cell.")
       .def(py::init(&make_mesh), py::arg("points"), py::arg("cells"), py::kw_only(),
            py::arg("fixed") = py::none(), py::arg("dim") = py::none())
       .def_property(
@@ -176,11 +176,11 @@ void bind_mesh(py::module_& module) {
           "Dimension of the cells: 2 or 3.")
       .def_property_readonly("spacedim", spacedim, "Coordinates of a point: 2 or 3.")
       .def_property_readonly("kind", kind, "'planar', 'volume' or 'surface'.")
-      .def("copy", &copied, "A mesh of the same cells with points of its own.")
+      .def("copy", &copied, "Returns a mesh with the same cells and a copy of the points.")
       .def("__copy__", &copied)
       .def("__deepcopy__", [](const PythonMesh& m, const py::dict&) { return copied(m); })
       .def("__repr__", &description);
-  module.def("address", &address, py::arg("mesh"), "Where the coordinates of the mesh are.");
+  module.def("address", &address, py::arg("mesh"), "Address of the coordinates of the mesh.");
 }
 
 }  // namespace smoothfem

@@ -15,7 +15,7 @@ namespace smoothfem {
 
 namespace {
 
-/// What smooth() gives to Python.
+/// The result of smooth() for Python.
 struct Result : SmoothingResult {
   std::string method;
   std::vector<IterationRecord> history;
@@ -45,7 +45,7 @@ Method<dim, spacedim> configured_method(const py::object& method, const std::str
   return configured;
 }
 
-/// Another number of threads for as long as this lives; 0: as it is.
+/// Sets the number of threads during its lifetime; 0: no change.
 class Threads {
  public:
   explicit Threads(int n) : before_(n_threads()) {
@@ -68,7 +68,7 @@ Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
   result.method = method.info.name;
   for (auto& stage : method.stages)
     stage = std::make_unique<Interruptible<dim, spacedim>>(std::move(stage));
-  Observer<dim, spacedim> observer;  // none unless needed: it costs a pass over all cells
+  Observer<dim, spacedim> observer;  // empty unless needed, as it costs a pass over all cells
   if (keep_history || callback)
     observer = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
       if (keep_history) result.history.push_back(record);
@@ -102,7 +102,7 @@ Result smooth_mesh(const py::object& object, const py::object& method, const py:
   });
 }
 
-/// Numbers as numbers, everything else as its text.
+/// Converts numbers to numbers, everything else to its text.
 py::object python_value(const Parameter& parameter) {
   if (const auto* number = std::get_if<double*>(&parameter.value)) return py::float_(**number);
   if (const auto* number = std::get_if<int*>(&parameter.value)) return py::int_(**number);
@@ -139,37 +139,37 @@ void bind_results(py::module_& module) {
       .def_readonly("record", &IterationRecord::record, "0, 1, 2, ...")
       .def_readonly("stage", &IterationRecord::stage, "smoother that ran; 'initial' for record 0")
       .def_readonly("iteration", &IterationRecord::iteration,
-                    "within the stage, in the method's own count")
+                    "number within the stage, as the method counts")
       .def_readonly("smoothing_seconds", &IterationRecord::smoothing_seconds,
-                    "of the stages' main loops so far, without the callback's time")
+                    "time of the stages' main loops so far, without the callback's time")
       .def_readonly("preparation_seconds", &IterationRecord::preparation_seconds,
-                    "before them: order of the nodes, tables, the initial quality")
-      .def_readonly(
-          "wall_seconds", &IterationRecord::wall_seconds,
-          "of the run of another program that the mesh comes from, with its start; or None")
+                    "time before the main loops: order of the nodes, tables, the initial quality")
+      .def_readonly("wall_seconds", &IterationRecord::wall_seconds,
+                    "time of the external program that made the mesh, with its start; or None")
       .def_readonly("quality", &IterationRecord::quality)
       .def_readonly("n_made_invalid", &IterationRecord::n_made_invalid,
-                    "cells that the step made invalid, before nodes were put back; or None")
-      .def_readonly("n_reset", &IterationRecord::n_reset, "nodes put back");
-  py::class_<StageResult>(module, "Stage", "What one stage of a method did.")
+                    "cells that the step made invalid, before nodes were reset; or None")
+      .def_readonly("n_reset", &IterationRecord::n_reset, "number of reset nodes");
+  py::class_<StageResult>(module, "Stage", "The result of one stage of a method.")
       .def_readonly("name", &StageResult::name)
-      .def_readonly("iterations", &StageResult::iterations, "in the method's own count")
+      .def_readonly("iterations", &StageResult::iterations, "number, as the method counts")
       .def_readonly("why_stopped", &StageResult::why_stopped)
       .def_readonly("n_last_reset", &StageResult::n_last_reset,
-                    "nodes put back in the last iteration");
-  py::class_<Result>(module, "Result", "What smooth() did.")
+                    "number of reset nodes of the last iteration");
+  py::class_<Result>(module, "Result", "The result of smooth().")
       .def_readonly("method", &Result::method, "name of the method")
       .def_readonly("stages", &Result::stages)
       .def_property_readonly("iterations", &Result::iterations_text,
                              "one number a stage, as in the thesis: '40/2800'")
-      .def_readonly("smoothing_seconds", &Result::smoothing_seconds, "of the stages' main loops")
+      .def_readonly("smoothing_seconds", &Result::smoothing_seconds,
+                    "time of the stages' main loops")
       .def_readonly("preparation_seconds", &Result::preparation_seconds,
-                    "of what comes before each: order of the nodes, tables, qualities")
-      .def_readonly("quality", &Result::quality, "of the resulting mesh")
+                    "time before the main loops: order of the nodes, tables, qualities")
+      .def_readonly("quality", &Result::quality, "quality of the resulting mesh")
       .def_readonly("result_record", &Result::result_record,
                     "number of the iteration whose mesh is the result")
       .def_readonly("history", &Result::history,
-                    "the iterations, the initial mesh first, if asked for")
+                    "the iterations, the initial mesh first; empty unless requested")
       .def("__repr__", [](const Result& r) {
         return "<smoothfem.Result: " + r.method + ", " + r.iterations_text() + " iterations>";
       });

@@ -15,7 +15,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Volume meshes need MPI, for Trilinos only; it ends with the process.
+/// Starts MPI, which Trilinos needs for volume meshes; it ends with the process.
 void require_mpi() {
   int is_on = 0;
   MPI_Initialized(&is_on);
@@ -36,7 +36,7 @@ ConditionNumberMethod condition_number_method(const std::string& name) {
                             : ConditionNumberMethod::verified;
 }
 
-/// A name, or (value, gradient, load) as expressions.
+/// Converts a name, or (value, gradient, load) as expressions.
 template <int dim>
 ManufacturedSolution<dim> solution_of(const py::object& problem, const Mesh<dim>& mesh) {
   if (py::isinstance<py::str>(problem))
@@ -67,7 +67,7 @@ py::dict solve(const PythonMesh& mesh, const py::object& problem, int degree,
   if (degree != 1 && degree != 2)
     throw InputError("finite elements of degree " + std::to_string(degree) +
                      " are not available; choose 1 or 2");
-  // What is not asked for here is as in studies, so that records compare.
+  // All other settings are those of studies, so that records can be compared.
   const PoissonOptions options{.degree = degree,
                                .cg_tolerance = cg_tolerance,
                                .boundary_in_norm = true,
@@ -89,7 +89,7 @@ py::dict solve(const PythonMesh& mesh, const py::object& problem, int degree,
 
 /// name -> formula of the solution
 py::dict problems(int dim) {
-  if (dim != 2 && dim != 3) throw InputError("problems are there in dimension 2 and 3");
+  if (dim != 2 && dim != 3) throw InputError("problems are available in dimension 2 and 3");
   py::dict all;
   with_dimension(dim, [&]<int d>() {
     for (const auto& solution : manufactured_solutions<d>())

@@ -67,7 +67,7 @@ class PythonMesh {
 
   /// (n_nodes, spacedim): the memory of the mesh itself. self: this mesh as Python's object.
   py::array points(const py::object& self);
-  /// Copies into that memory. Throws InputError for another shape, or what is not finite.
+  /// Copies into that memory. Throws InputError for another shape or non-finite numbers.
   void set_points(const py::object& points);
 
   /// A lent mesh goes back to the loop. Arrays of its points that Python still has keep the memory,

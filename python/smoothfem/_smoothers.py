@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Smoothers written in Python, as the smoothing loop takes them: found in files, asked for their
-parameters, run, and watched. What they do wrong is an InputError of one sentence."""
+"""Finds smoothers written in Python in files, reads their parameters, runs them for the smoothing loop, and checks them. A
+mistake of a smoother raises an InputError of one sentence."""
 
 import inspect
 import re
@@ -12,18 +12,19 @@ import numpy as np
 
 from ._core import InputError
 
-STOPPING = {"tolerance": 1e-4, "patience": 0, "max_iterations": 10000}  # as QualityGainStopping
+STOPPING = {"tolerance": 1e-4, "patience": 0, "max_iterations": 10000}  # defaults of QualityGainStopping
 _known = {}
 
 
 def definition_in(path, name, once):
-    """The Definition of the class `name` in the file `path`. once: a file that has been run is not read
-    again; otherwise it is run again when its text has changed. Raises InputError."""
+    """Returns the Definition of the class `name` in the file `path`. Raises InputError.
+
+    once: if True, a file that has been run is not read again. Otherwise it is run again if its text has changed."""
     known = _known.get(path)
     if known is None or not once:
-        source = _told(path, f"{path} cannot be read", lambda: _read(path))
+        source = _with_context(path, f"{path} cannot be read", lambda: _read(path))
         if known is None or known[0] != source:
-            known = _known[path] = (source, _told(path, f"{path} cannot be run", lambda: _run_file(path, source)))
+            known = _known[path] = (source, _with_context(path, f"{path} cannot be run", lambda: _run_file(path, source)))
     module = known[1]
     if not inspect.isclass(getattr(module, name, None)):
         classes = sorted(key for key, value in vars(module).items() if inspect.isclass(value) and callable(
@@ -39,24 +40,24 @@ def _read(path):
 
 
 def _run_file(path, source):
-    """The module that the file is. It is not looked for beside other modules, and nothing is written
-    beside it."""
+    """Runs the file as a module and returns it. The module path is not searched, and no byte code is written next to
+    the file."""
     module = types.ModuleType(f"smoothfem method {path}")
     module.__file__ = path
     sys.modules[module.__name__] = module  # dataclasses look for it
-    exec(compile(source, path, "exec"), module.__dict__)  # the file is the user's own program
+    exec(compile(source, path, "exec"), module.__dict__)  # the file is the program of a user
     return module
 
 
 class Definition:
-    """What a class says of itself as a smoother. Raises InputError if it is none."""
+    """The attributes of a class as a smoother. Raises InputError if the class is not a smoother."""
 
     def __init__(self, cls, method_name=None, path=None):
         self.cls, self.path = cls, path or getattr(sys.modules.get(cls.__module__), "__file__", None)
         self.name = cls.__name__
         self.method_name = method_name or f"python:{self.name}"
         if not callable(getattr(cls, "step", None)):
-            raise InputError(f"the class {self.name} is no smoother: it has no step(self, mesh)")
+            raise InputError(f"the class {self.name} is not a smoother: it has no step(self, mesh)")
         self.title = str(getattr(cls, "title", self.name))
         documentation = (cls.__doc__ or "a smoother written in Python").strip().splitlines()[0]
         self.description = str(getattr(cls, "description", documentation.rstrip(".")))
@@ -66,16 +67,16 @@ class Definition:
             setattr(self, key, self._number(key, getattr(cls, key, default), type(default)))
 
     def _parameter(self, name, declared):
-        """(name, default, reason)."""
+        """Returns (name, default, reason)."""
         try:
             value, reason = declared
         except (TypeError, ValueError):
-            raise InputError(f"{self.name}: parameter {name} is declared by (default, 'reason')") from None
+            raise InputError(f"{self.name}: parameter {name} has to be declared as (default, 'reason')") from None
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", str(name)) or name in STOPPING or hasattr(self.cls, name):
-            raise InputError(f"{self.name}: a parameter cannot be called '{name}'; take another name, of letters, "
-                             "digits and _, that the class has not")
+            raise InputError(f"{self.name}: a parameter cannot be called '{name}'; choose another name, of letters, "
+                             "digits and _, that is not an attribute of the class")
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-            raise InputError(f"{self.name}: parameter {name} has the default {value!r}; it has to be a number or a text")
+            raise InputError(f"{self.name}: parameter {name} has the default {value!r}; it has to be a number or a string")
         return name, value, str(reason)
 
     def _number(self, key, value, kind):
@@ -86,15 +87,15 @@ class Definition:
 
 
 class Run:
-    """A smoother at work on one mesh."""
+    """Runs a smoother on one mesh."""
 
     def __init__(self, definition, values, mesh):
-        """values: of its parameters, by name. mesh: lent, its points a read-only copy."""
+        """values: the values of its parameters, by name. mesh: a lent mesh; its points are a read-only copy."""
         self.definition = definition
         self.fixed = mesh.fixed
-        self.smoother = self._told("cannot be made", lambda: self._made(definition.cls, values))
+        self.smoother = self._with_context("cannot be created", lambda: self._made(definition.cls, values))
         if hasattr(self.smoother, "initialize"):
-            self._told("initialize failed", lambda: self.smoother.initialize(mesh))
+            self._with_context("initialize failed", lambda: self.smoother.initialize(mesh))
 
     @staticmethod
     def _made(cls, values):
@@ -104,14 +105,14 @@ class Run:
         smoother.__init__()
         return smoother
 
-    def _told(self, what, call):
-        return _told(self.definition.path, f"{self.definition.name}: {what}", call)
+    def _with_context(self, what, call):
+        return _with_context(self.definition.path, f"{self.definition.name}: {what}", call)
 
     def step(self, mesh):
-        """One step. Raises InputError, with the mesh as it was, for what a smoother must not do."""
+        """Does one step. Raises InputError and restores the mesh if the smoother violates a rule."""
         before = mesh.points.copy()
         try:
-            returned = self._told("step failed", lambda: self.smoother.step(mesh))
+            returned = self._with_context("step failed", lambda: self.smoother.step(mesh))
             if returned is not None and returned is not mesh.points:
                 mesh.points[:] = self._new_points(returned, before.shape)
             self._require_allowed(mesh.points, before)
@@ -120,7 +121,7 @@ class Run:
             raise
 
     def _new_points(self, returned, shape):
-        points = self._told("step returned no array", lambda: np.asarray(returned, dtype=float))
+        points = self._with_context("step returned no array", lambda: np.asarray(returned, dtype=float))
         if points.shape != shape:
             raise InputError(f"{self.definition.name}: step returned an array of the shape {points.shape}, but the points "
                              f"of the mesh have the shape {shape}; return all points, or change mesh.points in place")
@@ -129,27 +130,27 @@ class Run:
     def _require_allowed(self, points, before):
         finite = np.isfinite(points).all(axis=1)
         if not finite.all():
-            raise InputError(f"{self.definition.name}: step has made a coordinate of node {np.argmin(finite)} something "
-                             "that is not a finite number")
+            raise InputError(f"{self.definition.name}: step has set a coordinate of node {np.argmin(finite)} to a "
+                             "value that is not a finite number")
         moved = (points[self.fixed] != before[self.fixed]).any(axis=1)
         if moved.any():
             raise InputError(f"{self.definition.name}: step has moved the fixed node {self.fixed[np.argmax(moved)]}; only "
                              "the nodes in mesh.free may move")
 
 
-def _told(path, what, call):
-    """call(), whose exceptions become one sentence with file, line and their text."""
+def _with_context(path, what, call):
+    """Returns call(). Exceptions in it become an InputError of one sentence with file, line and their text."""
     try:
         return call()
     except (InputError, KeyboardInterrupt):
         raise
-    except BaseException as error:  # an exit, too, must not end the program
+    except BaseException as error:  # an exit must not end the program either
         raise InputError(f"{what}: {_sentence(error, path)}") from error
 
 
 def _sentence(error, path):
-    """'mine.py:12: ZeroDivisionError: division by zero': the last line of the smoother's own file that
-    was at work."""
+    """Returns, for example, 'mine.py:12: ZeroDivisionError: division by zero'. The line is the last line of the smoother's
+    file in the traceback."""
     at = [(frame.filename, frame.lineno) for frame in traceback.extract_tb(error.__traceback__) if frame.filename == path]
     text = str(error)
     if isinstance(error, SyntaxError) and error.lineno:

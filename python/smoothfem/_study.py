@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies: run by the program itself, so that they are what they are without Python; their results as
-tables of pandas."""
+"""Runs studies by the program, so that their results do not depend on Python, and reads the results as tables of pandas."""
 
 import functools
 import json
@@ -12,28 +11,28 @@ from pathlib import Path
 
 from ._core import InputError
 
-PREFIX = "smoothfem: "  # of what the program says
+PREFIX = "smoothfem: "  # of the program's messages
 
 
 class Study:
-    """A study file, or the name of a study that comes with the program; a scale of it, or none."""
+    """A study, given by its file or the name of a built-in study, with an optional scale."""
 
     def __init__(self, file, scale=None):
         self.file, self.scale = os.fspath(file), scale
 
     @property
     def name(self):
-        """The file's name without its ending."""
+        """Returns the file's name without its suffix."""
         return Path(self.file).name.removesuffix(".prm")
 
     def run(self, out=None, *, force=False, mesh_dir=None, threads=None, smoothing_threads=None, quiet=True):
-        """Runs the study in one process of its own, and returns its Results.
+        """Runs the study in a separate process, and returns its Results.
 
-        out: folder of the results, results/NAME unless given; a complete study in it is left as it is, an
-        interrupted one goes on. force: start anew; the folder is kept under another name. mesh_dir: folder
-        of published meshes. threads, smoothing_threads: as the program's options. quiet: otherwise progress
-        goes to standard error. Raises InputError with the program's sentence for what cannot be used;
-        Ctrl-C lets the program write the rows finished so far.
+        out: folder of the results (default: results/NAME). A complete study in it is not changed; an interrupted study
+        resumes. force: start again; the folder is renamed and kept. mesh_dir: folder of published meshes. threads,
+        smoothing_threads: the options of the program. quiet: if False, progress is printed to standard error. Raises
+        InputError with the program's message if an input cannot be used. After Ctrl-C the program writes the rows
+        that are complete.
         """
         out = Path(out or Path("results") / self.name)
         words = [_program(), "study", self.file, "--out", out]
@@ -51,13 +50,13 @@ class Results:
     def __init__(self, folder):
         self.folder = Path(folder)
         if not (self.folder / "provenance.json").is_file():
-            raise InputError(f"{self.folder} has no results of a study: provenance.json is missing")
+            raise InputError(f"{self.folder} has no results of a study, as provenance.json is missing")
 
     def __repr__(self):
         return f"<smoothfem.Results: {self.folder}>"
 
     def table(self, name):
-        """NAME.csv of the folder. Raises InputError if there is none, ImportError without pandas."""
+        """Returns NAME.csv of the folder. Raises InputError if there is none, ImportError without pandas."""
         path = self.folder / f"{name}.csv"
         if not path.is_file():
             names = ", ".join(sorted(found.stem for found in self.folder.glob("*.csv"))) or "none"
@@ -66,22 +65,22 @@ class Results:
 
     @functools.cached_property
     def iterations(self):
-        """A row for each mesh, method, degree and recorded iteration; `smoothfem list --columns` describes the columns."""
+        """Returns a row for each mesh, method, degree and recorded iteration; `smoothfem list --columns` describes the columns."""
         return self.table("iterations")
 
     @functools.cached_property
     def summary(self):
-        """A row for each mesh, method and degree: the results."""
+        """Returns the results: a row for each mesh, method and degree."""
         return self.table("summary")
 
     @functools.cached_property
     def thresholds(self):
-        """When methods came below the errors that the reference method reaches."""
+        """Returns the times at which methods fall below the errors of the reference method."""
         return self.table("thresholds")
 
     @functools.cached_property
     def provenance(self):
-        """What the numbers come from: program, machine, meshes, parameters."""
+        """Returns the origin of the numbers: program, machine, meshes, parameters."""
         return json.loads((self.folder / "provenance.json").read_text(encoding="utf-8"))
 
 
@@ -94,15 +93,15 @@ def _pandas():
 
 
 def _program():
-    """The compiled program, in the installation or the build folder that this package is in."""
+    """Returns the path of the compiled program in the installation or build folder of this package."""
     for folder in Path(__file__).absolute().parents:  # links of the build folder are not followed
         if (program := folder / "libexec" / "smoothfem" / "smoothfem").is_file():
             return program
-    raise InputError(f"the program libexec/smoothfem/smoothfem is in no folder above {__file__}; install smoothfem anew")
+    raise InputError(f"the program libexec/smoothfem/smoothfem is in no folder above {__file__}; install smoothfem again")
 
 
 def _run(words, quiet):
-    """Runs the program; an interrupt here is passed on to it, once."""
+    """Runs the program; passes the first interrupt on to it."""
     said = []
     with subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                           text=True, start_new_session=True) as process:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The package smoothfem as it was built, the program, and small meshes."""
+"""Provides the built package smoothfem, the program, and small meshes."""
 
 import itertools
 import sys
@@ -23,7 +23,7 @@ MESHES = {"triangles": ("gear", 4.0, 0.45), "quadrilaterals": ("gear", 3.0, 0.5)
 
 
 def distorted(elements):
-    """A valid mesh that has something to smooth."""
+    """Returns a valid, distorted mesh."""
     domain, edge_scale, q_mean = MESHES[elements]
     mesh = smoothfem.generate(domain, elements=elements, edge_scale=edge_scale)
     smoothfem.distort(mesh, q_mean)
@@ -31,8 +31,8 @@ def distorted(elements):
 
 
 def grid(elements, n=6):
-    """A square or a cube of such cells with its inner nodes moved at random: all Laplacian smoothing of it
-    is valid."""
+    """Returns a square or a cube of these cells with randomly moved inner nodes. Laplacian smoothing makes no cell of it
+    invalid."""
     dim = 2 if elements in ("triangles", "quadrilaterals") else 3
     numbers = np.arange((n + 1) ** dim).reshape((n + 1,) * dim)
     points = np.stack(np.meshgrid(*[np.arange(n + 1.0)] * dim, indexing="ij"), axis=-1)
@@ -60,7 +60,7 @@ def grid(elements, n=6):
 
 
 def address(mesh):
-    """Where NumPy sees the coordinates."""
+    """Returns the address of the coordinates in NumPy."""
     return mesh.points.__array_interface__["data"][0]
 
 

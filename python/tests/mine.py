@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Smoothers as users write them: good ones, and ones that do what they must not."""
+"""Examples of smoothers of users: valid ones, and ones that violate rules."""
 
 import json
 
@@ -48,7 +48,7 @@ class Returning:
 
 
 class Addresses:
-    """Writes down where the coordinates are, for NumPy and for C++."""
+    """Records the addresses of the coordinates in NumPy and in C++."""
 
     tolerance = -1.0
     max_iterations = 5

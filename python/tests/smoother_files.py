@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A folder with smoothers as users write them, mine.py, and the sentences for those that do what they must not."""
+"""A folder with examples of smoothers (mine.py), and the messages for smoothers that violate rules."""
 
 import os
 import tempfile
@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 SMOOTHERS = Path(__file__).with_name("mine.py").read_text(encoding="utf-8")
-CHEATS = {"MovesFixed": "MovesFixed: step has moved the fixed node", "NotFinite": "NotFinite: step has made a coordinate of node",
+CHEATS = {"MovesFixed": "MovesFixed: step has moved the fixed node", "NotFinite": "NotFinite: step has set a coordinate of node",
           "WrongShape": "WrongShape: step returned an array of the shape", "ReturnsText": "ReturnsText: step returned no array",
           "Raises": r"Raises: step failed: mine.py:\d+: ZeroDivisionError: division by zero",
           "Exits": "Exits: step failed: mine.py:.*SystemExit", "Keeps": "Keeps: step keeps mesh.points",

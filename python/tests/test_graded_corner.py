@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which orders in the edge length errors in re-entrant corners have on meshes that are graded towards these."""
+"""Tests the orders of errors in the edge length on meshes that are graded towards re-entrant corners."""
 
 import itertools
 import tempfile
@@ -12,7 +12,7 @@ from plots.results.rows import read_rows
 
 from .built import SOURCE, smoothfem
 
-EDGE_SCALES = (8.0, 4.0, 2.0)  # those of the study energy-l-shape
+EDGE_SCALES = (8.0, 4.0, 2.0)  # scales of the study energy-l-shape
 EXPONENT = 2 / 3  # of r in the solution
 STUDY = """
 set dimension = 3
@@ -35,19 +35,21 @@ end
 
 
 def getme_mesh(elements, edge_scale):
-    """GETMe's mesh of the L, and where its nodes are."""
+    """Returns GETMe's mesh of the L, and its nodes."""
     mesh = smoothfem.generate("l-shape", elements=elements, edge_scale=edge_scale)
     smoothfem.smooth(mesh, "getme")
     return mesh, mesh.points.copy()
 
 
 def graded(even, b):
-    """Nodes from p to |p|^(b - 1) p, |p| the largest coordinate, which maps the L and the seven octants onto themselves."""
+    """Moves nodes from p to |p|^(b - 1) p, with the largest coordinate |p|. This maps the L and the seven octants onto themselves."""
     return even * np.abs(even).max(axis=1, keepdims=True) ** (b - 1)
 
 
 def seven_octants(n):
-    """Nodes and tetrahedra of all octants but that of positive coordinates: each n^3 cubes of six, cut where two coordinates are equal."""
+    """Returns nodes and tetrahedra of all octants except that of positive coordinates.
+
+    Each octant has n^3 cubes of six tetrahedra, cut along the planes in which two coordinates are equal."""
     numbers, cells = {}, []
     for signs in itertools.product((1, -1), repeat=3):
         for corner in itertools.product(range(n), repeat=3) if signs != (1, 1, 1) else ():
@@ -59,13 +61,13 @@ def seven_octants(n):
 
 
 def documented_orders(domain):
-    """(elements, degree, b) -> order in H1 that the manual has for a domain."""
+    """Returns {(elements, degree, b): order in H1} of the manual for a domain."""
     rows = read_rows(SOURCE / "docs" / "explanation" / "graded-corner.csv").records()
     return {(row["elements"], int(row["degree"]), float(row["b"])): float(row["order"]) for row in rows if row["domain"] == domain}
 
 
 def error(mesh, even, degree, b):
-    """True H1 error on the graded mesh."""
+    """Returns the true H1 error on the graded mesh."""
     mesh.points[:] = graded(even, b)
     return smoothfem.solve(mesh, "corner", degree, condition_number="none")["h1_error"]
 
@@ -77,13 +79,13 @@ class GradedCorner(unittest.TestCase):
                         for elements in ("triangles", "quadrilaterals")]
 
     def orders(self, degree, b):
-        """Of triangles and quadrilaterals: slopes of the errors' logarithms over those of the number of cells to the power of -1/2."""
+        """Returns the orders for triangles and quadrilaterals: slopes of log(error) over log(n_cells^(-1/2))."""
         return [np.polyfit([-0.5 * np.log(mesh.n_cells) for mesh, _ in family],
                            [np.log(error(mesh, even, degree, b)) for mesh, even in family], 1)[0]
                 for family in self.families]
 
     def test_orders_are_those_of_theory_and_of_the_manual(self):
-        """b EXPONENT, as errors of cells at the corner fall, up to the degree."""
+        """The order is b EXPONENT, the order of errors of cells at the corner, and at most the degree."""
         cases = ((1, 1.5), (1, 2), (2, 1.5), (2, 2), (2, 3))
         found = [self.orders(degree, b) for degree, b in cases]
         documented = documented_orders("l-shape")
@@ -100,7 +102,8 @@ class GradedCorner(unittest.TestCase):
 
 
 def errors_by_a_study(meshes):
-    """True H1 errors of quadratic elements on meshes, {name: (nodes, cells)}. f is singular, and solve() has it at the nodes only."""
+    """Returns true H1 errors of quadratic elements on meshes, {name: (nodes, cells)}. A study computes them, as f is singular and
+    solve() evaluates it at the nodes only."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for label, (points, cells) in meshes.items():
@@ -114,7 +117,7 @@ def errors_by_a_study(meshes):
 
 class GradedOctants(unittest.TestCase):
     def test_orders_of_quadratic_tetrahedra_are_those_of_theory_and_of_the_manual(self):
-        """b times that of even meshes, 1, up to the degree."""
+        """The order is b times the order 1 of uniform meshes, and at most the degree."""
         exponents, coarse, fine = (1, 1.5, 2, 2.5), seven_octants(4), seven_octants(8)
         self.assertEqual((len(coarse[1]), len(fine[1])), (2688, 21504))
         errors = errors_by_a_study({f"{size}-{10 * b:.0f}": (graded(points, b), cells) for b in exponents

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of the Python module: made of arrays, seen as arrays, read and written."""
+"""Tests meshes of the Python module: creation from arrays, views as arrays, reading and writing."""
 
 import tempfile
 import unittest
@@ -80,7 +80,7 @@ class Meshes(unittest.TestCase):
                 ("n x 2 or n x 3", lambda: smoothfem.Mesh(SQUARE[:, :1], QUADRILATERALS)),
                 ("node 4 has a coordinate", lambda: smoothfem.Mesh(inner, QUADRILATERALS)),
                 ("cell 0 has the node number -1", lambda: smoothfem.Mesh(SQUARE, -QUADRILATERALS[:, ::-1] + 2)),
-                ("cell 1 is no sequence of whole numbers", lambda: smoothfem.Mesh(SQUARE, [[0, 1, 4], [0.5, 1, 4]])),
+                ("cell 1 is not a sequence of whole numbers", lambda: smoothfem.Mesh(SQUARE, [[0, 1, 4], [0.5, 1, 4]])),
                 ("cell 0", lambda: smoothfem.Mesh(SQUARE, [[0, 1, 9]])),
                 ("nodes 0 to 8", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=[9])),
                 ("one a node", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=[True])),

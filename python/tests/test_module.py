@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Python module: quality, smoothing, finite elements, what is there to choose; the manual's lines."""
+"""Tests the Python module: quality, smoothing, finite elements, lists of available names, and the code of the manual."""
 
 import contextlib
 import io
@@ -163,15 +163,15 @@ class Smoothing(unittest.TestCase):
 
     def test_ctrl_c_ends_it(self):
         mesh = distorted("tetrahedra")
-        # A test that is started in the background may have been told to ignore it.
+        # A test that runs in the background may inherit a setting that ignores the signal.
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         with self.assertRaises(KeyboardInterrupt):
             threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
-            # Would take hours.
+            # Without the interrupt this would take hours.
             smoothfem.smooth(mesh, "laplace", tolerance=0.0, max_iterations=10**9)
 
     def test_other_threads_run_meanwhile(self):
-        # Smoothing that would take hours in one thread; were it to keep the interpreter, the other would say nothing.
+        # One thread smooths for hours. If it kept the GIL, the other thread could not report.
         code = """
 import os, threading, time
 from python.tests.test_module import distorted, smoothfem
@@ -204,7 +204,7 @@ class Solving(unittest.TestCase):
                              for degree in (1, 2))
         self.assertTrue(linear["cg_converged"] and linear["status"] == "ok")
         self.assertGreater(linear["l2_error"], 1e-6)
-        self.assertLess(quadratic["l2_error"], 1e-9 * linear["l2_error"])  # u is in the space
+        self.assertLess(quadratic["l2_error"], 1e-9 * linear["l2_error"])  # u is in the finite element space
         self.assertGreater(linear["condition_number"], 1.0)
 
     def test_in_space(self):
@@ -232,7 +232,7 @@ class Manual(unittest.TestCase):
             os.chdir(folder)
             names = {}
             with contextlib.redirect_stdout(io.StringIO()) as told:
-                exec(compile(code, "python.md", "exec"), names)  # the text is the repository's own
+                exec(compile(code, "python.md", "exec"), names)  # the text is part of this repository
             np.testing.assert_array_equal(smoothfem.read("out.vtu").points, names["mesh"].points)
         self.assertRegex(told.getvalue(), r"^\d+/\d+ Quality\(q_min=0\.\d")
 

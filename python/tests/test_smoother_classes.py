@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Smoothers written in Python and called from Python: classes, and files that change."""
+"""Tests smoothers written in Python and called from Python: classes, and files that change."""
 
 import runpy
 import unittest
@@ -14,7 +14,7 @@ from .smoother_files import CHEATS, SMOOTHERS, InAFolder
 class InTheModule(InAFolder):
     def test_classes_are_methods(self):
         class Shrinks:
-            """Nodes move a little."""
+            """Moves nodes a little."""
 
             parameters = {"by": (0.0, "a number")}
             max_iterations = 3
@@ -68,7 +68,7 @@ class InTheModule(InAFolder):
             kept[0].points
 
     def test_odt_is_the_mean_of_circumcentres(self):
-        """Beside the textbook formula, in barycentric coordinates of the squares of the sides."""
+        """Compares with the textbook formula, in barycentric coordinates of the squares of the sides."""
         rng, n = np.random.default_rng(1), 7
         angles = 2 * np.pi * (np.arange(n) + 0.4 * rng.random(n)) / n
         ring = (1 + 0.3 * rng.random(n))[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])

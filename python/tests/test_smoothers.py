@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Smoothers written in Python, in the program and in studies; what they must not do."""
+"""Tests smoothers written in Python in the program and in studies, and refused smoothers."""
 
 import hashlib
 import json
@@ -12,7 +12,7 @@ import numpy as np
 from .built import EXAMPLES, MESHES, PROGRAM, distorted, grid, run, smoothfem
 from .smoother_files import CHEATS, SMOOTHERS, InAFolder
 
-NO_SMOOTHERS = {"NoStep": "no smoother: it has no step", "Text": "parameter flag has the default True", "Mime": "has no class 'Mime'"}
+NO_SMOOTHERS = {"NoStep": "not a smoother: it has no step", "Text": "parameter flag has the default True", "Mime": "has no class 'Mime'"}
 STUDY = """set title     = Python smoothers
 set dimension = {dim}
 set meshes    = mesh
@@ -41,7 +41,7 @@ end
 
 class InTheProgram(InAFolder):
     def refused(self, *words, **more):
-        """The sentence of a command that is refused."""
+        """Returns the message of a refused command."""
         outcome = run(PROGRAM, *words, folder=self.folder, check=False, **more)
         self.assertEqual((outcome.returncode, outcome.stderr.count("\n")), (2, 1), outcome.stderr)
         return outcome.stderr.strip()
@@ -99,7 +99,7 @@ class InTheProgram(InAFolder):
         (self.folder / "other").mkdir()
         (self.folder / "other" / "numpy.py").write_text("raise ImportError('this one is broken')\n")
         self.assertRegex(self.refused(*words, PYTHONPATH=self.folder / "other"), "this one is broken.*python3-numpy")
-        # The interpreter prints a report of its own before.
+        # The interpreter prints its report before the message.
         outcome = run(PROGRAM, *words, folder=self.folder, check=False, PYTHONHOME="/nonexistent")
         self.assertEqual(outcome.returncode, 2)
         self.assertIn("smoothfem: Python cannot be started", outcome.stderr.splitlines()[-1])
@@ -148,7 +148,7 @@ class InStudies(InAFolder):
                 self.assertTrue((rows.cg_iterations > 0).all())
 
     def test_several_processes(self):
-        """The root smooths, all of them solve."""
+        """The root process smooths, and all processes solve."""
         domain, edge_scale, q_mean = MESHES["tetrahedra"]
         (self.folder / "my.prm").write_text(STUDY.format(
             dim=3, domain=domain, elements="tetrahedra", edge_scale=edge_scale, q_mean=q_mean,

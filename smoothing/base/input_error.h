@@ -20,7 +20,7 @@ inline std::string choose_one_of(const std::vector<std::string>& names) {
 }
 
 /// Error about user input (a file, a parameter, a mesh) that cannot be used. The message is one
-/// sentence: what is wrong, where, and what to do. The command line prints it and exits with code
+/// sentence: the problem, its place, and a remedy. The command line prints it and exits with code
 /// 2.
 class InputError : public std::runtime_error {
  public:

@@ -133,7 +133,7 @@ class Smoother {
   /// Returns the score of the mesh that was passed to initialize, for ResultMesh::best_score.
   virtual double initial_score() const { return 0.0; }
 
-  /// Moves free nodes of state.mesh: one iteration. Fixed nodes stay, except those that slide at
+  /// Moves free nodes of state.mesh: one iteration. Fixed nodes stay, except nodes that slide at
   /// the user's request.
   virtual StepReport step(SmoothingState<dim, spacedim>& state) = 0;
 };

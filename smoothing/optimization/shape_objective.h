@@ -14,7 +14,7 @@
 namespace smoothfem {
 
 /// The objective of mesh optimization by shape: a sum over all elements. Each adds the squared mean
-/// of the inverse mean ratios of its corners, of those that the mean ratio counts. Mesquite's shape
+/// of the inverse mean ratios of the corners that the mean ratio counts. Mesquite's shape
 /// improvement wrapper minimizes it. The thesis (Eq. 1.3) prints the sum of 1/q, which has no
 /// barrier on quadrilaterals: one of four corners may collapse while the mean of the ratios stays
 /// away from zero. The objective is at least n_cells, and equal to it only if all elements are

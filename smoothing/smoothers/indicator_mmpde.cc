@@ -128,7 +128,7 @@ Stages<dim> make_stages() {
   return stages;
 }
 
-/// Makes large movements first, then those that only the energy detects.
+/// Makes large movements first, then movements that only the energy detects.
 template <int dim>
 Stages<dim> with_descent() {
   auto stages = make_stages<dim>();

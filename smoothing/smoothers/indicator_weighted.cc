@@ -173,7 +173,7 @@ Stages<dim> weighted() {
   return stages;
 }
 
-/// Makes large movements first, then those that only the energy detects.
+/// Makes large movements first, then movements that only the energy detects.
 template <int dim>
 Stages<dim> weighted_and_descent() {
   auto stages = weighted<dim, OfAllDirections>();
