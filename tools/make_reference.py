@@ -15,6 +15,7 @@ meshes and figures. The references are in results/reference of SOURCE. Needs plo
 
 import argparse
 import lzma
+import os
 import re
 import shutil
 import subprocess
@@ -126,8 +127,14 @@ def is_of_program(source, reference, study, commit):
         commit_named(source, session["commit"])
     files = [file.relative_to(source) for file in study_files(known_studies(source)[study])]
     return not any(session["uncommitted_changes"] or git(source, "diff", "--name-only", session["commit"], commit, "--", *SOURCES)
-                   or git(source, "diff", "--name-only", "--diff-filter=M", session["commit"], commit, "--", *files)
-                   for session in sessions)
+                   or any_changed(source, session["commit"], commit, files) for session in sessions)
+
+
+def any_changed(source, old, new, files):
+    """Returns True if one of the files differs between two commits, under its old name if it was moved. A new file does not."""
+    names = {os.path.normpath(file) for file in files}
+    lines = git(source, "diff", "--name-status", "--find-renames", "--diff-filter=MR", old, new, "--", "*.prm").splitlines()
+    return any(words[-1] in names and words[0] != "R100" for words in (line.split("\t") for line in lines))
 
 
 def keep_program_of(source, reference, chosen, commit):

@@ -53,12 +53,12 @@ class ProgramOf(unittest.TestCase):
         for name, text in (("x/f.cc", "1"), ("x/tests/test_f.cc", "1"),
                            ("studies/reasons/c.prm", "include ../catalogue/x/a.prm\n"),
                            ("studies/catalogue/x/a.prm", "subsection scale paper\n"),
-                           ("studies/catalogue/x/b.prm", "include a.prm\n")):
+                           ("studies/catalogue/x/b.prm", "include a.prm\n"),
+                           ("studies/catalogue/x/d.prm", "subsection scale paper\n" * 9)):
             self.write(name, text)
         self.first = self.commit()
         for study in ("a", "b", "reasons/c"):
-            self.write(f"results/reference/{study}/provenance.json", json.dumps({
-                "program": {"commit": self.first}, "sessions": [{"commit": self.first, "uncommitted_changes": study == "a"}]}))
+            self.write_reference(study, uncommitted_changes=study == "a")
 
     def git(self, *words):
         return subprocess.run(["git", "-C", self.source, "-c", "user.name=t", "-c", "user.email=t@localhost", *words],
@@ -67,6 +67,10 @@ class ProgramOf(unittest.TestCase):
     def write(self, name, text):
         (self.source / name).parent.mkdir(parents=True, exist_ok=True)
         (self.source / name).write_text(text)
+
+    def write_reference(self, study, uncommitted_changes=False):
+        self.write(f"results/reference/{study}/provenance.json", json.dumps({
+            "program": {"commit": self.first}, "sessions": [{"commit": self.first, "uncommitted_changes": uncommitted_changes}]}))
 
     def commit(self):
         self.git("add", "x", "studies")
@@ -94,6 +98,14 @@ class ProgramOf(unittest.TestCase):
         self.assertEqual(self.of_program(self.commit()), [])
         self.write("x/f.cc", "2")
         self.assertEqual(self.of_program(self.commit()), [])
+
+    def test_a_moved_study_is_the_same_until_it_changes(self):
+        self.write_reference("d")
+        (self.source / "studies/catalogue/x/d.prm").unlink()
+        self.write("studies/catalogue/y/d.prm", "subsection scale paper\n" * 9)
+        self.assertEqual(self.of_program(self.commit()), ["b", "d", "reasons/c"])
+        self.write("studies/catalogue/y/d.prm", "subsection scale paper\n" * 9 + "set threads = 2\n")
+        self.assertEqual(self.of_program(self.commit()), ["b", "reasons/c"])
 
     def test_a_commit_that_there_is_not(self):
         found = run_script(self.source, self.source, "--program-of", "nosuch")
