@@ -15,12 +15,12 @@ namespace {
 
 /// The system of a unit mesh, also in Trilinos' form with multigrid set up.
 template <int dim>
-struct Problem {
+struct StiffnessProblem {
   std::shared_ptr<const FiniteElementSpace<dim>> space;
   PoissonSystem system;
   TrilinosMatrix trilinos;
 
-  Problem(const Mesh<dim>& mesh, int degree)
+  StiffnessProblem(const Mesh<dim>& mesh, int degree)
       : space(make_finite_element_space(&mesh, degree, TensorPoints{})),
         system(make_system(*space)),
         trilinos(*space) {
@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Elements, ConditionNumberTest, testing::ValuesIn(all_ca
 
 TEST_P(ConditionNumberTest, AllMethodsAgreeWithDenseEigenvalues) {
   GetParam().on_mesh(6, GetParam().degree == 1 ? 4 : 3, 0.3, [&]<int dim>(const Mesh<dim>& mesh) {
-    const Problem<dim> problem(mesh, GetParam().degree);
+    const StiffnessProblem<dim> problem(mesh, GetParam().degree);
     const SparseMatrix& matrix = problem.system.matrix;
     const Eigen::MatrixXd dense = matrix;
     EXPECT_LT((dense - dense.transpose()).norm(), 1e-13 * dense.norm());
@@ -71,7 +71,7 @@ TEST_P(ConditionNumberTest, AllMethodsAgreeWithDenseEigenvalues) {
 
 TEST_P(ConditionNumberTest, LanczosNumbersOfCgComeCloseFromInside) {
   GetParam().on_mesh(20, 7, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
-    const Problem<dim> problem(mesh, GetParam().degree);
+    const StiffnessProblem<dim> problem(mesh, GetParam().degree);
     const auto verified = IterativeConditionNumber().compute(problem.trilinos);
     ASSERT_LE(verified.residual(), verified_residual);
     Eigen::VectorXd x;
@@ -87,7 +87,7 @@ TEST_P(ConditionNumberTest, LanczosNumbersOfCgComeCloseFromInside) {
 
 TEST_P(ConditionNumberTest, AStartVectorChangesNothingBeyondTheTolerance) {
   GetParam().on_mesh(7, 4, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
-    const Problem<dim> problem(mesh, GetParam().degree);
+    const StiffnessProblem<dim> problem(mesh, GetParam().degree);
     IterativeConditionNumber cold;
     const auto expected = cold.compute(problem.trilinos);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{

@@ -20,7 +20,7 @@ ManufacturedSolution<dim> formula(const std::string& u, const std::string& diffu
 }
 
 /// A user-defined problem for meshes of each dimension.
-struct Problem {
+struct OwnProblem {
   std::string planar_u, planar_diffusivity, volume_u, volume_diffusivity;
 
   template <int dim>
@@ -29,12 +29,13 @@ struct Problem {
                     : formula<dim>(volume_u, volume_diffusivity);
   }
 };
-const Problem linear{"1 + 2*x - 3*y", "3, 1 ; 1, 2", "1 + 2*x - 3*y + z/2",
-                     "3, 1, 0 ; 1, 2, 0.5 ; 0, 0.5, 1"};
-const Problem quadratic{"x^2 + x*y - 2*y^2 + y", "3, 1 ; 1, 2", "x^2 + x*y - 2*y^2 + 3*z^2 - x*z",
+const OwnProblem linear{"1 + 2*x - 3*y", "3, 1 ; 1, 2", "1 + 2*x - 3*y + z/2",
                         "3, 1, 0 ; 1, 2, 0.5 ; 0, 0.5, 1"};
-const Problem smooth{"sin(pi*x)*cos(y) + x*y", "2 + x, y/2 ; y/2, 1 + y^2",
-                     "sin(pi*x)*cos(y) + x*y*z", "2 + x, y/2, 0 ; y/2, 1 + y^2, 0 ; 0, 0, exp(z)"};
+const OwnProblem quadratic{"x^2 + x*y - 2*y^2 + y", "3, 1 ; 1, 2",
+                           "x^2 + x*y - 2*y^2 + 3*z^2 - x*z", "3, 1, 0 ; 1, 2, 0.5 ; 0, 0.5, 1"};
+const OwnProblem smooth{"sin(pi*x)*cos(y) + x*y", "2 + x, y/2 ; y/2, 1 + y^2",
+                        "sin(pi*x)*cos(y) + x*y*z",
+                        "2 + x, y/2, 0 ; y/2, 1 + y^2, 0 ; 0, 0, exp(z)"};
 
 class OwnProblemTest : public testing::TestWithParam<Case> {
  protected:
@@ -57,7 +58,7 @@ class OwnProblemTest : public testing::TestWithParam<Case> {
   }
 
   /// True errors in L2 and H1 on a mesh, one of half its size, and so on.
-  static void expect_orders(const Problem& problem, const std::vector<std::string>& natural) {
+  static void expect_orders(const OwnProblem& problem, const std::vector<std::string>& natural) {
     const int degree = GetParam().degree;
     std::vector<double> l2, h1;
     for (const std::size_t refinement : {1UL, 2UL, 4UL})

@@ -288,12 +288,12 @@ class EveryTextFormat : public FileTest, public ::testing::WithParamInterface<st
   }
 };
 
-const std::vector<std::string> square = {"0 0 0", "1 0 0", "1 1 0", "0 1 0"},
-                               roof = {"0 0 0", "1 0 .5", "1 1 0", "0 1 .5"},
+const std::vector<std::string> square_corners = {"0 0 0", "1 0 0", "1 1 0", "0 1 0"},
+                               roof_corners = {"0 0 0", "1 0 .5", "1 1 0", "0 1 .5"},
                                corner = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
 
 TEST_P(EveryTextFormat, RefusesDuplicateCells) {
-  for (const auto& points : {square, roof}) {
+  for (const auto& points : {square_corners, roof_corners}) {
     EXPECT_EQ(message(points, {{0, 1, 2}, {0, 2, 3}}), "");
     EXPECT_THAT(message(points, {{0, 1, 2}, {0, 1, 2}}),
                 HasSubstr("cell 1 has the same nodes as cell 0; remove one of them"));

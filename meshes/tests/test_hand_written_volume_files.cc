@@ -13,14 +13,14 @@ namespace {
 // A unit cube, a pyramid of volume 1/3 on it, a prism of volume 1/2 at its side and a tetrahedron
 // of volume 5/24 at the pyramid. Hand-written in the node order that each format documents.
 
-const std::string points[] = {"0 0 0", "1 0 0", "1 1 0",   "0 1 0",  "0 0 1",  "1 0 1",
-                              "1 1 1", "0 1 1", ".5 .5 2", "2 .5 0", "2 .5 1", ".5 -1 1.5"};
+const std::string point_lines[] = {"0 0 0", "1 0 0", "1 1 0",   "0 1 0",  "0 0 1",  "1 0 1",
+                                   "1 1 1", "0 1 1", ".5 .5 2", "2 .5 0", "2 .5 1", ".5 -1 1.5"};
 
 /// The nodes on separate lines; before: text before the coordinates.
 std::string node_lines(const std::function<std::string(int)>& before, const std::string& after) {
   std::string text;
   int n = 0;
-  for (const std::string& point : points) text += before(++n) + point + after + "\n";
+  for (const std::string& point : point_lines) text += before(++n) + point + after + "\n";
   return text;
 }
 std::string nothing(int) {

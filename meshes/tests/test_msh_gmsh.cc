@@ -89,7 +89,7 @@ Point<3> in_space(const Point<3>& p) {
 }
 
 template <int dim>
-Elements cells_of(const Mesh<dim>& mesh) {
+Elements elements_in(const Mesh<dim>& mesh) {
   const MeshLabels& labels = mesh.topology().labels();
   Elements cells;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
@@ -188,7 +188,7 @@ class MshOfGmsh : public FileTest, public ::testing::WithParamInterface<GmshVari
     });
     const auto mesh = std::get<Mesh<dim>>(read_mesh(file("a.msh")).mesh);
     const double tolerance = is_binary ? 0.0 : 1e-15;
-    const Elements expected = elements_of_model(dim), found = cells_of(mesh);
+    const Elements expected = elements_of_model(dim), found = elements_in(mesh);
     ASSERT_EQ(found.size(), expected.size());
     for (const auto& [number, element] : found)
       expect_near(element, expected.at(number), tolerance);
@@ -231,7 +231,7 @@ class MshForGmsh : public FileTest, public ::testing::WithParamInterface<Variant
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
       EXPECT_EQ(nodes.at(labels.node_ids.empty() ? i + 1 : labels.node_ids[i]),
                 in_space(mesh.coordinates()[i]));
-    EXPECT_EQ(elements_of_model(dim), cells_of(mesh));
+    EXPECT_EQ(elements_of_model(dim), elements_in(mesh));
     EXPECT_EQ(tagged(elements_of_model(dim - 1)), facets_of(mesh));
     EXPECT_EQ(names_of_model(0), labels.names);
     gmsh::model::remove();  // open() makes another model

@@ -16,7 +16,7 @@
 namespace smoothfem {
 namespace {
 
-using Points = std::vector<Point<3>>;
+using SpacePoints = std::vector<Point<3>>;
 
 /// The tables N, F and F with a bar of Sections 3.1 and 3.3, as printed (from 1).
 struct PrintedElement {
@@ -53,7 +53,7 @@ const std::map<std::size_t, PrintedElement>& printed() {
 }
 
 /// Regular elements with edges of length one.
-Points regular_element(std::size_t n) {
+SpacePoints regular_element(std::size_t n) {
   const double s3 = std::sqrt(3.0);
   if (n == 4) return {{0, 0, 0}, {1, 0, 0}, {0.5, s3 / 2, 0}, {0.5, s3 / 6, std::sqrt(2.0 / 3.0)}};
   if (n == 5) return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, std::sqrt(0.5)}};
@@ -62,8 +62,8 @@ Points regular_element(std::size_t n) {
   return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 }
 
-Points random_element(std::size_t n, test::Random& random) {
-  Points x(n);
+SpacePoints random_element(std::size_t n, test::Random& random) {
+  SpacePoints x(n);
   for (auto& p : x)
     for (int d = 0; d < 3; ++d) p[d] = random();
   return x;
@@ -72,8 +72,8 @@ Points random_element(std::size_t n, test::Random& random) {
 /// Calls act with the points as a span of fixed extent. Returns the points that it writes to a
 /// second span.
 template <class Act>
-Points with_span(const Points& in, const Act& act) {
-  Points out(in.size());
+SpacePoints with_span(const SpacePoints& in, const Act& act) {
+  SpacePoints out(in.size());
   const auto run = [&]<std::size_t n>() {
     std::array<Vector3<double>, n> x, y;
     for (std::size_t k = 0; k < n; ++k) x[k] = y[k] = vector_of(in[k]);
@@ -87,32 +87,32 @@ Points with_span(const Points& in, const Act& act) {
   return out;
 }
 
-double quality(const Points& x) {
+double quality(const SpacePoints& x) {
   double q = -1.0;
   with_span(x, [&](auto in, auto) { q = mean_ratio(in); });
   return q;
 }
-Points dual(const Points& x, double sigma) {
+SpacePoints dual(const SpacePoints& x, double sigma) {
   return with_span(x, [&](auto in, auto out) { DualElement::apply(sigma, in, out); });
 }
-Points opposite(const Points& x, double sigma) {
+SpacePoints opposite(const SpacePoints& x, double sigma) {
   std::array<Vector3<double>, 4> in, out;
   for (std::size_t k = 0; k < 4; ++k) in[k] = vector_of(x[k]);
   OppositeFaceNormals::apply(sigma, std::span<const Vector3<double>, 4>(in),
                              std::span<Vector3<double>, 4>(out));
   return {point_of(out[0]), point_of(out[1]), point_of(out[2]), point_of(out[3])};
 }
-Point<3> mean(const Points& x) {
+Point<3> mean(const SpacePoints& x) {
   Point<3> sum = Point<3>::Zero();
   for (const auto& p : x) sum += p;
   return sum / static_cast<double>(x.size());
 }
 
 /// Definition 3.2 with matrices; W from the regular element.
-double mean_ratio_by_matrices(const Points& x) {
+double mean_ratio_by_matrices(const SpacePoints& x) {
   const auto& simplices = printed().at(x.size()).simplices;
-  const Points regular = regular_element(x.size());
-  const auto edges = [](const Points& p, const std::array<int, 4>& s) {
+  const SpacePoints regular = regular_element(x.size());
+  const auto edges = [](const SpacePoints& p, const std::array<int, 4>& s) {
     Eigen::Matrix3d d;
     for (int i = 0; i < 3; ++i) d.col(i) = p[s[i + 1] - 1] - p[s[0] - 1];
     return d;
@@ -127,15 +127,15 @@ double mean_ratio_by_matrices(const Points& x) {
 }
 
 /// Definition 3.4, with the printed tables.
-Points dual_by_definition(const Points& x, double sigma, bool with_normals = true) {
+SpacePoints dual_by_definition(const SpacePoints& x, double sigma, bool with_normals = true) {
   const PrintedElement& element = printed().at(x.size());
-  Points d;
+  SpacePoints d;
   for (const auto& face : element.faces) {
-    Points nodes;
+    SpacePoints nodes;
     for (const int k : face) nodes.push_back(x[k - 1]);
     d.push_back(mean(nodes));
   }
-  Points result;
+  SpacePoints result;
   for (const auto& face : element.dual_faces) {
     const auto at = [&](int i) { return d[face[i] - 1]; };
     const bool quad = face.size() == 4;
@@ -151,7 +151,7 @@ Points dual_by_definition(const Points& x, double sigma, bool with_normals = tru
   return result;
 }
 
-double largest_distance(const Points& a, const Points& b) {
+double largest_distance(const SpacePoints& a, const SpacePoints& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, (a[k] - b[k]).norm());
   return largest;
@@ -176,7 +176,7 @@ TEST_P(VolumeElements, TablesAreThePrintedOnes) {
 }
 
 TEST_P(VolumeElements, FacesOfTheRegularElementPointOutwards) {
-  const Points x = regular_element(GetParam());
+  const SpacePoints x = regular_element(GetParam());
   for (const LocalFace& face : volume_element(GetParam()).faces) {
     const auto& k = face.nodes;
     const Point<3> normal = (x[k[1]] - x[k[0]]).cross(x[k[2]] - x[k[0]]);
@@ -185,7 +185,7 @@ TEST_P(VolumeElements, FacesOfTheRegularElementPointOutwards) {
 }
 
 TEST_P(VolumeElements, EdgesOfTheRegularElementHaveLengthOne) {
-  const Points x = regular_element(GetParam());
+  const SpacePoints x = regular_element(GetParam());
   std::set<std::pair<int, int>> seen;
   for (const auto& [a, b] : volume_element(GetParam()).edges) {
     EXPECT_NEAR((x[a] - x[b]).norm(), 1.0, 1e-15);
@@ -198,8 +198,8 @@ TEST_P(VolumeElements, MeanRatioIsThatOfTheMatrices) {
   EXPECT_NEAR(quality(regular_element(GetParam())), 1.0, 4e-16);
   int n_valid = 0;
   for (int i = 0; i < 20000; ++i) {
-    Points x = regular_element(GetParam());
-    const Points shift = random_element(GetParam(), random);
+    SpacePoints x = regular_element(GetParam());
+    const SpacePoints shift = random_element(GetParam(), random);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += 0.6 * shift[k];
     const double expected = mean_ratio_by_matrices(x);
     n_valid += expected > 0.0 ? 1 : 0;
@@ -222,7 +222,7 @@ TEST_P(VolumeElements, SharesOfValidRandomElementsAreThePrintedOnes) {
 TEST_P(VolumeElements, DualElementIsThatOfTheDefinition) {
   test::Random random(3 * GetParam());
   for (int i = 0; i < 500; ++i) {
-    const Points x = random_element(GetParam(), random);
+    const SpacePoints x = random_element(GetParam(), random);
     for (const double sigma : {0.1, 0.7, 1.5, 17.0})
       ASSERT_LT(largest_distance(dual(x, sigma), dual_by_definition(x, sigma)),
                 1e-13 * (1.0 + sigma));
@@ -230,8 +230,8 @@ TEST_P(VolumeElements, DualElementIsThatOfTheDefinition) {
 }
 
 TEST_P(VolumeElements, RegularElementsStayRegular) {
-  const Points x = regular_element(GetParam());
-  const auto expect_regular = [&](const Points& y) {
+  const SpacePoints x = regular_element(GetParam());
+  const auto expect_regular = [&](const SpacePoints& y) {
     const auto& edges = volume_element(GetParam()).edges;
     const double first = (y[edges[0][0]] - y[edges[0][1]]).norm();
     for (const auto& [a, b] : edges)
@@ -251,12 +251,12 @@ TEST_P(VolumeElements, TransformationsCommuteWithSimilarities) {
       Eigen::AngleAxisd(1.1, Point<3>(1, 2, -1).normalized()).toRotationMatrix();
   const Point<3> shift(3.0, -1.0, 2.0);
   for (const double scale : {1e-9, 0.3, 1e9}) {
-    const auto similar = [&](Points x) {
+    const auto similar = [&](SpacePoints x) {
       for (auto& p : x) p = scale * (turned * p + shift);
       return x;
     };
     for (int i = 0; i < 50; ++i) {
-      const Points x = random_element(GetParam(), random);
+      const SpacePoints x = random_element(GetParam(), random);
       EXPECT_LT(largest_distance(dual(similar(x), 1.3), similar(dual(x, 1.3))), 1e-14 * 20 * scale);
       if (GetParam() == 4) {
         EXPECT_LT(largest_distance(opposite(similar(x), 1.3), similar(opposite(x, 1.3))),
@@ -272,7 +272,7 @@ TEST_P(VolumeElements, CentroidsAreAsInTheLemma) {
   test::Random random(13);
   double base_moves = 0.0, all_moves = 0.0;
   for (int i = 0; i < 50; ++i) {
-    const Points x = random_element(GetParam(), random);
+    const SpacePoints x = random_element(GetParam(), random);
     base_moves = std::max(base_moves, (mean(dual_by_definition(x, 1.2, false)) - mean(x)).norm());
     all_moves = std::max(all_moves, (mean(dual(x, 1.2)) - mean(x)).norm());
   }
@@ -287,7 +287,7 @@ ElementParameters<3> regularization(double sigma) {
           .hexahedron = {sigma, sigma},
           .rho = 1.0};
 }
-Points regularized(const ElementParameters<3>& parameters, const Points& x) {
+SpacePoints regularized(const ElementParameters<3>& parameters, const SpacePoints& x) {
   const ElementRegularization<3> element(parameters);
   return with_span(x, [&](auto in, auto out) { element.regularize(in, out); });
 }
@@ -300,7 +300,7 @@ TEST_P(VolumeElements, AreRegularizedFromValidAndInvalidStarts) {
       element.tetrahedron_transformation = transformation;
       test::Random random(17);
       for (int start = 0; start < 200; ++start) {
-        Points x = random_element(GetParam(), random);
+        SpacePoints x = random_element(GetParam(), random);
         int n = 0;
         for (; n < 1000 && quality(x) < 1.0 - 1e-6; ++n) x = regularized(element, x);
         ASSERT_LT(n, 1000) << sigma << ' ' << start;
@@ -312,16 +312,16 @@ TEST_P(VolumeElements, AreRegularizedFromValidAndInvalidStarts) {
 TEST_P(VolumeElements, KeepTheScaledQuantityAndRelax) {
   test::Random random(19);
   for (int i = 0; i < 100; ++i) {
-    Points x = regular_element(GetParam());
-    const Points noise = random_element(GetParam(), random);
+    SpacePoints x = regular_element(GetParam());
+    const SpacePoints noise = random_element(GetParam(), random);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += 0.2 * noise[k];
     if (!(quality(x) > 0.0)) continue;
-    const auto edge_sum = [&](const Points& y) {
+    const auto edge_sum = [&](const SpacePoints& y) {
       double sum = 0.0;
       for (const auto& [a, b] : volume_element(GetParam()).edges) sum += (y[a] - y[b]).norm();
       return sum;
     };
-    const auto volume_sum = [&](const Points& y) {
+    const auto volume_sum = [&](const SpacePoints& y) {
       double sum = 0.0;
       for (const auto& s : printed().at(GetParam()).simplices)
         sum += (y[s[1] - 1] - y[s[0] - 1])
@@ -330,16 +330,16 @@ TEST_P(VolumeElements, KeepTheScaledQuantityAndRelax) {
       return sum;
     };
     auto element = regularization(0.9);
-    const Points full = regularized(element, x);
+    const SpacePoints full = regularized(element, x);
     EXPECT_LT((mean(full) - mean(x)).norm(), 1e-15);
     EXPECT_NEAR(edge_sum(full), edge_sum(x), 1e-14 * edge_sum(x));
     element.scaling = ElementParameters<3>::mean_volume;
-    const Points same_volume = regularized(element, x);
+    const SpacePoints same_volume = regularized(element, x);
     EXPECT_LT((mean(same_volume) - mean(x)).norm(), 1e-15);
     EXPECT_NEAR(volume_sum(same_volume), volume_sum(x), 1e-13 * volume_sum(x));
     element.scaling = ElementParameters<3>::mean_edge_length;
     element.rho = 0.1;
-    const Points tenth = regularized(element, x);
+    const SpacePoints tenth = regularized(element, x);
     for (std::size_t k = 0; k < x.size(); ++k)
       EXPECT_LT((10.0 * (tenth[k] - x[k]) - (full[k] - x[k])).norm(), 1e-14);
   }
@@ -354,7 +354,7 @@ TEST(OppositeFaceNormals, NeedThePrintedNumberOfTransformations) {
   int n_starts = 0;
   double sum = 0.0;
   for (int start = 0; start < 100000; ++start) {
-    Points x = random_element(4, random);
+    SpacePoints x = random_element(4, random);
     if (!(quality(x) > 0.0)) continue;
     ++n_starts;
     for (; quality(x) < 1.0 - 1e-6; ++sum) x = opposite(x, 0.78);
@@ -364,21 +364,21 @@ TEST(OppositeFaceNormals, NeedThePrintedNumberOfTransformations) {
 
 /// Section 3.2: the tetrahedron that no sigma makes regular at once.
 TEST(OppositeFaceNormals, TransformThePrintedCounterexample) {
-  const Points x{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+  const SpacePoints x{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
   for (const double sigma : {0.1, 0.78, 1.0, std::sqrt(2.0) + std::sqrt(3.0),
                              0.5 * (std::sqrt(2.0) + std::sqrt(6.0)), 5.0}) {
-    const Points y = opposite(x, sigma);
-    const Points expected{-sigma / std::sqrt(7.0) * Point<3>(6, 3, 2),
-                          {1 + std::sqrt(6.0) * sigma, 0, 0},
-                          {0, 2 + std::sqrt(3.0) * sigma, 0},
-                          {0, 0, 3 + std::sqrt(2.0) * sigma}};
+    const SpacePoints y = opposite(x, sigma);
+    const SpacePoints expected{-sigma / std::sqrt(7.0) * Point<3>(6, 3, 2),
+                               {1 + std::sqrt(6.0) * sigma, 0, 0},
+                               {0, 2 + std::sqrt(3.0) * sigma, 0},
+                               {0, 0, 3 + std::sqrt(2.0) * sigma}};
     EXPECT_LT(largest_distance(y, expected), 1e-14 * (1.0 + sigma));
     EXPECT_LT(quality(y), 1.0 - 1e-4) << sigma;
   }
 }
 
 TEST(OppositeFaceNormals, DoNotMoveNodesOppositeToFacesWithoutArea) {
-  const Points x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+  const SpacePoints x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
   for (const auto& p : opposite(x, 1.0)) EXPECT_TRUE(p.allFinite());
   EXPECT_EQ(opposite(x, 1.0)[3], x[3]);
 }
@@ -406,10 +406,10 @@ TEST(VolumeLanes, AreTheSameAsSingleCells) {
   test::Random random(31);
   const auto check = [&]<std::size_t n>() {
     std::array<Vector3<Lanes>, n> lanes, result;
-    std::array<Points, n_lanes> cells;
+    std::array<SpacePoints, n_lanes> cells;
     for (std::size_t l = 0; l < n_lanes; ++l) {
       cells[l] = regular_element(n);
-      const Points noise = random_element(n, random);
+      const SpacePoints noise = random_element(n, random);
       for (std::size_t k = 0; k < n; ++k) {
         cells[l][k] += 0.25 * noise[k];
         lanes[k].x[l] = cells[l][k].x();
@@ -423,7 +423,7 @@ TEST(VolumeLanes, AreTheSameAsSingleCells) {
                                        std::span<Vector3<Lanes>, n>(result));
     for (std::size_t l = 0; l < n_lanes; ++l) {
       EXPECT_EQ(q[l], quality(cells[l])) << n;
-      const Points single = regularized(parameters, cells[l]);
+      const SpacePoints single = regularized(parameters, cells[l]);
       for (std::size_t k = 0; k < n; ++k)
         EXPECT_EQ(single[k], Point<3>(result[k].x[l], result[k].y[l], result[k].z[l])) << n;
     }
