@@ -59,6 +59,9 @@ class Installed(Study, unittest.TestCase):
 
     def test_runs_a_study_here(self):
         (self.folder / "small.prm").write_text(STUDY)
+        for name in ("copy.py", "numpy.py"):  # of the user, not of Python
+            (self.folder / name).write_text("raise ImportError\n")
+            self.addCleanup((self.folder / name).unlink)
         link = self.folder / "linked"
         link.symlink_to(self.smoothfem)
         run(link, "study", "small.prm", "--quiet", folder=self.folder)

@@ -18,10 +18,12 @@ namespace smoothfem {
 namespace fs = std::filesystem;
 
 std::string plots_command(const std::vector<std::string>& words) {
+  // Safe path: otherwise a file copy.py in the user's folder would take the place of Python's
+  // module.
   const fs::path find_python = fs::canonical("/proc/self/exe").parent_path() / "find_python";
   std::string command = "python=$(" + shell_quoted(find_python) +
                         ") && PYTHONPATH=" + shell_quoted(data_folder()) +
-                        "${PYTHONPATH:+:$PYTHONPATH} exec \"$python\" -B -m plots";
+                        "${PYTHONPATH:+:$PYTHONPATH} PYTHONSAFEPATH=1 exec \"$python\" -B -m plots";
   for (const std::string& word : words) command += " " + shell_quoted(word);
   return command;
 }
