@@ -167,8 +167,9 @@ template <class W>
 std::string advice(std::size_t n_inverted, std::size_t n_cells) {
   if (n_inverted == n_cells) return std::string(W::all) + "; " + W::fix;
   if (n_inverted > 0)
-    return std::string(W::fix_some) + ", or untangle the mesh first if they are inverted";
-  return "untangle the mesh first";
+    return std::string(W::fix_some) +
+           ", or untangle the mesh first (--untangle) if they are inverted";
+  return "untangle the mesh first (--untangle)";
 }
 
 template <int dim>

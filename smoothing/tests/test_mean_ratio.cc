@@ -155,7 +155,7 @@ TEST(MeshQuality, CountsInvalidCellsAndNamesThem) {
     const std::string text = error.what();
     EXPECT_EQ(text,
               "some.mesh:14: 1 of 4 cells is invalid: cell 3 at (1.9, 1.9) is not convex or "
-              "degenerate; untangle the mesh first");
+              "degenerate; untangle the mesh first (--untangle)");
   }
 }
 

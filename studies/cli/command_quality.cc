@@ -208,11 +208,12 @@ void require_histogram_path(const std::filesystem::path& path) {
                      " must end with .csv, or, to be drawn, with .png, .pdf or .svg");
 }
 
-/// Writes the counts as CSV, or draws them by the Python package.
-void write_histogram(const std::filesystem::path& path, const std::string& counts) {
+/// Writes the counts as CSV, or draws them by the Python package under the name of the mesh.
+void write_histogram(const std::filesystem::path& path, const std::filesystem::path& mesh,
+                     const std::string& counts) {
   if (!is_picture(path)) return write_atomically(path, counts);
   const ScratchFolder folder;
-  const auto csv = folder.path() / "counts.csv";
+  const auto csv = folder.path() / mesh.filename();
   write_atomically(csv, counts);
   if (std::system(plots_command({"histogram", csv.string(), path.string()}).c_str()) != 0)
     throw InputError("the histogram " + path.string() + " cannot be drawn, for the reason above");
@@ -235,7 +236,7 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
   if (!arguments.mark.empty()) mark_bad_cells(arguments, mesh, cell_quality);
   std::fflush(stdout);
   if (!arguments.histogram.empty())
-    write_histogram(arguments.histogram, histogram_csv(topology, cell_quality));
+    write_histogram(arguments.histogram, arguments.in, histogram_csv(topology, cell_quality));
   require_valid(mesh, arguments.in, cell_lines);
 }
 
