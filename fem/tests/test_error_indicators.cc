@@ -2,8 +2,10 @@
 // Where the error of a solution is, by the residual, and its second derivatives, by the recovery.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "fem/adaptivity/gradient_recovery.h"
 #include "fem/adaptivity/poisson_problem.h"
 #include "fem/adaptivity/residual_indicator.h"
 #include "fem/poisson_solver.h"
@@ -83,6 +85,25 @@ TEST(ResidualIndicator, OfAHatFunctionOnTrianglesIsThatOfAllPairs) {
   for (CellIndex c = 0; c < t.n_cells(); ++c) expected.push_back(std::sqrt(squares[c] / sizes[c]));
   ASSERT_EQ(indicators.size(), expected.size());
   for (CellIndex c = 0; c < t.n_cells(); ++c) EXPECT_NEAR(indicators[c], expected[c], 1e-12) << c;
+}
+
+/// u = x^2 on squares with sides h. In a column of cells the gradient of the interpolant is 2 x_m,
+/// at its middle; the recovered one is 2 x, by means over two columns. The mean of the square of
+/// 2 (x - x_m) is h^2 / 3. Columns at the boundary have other means.
+TEST(GradientRecovery, OfAParabolaMatchesHandComputation) {
+  constexpr std::size_t n = 6;
+  constexpr double h = 1.0 / n;
+  const auto mesh = unit_square(n, Cells::quadrilaterals, 0.0);
+  const auto space = make_finite_element_space<2>(&mesh, 1, {});
+  const auto x = space->local_coordinates(mesh.coordinates());
+  Eigen::VectorXd u(static_cast<Eigen::Index>(space->n_local));
+  for (std::size_t i = 0; i < x.size(); ++i) u[static_cast<Eigen::Index>(i)] = x[i].x() * x[i].x();
+  const auto solution = without_load<2>();
+  const auto differences = GradientRecovery<2>(*space, x, u, solution).differences();
+  ASSERT_EQ(differences.size(), n * n);
+  EXPECT_EQ(std::count_if(differences.begin(), differences.end(),
+                          [](double d) { return std::abs(d - h / std::sqrt(3.0)) < 1e-12; }),
+            n * (n - 2));
 }
 
 class ErrorIndicatorTest : public testing::TestWithParam<Case> {
