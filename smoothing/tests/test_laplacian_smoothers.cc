@@ -12,11 +12,13 @@ namespace {
 
 constexpr double round_off = 1e-14;
 
+/// Returns the mesh after the iteration, also if the initial one is the better result.
 PlanarMesh after_one_iteration(PlanarMesh mesh, const std::string& name) {
   auto method = make_method<2>(name);
   method.set("max_iterations", "1");
-  smooth(mesh, method);
-  return mesh;
+  PlanarMesh last = mesh;
+  smooth(mesh, method, [&](const IterationRecord&, const PlanarMesh& seen) { last = seen; });
+  return last;
 }
 
 /// Returns 3 x 3 unit squares, whose four inner nodes (5, 6, 9 and 10) are moved.
