@@ -8,6 +8,7 @@
 #include "fem/adaptivity/gradient_recovery.h"
 #include "fem/adaptivity/poisson_problem.h"
 #include "fem/adaptivity/residual_indicator.h"
+#include "fem/assembly/assembly.h"
 #include "fem/poisson_solver.h"
 #include "fem/tests/unit_mesh.h"
 
@@ -96,10 +97,10 @@ TEST(GradientRecovery, OfAParabolaMatchesHandComputation) {
   const auto mesh = unit_square(n, Cells::quadrilaterals, 0.0);
   const auto space = make_finite_element_space<2>(&mesh, 1, {});
   const auto x = space->local_coordinates(mesh.coordinates());
-  Eigen::VectorXd u(static_cast<Eigen::Index>(space->n_local));
-  for (std::size_t i = 0; i < x.size(); ++i) u[static_cast<Eigen::Index>(i)] = x[i].x() * x[i].x();
-  const auto solution = without_load<2>();
-  const auto differences = GradientRecovery<2>(*space, x, u, solution).differences();
+  const auto solution = derived_solution<2>("x^2", {}, {});
+  PoissonSystem system = make_system(*space);
+  assemble(*space, x, solution, Load::none, system);
+  const auto differences = GradientRecovery<2>(*space, x, system.exact, solution).differences();
   ASSERT_EQ(differences.size(), n * n);
   EXPECT_EQ(std::count_if(differences.begin(), differences.end(),
                           [](double d) { return std::abs(d - h / std::sqrt(3.0)) < 1e-12; }),
