@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 from plots.__main__ import main
-from plots.claims.overview import reference
+from plots.claims.reasons import reference
 from plots.results.rows import is_there
 
 

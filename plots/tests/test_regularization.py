@@ -38,7 +38,7 @@ def write_results(folder):
 
 
 class Regularization(InFolder):
-    def test_least_mean_stands_beside_the_print(self):
+    def test_least_mean_stands_next_to_the_printed_value(self):
         tables = make_regularization_tables(read_regularization_results(write_results(self.folder / "r")))
         text = as_text(tables[0])
         self.assertIn("4.25", text)

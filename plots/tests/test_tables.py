@@ -47,7 +47,7 @@ class Tables(InFolder):
         printed = read_printed_tables(results.thesis_study, results.provenance)
         return {table.name: table for table in make_tables(results, printed)}
 
-    def test_ours_beside_printed(self):
+    def test_computed_next_to_printed(self):
         tables = self.tables()
         self.assertEqual(list(tables), ["table_6_1_smoothing", "table_6_2_solver", "table_6_3_errors",
                                         "table_6_4_thresholds", "table_details"])
@@ -62,7 +62,7 @@ class Tables(InFolder):
         self.assertIn("7.39e+02ᵃ  -48.9", text)
         self.assertIn("stand-ins", text)
 
-    def test_volume_study_beside_its_tables(self):
+    def test_volume_study_next_to_its_tables(self):
         tables = self.tables(study="volume", meshes=("tet", "hex"))
         self.assertEqual(list(tables)[:4], ["table_6_5_smoothing", "table_6_6_solver", "table_6_7_errors",
                                             "table_6_8_thresholds"])

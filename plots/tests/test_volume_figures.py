@@ -165,7 +165,7 @@ class Histograms(InFolder):
         self.assertEqual(figure.axes[0].get_yscale(), "linear")
         style.pyplot.close(figure)
 
-    def test_small_differences_are_seen_beside_large_ones(self):
+    def test_small_differences_are_seen_next_to_large_ones(self):
         results = read_results(write_volume_results(self.folder / "r", "own", ("hex", "hex-distorted"),
                                                     ("getme", "own")))
         qualities = {(mesh, method): [0.9] * 100 for mesh in results.meshes for method in ("getme", "own")}
