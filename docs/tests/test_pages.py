@@ -33,7 +33,7 @@ SHORTER = {
     "smoothfem study energy-layer --scale quick": "begin_and_stop smoothfem study energy-layer --scale quick",
     "smoothfem study gear --quick --quiet --force": "begin_and_stop smoothfem study gear --quick --force",
     "smoothfem study polygons --quick --quiet": "begin_and_stop smoothfem study polygons --quick",
-    # Coarser meshes and no optimization: launcher/tests/test_new_smoother.py runs the unchanged templates.
+    # Coarser meshes and no optimization: test_new_smoother.py and test_installed.py in launcher/tests run the unchanged templates.
     "smoothfem study mine.prm --quiet": "sed -i '/edge scale/s/2/3/; /max_iterations/s/16/2/; /^subsection mesh quad/,/^end/d; /^set meshes/s/, quad//' mine.prm; "
                                         "smoothfem study mine.prm --quiet",
     "smoothfem study half-laplace.prm --quiet": "sed -i '/edge scale/s/2/3/; /^subsection mesh quad/,/^end/d; /^set meshes/s/, quad//' half-laplace.prm; "
@@ -99,7 +99,7 @@ def session(name, path):
 
 
 def published(test, lines, folder):
-    """The environment for lines that need the published meshes; takes these lines away if the meshes are not here."""
+    """Returns the environment for lines that need the published meshes; removes these lines if the meshes are missing."""
     wanted = [line for line in lines if any(option in line for option in NEED_PUBLISHED)]
     if not wanted:
         return {}

@@ -46,8 +46,9 @@ class RealMeshes : public testing::TestWithParam<Run> {
     const auto& [file, preset, method] = GetParam();
     // These take seconds on the sphere; the smaller meshes have every preset and method.
     if (file.starts_with("tet_sphere") && preset == "thesis-5.2" && method.starts_with("getme") &&
-        method != "getme-simultaneous" && !test::is_long())
-      GTEST_SKIP() << "run by the long tests";
+        method != "getme-simultaneous") {
+      SKIP_UNLESS_LONG();
+    }
   }
 
   template <int dim, int spacedim>

@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "smoothing/getme/regularize.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/tests/element_step.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {
@@ -40,13 +40,10 @@ std::vector<Point<2>> means(const PlanarMesh& mesh, const ElementParameters<2>& 
   std::vector<double> weights(mesh.n_nodes());
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
     const auto nodes = mesh.topology().cell_nodes(c);
-    std::vector<Vector2<double>> corners, result(nodes.size());
-    for (const NodeIndex node : nodes) corners.push_back(vector_of(mesh.coordinates()[node]));
-    element.regularize(std::span<const Vector2<double>>(corners),
-                       std::span<Vector2<double>>(result));
+    const auto result = test::transformed(element, mesh, c);
     const double w = weight(mesh, c);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      sums[nodes[k]] += w * point_of(result[k]);
+      sums[nodes[k]] += w * result[k];
       weights[nodes[k]] += w;
     }
   }
@@ -78,7 +75,7 @@ int iterate(PlanarMesh& mesh, const ElementParameters<2>& parameters) {
 
 TEST(GetmeAdaptive, AnIterationFollowsTheRulesOfTheThesis) {
   const ElementParameters<2> parameters{.lambda = 0.5, .theta_degrees = 45.0, .rho = 1.0};
-  int n_shortened = 0;
+  int n_shortened = 0, n_seen = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     PlanarMesh expected = test::grid_mesh(6, test::GridCells::mixed);
     test::distort(expected, 0.9, seed);
@@ -91,10 +88,12 @@ TEST(GetmeAdaptive, AnIterationFollowsTheRulesOfTheThesis) {
     n_shortened += iterate(expected, parameters);
     smooth(mesh, method, [&](const IterationRecord& record, const PlanarMesh& seen) {
       if (record.stage != "mean" || record.iteration != 1) return;
+      ++n_seen;
       for (NodeIndex i = 0; i < seen.n_nodes(); ++i)
         EXPECT_LT((seen.coordinates()[i] - expected.coordinates()[i]).norm(), 1e-12) << i;
     });
   }
+  EXPECT_EQ(n_seen, 4) << "iterations that were compared";
   EXPECT_GT(n_shortened, 10) << "otherwise relaxation is not tested";
 }
 

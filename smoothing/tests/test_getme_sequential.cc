@@ -2,10 +2,10 @@
 /// One cycle of GETMe sequential, against the rules of Section 4.3 written as plain loops.
 #include <gtest/gtest.h>
 
-#include "smoothing/getme/regularize.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/tests/element_step.h"
 #include "smoothing/tests/planar_meshes.h"
 
 namespace smoothfem {
@@ -34,13 +34,10 @@ Outcome transform_worst_elements(PlanarMesh& mesh, const ElementParameters<2>& p
           (worst == topology.n_cells() || corrected(c) < corrected(worst)))
         worst = c;
     const auto nodes = topology.cell_nodes(worst);
-    std::vector<Vector2<double>> corners, result(nodes.size());
-    for (const NodeIndex node : nodes) corners.push_back(vector_of(mesh.coordinates()[node]));
-    element.regularize(std::span<const Vector2<double>>(corners),
-                       std::span<Vector2<double>>(result));
+    const auto result = test::transformed(element, mesh, worst);
     const auto old = mesh.copied_coordinates();
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (!topology.is_fixed(nodes[k])) mesh.coordinates()[nodes[k]] = point_of(result[k]);
+      if (!topology.is_fixed(nodes[k])) mesh.coordinates()[nodes[k]] = result[k];
     const bool kept = mesh_quality(mesh).n_invalid == 0;
     if (!kept)
       for (const NodeIndex node : nodes) mesh.coordinates()[node] = old[node];
