@@ -13,7 +13,7 @@ namespace smoothfem {
 
 namespace {
 
-struct Arguments {
+struct GenerateArguments {
   std::string domain, out, to, elements;
   std::string distortion = distortion_kind_names[0];
   double edge_scale = 1.0, distort_to = 0.0, min_quality = 0.0;
@@ -23,7 +23,7 @@ struct Arguments {
 };
 
 template <int dim, int spacedim>
-void distort_and_write(Mesh<dim, spacedim>& mesh, const Arguments& arguments) {
+void distort_and_write(Mesh<dim, spacedim>& mesh, const GenerateArguments& arguments) {
   if (arguments.distort_to > 0.0) {
     DistortionParameters parameters;
     parameters.target_q_mean = arguments.distort_to;
@@ -47,7 +47,7 @@ void list_domains() {
                 joined(domain.elements).c_str());
 }
 
-void generate(Arguments arguments) {
+void generate(GenerateArguments arguments) {
   if (arguments.domain.empty())
     throw InputError("which domain? 'smoothfem generate --list' shows the available ones");
   if (arguments.out.empty())
@@ -72,7 +72,7 @@ void generate(Arguments arguments) {
 }  // namespace
 
 void smoothfem_add_generate_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<GenerateArguments>();
   auto* command = add_subcommand(app, "generate");
   command->add_option("domain", arguments->domain, "domain (see --list)");
   command->add_flag("--list", arguments->list, "only list the domains");

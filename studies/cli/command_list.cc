@@ -20,7 +20,7 @@ namespace smoothfem {
 
 namespace {
 
-struct Arguments {
+struct ListArguments {
   std::filesystem::path studies;  ///< empty: the built-in studies
   bool study_keys = false;
   std::string columns;  ///< CSV file; empty: all
@@ -105,7 +105,7 @@ void list_the_rest() {
 }  // namespace
 
 void smoothfem_add_list_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ListArguments>();
   auto* command = add_subcommand(app, "list");
   command->add_option("--studies", arguments->studies,
                       "folder with study files (default: the built-in studies)");

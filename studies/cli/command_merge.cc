@@ -8,7 +8,7 @@ namespace smoothfem {
 
 namespace {
 
-struct Arguments {
+struct MergeArguments {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path out;
 };
@@ -16,7 +16,7 @@ struct Arguments {
 }  // namespace
 
 void smoothfem_add_merge_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MergeArguments>();
   auto* command = add_subcommand(app, "merge");
   command->add_option("folders", arguments->folders, "results folders")->required();
   command->add_option("-o,--out", arguments->out, "folder to make")->required();

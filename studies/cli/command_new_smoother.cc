@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct NewSmootherArguments {
   std::string name;
   bool python = false, command = false;
 };
@@ -56,7 +56,7 @@ std::string filled_in(std::string text, const Spellings& s) {
   return text;
 }
 
-void make_folder(const Arguments& arguments) {
+void make_folder(const NewSmootherArguments& arguments) {
   static const std::regex allowed("[a-z][a-z0-9]*(-[a-z0-9]+)*");
   if (!std::regex_match(arguments.name, allowed))
     throw InputError("a smoother cannot be called '" + arguments.name +
@@ -86,7 +86,7 @@ void make_folder(const Arguments& arguments) {
 }  // namespace
 
 void add_new_smoother_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<NewSmootherArguments>();
   auto* command = add_subcommand(app, "new-smoother");
   command->add_option("name", arguments->name, "name of the smoother, for example half-laplace")
       ->required();

@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t n_bins = 10;
 constexpr std::size_t n_csv_bins = 40;  ///< a picture shows more than lines of text
 
-struct Arguments {
+struct QualityArguments {
   std::string in, from, histogram, mark, metrics;
   double below = 0.0;
   bool json = false;
@@ -170,7 +170,7 @@ std::vector<CellIndex> bad_cells(const std::vector<double>& cell_quality, double
 
 /// Writes the mesh with its bad cells marked, and lists the worst of them.
 template <int dim, int spacedim>
-void mark_bad_cells(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
+void mark_bad_cells(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
                     const std::vector<double>& cell_quality) {
   constexpr std::size_t n_listed = 10;
   const auto bad = bad_cells(cell_quality, arguments.below);
@@ -220,7 +220,7 @@ void write_histogram(const std::filesystem::path& path, const std::filesystem::p
 }
 
 template <int dim, int spacedim>
-void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
+void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
             const std::vector<std::size_t>& cell_lines) {
   const Topology& topology = mesh.topology();
   const auto cell_quality = cell_mean_ratios(mesh);
@@ -240,7 +240,7 @@ void report(const Arguments& arguments, const Mesh<dim, spacedim>& mesh,
   require_valid(mesh, arguments.in, cell_lines);
 }
 
-void report_quality(Arguments arguments) {
+void report_quality(QualityArguments arguments) {
   if (!arguments.histogram.empty()) require_histogram_path(arguments.histogram);
   if (!(arguments.below >= 0.0 && arguments.below <= 1.0))
     throw InputError("--below is " + std::to_string(arguments.below) +
@@ -258,7 +258,7 @@ void report_quality(Arguments arguments) {
 }  // namespace
 
 void add_quality_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<QualityArguments>();
   auto* command = add_subcommand(app, "quality");
   command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
   command->add_option("--from", arguments->from, "format of standard input: msh, vtu, ...");

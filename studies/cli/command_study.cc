@@ -19,7 +19,7 @@ namespace smoothfem {
 
 namespace {
 
-struct Arguments {
+struct StudyArguments {
   std::string study;
   std::string scale;
   bool quick = false;
@@ -37,11 +37,11 @@ void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-ReadyStudy read(const Arguments& arguments) {
+ReadyStudy read(const StudyArguments& arguments) {
   return read_any_study(find_study(arguments.study), arguments.quick ? "quick" : arguments.scale);
 }
 
-void run(Arguments& arguments, std::optional<MpiSession>& mpi) {
+void run(StudyArguments& arguments, std::optional<MpiSession>& mpi) {
   StudyOptions& options = arguments.options;
   if (options.ranks.is_root()) {
     std::signal(SIGINT, on_interrupt);
@@ -63,7 +63,7 @@ void run(Arguments& arguments, std::optional<MpiSession>& mpi) {
   study.run(options);
 }
 
-void run_on_all_ranks(Arguments& arguments) {
+void run_on_all_ranks(StudyArguments& arguments) {
   std::optional<MpiSession> mpi;
   if (started_by_mpirun()) {
     mpi.emplace();
@@ -81,7 +81,7 @@ void run_on_all_ranks(Arguments& arguments) {
 /// Prints the launcher's work for a study, one item a line. "ranks N": number of processes that is
 /// fastest on this machine. "out FOLDER": results folder. "draw OPTION": option for drawing. "fetch
 /// NAME": published meshes are wanted. Prints nothing about the program's own work.
-void print_plan(const Arguments& arguments) {
+void print_plan(const StudyArguments& arguments) {
   if (arguments.list || arguments.options.dry_run) return;
   // More processes speed up a study if they share the finite elements of volume meshes.
   unsigned n_ranks = 1;
@@ -115,7 +115,7 @@ void list_studies() {
 
 void smoothfem_add_study_command(CLI::App& app) {
   return_freed_memory();
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<StudyArguments>();
   auto* command = add_subcommand(app, "study");
   auto* name = command->add_option("study", arguments->study,
                                    "study file (.prm), or name of a built-in study");

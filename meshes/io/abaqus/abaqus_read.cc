@@ -279,16 +279,16 @@ MeshFile read_abaqus(const std::filesystem::path& path) {
 
 namespace {
 
-const RegisteredFormat registered({.name = "abaqus",
-                                   .extension = ".inp",
-                                   .description = "Abaqus and CalculiX input",
-                                   .holds_planar_meshes = true,
-                                   .holds_volume_meshes = true,
-                                   .holds_fixed_nodes = true,
-                                   .holds_physical_names = true,
-                                   .holds_numbers = true,
-                                   .read = read_abaqus,
-                                   .write = write_abaqus});
+const RegisteredFormat abaqus({.name = "abaqus",
+                               .extension = ".inp",
+                               .description = "Abaqus and CalculiX input",
+                               .holds_planar_meshes = true,
+                               .holds_volume_meshes = true,
+                               .holds_fixed_nodes = true,
+                               .holds_physical_names = true,
+                               .holds_numbers = true,
+                               .read = read_abaqus,
+                               .write = write_abaqus});
 
 }  // namespace
 

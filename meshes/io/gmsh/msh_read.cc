@@ -227,7 +227,7 @@ MeshFile read_msh(const std::filesystem::path& path) {
 
 namespace {
 
-const RegisteredFormat registered(
+const RegisteredFormat gmsh_format(
     {.name = "gmsh",
      .extension = ".msh",
      .description = "Gmsh 4.1 and 2.2, text or binary; reads 4.0 as text",

@@ -316,13 +316,13 @@ void write_medit_with_boundary(const std::filesystem::path& path, const MeshView
 
 namespace {
 
-const RegisteredFormat registered({.name = "medit",
-                                   .extension = ".mesh",
-                                   .description = "Medit, text; written for volume meshes",
-                                   .holds_volume_meshes = true,
-                                   .recognizes = is_medit_text,
-                                   .read = read_medit_text,
-                                   .write = write_medit_text});
+const RegisteredFormat medit({.name = "medit",
+                              .extension = ".mesh",
+                              .description = "Medit, text; written for volume meshes",
+                              .holds_volume_meshes = true,
+                              .recognizes = is_medit_text,
+                              .read = read_medit_text,
+                              .write = write_medit_text});
 
 }  // namespace
 

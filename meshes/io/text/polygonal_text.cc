@@ -154,14 +154,14 @@ void write_polygonal_text(const std::filesystem::path& path, const MeshView& vie
 
 namespace {
 
-const RegisteredFormat registered({.name = "polygonal",
-                                   .extension = ".mesh",
-                                   .description = "planar polygonal mesh, text",
-                                   .holds_planar_meshes = true,
-                                   .holds_polygons = true,
-                                   .holds_fixed_nodes = true,
-                                   .read = read_polygonal_text,
-                                   .write = write_polygonal_text});
+const RegisteredFormat polygonal({.name = "polygonal",
+                                  .extension = ".mesh",
+                                  .description = "planar polygonal mesh, text",
+                                  .holds_planar_meshes = true,
+                                  .holds_polygons = true,
+                                  .holds_fixed_nodes = true,
+                                  .read = read_polygonal_text,
+                                  .write = write_polygonal_text});
 
 }  // namespace
 

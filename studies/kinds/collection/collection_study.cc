@@ -16,7 +16,7 @@ ReadyStudy read(const std::filesystem::path& file, const std::string& scale) {
       .run = [collection](const StudyOptions& options) { run_collection(*collection, options); }};
 }
 
-const RegisteredStudyKind registered({"collection", read, collection_template});
+const RegisteredStudyKind collection_kind({"collection", read, collection_template});
 
 }  // namespace
 

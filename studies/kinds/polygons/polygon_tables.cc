@@ -77,7 +77,7 @@ ReadyStudy read(const std::filesystem::path& file, const std::string& scale) {
   return table_study(study.header, polygon_tables(study));
 }
 
-const RegisteredStudyKind registered({"polygons", read, polygon_study_template});
+const RegisteredStudyKind polygons_kind({"polygons", read, polygon_study_template});
 
 }  // namespace
 

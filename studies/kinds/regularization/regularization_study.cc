@@ -127,7 +127,8 @@ ReadyStudy read(const std::filesystem::path& file, const std::string& scale) {
   return table_study(study.header, regularization_tables(study));
 }
 
-const RegisteredStudyKind registered({"regularization", read, regularization_study_template});
+const RegisteredStudyKind regularization_kind({"regularization", read,
+                                               regularization_study_template});
 
 }  // namespace
 

@@ -16,7 +16,8 @@ ReadyStudy read_smoothing_study(const std::filesystem::path& file, const std::st
           .run = [study](const StudyOptions& options) { run_study(study, options); }};
 }
 
-const RegisteredStudyKind registered({default_study_kind, read_smoothing_study, study_template});
+const RegisteredStudyKind smoothing_kind({default_study_kind, read_smoothing_study,
+                                          study_template});
 
 }  // namespace
 
