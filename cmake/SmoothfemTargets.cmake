@@ -24,6 +24,8 @@ endfunction()
 # are inlined.
 function(smoothfem_compile_together target files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
+  # To GCC an unnamed namespace of a file in such a group seems to be one of a header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # smoothfem_add_library(NAME source...): smoothfem::NAME. Shared, not static: an archive would drop the

@@ -275,7 +275,7 @@ class CommandSmoother final : public Smoother<dim> {
     else if (p_.format == "medit")
       write_medit_with_boundary(folder / p_.in(), mesh);
     else
-      write_mesh(folder / p_.in(), mesh, {}, {.msh_binary = false});
+      write_mesh(folder / p_.in(), mesh, {}, {.msh_version = MshVersion::v4_1, .binary = false});
     for (const auto& file : given_files()) {
       std::error_code error;
       fs::copy_file(file, folder / file.filename(), error);

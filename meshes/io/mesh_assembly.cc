@@ -5,11 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <string>
 
+#include "meshes/io/plane_of_points.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
+#include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/mesh/interfaces.h"
 #include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
@@ -32,62 +36,143 @@ std::vector<std::size_t> worth_keeping(std::vector<std::size_t> ids) {
   return unique ? ids : std::vector<std::size_t>();
 }
 
-MeshLabels labels_of(MeshParts& parts, int dim) {
-  MeshLabels labels;
-  auto& cells = parts.elements[dim];
-  const auto is_set = [](int tag) { return tag != 0; };
-  if (std::any_of(cells.tags.begin(), cells.tags.end(), is_set))
-    labels.cell_tags = std::move(cells.tags);
-  labels.cell_ids = worth_keeping(std::move(cells.ids));
-  labels.node_ids = worth_keeping(std::move(parts.node_ids));
-  const auto& facets = parts.elements[dim - 1];
-  for (std::size_t f = 0; f < facets.tags.size(); ++f) {
-    const bool fits = dim == 2 || facets.nodes[f].size() <= 4;  // no cell has such a face
-    if (facets.tags[f] == 0 || !fits) continue;
-    labels.facets.append(facets.nodes[f]);
-    labels.facet_tags.push_back(facets.tags[f]);
+/// Divides the elements of a file into labels and content, and consumes them.
+class LabelParts {
+ public:
+  LabelParts(MeshParts& parts, int dim) : parts_(parts), dim_(dim), content_(parts.content) {}
+
+  MeshLabels make() {
+    auto& cells = parts_.elements[dim_];
+    take_positions(cells, all_of(cells));
+    const auto is_set = [](int tag) { return tag != 0; };
+    if (std::any_of(cells.tags.begin(), cells.tags.end(), is_set))
+      labels_.cell_tags = std::move(cells.tags);
+    labels_.cell_ids = worth_keeping(std::move(cells.ids));
+    labels_.node_ids = worth_keeping(std::move(parts_.node_ids));
+    content_.cell_entities = std::move(cells.entities);
+    divide_facets();
+    for (int d = dim_ - 2; d >= 0; --d) add_others(d, all_of(parts_.elements[d]));
+    labels_.names = std::move(parts_.names);
+    arrange_fields();
+    labels_.content = std::make_shared<const FileContent>(std::move(content_));
+    return std::move(labels_);
   }
-  for (const auto& [key, name] : parts.names)
-    if (key.first == dim || key.first == dim - 1) labels.names[key] = name;
-  return labels;
-}
 
-bool is_planar(const std::vector<Point<3>>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [&](const auto& point) { return point.z() == points.front().z(); });
-}
+ private:
+  using Rows = std::vector<std::size_t>;
 
-std::vector<Point<2>> without_z(const std::vector<Point<3>>& points) {
-  std::vector<Point<2>> result;
-  result.reserve(points.size());
-  for (const auto& point : points) result.emplace_back(point.x(), point.y());
-  return result;
+  static Rows all_of(const ElementList& elements) {
+    Rows rows(elements.nodes.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    return rows;
+  }
+
+  void take_positions(const ElementList& elements, const Rows& rows) {
+    if (!elements.file_positions.empty())
+      for (const std::size_t e : rows) positions_.push_back(elements.file_positions[e]);
+  }
+
+  void divide_facets() {
+    const auto& facets = parts_.elements[dim_ - 1];
+    Rows labelled, others;
+    for (std::size_t f = 0; f < facets.nodes.size(); ++f) {
+      const bool fits = dim_ == 2 || facets.nodes[f].size() <= 4;  // no cell has such a face
+      const bool has_tag = !facets.tags.empty() && facets.tags[f] != 0;
+      (fits && has_tag ? labelled : others).push_back(f);
+    }
+    take_positions(facets, labelled);
+    for (const std::size_t f : labelled) {
+      labels_.facets.append(facets.nodes[f]);
+      labels_.facet_tags.push_back(facets.tags[f]);
+      if (!facets.ids.empty()) content_.facet_ids.push_back(facets.ids[f]);
+      if (!facets.entities.empty()) content_.facet_entities.push_back(facets.entities[f]);
+    }
+    add_others(dim_ - 1, others);
+  }
+
+  void add_others(int dimension, const Rows& rows) {
+    const auto& from = parts_.elements[static_cast<std::size_t>(dimension)];
+    auto& to = content_.others[static_cast<std::size_t>(dimension)];
+    take_positions(from, rows);
+    for (const std::size_t e : rows) {
+      to.nodes.append(from.nodes[e]);
+      to.tags.push_back(from.tags.empty() ? 0 : from.tags[e]);
+      if (!from.ids.empty()) to.ids.push_back(from.ids[e]);
+      if (!from.entities.empty()) to.entities.push_back(from.entities[e]);
+    }
+  }
+
+  /// Brings the element fields into the order of all elements, and keeps the file's order.
+  void arrange_fields() {
+    for (MeshField& field : content_.element_fields)
+      std::visit(
+          [&](auto& values) {
+            std::decay_t<decltype(values)> arranged;
+            arranged.reserve(positions_.size() * field.n_components);
+            for (const std::size_t row : positions_)
+              arranged.insert(
+                  arranged.end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(row * field.n_components),
+                  values.begin() + static_cast<std::ptrdiff_t>((row + 1) * field.n_components));
+            values = std::move(arranged);
+          },
+          field.values);
+    if (std::is_sorted(positions_.begin(), positions_.end())) return;
+    content_.file_order.resize(positions_.size());
+    std::iota(content_.file_order.begin(), content_.file_order.end(), std::uint32_t{0});
+    std::sort(content_.file_order.begin(), content_.file_order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return positions_[a] < positions_[b]; });
+  }
+
+  MeshParts& parts_;
+  int dim_;
+  FileContent& content_;
+  MeshLabels labels_;
+  std::vector<std::uint32_t> positions_;  ///< in the file, of all elements
+};
+
+std::vector<FixedReasons> reasons_of(const MeshParts& parts, const Topology& topology) {
+  std::vector<FixedReasons> reasons(topology.n_nodes(), 0);
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
+    if (parts.fixed && (*parts.fixed)[i]) reasons[i] |= bit(FixedReason::marked);
+    if (topology.on_boundary()[i] && (!parts.fixed || parts.fixes_boundary_as_well))
+      reasons[i] |= bit(FixedReason::boundary);
+  }
+  add_implied_reasons(topology, reasons);
+  return reasons;
 }
 
 std::shared_ptr<const Topology> make_topology(MeshParts& parts, int dim) {
-  const std::size_t n_nodes = parts.coordinates.size();
-  MeshLabels labels = labels_of(parts, dim);
-  auto& cells = parts.elements[dim].nodes;
-  if (parts.fixed && parts.fixes_boundary_as_well) {
-    const Topology alone(dim, n_nodes, cells);
-    for (std::size_t i = 0; i < n_nodes; ++i)
-      if (alone.on_boundary()[i]) (*parts.fixed)[i] = true;
-  }
-  return std::make_shared<const Topology>(dim, n_nodes, std::move(cells), std::move(parts.fixed),
-                                          std::move(labels));
+  auto topology = std::make_shared<const Topology>(dim, parts.coordinates.size(),
+                                                   std::move(parts.elements[dim].nodes),
+                                                   std::nullopt, LabelParts(parts, dim).make());
+  auto reasons = reasons_of(parts, *topology);
+  if (reasons == topology->fixed_reasons()) return topology;
+  return std::make_shared<const Topology>(dim, topology->n_nodes(), topology->cells(),
+                                          std::move(reasons), topology->labels());
 }
 
 AnyMesh make_mesh(MeshParts& parts, int dim) {
   if (parts.coordinates.size() >= std::numeric_limits<NodeIndex>::max())
     throw InputError("the mesh has more nodes than 32 bits can count");
-  if (dim == 2 && !is_planar(parts.coordinates)) {
-    MeshLabels labels = labels_of(parts, dim);
+  if (dim == 3) {
+    auto topology = make_topology(parts, dim);
+    return VolumeMesh(std::move(topology), std::move(parts.coordinates));
+  }
+  auto plane = plane_of(parts.coordinates);
+  if (!plane) {
+    MeshLabels labels = LabelParts(parts, dim).make();
     return make_surface_mesh(std::move(parts.elements[dim].nodes), std::move(parts.coordinates),
                              std::move(labels), std::move(parts.fixed));
   }
+  std::vector<Point<2>> points;
+  points.reserve(parts.coordinates.size());
+  const bool is_xy_plane = *plane == PlaneInSpace();
+  for (const auto& point : parts.coordinates)
+    points.push_back(is_xy_plane ? Point<2>(point.x(), point.y()) : plane->in_plane(point));
+  if (!is_xy_plane) parts.content.plane = std::move(plane);
   auto topology = make_topology(parts, dim);
-  if (dim == 3) return VolumeMesh(std::move(topology), std::move(parts.coordinates));
-  return PlanarMesh(std::move(topology), without_z(parts.coordinates));
+  return PlanarMesh(std::move(topology), std::move(points));
 }
 
 /// Largest coordinate: its sixth powers (squares of volumes) do not overflow.
@@ -115,7 +200,8 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
   const auto lines = std::move(parts.elements[dim].lines);
   try {
     require_usable_coordinates(parts);
-    return {make_mesh(parts, dim), lines};
+    auto notes = std::move(parts.notes);
+    return {make_mesh(parts, dim), lines, std::move(notes)};
   } catch (const CellError& error) {
     std::string position = path.string() + ":";
     if (!lines.empty()) position += std::to_string(lines[error.cell()]) + ":";
@@ -170,8 +256,58 @@ CompressedRows<NodeIndex> renumbered(const CompressedRows<NodeIndex>& rows,
 
 }  // namespace
 
+namespace {
+
+constexpr NodeIndex unused = std::numeric_limits<NodeIndex>::max();
+
+/// Keeps those rows of a field whose new index is not `unused`.
+void keep_rows(MeshField& field, const std::vector<NodeIndex>& new_index) {
+  std::visit(
+      [&](auto& values) {
+        const std::size_t n = field.n_components;
+        std::size_t n_kept = 0;
+        for (std::size_t i = 0; i < new_index.size() && (i + 1) * n <= values.size(); ++i)
+          if (new_index[i] != unused)
+            for (std::size_t k = 0; k < n; ++k) values[n_kept++] = values[i * n + k];
+        values.resize(n_kept);
+      },
+      field.values);
+}
+
+/// Keeps what the content says of nodes that are left, with their new indices, and the points of
+/// the model at them.
+void keep_nodes(MeshParts& parts, const std::vector<NodeIndex>& new_index, std::size_t n_used) {
+  FileContent& content = parts.content;
+  for (MeshField& field : content.node_fields) keep_rows(field, new_index);
+  if (!content.node_entities.empty()) {
+    for (std::size_t i = 0; i < new_index.size(); ++i)
+      if (new_index[i] != unused) content.node_entities[new_index[i]] = content.node_entities[i];
+    content.node_entities.resize(n_used);
+  }
+  for (PeriodicEntity& periodic : content.periodic) {
+    std::erase_if(periodic.nodes, [&](const auto& pair) {
+      return new_index[pair[0]] == unused || new_index[pair[1]] == unused;
+    });
+    for (auto& pair : periodic.nodes) pair = {new_index[pair[0]], new_index[pair[1]]};
+  }
+  ElementList kept;
+  ElementList& points = parts.elements[0];
+  for (std::size_t e = 0; e < points.nodes.size(); ++e) {
+    const NodeIndex node = new_index[points.nodes[e][0]];
+    if (node == unused) continue;
+    kept.nodes.append(std::array{node});
+    if (!points.tags.empty()) kept.tags.push_back(points.tags[e]);
+    if (!points.ids.empty()) kept.ids.push_back(points.ids[e]);
+    if (!points.lines.empty()) kept.lines.push_back(points.lines[e]);
+    if (!points.entities.empty()) kept.entities.push_back(points.entities[e]);
+    if (!points.file_positions.empty()) kept.file_positions.push_back(points.file_positions[e]);
+  }
+  points = std::move(kept);
+}
+
+}  // namespace
+
 void drop_unused_nodes(MeshParts& parts) {
-  constexpr NodeIndex unused = std::numeric_limits<NodeIndex>::max();
   std::vector<NodeIndex> new_index(parts.coordinates.size(), unused);
   for (int dim = 1; dim <= 3; ++dim)
     for (const NodeIndex node : parts.elements[dim].nodes.entries()) new_index[node] = 0;
@@ -185,6 +321,9 @@ void drop_unused_nodes(MeshParts& parts) {
     ++n_used;
   }
   if (n_used == parts.coordinates.size()) return;
+  parts.notes.push_back(std::to_string(parts.coordinates.size() - n_used) +
+                        " nodes that no cell uses are left out");
+  keep_nodes(parts, new_index, n_used);
   parts.coordinates.resize(n_used);
   if (parts.fixed) parts.fixed->resize(n_used);
   if (!parts.node_ids.empty()) parts.node_ids.resize(n_used);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,10 +16,12 @@ namespace smoothfem {
 /// Elements of one dimension as listed in a file. Each of the vectors is empty or has one entry for
 /// each element.
 struct ElementList {
-  CompressedRows<NodeIndex> nodes;  ///< in the order of volume_elements.h
-  std::vector<int> tags;            ///< physical tags; 0 means none
-  std::vector<std::size_t> ids;     ///< the file's numbers
-  std::vector<std::size_t> lines;   ///< lines of the file
+  CompressedRows<NodeIndex> nodes;            ///< in the order of volume_elements.h
+  std::vector<int> tags;                      ///< physical tags; 0 means none
+  std::vector<std::size_t> ids;               ///< the file's numbers
+  std::vector<std::size_t> lines;             ///< lines of the file
+  std::vector<int> entities;                  ///< of the model
+  std::vector<std::uint32_t> file_positions;  ///< among all elements of the file, from 0
 };
 
 /// Data that a reader of any format collects. Node indices follow the file's order, from 0.
@@ -29,14 +32,19 @@ struct MeshParts {
   bool fixes_boundary_as_well = false;               ///< in addition to `fixed`
   std::map<std::pair<int, int>, std::string> names;  ///< (dimension, tag) -> physical name
   std::vector<std::size_t> node_ids;                 ///< the file's numbers; may be empty
+  /// What else the file says; its elements are in `elements`, and the rows of its element fields
+  /// are in the order of the file.
+  FileContent content;
+  std::vector<std::string> notes;  ///< sentences on what is left out or changed
 };
 
 /// Makes a mesh. Elements of dimension 3, if any, make a volume mesh. Otherwise those of dimension
-/// 2 make a planar mesh, or a surface mesh if z is not constant; its tags and labelled edges are
-/// features. Elements of one dimension less are labelled facets if they have a tag; all others are
-/// left out. Numbers of nodes and cells are kept if they are positive, all different and not simply
-/// 1, 2, ... in order. Errors of the mesh become InputErrors that start with "path:line: " or
-/// "path: ".
+/// 2 make a planar mesh if all points lie in a plane, up to 1e-9 of their extent, and otherwise a
+/// surface mesh; its tags and labelled edges are features. Elements of one dimension less are
+/// labelled facets if they have a tag; all others are kept in the content. Numbers of nodes and
+/// cells are kept if they are positive, all different and not simply 1, 2, ... in order. Nodes stay
+/// for the reasons of add_implied_reasons(). Errors of the mesh become InputErrors that start with
+/// "path:line: " or "path: ".
 MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts);
 
 /// Returns a physical name as one line "dimension tag name", for formats without a section for it.
@@ -49,7 +57,7 @@ bool add_physical_name(const std::string& line, MeshParts& parts);
 void require_no_polygons(const std::filesystem::path& path, const MeshView& mesh);
 
 /// Removes nodes that no element of dimension 1 or higher uses (points of a CAD model), keeping the
-/// order.
+/// order, and adds a note.
 void drop_unused_nodes(MeshParts& parts);
 
 }  // namespace smoothfem

@@ -76,9 +76,9 @@ const MeshFormat& format_of_content(const std::filesystem::path& path) {
 
 }  // namespace
 
-MeshFile read_mesh(const std::filesystem::path& path) {
+MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& options) {
   try {
-    return format_of_content(path).read(path);
+    return format_of_content(path).read(path, options);
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -94,19 +94,48 @@ const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path&
                    " mesh, but a planar one is needed here; give another file");
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
-                const MeshWriteOptions& options) {
+const MeshFormat& format_for(const std::filesystem::path& path, const MeshView& mesh) {
   const std::string prefix = "cannot write " + path.string();
-  require_sizes(path.string(), "cell", fields.cell, mesh.n_cells());
-  require_sizes(path.string(), "point", fields.point, mesh.n_nodes());
   const auto holds = mesh.planar()       ? &MeshFormat::holds_planar_meshes
                      : mesh.is_surface() ? &MeshFormat::holds_surface_meshes
                                          : &MeshFormat::holds_volume_meshes;
-  for (const MeshFormat* format : formats_of(path, prefix))
-    if (format->*holds) return format->write(path, mesh, fields, options);
+  const auto formats = formats_of(path, prefix);
+  for (const MeshFormat* format : formats)
+    if (mesh.content() && mesh.content()->format == format->name) return *format;
+  for (const MeshFormat* format : formats)
+    if (format->*holds) return *format;
   throw InputError(prefix + ": the format cannot hold " +
                    mesh_kind_name(mesh.dimension(), mesh.planar() ? 2 : 3) +
                    " meshes; use .vtu or another extension");
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
+                const MeshWriteOptions& options) {
+  require_sizes(path.string(), "cell", fields.cell, mesh.n_cells());
+  require_sizes(path.string(), "point", fields.point, mesh.n_nodes());
+  format_for(path, mesh).write(path, mesh, fields, options);
+}
+
+WriteTarget parse_write_target(const std::string& text) {
+  WriteTarget target;
+  if (text.empty()) return target;
+  std::string name = lower_case(text.starts_with('.') ? text.substr(1) : text);
+  for (const bool is_binary : {false, true}) {
+    const std::string ending = is_binary ? "-binary" : "-text";
+    if (!name.ends_with(ending)) continue;
+    name.resize(name.size() - ending.size());
+    target.options.binary = is_binary;
+  }
+  if (name == "msh22" || name == "msh41") {
+    target.options.msh_version = name == "msh22" ? MshVersion::v2_2 : MshVersion::v4_1;
+    name = "msh";
+  }
+  target.extension = "." + name;
+  (void)formats_of("mesh" + target.extension, "--to " + text);
+  if (target.options.binary && name != "msh")
+    throw InputError("--to " + text + ": only .msh files are written as text or binary; use --to " +
+                     name);
+  return target;
 }
 
 void require_mesh_path(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,14 +17,19 @@ namespace smoothfem {
 /// require_valid(mesh, path, cell_lines) of smoothing/quality if you need valid cells.
 struct MeshFile {
   AnyMesh mesh;  ///< a volume mesh if the file has volume cells, otherwise a planar one, or a
-                 ///< surface mesh if z is not constant
+                 ///< surface mesh if its points do not lie in a plane
   std::vector<std::size_t> cell_lines;  ///< line of each cell in the file; empty if it has none
+  std::vector<std::string> notes;       ///< sentences on what was left out or changed
+};
+
+struct MeshReadOptions {
+  std::string tag_field;  ///< name of the cell array with tags, in VTK files; empty: a known one
 };
 
 /// Reads a mesh. The format follows from the extension (mesh_formats()); if two formats share one,
 /// from the content. Surface cells of volume meshes become labelled facets if they have a tag.
 /// Throws InputError "path:line: message"; the line may be missing.
-MeshFile read_mesh(const std::filesystem::path& path);
+MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& options = {});
 
 /// Returns the planar mesh of a file. Throws InputError that names `path` for any other mesh.
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path);
@@ -35,11 +41,22 @@ struct MeshFields {
 
 enum class MshVersion { v2_2, v4_1 };
 
+/// Version and encoding of a file. Default: those of the file that the mesh comes from, if it has
+/// the same format; otherwise binary .msh files of version 4.1.
 struct MeshWriteOptions {
-  MshVersion msh_version = MshVersion::v4_1;
+  std::optional<MshVersion> msh_version{};
   /// Both keep every bit of the coordinates; text is three times as large.
-  bool msh_binary = true;
+  std::optional<bool> binary{};
 };
+
+/// A format to write in, and its version and encoding.
+struct WriteTarget {
+  std::string extension;  ///< with the dot; empty: as the file's name says
+  MeshWriteOptions options;
+};
+/// Parses a user's wish: an extension with or without the dot, or msh22 or msh41, both also with
+/// "-text" or "-binary"; for example "msh22-text". Empty text: no wish. Throws InputError.
+WriteTarget parse_write_target(const std::string& text);
 
 /// Writes a mesh in the format of the extension. If two formats share it, the first one that holds
 /// the mesh's dimension is used. The file appears complete or not at all, and missing parent
@@ -59,17 +76,29 @@ struct MeshFormat {
   std::string description;
   bool holds_planar_meshes = false, holds_volume_meshes = false, holds_surface_meshes = false;
   bool holds_polygons = false;        ///< cells with five or more nodes
+  bool holds_tags = true;             ///< tags of cells
   bool holds_fixed_nodes = false;     ///< otherwise boundary nodes are fixed after reading
-  bool holds_physical_names = false;  ///< labelled facets, and names of tags (all formats but
-                                      ///< polygonal text hold the cells' tags)
+  bool holds_facets = false;          ///< labelled facets
+  bool holds_physical_names = false;  ///< labelled facets, and names of tags
   bool holds_numbers = false;         ///< numbers of nodes and cells
+  bool holds_several_groups = false;  ///< elements in more than one group
+  bool holds_periodic = false;        ///< periodic partners
+  bool holds_points_in_space = true;  ///< planar meshes in any plane
+  int min_element_dimension = 2;      ///< of elements without a label
+  /// True if the format can hold a field, at nodes or elements or of the whole file; null: none.
+  bool (*holds_field)(const MeshField&, bool is_of_file) = nullptr;
   /// True if content has this format; needed if formats share an extension. At most one may be
   /// null: the fallback.
   bool (*recognizes)(std::string_view content) = nullptr;
-  MeshFile (*read)(const std::filesystem::path&);
+  MeshFile (*read)(const std::filesystem::path&, const MeshReadOptions&);
   void (*write)(const std::filesystem::path&, const MeshView&, const MeshFields&,
                 const MeshWriteOptions&);
 };
+
+/// Returns the format in which write_mesh writes a mesh to a file of this name: the one that the
+/// mesh was read from if it has the same extension, otherwise the first one that can hold it.
+/// Throws InputError if there is none.
+const MeshFormat& format_for(const std::filesystem::path& path, const MeshView& mesh);
 
 /// Registers a format when its file is loaded: a namespace-scope object at the end of a file in
 /// meshes/io/. A duplicate name is an InputError at the first look-up.

@@ -7,7 +7,8 @@
 
 namespace smoothfem {
 
-/// A mesh of any kind, in the form that writers need: in space, planar ones with z = 0. Refers to
+/// A mesh of any kind, in the form that writers need: in space, planar ones in the
+/// plane of their file, by default z = 0. Refers to
 /// the mesh, which must outlive it.
 class MeshView {
  public:
@@ -27,8 +28,12 @@ class MeshView {
   Point<3> point(NodeIndex node) const {
     if (!planar_) return in_space_[node];
     const auto& p = planar_->coordinates()[node];
+    if (content() && content()->plane) return content()->plane->in_space(node, p);
     return {p.x(), p.y(), 0.0};
   }
+
+  /// Returns what else the mesh's file says; null if nothing.
+  const FileContent* content() const { return topology_.labels().content.get(); }
 
   /// Returns the mesh itself; null if it is not planar.
   const PlanarMesh* planar() const { return planar_; }

@@ -38,9 +38,10 @@ TEST(FixedNodes, FollowTheRule) {
   EXPECT_EQ(fixed_by("boundary").size(), 26u);
   EXPECT_EQ(fixed_by("file"), Nodes{13});
   EXPECT_EQ(fixed_by("free"), Nodes{});
-  EXPECT_EQ(fixed_by("group=5"), (Nodes{0, 1, 2, 3, 4, 5}));
-  EXPECT_EQ(fixed_by("group=inlet"), (Nodes{0, 1, 2, 3, 4, 5}));
-  EXPECT_EQ(fixed_by("group=inlet,2"), (Nodes{0, 1, 2, 3, 4, 5, 18, 19, 21, 22}));
+  // Groups add to what stays by default.
+  EXPECT_EQ(fixed_by("group=5"), (Nodes{0, 1, 2, 3, 4, 5, 13}));
+  EXPECT_EQ(fixed_by("group=inlet"), (Nodes{0, 1, 2, 3, 4, 5, 13}));
+  EXPECT_EQ(fixed_by("group=inlet,2"), (Nodes{0, 1, 2, 3, 4, 5, 13, 18, 19, 21, 22}));
 }
 
 TEST(FixedNodes, RefusesUnknownGroupsAndRulesAndListsTheAvailableOnes) {
@@ -57,7 +58,7 @@ TEST(FixedNodes, KeepsUnusedNodesFixedAndLabels) {
   const VolumeMesh mesh = test::make_volume_mesh(
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {9, 9, 9}}, test::rows_of({{0, 1, 2, 3}}));
   const auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule("free"));
-  EXPECT_EQ(fixed, (std::vector<bool>{false, false, false, false, true}));
+  EXPECT_EQ(fixed, (std::vector<FixedReasons>{0, 0, 0, 0, bit(FixedReason::unused)}));
   EXPECT_EQ(with_fixed_nodes(mesh, fixed).topology().free_nodes(), (Nodes{0, 1, 2, 3}));
   const VolumeMesh other = with_fixed_nodes(box(), std::vector<bool>(27, false));
   EXPECT_EQ(other.topology().labels(), box().topology().labels());

@@ -50,7 +50,7 @@ TEST_F(Vtk, ReadsFixedTagsLinesAndPixels) {
   const Topology& topology = read.mesh.topology();
   EXPECT_EQ(topology.cells().entries(), (std::vector<NodeIndex>{0, 1, 3, 2, 1, 4, 5, 3}));
   EXPECT_EQ(mesh_quality(read.mesh).q_min, 1.0);
-  EXPECT_EQ(topology.free_nodes(), (std::vector<NodeIndex>{0, 2, 3, 4}));
+  EXPECT_EQ(nodes_free_but_for_interfaces(topology), (std::vector<NodeIndex>{0, 2, 3, 4}));
   EXPECT_EQ(topology.labels().cell_tags, (std::vector<int>{1, 2}));
   EXPECT_EQ(topology.labels().facets.entries(), (std::vector<NodeIndex>{0, 1}));
   EXPECT_EQ(topology.labels().facet_tags, (std::vector<int>{8}));

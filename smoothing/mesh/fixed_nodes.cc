@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <sstream>
+#include <tuple>
+
+#include "smoothing/mesh/interfaces.h"
 
 namespace smoothfem {
 
@@ -27,66 +31,134 @@ FixedNodesRule parse_fixed_nodes_rule(const std::string& text) {
 
 namespace {
 
-std::string name_of_tag(const Topology& topology, int tag) {
-  const auto& names = topology.labels().names;
-  const auto found = names.find({topology.dimension() - 1, tag});
-  return found == names.end() ? std::string() : found->second;
+/// A physical group of elements below the cells' dimension.
+struct Group {
+  int dimension, tag;
+  std::string name;
+
+  bool operator<(const Group& other) const {
+    return std::tie(tag, dimension) < std::tie(other.tag, other.dimension);
+  }
+};
+
+/// Calls use(group, nodes) for each element below the cells' dimension and each of its groups.
+template <class Use>
+void for_each_group_member(const Topology& topology, const Use& use) {
+  const MeshLabels& labels = topology.labels();
+  const FileContent* content = labels.content.get();
+  const auto visit = [&](int dimension, const CompressedRows<NodeIndex>& rows,
+                         const std::vector<int>& tags, const std::vector<int>& entities) {
+    for (std::size_t e = 0; e < tags.size(); ++e)
+      for (const int tag :
+           groups_of(content, dimension, entities.empty() ? 0 : entities[e], tags[e])) {
+        const auto name = labels.names.find({dimension, tag});
+        use(Group{dimension, tag, name == labels.names.end() ? std::string() : name->second},
+            rows[e]);
+      }
+  };
+  visit(topology.dimension() - 1, labels.facets, labels.facet_tags,
+        content ? content->facet_entities : std::vector<int>());
+  for (int d = topology.dimension() - 1; content && d >= 0; --d)
+    visit(d, content->others[d].nodes, content->others[d].tags, content->others[d].entities);
 }
 
 /// Returns the list of groups for an error message, for example "4, 5 (inlet)".
-std::string available_groups(const Topology& topology, const std::set<int>& tags) {
-  if (tags.empty()) return "the mesh has no labelled boundary groups";
-  std::string text = "the mesh has the groups ";
-  for (const int tag : tags) {
-    const std::string name = name_of_tag(topology, tag);
-    text += (tag == *tags.begin() ? "" : ", ") + std::to_string(tag) +
-            (name.empty() ? "" : " (" + name + ")");
-  }
+std::string available_groups(const std::set<Group>& groups) {
+  if (groups.empty()) return "the mesh has no labelled boundary groups";
+  std::string text;
+  for (const Group& group : groups)
+    text += (text.empty() ? "the mesh has the groups " : ", ") + std::to_string(group.tag) +
+            (group.name.empty() ? "" : " (" + group.name + ")");
   return text;
 }
 
-std::vector<bool> nodes_of_groups(const Topology& topology,
-                                  const std::vector<std::string>& groups) {
-  const MeshLabels& labels = topology.labels();
-  const std::set<int> tags(labels.facet_tags.begin(), labels.facet_tags.end());
-  std::set<int> wanted;
-  for (const std::string& group : groups) {
-    const auto matches = [&](int tag) {
-      return group == std::to_string(tag) || group == name_of_tag(topology, tag);
-    };
-    const auto tag = std::find_if(tags.begin(), tags.end(), matches);
-    if (tag == tags.end())
-      throw InputError("no boundary group is called '" + group + "'; " +
-                       available_groups(topology, tags));
-    wanted.insert(*tag);
-  }
-  std::vector<bool> fixed(topology.n_nodes(), false);
-  for (std::size_t f = 0; f < labels.facets.size(); ++f)
-    if (wanted.contains(labels.facet_tags[f]))
-      for (const NodeIndex node : labels.facets[f]) fixed[node] = true;
-  return fixed;
+void add_groups(const Topology& topology, const std::vector<std::string>& names,
+                std::vector<FixedReasons>& reasons) {
+  std::set<Group> groups;
+  std::set<std::string> missing(names.begin(), names.end());
+  for_each_group_member(topology, [&](Group group, std::span<const NodeIndex> nodes) {
+    bool is_wanted = false;
+    for (const std::string& name : names)
+      if (name == std::to_string(group.tag) || name == group.name) {
+        is_wanted = true;
+        missing.erase(name);
+      }
+    if (is_wanted)
+      for (const NodeIndex node : nodes) reasons[node] |= bit(FixedReason::marked);
+    groups.insert(std::move(group));
+  });
+  for (const std::string& name : names)
+    if (missing.contains(name))
+      throw InputError("no boundary group is called '" + name + "'; " + available_groups(groups));
 }
+
+/// Words after a number of nodes in fixed_reasons_text(), in the order of fixed_reasons.
+constexpr std::array<const char*, fixed_reasons.size()> reason_texts{
+    "on the boundary",
+    "marked as fixed",
+    "on interfaces between groups",
+    "required by the file",
+    "hanging on edges or faces of other cells",
+    "in layers",
+    "with periodic partners",
+    "on corners",
+    "without a cell"};
 
 }  // namespace
 
-std::vector<bool> fixed_nodes(const Topology& topology, const FixedNodesRule& rule) {
-  std::vector<bool> fixed(topology.n_nodes(), false);
-  switch (rule.kind) {
-    case FixedNodesRule::Kind::boundary:
-      fixed = topology.on_boundary();
-      break;
-    case FixedNodesRule::Kind::file:
-      for (NodeIndex i = 0; i < topology.n_nodes(); ++i) fixed[i] = topology.is_fixed(i);
-      break;
-    case FixedNodesRule::Kind::groups:
-      fixed = nodes_of_groups(topology, rule.groups);
-      break;
-    case FixedNodesRule::Kind::none:
-      break;
+std::vector<FixedReasons> without(const std::vector<FixedReasons>& reasons, FixedReasons removed) {
+  auto result = reasons;
+  for (FixedReasons& of_node : result) of_node &= static_cast<FixedReasons>(~removed);
+  return result;
+}
+
+std::vector<FixedReasons> fixed_nodes(const Topology& topology, const FixedNodesRule& rule) {
+  constexpr FixedReasons by_rule = bit(FixedReason::boundary) | bit(FixedReason::marked),
+                         by_file = by_rule | bit(FixedReason::required);
+  using Kind = FixedNodesRule::Kind;
+  if (rule.kind == Kind::file) return topology.fixed_reasons();
+  if (rule.kind == Kind::none) return without(topology.fixed_reasons(), by_file);
+  if (rule.kind == Kind::groups) {
+    auto reasons = topology.fixed_reasons();
+    add_groups(topology, rule.groups, reasons);
+    return reasons;
   }
+  auto reasons = without(topology.fixed_reasons(), by_rule);
   for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
-    if (topology.node_cells(i).empty()) fixed[i] = true;
-  return fixed;
+    if (topology.on_boundary()[i]) reasons[i] |= bit(FixedReason::boundary);
+  return reasons;
+}
+
+std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology& topology) {
+  std::array<std::size_t, fixed_reasons.size()> counts{};
+  for (const FixedReasons of_node : topology.fixed_reasons())
+    for (std::size_t r = 0; r < counts.size(); ++r)
+      counts[r] += has(of_node, fixed_reasons[r].reason);
+  return counts;
+}
+
+std::string fixed_reasons_text(const Topology& topology) {
+  const std::size_t n_fixed = topology.n_nodes() - topology.free_nodes().size();
+  if (n_fixed == 0) return {};
+  std::string text;
+  const auto counts = count_fixed_reasons(topology);
+  for (std::size_t r = 0; r < counts.size(); ++r)
+    if (counts[r] > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(counts[r]) + " " + reason_texts[r];
+  return std::to_string(n_fixed) + (n_fixed == 1 ? " node stays: " : " nodes stay: ") + text;
+}
+
+void add_implied_reasons(const Topology& topology, std::vector<FixedReasons>& reasons) {
+  const auto add = [&](const std::vector<bool>& flags, FixedReason reason) {
+    for (std::size_t i = 0; i < flags.size(); ++i)
+      if (flags[i]) reasons[i] |= bit(reason);
+  };
+  add(interface_nodes(topology), FixedReason::interface);
+  add(required_nodes(topology), FixedReason::required);
+  if (!topology.labels().content) return;
+  for (const PeriodicEntity& periodic : topology.labels().content->periodic)
+    for (const auto& pair : periodic.nodes)
+      for (const NodeIndex node : pair) reasons[node] |= bit(FixedReason::periodic);
 }
 
 }  // namespace smoothfem

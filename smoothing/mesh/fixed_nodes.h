@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,38 +10,67 @@
 
 namespace smoothfem {
 
-/// Rule for the nodes that smoothing must not move. Nodes that no cell uses are always fixed.
+/// Rule for the nodes that smoothing must not move. In addition, nodes stay for what the mesh
+/// implies: interfaces, periodic partners and the other reasons of fixed_reason.h.
 struct FixedNodesRule {
   enum class Kind {
     boundary,  ///< nodes of boundary facets
     file,      ///< as in the topology: the file's flags, or the boundary if the file has none
-    groups,    ///< nodes of the labelled facets in `groups`
-    none       ///< every node is free
+    groups,    ///< as `file`, and the nodes of the facets, edges and points in `groups`
+    none       ///< not even the nodes that the file marks or requires
   };
   Kind kind = Kind::boundary;
-  std::vector<std::string> groups;  ///< physical tags or names of facets
+  std::vector<std::string> groups;  ///< physical tags or names
 };
 
 /// Parses a user's rule: "boundary", "file", "free" or "group=NAME[,NAME...]". Throws InputError
 /// that lists these for any other text.
 FixedNodesRule parse_fixed_nodes_rule(const std::string& text);
 
-/// Returns one flag for each node. Throws InputError for a group that no facet has; the message
-/// lists the available groups.
-std::vector<bool> fixed_nodes(const Topology& topology, const FixedNodesRule& rule);
+/// Returns for each node why it stays. Throws InputError for a group that no element below the
+/// cells' dimension has; the message lists the available groups.
+std::vector<FixedReasons> fixed_nodes(const Topology& topology, const FixedNodesRule& rule);
 
-/// Returns the mesh with other fixed nodes. fixed: one flag for each node. Corners of its surface
-/// are always fixed.
+/// Returns the reasons of a topology without some of them.
+std::vector<FixedReasons> without(const std::vector<FixedReasons>& reasons, FixedReasons removed);
+
+/// Number of nodes that stay for each reason, in the order of fixed_reasons. Nodes with several
+/// reasons count for each.
+std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology& topology);
+
+/// Returns, for example, "104 nodes stay: 96 on the boundary, 12 on interfaces between groups";
+/// empty if no node stays.
+std::string fixed_reasons_text(const Topology& topology);
+
+/// Adds the reasons that follow from the labels of a mesh: interfaces, required elements and
+/// periodic partners.
+void add_implied_reasons(const Topology& topology, std::vector<FixedReasons>& reasons);
+
+/// Returns the mesh with other fixed nodes. reasons: for each node why it stays. Corners of its
+/// surface are always fixed.
 template <int dim, int spacedim>
-Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, std::vector<bool> fixed) {
+Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, std::vector<FixedReasons> reasons) {
   const Topology& old = mesh.topology();
   if (mesh.constraints())
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      if (mesh.constraints()->is_corner(i)) fixed[i] = true;
+      if (mesh.constraints()->is_corner(i)) reasons[i] |= bit(FixedReason::corner);
   auto topology = std::make_shared<const Topology>(dim, old.n_nodes(), old.cells(),
-                                                   std::move(fixed), old.labels());
+                                                   std::move(reasons), old.labels());
   auto constraints = mesh.shared_constraints();
   return {std::move(topology), std::move(mesh).take_coordinates(), std::move(constraints)};
+}
+
+/// As above. fixed: one flag for each node. Nodes keep their present reasons to stay; others are
+/// marked.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, const std::vector<bool>& fixed) {
+  std::vector<FixedReasons> reasons = mesh.topology().fixed_reasons();
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    if (!fixed[i])
+      reasons[i] = 0;
+    else if (reasons[i] == 0)
+      reasons[i] = bit(FixedReason::marked);
+  return with_fixed_nodes(std::move(mesh), std::move(reasons));
 }
 
 }  // namespace smoothfem

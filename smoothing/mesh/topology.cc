@@ -92,20 +92,48 @@ void require_different_cells(const CompressedRows<NodeIndex>& cells,
 
 }  // namespace
 
+namespace {
+
+std::vector<FixedReasons> marked(const std::vector<bool>& fixed) {
+  std::vector<FixedReasons> reasons(fixed.size());
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    reasons[i] = fixed[i] ? bit(FixedReason::marked) : 0;
+  return reasons;
+}
+
+}  // namespace
+
 Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
                    std::optional<std::vector<bool>> fixed, MeshLabels labels)
     : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
+  build(n_nodes, [&] {
+    std::vector<FixedReasons> reasons;
+    if (fixed) return marked(*fixed);
+    for (const bool is_on_boundary : on_boundary_)
+      reasons.push_back(is_on_boundary ? bit(FixedReason::boundary) : FixedReasons{0});
+    return reasons;
+  });
+}
+
+Topology::Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
+                   std::vector<FixedReasons> reasons, MeshLabels labels)
+    : dim_(dim), cells_(std::move(cells)), labels_(std::move(labels)) {
+  build(n_nodes, [&] { return std::move(reasons); });
+}
+
+template <class Reasons>
+void Topology::build(std::size_t n_nodes, const Reasons& make_reasons) {
   check_cells(n_nodes);
   // Not kept: large meshes are smoothed in another order, and other meshes do not need it any more.
   const auto node_cells = rows_by_entry(cells_, n_nodes);
   build_boundary(node_cells);
-  if (fixed && fixed->size() != n_nodes)
+  std::vector<FixedReasons> reasons = make_reasons();
+  if (reasons.size() != n_nodes)
     throw InputError("the mesh has " + std::to_string(n_nodes) + " nodes but " +
-                     std::to_string(fixed->size()) + " fixed flags");
-  auto flags = fixed ? std::move(*fixed) : on_boundary_;
+                     std::to_string(reasons.size()) + " fixed flags");
   for (NodeIndex i = 0; i < n_nodes; ++i)
-    if (node_cells[i].empty()) flags[i] = true;
-  build_fixed(flags);
+    if (node_cells[i].empty()) reasons[i] |= bit(FixedReason::unused);
+  build_fixed(std::move(reasons));
   build_blocks();
 }
 
@@ -189,8 +217,8 @@ void Topology::build_boundary(const CompressedRows<CellIndex>& node_cells) {
   }
 }
 
-void Topology::build_fixed(const std::vector<bool>& fixed) {
-  fixed_.assign(fixed.begin(), fixed.end());
+void Topology::build_fixed(std::vector<FixedReasons> reasons) {
+  fixed_ = std::move(reasons);
   for (NodeIndex i = 0; i < n_nodes(); ++i)
     if (!fixed_[i]) free_nodes_.push_back(i);
   cell_has_free_node_.resize(n_cells());
@@ -253,10 +281,10 @@ std::shared_ptr<const Topology> Topology::reordered(
   result->cells_ = {std::move(offsets), std::move(entries)};
   result->n_facets_ = n_facets_;
   result->on_boundary_.resize(n_nodes());
-  std::vector<bool> fixed(n_nodes());
+  std::vector<FixedReasons> reasons(n_nodes());
   for (NodeIndex i = 0; i < n_nodes(); ++i) {
     result->on_boundary_[i] = on_boundary_[node_order[i]];
-    fixed[i] = is_fixed(node_order[i]);
+    reasons[i] = fixed_[node_order[i]];
   }
   std::vector<NodeIndex> row;
   for (std::size_t f = 0; f < boundary_facets_.size(); ++f) {
@@ -264,7 +292,7 @@ std::shared_ptr<const Topology> Topology::reordered(
     for (const NodeIndex node : boundary_facets_[f]) row.push_back(new_node[node]);
     result->boundary_facets_.append(row);
   }
-  result->build_fixed(fixed);
+  result->build_fixed(std::move(reasons));
   result->build_blocks();
   return result;
 }

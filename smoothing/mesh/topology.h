@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,22 +11,12 @@
 
 #include "smoothing/mesh/compressed_rows.h"
 #include "smoothing/mesh/element_type.h"
+#include "smoothing/mesh/fixed_reason.h"
+#include "smoothing/mesh/mesh_labels.h"
 #include "smoothing/mesh/point.h"
 #include "smoothing/mesh/table_on_demand.h"
 
 namespace smoothfem {
-
-/// Labels of a file for nodes and cells, copied from input to output unchanged.
-struct MeshLabels {
-  std::vector<int> cell_tags;        ///< physical tag of each cell; empty if the file has none
-  CompressedRows<NodeIndex> facets;  ///< labelled edges of planar meshes, faces of volume meshes
-  std::vector<int> facet_tags;       ///< physical tag of each facet
-  std::map<std::pair<int, int>, std::string> names;  ///< (dimension, tag) -> physical name
-  std::vector<std::size_t> node_ids;  ///< the file's number of each node; empty if it has none
-  std::vector<std::size_t> cell_ids;  ///< the file's number of each cell; empty if it has none
-
-  bool operator==(const MeshLabels&) const = default;
-};
 
 /// Consecutive cells and the nodes they use; parallel loops over cells take one block at a time.
 /// The number of blocks depends on the mesh alone, never on the number of threads.
@@ -44,11 +33,14 @@ class Topology {
   /// dim: 2 (cells with three or more nodes, counterclockwise) or 3 (4, 5, 6 or 8 nodes in the
   /// order of volume_elements.h). cells: one row of node indices for each cell, all different and
   /// below n_nodes; no two cells have the same nodes. fixed: n_nodes flags of nodes that smoothing
-  /// must not move; default: the boundary nodes. Nodes that no cell uses are always fixed. Throws
-  /// InputError that names the first cell that breaks these rules, or a facet with more than two
-  /// cells.
+  /// must not move (reason: marked); default: the boundary nodes. Nodes that no cell uses are
+  /// always fixed. Throws InputError that names the first cell that breaks these rules, or a facet
+  /// with more than two cells.
   Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
            std::optional<std::vector<bool>> fixed = std::nullopt, MeshLabels labels = {});
+  /// As above. reasons: for each node why it stays, 0 if it may move.
+  Topology(int dim, std::size_t n_nodes, CompressedRows<NodeIndex> cells,
+           std::vector<FixedReasons> reasons, MeshLabels labels);
 
   int dimension() const { return dim_; }
   std::size_t n_nodes() const { return fixed_.size(); }
@@ -82,6 +74,9 @@ class Topology {
   const std::vector<bool>& on_boundary() const { return on_boundary_; }
 
   bool is_fixed(NodeIndex node) const { return fixed_[node] != 0; }
+  /// Returns why a node stays; 0 if it may move.
+  FixedReasons fixed_reasons(NodeIndex node) const { return fixed_[node]; }
+  const std::vector<FixedReasons>& fixed_reasons() const { return fixed_; }
   const std::vector<NodeIndex>& free_nodes() const { return free_nodes_; }
   /// True if at least one node of the cell is free. q*_min takes these cells only.
   bool has_free_node(CellIndex cell) const { return cell_has_free_node_[cell] != 0; }
@@ -101,7 +96,9 @@ class Topology {
   }
   const CompressedRows<NodeIndex>& neighbours() const;
   void build_boundary(const CompressedRows<CellIndex>& node_cells);
-  void build_fixed(const std::vector<bool>& fixed);
+  template <class Reasons>
+  void build(std::size_t n_nodes, const Reasons& make_reasons);
+  void build_fixed(std::vector<FixedReasons> reasons);
   void build_blocks();
 
   int dim_ = 2;
@@ -111,7 +108,7 @@ class Topology {
   CompressedRows<NodeIndex> boundary_facets_;
   std::size_t n_facets_ = 0;
   std::vector<bool> on_boundary_;
-  std::vector<std::uint8_t> fixed_;
+  std::vector<FixedReasons> fixed_;
   std::vector<NodeIndex> free_nodes_;
   std::vector<std::uint8_t> cell_has_free_node_;
   std::vector<CellBlock> blocks_;

@@ -3,6 +3,7 @@
 
 #include "smoothing/mesh/boundary_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/mesh/interfaces.h"
 
 namespace smoothfem {
 
@@ -20,19 +21,37 @@ double mean_edge_length(const CompressedRows<NodeIndex>& facets, std::span<const
 }  // namespace
 
 VolumeMesh with_sliding_boundary(const VolumeMesh& mesh, const FeatureParameters& parameters,
-                                 double slide_distance) {
+                                 double slide_distance, SlidingSurfaces what) {
   require_slide_distance(slide_distance);
   const Topology& topology = mesh.topology();
-  const SurfaceFacets boundary{topology.boundary_facets(), boundary_tags(topology), {}};
+  std::vector<FixedReasons> reasons = topology.fixed_reasons();
+  const auto free = [&](NodeIndex i, FixedReasons removed) {
+    reasons[i] &= static_cast<FixedReasons>(~removed);
+  };
+  SurfaceFacets surfaces;
+  if (what.boundary) {
+    surfaces = {topology.boundary_facets(), boundary_tags(topology), {}};
+    // What the file marks on the boundary may be nothing but the boundary.
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      if (topology.on_boundary()[i]) free(i, bit(FixedReason::boundary) | bit(FixedReason::marked));
+  }
+  if (what.interfaces) {
+    const Interfaces interfaces = inner_interfaces(topology);
+    if (surfaces.tags.empty()) surfaces.tags.assign(surfaces.nodes.size(), 0);
+    const auto points = labelled_points(topology);
+    for (std::size_t f = 0; f < interfaces.facets.size(); ++f) {
+      surfaces.nodes.append(interfaces.facets[f]);
+      surfaces.tags.push_back(interfaces.tags[f]);
+      for (const NodeIndex i : interfaces.facets[f])
+        if (points.empty() || !points[i]) free(i, bit(FixedReason::interface));
+    }
+  }
   auto constraints = std::make_shared<const SurfaceConstraints>(
-      boundary, mesh.coordinates(), parameters,
-      slide_distance * mean_edge_length(boundary.nodes, mesh.coordinates()));
-  std::vector<bool> fixed(mesh.n_nodes());
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    fixed[i] = topology.is_fixed(i) && !topology.on_boundary()[i];
+      surfaces, mesh.coordinates(), parameters,
+      slide_distance * mean_edge_length(surfaces.nodes, mesh.coordinates()));
   return with_fixed_nodes(
       VolumeMesh(mesh.shared_topology(), mesh.copied_coordinates(), std::move(constraints)),
-      std::move(fixed));
+      std::move(reasons));
 }
 
 }  // namespace smoothfem

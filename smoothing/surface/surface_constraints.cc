@@ -6,6 +6,8 @@
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/geometry/cell_size.h"
+#include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/mesh/interfaces.h"
 #include "smoothing/surface/piece_index.h"
 
 namespace smoothfem {
@@ -166,19 +168,33 @@ SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point
   for (std::size_t f = 0; f < labels.facets.size(); ++f)
     facets.marked_edges.push_back({labels.facets[f][0], labels.facets[f][1]});
   auto constraints = std::make_shared<const SurfaceConstraints>(facets, coordinates, parameters);
-  std::vector<bool> stays = fixed ? std::move(*fixed) : std::vector<bool>(n_nodes, false);
+  std::vector<FixedReasons> reasons(n_nodes, 0);
+  for (NodeIndex i = 0; i < n_nodes; ++i) {
+    if (fixed && (*fixed)[i]) reasons[i] |= bit(FixedReason::marked);
+    if (constraints->is_corner(i)) reasons[i] |= bit(FixedReason::corner);
+  }
+  auto topology =
+      std::make_shared<const Topology>(dim, n_nodes, std::move(cells), reasons, std::move(labels));
+  // Interfaces are features already, on whose lines nodes slide.
+  add_implied_reasons(*topology, reasons);
+  for (FixedReasons& of_node : reasons)
+    of_node &= static_cast<FixedReasons>(~bit(FixedReason::interface));
+  if (const auto points = labelled_points(*topology); !points.empty())
+    for (NodeIndex i = 0; i < n_nodes; ++i)
+      if (points[i]) reasons[i] |= bit(FixedReason::interface);
   for (NodeIndex i = 0; i < n_nodes; ++i)
-    if (constraints->is_corner(i)) stays[i] = true;
-  return {std::make_shared<const Topology>(dim, n_nodes, std::move(cells), std::move(stays),
-                                           std::move(labels)),
-          std::move(coordinates), std::move(constraints)};
+    reasons[i] |= topology->fixed_reasons(i) & bit(FixedReason::unused);
+  if (reasons != topology->fixed_reasons())
+    topology = std::make_shared<const Topology>(dim, n_nodes, topology->cells(), std::move(reasons),
+                                                topology->labels());
+  return {std::move(topology), std::move(coordinates), std::move(constraints)};
 }
 
 SurfaceMesh with_features(const SurfaceMesh& mesh, const FeatureParameters& parameters) {
   const Topology& topology = mesh.topology();
   std::vector<bool> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    fixed[i] = topology.is_fixed(i) && !mesh.constraints()->is_corner(i);
+    fixed[i] = has(topology.fixed_reasons(i), FixedReason::marked);
   return make_surface_mesh(topology.cells(), mesh.copied_coordinates(), topology.labels(),
                            std::move(fixed), parameters);
 }

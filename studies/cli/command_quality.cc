@@ -10,12 +10,14 @@
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/metrics/metric_statistics.h"
+#include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/quality/warpage.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/plots.h"
+#include "studies/cli/smooth_notes.h"
 #include "studies/cli/standard_streams.h"
 #include "studies/framework/results/csv_text.h"
 
@@ -79,6 +81,8 @@ std::vector<NamedNumber> geometry_numbers(const SurfaceMesh& mesh) {
 /// Everything that is reported about a mesh.
 struct Report {
   std::size_t n_nodes, n_fixed_nodes, n_cells;
+  std::string fixed;  ///< why the fixed nodes stay
+  std::map<std::string, std::size_t> fixed_by_reason;
   std::map<std::string, std::size_t> cells;
   MeshQuality quality;
   std::vector<NamedNumber> geometry;
@@ -92,6 +96,7 @@ void print_text(const Report& r) {
     types += (types.empty() ? "" : ", ") + std::to_string(count) + " " +
              (count == 1 ? type : plural(type));
   std::printf("%-13s%zu (%zu fixed)\n", "nodes", r.n_nodes, r.n_fixed_nodes);
+  if (!r.fixed.empty()) std::printf("%-13s%s\n", "", r.fixed.c_str());
   std::printf("%-13s%zu (%s)\n", "cells", r.n_cells, types.c_str());
   std::printf("%-13s%.6f\n%-13s%.6f\n%-13s%.6f\n%-13s%zu\n", "q_min", r.quality.q_min, "q*_min",
               r.quality.q_star_min, "q_mean", r.quality.q_mean, "invalid", r.quality.n_invalid);
@@ -117,6 +122,7 @@ void print_text(const Report& r) {
 void print_json(const Report& r) {
   nlohmann::ordered_json json = {{"n_nodes", r.n_nodes},
                                  {"n_fixed_nodes", r.n_fixed_nodes},
+                                 {"fixed_nodes", r.fixed_by_reason},
                                  {"n_cells", r.n_cells},
                                  {"cells", r.cells},
                                  {"n_invalid", r.quality.n_invalid},
@@ -156,6 +162,14 @@ std::string histogram_csv(const Topology& topology, const std::vector<double>& c
     }
   }
   return csv.text();
+}
+
+std::map<std::string, std::size_t> fixed_by_reason(const Topology& topology) {
+  std::map<std::string, std::size_t> counts;
+  const auto by_reason = count_fixed_reasons(topology);
+  for (std::size_t r = 0; r < by_reason.size(); ++r)
+    if (by_reason[r] > 0) counts[std::string(fixed_reasons[r].name)] = by_reason[r];
+  return counts;
 }
 
 /// Cells that are invalid or whose mean ratio is below the bound, the worst first.
@@ -228,6 +242,8 @@ void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
       {.n_nodes = mesh.n_nodes(),
        .n_fixed_nodes = mesh.n_nodes() - topology.free_nodes().size(),
        .n_cells = mesh.n_cells(),
+       .fixed = fixed_reasons_text(topology),
+       .fixed_by_reason = fixed_by_reason(topology),
        .cells = count_types(topology),
        .quality = mesh_quality(topology, cell_quality),
        .geometry = geometry_numbers(mesh),
@@ -252,6 +268,7 @@ void report_quality(QualityArguments arguments) {
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   if (input) arguments.in = input->path();
   const MeshFile file = read_mesh(arguments.in);
+  print_notes(arguments.in, file.notes);
   std::visit([&](const auto& mesh) { report(arguments, mesh, file.cell_lines); }, file.mesh);
 }
 

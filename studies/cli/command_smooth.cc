@@ -11,6 +11,7 @@
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/bad_places.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/smooth_notes.h"
 #include "studies/cli/smooth_report.h"
 #include "studies/cli/standard_streams.h"
 
@@ -32,18 +33,39 @@ Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
   return method;
 }
 
+template <int dim>
+bool has_interfaces(const Mesh<dim>& mesh) {
+  const auto& reasons = mesh.topology().fixed_reasons();
+  return std::any_of(reasons.begin(), reasons.end(),
+                     [](FixedReasons of_node) { return has(of_node, FixedReason::interface); });
+}
+
+/// --interfaces free: the nodes of interfaces may move, unless they stay for another reason.
+template <int dim>
+Mesh<dim> with_interface_rule(Mesh<dim> mesh, const SmoothArguments& arguments) {
+  if (arguments.interfaces != "free" || !has_interfaces(mesh)) return mesh;
+  auto reasons = without(mesh.topology().fixed_reasons(), bit(FixedReason::interface));
+  return with_fixed_nodes(std::move(mesh), std::move(reasons));
+}
+
 /// The mesh with the constraints that --boundary, --slide-distance and --feature-angle ask for.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
-  if (arguments.slide_distance && arguments.boundary != "slide")
-    throw InputError("--slide-distance is for '--boundary slide'; leave it out");
+  if (arguments.slide_distance && arguments.boundary != "slide" && arguments.interfaces != "slide")
+    throw InputError(
+        "--slide-distance is for '--boundary slide' and '--interfaces slide'; leave it out");
   const FeatureParameters features = features_of(arguments);
   if constexpr (spacedim > dim) {
     if (arguments.feature_angle) mesh = with_features(mesh, features);
   } else {
-    if constexpr (dim == 3)
-      if (arguments.boundary == "slide")
-        return with_sliding_boundary(mesh, features, slide_distance_of(arguments));
+    mesh = with_interface_rule(std::move(mesh), arguments);
+    if constexpr (dim == 3) {
+      const SlidingSurfaces sliding{
+          .boundary = arguments.boundary == "slide",
+          .interfaces = arguments.interfaces == "slide" && has_interfaces(mesh)};
+      if (sliding.boundary || sliding.interfaces)
+        return with_sliding_boundary(mesh, features, slide_distance_of(arguments), sliding);
+    }
     if (arguments.feature_angle && !slides_while_untangling<dim, spacedim>(arguments))
       throw InputError(
           "--feature-angle is for surface meshes and '--boundary slide'; leave it out");
@@ -121,13 +143,14 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
 
 template <int dim, int spacedim>
 void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
-                 const std::vector<std::size_t>& cell_lines) {
+                 const std::vector<std::size_t>& cell_lines, const MeshWriteOptions& options) {
   auto method = configured_method<dim, spacedim>(arguments);
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
   mesh = fix_nodes_away_from_bad_cells(std::move(mesh), arguments);
   const MeshQuality before = mesh_quality(mesh);
+  const std::vector<double> sizes_before = cell_sizes(mesh);
   Recorder recorder(arguments);
   const Outcome outcome =
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
@@ -135,13 +158,18 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Mesh files do not store that a boundary slides, so its nodes are fixed there.
+  const bool slides = arguments.boundary == "slide" || arguments.interfaces == "slide";
   write_mesh(arguments.out,
-             arguments.boundary == "slide" || arguments.only_below
+             slides || arguments.only_below
                  ? Mesh<dim, spacedim>(topology_of_file, mesh.copied_coordinates(),
                                        mesh.shared_constraints())
                  : mesh,
-             fields);
+             fields, options);
   recorder.write_log();
+  print_losses(arguments.out, mesh);
+  const std::vector<double> sizes = cell_sizes(mesh);
+  const std::string change = domain_change(dim == 3 ? "volume" : "area", sizes_before, sizes);
+  if (!change.empty()) print_notes(arguments.out, {change});
   if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
   print_quality("before", before);
@@ -152,6 +180,9 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
       outcome.smoothing.smoothing_seconds, outcome.smoothing.preparation_seconds, n_threads(),
       arguments.out.c_str());
   print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
+  for (const std::string& line :
+       {fixed_reasons_text(mesh.topology()), size_changes(sizes_before, sizes)})
+    if (!line.empty()) std::printf("%s\n", line.c_str());
   if constexpr (dim == 3)
     if (const auto* constraints = mesh.constraints())
       std::printf("distance from the initial boundary: %.3g (limit: %.3g)\n",
@@ -159,29 +190,36 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
 }
 
 /// Returns the default output path: "part_smoothed.msh" in the same folder for "part.msh".
-std::string default_output(const std::string& in) {
+std::string default_output(const std::string& in, const std::string& extension) {
   if (in == "-") return in;
   std::filesystem::path path = in;
-  const std::string name = path.stem().string() + "_smoothed" + path.extension().string();
+  const std::string name = path.stem().string() + "_smoothed" +
+                           (extension.empty() ? path.extension().string() : extension);
   return path.replace_filename(name);
 }
 
 void smooth_file(SmoothArguments arguments) {
-  if (arguments.out.empty()) arguments.out = default_output(arguments.in);
+  const WriteTarget target = parse_write_target(arguments.to);
+  if (arguments.out.empty()) arguments.out = default_output(arguments.in, target.extension);
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
-  const auto output = file_for_standard_output(arguments.out, arguments.to);
+  const auto output = file_for_standard_output(arguments.out, target.extension);
   if (input) arguments.in = input->path();
   if (output) {
     arguments.out = output->path();
     arguments.quiet = true;  // standard output is the mesh
   }
+  if (!target.extension.empty() && !arguments.out.ends_with(target.extension))
+    throw InputError("--to " + arguments.to + " makes a file '" + target.extension + "', but " +
+                     arguments.out + " has another extension; change one of them");
   require_different_files(arguments);
   require_mesh_path(arguments.out);
   if (!arguments.log.empty()) require_writable_file(arguments.log);
-  MeshFile file = read_mesh(arguments.in);
-  std::visit([&](auto& mesh) { smooth_mesh(arguments, std::move(mesh), file.cell_lines); },
-             file.mesh);
+  MeshFile file = read_mesh(arguments.in, {.tag_field = arguments.tag_field});
+  print_notes(arguments.in, file.notes);
+  std::visit(
+      [&](auto& mesh) { smooth_mesh(arguments, std::move(mesh), file.cell_lines, target.options); },
+      file.mesh);
   if (output) print_content(output->path());
 }
 
@@ -196,7 +234,14 @@ void add_smooth_command(CLI::App& app) {
   command->add_option("-o,--out", arguments->out,
                       "mesh to write; - for standard output (default: IN_smoothed, or - for -)");
   command->add_option("--from", arguments->from, "format of standard input: msh, vtu, ...");
-  command->add_option("--to", arguments->to, "format of standard output: msh, vtu, ...");
+  command->add_option(
+      "--to", arguments->to,
+      "format to write: vtu, msh, ...; msh22 or msh41 also with -text or -binary (default: version "
+      "and encoding of IN if the formats are the same)");
+  command->add_option(
+      "--tag-field", arguments->tag_field,
+      "cell array of a .vtk or .vtu file with the cells' tags (default: the first of "
+      "physical_tag, gmsh:physical, MaterialID, material, attribute, CellEntityIds)");
   command->add_option("--preset", arguments->preset,
                       "parameters of an experiment (see 'list'); --set comes after it");
   command->add_option("--set", arguments->settings, "parameter of the method: key=value")
@@ -204,7 +249,12 @@ void add_smooth_command(CLI::App& app) {
   command->add_option(
       "--fix", arguments->fix,
       "nodes that stay: boundary, file, free or group=NAME[,NAME] (default: as in the file, "
-      "otherwise the boundary)");
+      "otherwise the boundary); group= adds to the default");
+  command
+      ->add_option("--interfaces", arguments->interfaces,
+                   "nodes between cells of different groups, and of labelled inner facets: fixed "
+                   "(default), slide on the interface (volume meshes), or free")
+      ->check(CLI::IsMember({"fixed", "slide", "free"}));
   command->add_option(
       "--feature-angle", arguments->feature_angle,
       "keep edges of a surface or of a sliding boundary whose facets make more than this "

@@ -12,7 +12,8 @@ namespace smoothfem {
 
 /// The user's arguments of `smooth`.
 struct SmoothArguments {
-  std::string in, out, from, to, preset, boundary, fix, log, series;
+  std::string in, out, from, to, preset, boundary, fix, log, series, tag_field;
+  std::string interfaces = "fixed";
   std::string method = "getme";
   std::vector<std::string> settings;
   std::optional<double> feature_angle, slide_distance, only_below;

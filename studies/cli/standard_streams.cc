@@ -50,7 +50,6 @@ std::unique_ptr<TemporaryFile> copy_of_standard_input(const std::string& name,
 std::unique_ptr<TemporaryFile> file_for_standard_output(const std::string& name,
                                                         const std::string& format) {
   if (name == "-") return temporary_for("output", format, "--to");
-  if (!format.empty()) throw InputError("--to is for standard output, '-'; leave it out");
   return nullptr;
 }
 

@@ -272,7 +272,7 @@ class AbaqusReader {
 
 }  // namespace
 
-MeshFile read_abaqus(const std::filesystem::path& path) {
+MeshFile read_abaqus(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   return assemble_mesh(path, AbaqusReader(path, content).parts());
 }
@@ -285,6 +285,7 @@ const RegisteredFormat abaqus({.name = "abaqus",
                                .holds_planar_meshes = true,
                                .holds_volume_meshes = true,
                                .holds_fixed_nodes = true,
+                               .holds_facets = true,
                                .holds_physical_names = true,
                                .holds_numbers = true,
                                .read = read_abaqus,

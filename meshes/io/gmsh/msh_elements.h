@@ -33,4 +33,10 @@ constexpr const MshElementType* msh_element_type(int dimension, std::size_t n_no
   return found == msh_element_types.end() ? nullptr : found;
 }
 
+/// Returns the number of components, 1, 3 or 9, that Gmsh shows data with n components as; 0 if
+/// there are too many.
+constexpr std::size_t msh_components(std::size_t n) {
+  return n <= 1 ? n : n <= 3 ? 3 : n <= 9 ? 9 : 0;
+}
+
 }  // namespace smoothfem

@@ -1,52 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cassert>
-#include <cstdint>
+#include <cstddef>
 #include <map>
+#include <set>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "meshes/io/all_elements.h"
 #include "meshes/io/gmsh/msh_elements.h"
-#include "smoothing/mesh/topology.h"
 
 namespace smoothfem {
 
-/// The cells, or the labelled facets, of one physical tag. Gmsh sorts elements by the entities of
-/// its model.
+/// The elements of one entity of the model, by which Gmsh sorts elements.
 struct MshEntity {
   int dimension;
-  int number = 0;                                       ///< from 1 in each dimension
-  int group = 0;                                        ///< physical tag; 0 means none
-  std::map<int, std::vector<std::uint32_t>> by_type{};  ///< cells or facets by Gmsh's type
+  int number = 0;                                     ///< different in each dimension
+  std::vector<int> groups{};                          ///< physical tags
+  const ModelEntity* of_file = nullptr;               ///< null if the file does not describe it
+  std::map<int, std::vector<std::size_t>> by_type{};  ///< elements by Gmsh's type
 };
 
-/// Appends one entity for each tag, in ascending order. rows: nodes of the elements, all of types
-/// that Gmsh has. tags: of the rows; empty if they have none.
-inline void append_msh_entities(std::vector<MshEntity>& entities, int dimension,
-                                const CompressedRows<NodeIndex>& rows,
-                                const std::vector<int>& tags) {
-  std::map<int, MshEntity> by_tag;
-  for (std::uint32_t i = 0; i < rows.size(); ++i) {
-    const MshElementType* type = msh_element_type(dimension, rows[i].size());
-    assert(type);
-    by_tag.try_emplace(tags.empty() ? 0 : tags[i], MshEntity{dimension})
+/// Returns the entities of a mesh, ascending by dimension and number: those of its file and, where
+/// the file has none, one for each combination of groups. Elements whose type Gmsh does not have
+/// are left out.
+inline std::vector<MshEntity> msh_entities(const MeshView& mesh, const AllElements& elements) {
+  const FileContent* content = mesh.content();
+  using Key = std::tuple<int, int, std::vector<int>>;  // dimension, entity of the file, groups
+  std::map<Key, MshEntity> found;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const int dimension = elements.dimension(e), entity = elements.entity(e);
+    const MshElementType* type = msh_element_type(dimension, elements.nodes(e).size());
+    if (!type) continue;
+    auto groups = groups_of(content, dimension, entity, elements.tag(e));
+    const Key key(dimension, entity, groups);
+    found.try_emplace(key, MshEntity{dimension, 0, std::move(groups)})
         .first->second.by_type[type->number]
-        .push_back(i);
+        .push_back(e);
   }
-  int number = 0;
-  for (auto& [tag, entity] : by_tag) {
-    entity.number = ++number;
-    entity.group = tag;
-    entities.push_back(std::move(entity));
+  std::set<std::pair<int, int>> used;
+  if (content)
+    for (const auto& [key, entity] : content->entities) used.insert(key);
+  std::map<std::pair<int, int>, MshEntity> numbered;
+  const auto add = [&](MshEntity entity) {
+    numbered.emplace(std::pair(entity.dimension, entity.number), std::move(entity));
+  };
+  std::vector<MshEntity*> without_number;
+  for (auto& [key, entity] : found) {
+    entity.number = std::get<1>(key);
+    const std::pair name(entity.dimension, entity.number);
+    if (entity.number == 0 || numbered.contains(name)) {
+      without_number.push_back(&entity);
+      continue;
+    }
+    used.insert(name);
+    add(std::move(entity));
   }
-}
-
-/// Returns the entities of the labelled facets, followed by those of the cells.
-inline std::vector<MshEntity> msh_entities(const Topology& topology) {
-  const MeshLabels& labels = topology.labels();
+  for (MshEntity* entity : without_number) {
+    entity->number = 1;
+    while (!used.emplace(entity->dimension, entity->number).second) ++entity->number;
+    add(std::move(*entity));
+  }
+  if (content)
+    for (const auto& [key, of_file] : content->entities) {
+      MshEntity& entity =
+          numbered.try_emplace(key, MshEntity{key.first, key.second, of_file.groups}).first->second;
+      entity.of_file = &of_file;
+    }
   std::vector<MshEntity> entities;
-  append_msh_entities(entities, topology.dimension() - 1, labels.facets, labels.facet_tags);
-  append_msh_entities(entities, topology.dimension(), topology.cells(), labels.cell_tags);
+  for (auto& [key, entity] : numbered) entities.push_back(std::move(entity));
   return entities;
 }
 

@@ -9,16 +9,18 @@ namespace smoothfem {
 
 /// Reads a Gmsh file: version 2.2 or 4.1, text or binary in either byte order, or version 4.0 as
 /// text, Gmsh's only form of it (reference manual of Gmsh, "MSH file format"). Nodes and cells come
-/// in the order of their tags; nodes that no element uses are dropped. Physical groups of cells and
-/// facets are kept with their names; the first of several groups of an entity counts. Node and
-/// element tags are kept, too. Points, parametric coordinates and other sections are skipped; of
-/// partitions only the groups are read. Memory is a small multiple of the file's size, whatever
+/// in the order of their tags; nodes that no element uses are dropped. Kept are elements of all
+/// dimensions, node and element tags, physical groups and their names, the entities of the model,
+/// periodic nodes, node and element data, and the text of other sections. The first of several
+/// groups of an entity is the tag of its elements. Version 2 repeats an element for each of its
+/// groups; such elements are joined. Parametric coordinates and partitions are left out, with a
+/// note. Memory is a small multiple of the file's size, whatever
 /// counts it announces.
 ///
 /// Throws InputError "path:line: message" ("path: at byte N: ..." for binary files). Causes: other
 /// versions, incomplete files, nodes or elements with equal tags, coordinates that are not finite,
 /// and elements with nodes other than their corners.
-MeshFile read_msh(const std::filesystem::path& path);
+MeshFile read_msh(const std::filesystem::path& path, const MeshReadOptions& = {});
 
 /// Writes a Gmsh file. Version and encoding follow the options; text has enough digits to keep
 /// every bit. Each physical tag is an entity of the model. Throws InputError for polygons with five

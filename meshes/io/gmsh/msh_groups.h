@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "meshes/io/line_reader.h"
+#include "smoothing/mesh/mesh_labels.h"
 
 namespace smoothfem {
 
@@ -81,50 +81,32 @@ class MshGroups {
           skip_integers(2);  // dimension and number of the whole entity
           skip_integers(count());
         }
+        ModelEntity& of_file = entities_[{dimension, entity}];
         for (int k = 0; k < (dimension == 0 && !points_have_boxes ? 3 : 6); ++k) {  // point or box
           in.find_value("the end of the entities");
-          in.skip_number("a coordinate");
+          of_file.box.push_back(in.coordinate("a coordinate"));
         }
-        for (auto n = count(); n > 0; --n) add(dimension, entity, integer());
-        if (dimension > 0) skip_integers(count());  // its boundary
+        for (auto n = count(); n > 0; --n) of_file.groups.push_back(integer());
+        if (dimension == 0) continue;
+        for (auto n = count(); n > 0; --n) of_file.boundary.push_back(integer());
       }
   }
 
   /// Returns the first of an entity's groups; 0 if it has none.
   int tag_of_entity(int dimension, int entity) const {
-    const auto found = tags_of_entities_.find({dimension, entity});
-    return found == tags_of_entities_.end() ? 0 : found->second;
+    const auto found = entities_.find({dimension, entity});
+    return found == entities_.end() || found->second.groups.empty() ? 0
+                                                                    : found->second.groups.front();
   }
 
-  /// Marks the group of an element's tag as used; 0 means none. A negative tag means the group with
-  /// reversed orientation.
-  void use(int dimension, int tag) {
-    if (tag != 0) used_.insert(unsigned_group(dimension, tag));
-  }
-
-  /// Returns the names of groups that entities or elements are in.
-  std::map<std::pair<int, int>, std::string> used_names() const {
-    std::map<Group, std::string> names = names_;
-    std::erase_if(names, [&](const auto& name) {
-      return !used_.contains(unsigned_group(name.first.first, name.first.second));
-    });
-    return names;
-  }
+  std::map<std::pair<int, int>, std::string> names() && { return std::move(names_); }
+  std::map<std::pair<int, int>, ModelEntity> entities() && { return std::move(entities_); }
 
  private:
   using Group = std::pair<int, int>;  // dimension and tag
 
-  /// Maps both signs to the negative one, which every integer has.
-  static Group unsigned_group(int dimension, int tag) { return {dimension, tag > 0 ? -tag : tag}; }
-
-  void add(int dimension, int entity, int tag) {
-    tags_of_entities_.emplace(Group(dimension, entity), tag);
-    use(dimension, tag);
-  }
-
   std::map<Group, std::string> names_;
-  std::map<Group, int> tags_of_entities_;  ///< by dimension and number of the entity
-  std::set<Group> used_;                   ///< unsigned
+  std::map<Group, ModelEntity> entities_;  ///< by dimension and number
 };
 
 }  // namespace smoothfem

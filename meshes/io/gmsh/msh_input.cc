@@ -25,9 +25,11 @@ std::string MshTextInput::next_section() {
   return section;
 }
 
-void MshTextInput::skip_section(const std::string& section) {
+std::string MshTextInput::skip_section(const std::string& section) {
+  const char* const begin = reader_.rest().data();
   do reader_.require_line(end_of(section));
   while (!reader_.text().starts_with(end_of(section)));
+  return section + "\n" + std::string(begin, reader_.text().data()) + end_of(section) + "\n";
 }
 
 void MshTextInput::require_end(const std::string& section) {
@@ -99,11 +101,13 @@ std::string MshBinaryInput::next_section() {
   return section;
 }
 
-void MshBinaryInput::skip_section(const std::string& section) {
+std::string MshBinaryInput::skip_section(const std::string& section) {
   const std::size_t end = content_.find(end_of(section), at_);
   if (end == std::string_view::npos) fail("the section " + in_quotes(section) + " has no end");
+  const std::string_view inside = content_.substr(at_, end - at_);
   at_ = end;
   require_end(section);
+  return section + "\n" + std::string(inside) + end_of(section) + "\n";
 }
 
 void MshBinaryInput::require_end(const std::string& section) {

@@ -23,6 +23,7 @@ class MshTextInput {
   explicit MshTextInput(LineReader reader) : reader_(std::move(reader)) {}
 
   std::size_t position() const { return reader_.line(); }
+  bool is_swapped() const { return false; }
   /// Throws InputError for missing or damaged content.
   [[noreturn]] void fail(const std::string& message) const { reader_.fail(message); }
   [[noreturn]] void fail_at(std::size_t position, const std::string& message) const {
@@ -34,7 +35,8 @@ class MshTextInput {
   /// Goes to the beginning of the next section. Returns its name, or nothing at the end of the
   /// file.
   std::string next_section();
-  void skip_section(const std::string& section);
+  /// Skips a section. Returns its text with the first and the last line.
+  std::string skip_section(const std::string& section);
   void require_end(const std::string& section);
 
   /// Goes to the next record; error messages call it, for example, "node 5 of 11".
@@ -74,8 +76,9 @@ class MshBinaryInput {
   [[noreturn]] void refuse(const std::string& message) const;
 
   std::string next_section();
-  void skip_section(const std::string& section);
+  std::string skip_section(const std::string& section);
   void require_end(const std::string& section);
+  bool is_swapped() const { return is_swapped_; }
 
   void begin(const char*, std::uint64_t, std::uint64_t) {}
   void begin(const char*) {}

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -69,6 +70,8 @@ class MshNodes {
  public:
   std::vector<std::size_t> tags;  ///< ascending after reading
   std::vector<Point<3>> coordinates;
+  std::vector<std::array<int, 2>> entities;  ///< dimension and number, of version 4
+  bool has_parameters = false;               ///< the file has parametric coordinates
 
   /// Reads version 2: a record for each node.
   template <class Input>
@@ -148,14 +151,16 @@ class MshNodes {
     msh_end_of_totals(in, version);
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       in.begin("node block", b, n_blocks);
-      const int dimension = msh_entity_of_block(in, version).first;
+      const auto [dimension, entity] = msh_entity_of_block(in, version);
       if (dimension < 0 || dimension > 3)
         in.fail("the entity's dimension is " + std::to_string(dimension) +
                 ", but must be from 0 to 3");
       const int n_parameters = in.integer("block") == 0 ? 0 : dimension;
       const std::uint64_t n = in.count("the number of nodes in the block");
       in.require_bytes(n, sizeof(std::uint64_t) + 3 * sizeof(double));
+      has_parameters = has_parameters || (n_parameters > 0 && n > 0);
       read_nodes(n, n_parameters);
+      entities.resize(tags.size(), {dimension, entity});
     }
     msh_require_total(in, "nodes", tags.size(), n_nodes);
     sort(in);
@@ -172,6 +177,7 @@ class MshNodes {
     if (!std::is_sorted(tags.begin(), tags.end())) {
       coordinates = in_order(coordinates, order);
       tags = in_order(tags, order);
+      if (!entities.empty()) entities = in_order(entities, order);
     }
     positions_ = {};
   }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
 
+#include "meshes/io/gmsh/msh_data.h"
 #include "meshes/io/gmsh/msh_elements.h"
 #include "meshes/io/gmsh/msh_file.h"
 #include "meshes/io/gmsh/msh_groups.h"
@@ -18,6 +21,52 @@
 namespace smoothfem {
 
 namespace {
+
+/// Version 2 repeats an element for each of its groups. Joins such elements of one dimension; its
+/// entity then has all of the groups. If elements of an entity have different groups, each
+/// combination becomes an entity.
+void join_repeated_elements(MeshParts& parts) {
+  auto& entities = parts.content.entities;
+  for (int dimension = 0; dimension <= 3; ++dimension) {
+    ElementList& elements = parts.elements[static_cast<std::size_t>(dimension)];
+    std::map<std::vector<NodeIndex>, std::size_t> firsts;
+    std::map<std::size_t, std::vector<int>> groups;  // of elements that are repeated
+    std::vector<std::size_t> kept;
+    for (std::size_t e = 0; e < elements.nodes.size(); ++e) {
+      std::vector<NodeIndex> nodes(elements.nodes[e].begin(), elements.nodes[e].end());
+      std::sort(nodes.begin(), nodes.end());
+      const auto [first, is_new] = firsts.emplace(std::move(nodes), e);
+      auto& of_first = groups[first->second];
+      const bool is_repeated =
+          std::find(of_first.begin(), of_first.end(), elements.tags[e]) != of_first.end();
+      if (is_new || is_repeated) kept.push_back(e);  // a doubled element is refused later
+      of_first.push_back(elements.tags[e]);
+    }
+    if (kept.size() == elements.nodes.size()) continue;
+    std::map<std::pair<int, std::vector<int>>, int> numbers;  // of entity and groups
+    std::set<int> used(elements.entities.begin(), elements.entities.end());
+    std::set<int> divided;
+    ElementList joined;
+    for (const std::size_t e : kept) {
+      const int entity = elements.entities[e];
+      const auto& of_element = groups[e];
+      const auto [number, is_new] = numbers.try_emplace({entity, of_element}, entity);
+      if (is_new && !divided.insert(entity).second) {
+        number->second = *used.rbegin() + 1;
+        used.insert(number->second);
+      }
+      if (is_new) entities[{dimension, number->second}].groups = of_element;
+      joined.nodes.append(elements.nodes[e]);
+      joined.tags.push_back(elements.tags[e]);
+      joined.ids.push_back(elements.ids[e]);
+      joined.entities.push_back(number->second);
+      if (!elements.lines.empty()) joined.lines.push_back(elements.lines[e]);
+      if (!elements.file_positions.empty())
+        joined.file_positions.push_back(elements.file_positions[e]);
+    }
+    elements = std::move(joined);
+  }
+}
 
 /// Reads the sections of a file. No count is trusted: memory is allocated only for content that the
 /// file has.
@@ -35,8 +84,17 @@ class MshReader {
     for (const std::string section : {"$Nodes", "$Elements"})
       if (!seen_.contains(section))
         in_.refuse("the file has no section " + section + "; it is truncated or not a mesh");
-    for (int dimension = 1; dimension <= 3; ++dimension) sort(parts_.elements[dimension]);
-    parts_.names = groups_.used_names();
+    for (ElementList& elements : parts_.elements) sort(elements);
+    read_node_fields();
+    read_element_fields();
+    FileContent& content = parts_.content;
+    content.format = "gmsh";
+    content.entities = std::move(groups_).entities();
+    content.node_entities = std::move(nodes_.entities);
+    if (!version_4_) join_repeated_elements(parts_);
+    if (nodes_.has_parameters)
+      parts_.notes.emplace_back("the parametric coordinates of nodes are left out");
+    parts_.names = std::move(groups_).names();
     parts_.coordinates = std::move(nodes_.coordinates);
     parts_.node_ids = std::move(nodes_.tags);
     return std::move(parts_);
@@ -58,9 +116,75 @@ class MshReader {
       version_4_ ? read_elements_4(*version_4_) : read_elements_2();
     else if (section == "$ParametricNodes")
       in_.refuse("the nodes have parametric coordinates; save the mesh without them");
+    else if (section == "$Periodic")
+      return read_if_sound(section, [&] { read_periodic(); });
+    else if (section == "$NodeData")
+      return read_if_sound(section, [&] { node_data_.push_back(read_msh_data(in_)); });
+    else if (section == "$ElementData")
+      return read_if_sound(section, [&] { element_data_.push_back(read_msh_data(in_)); });
     else
-      return in_.skip_section(section);
+      return keep_section(section);
     in_.require_end(section);
+    if (section == "$PartitionedEntities")
+      parts_.notes.emplace_back("the division into partitions is left out");
+  }
+
+  /// Reads a section that the mesh does not need. If it is damaged, it is left out with a note.
+  template <class Read>
+  void read_if_sound(const std::string& section, const Read& read) {
+    const Input begin = in_;
+    try {
+      read();
+      in_.require_end(section);
+    } catch (const InputError& error) {
+      in_ = begin;
+      in_.skip_section(section);
+      parts_.notes.push_back("the section " + section + " is left out: " + error.what());
+    }
+  }
+
+  /// Keeps the text of a section that depends on no other one.
+  void keep_section(const std::string& section) {
+    std::string text = in_.skip_section(section);
+    if (in_.is_swapped())
+      parts_.notes.push_back("the section " + section + " is left out: it has another byte order");
+    else
+      parts_.content.sections.push_back(std::move(text));
+  }
+
+  void read_periodic() {
+    if (!seen_.contains("$Nodes")) in_.refuse("the section $Periodic comes before $Nodes");
+    const auto index_of = [&](std::uint64_t tag) { return nodes_.index_of(tag); };
+    auto links = version_4_ == MshVersion4::v4_1 ? read_msh_periodic_4_1(in_, index_of)
+                                                 : read_msh_periodic_2(in_, index_of);
+    auto& all = parts_.content.periodic;
+    all.insert(all.end(), std::make_move_iterator(links.begin()),
+               std::make_move_iterator(links.end()));
+  }
+
+  void read_node_fields() {
+    std::map<std::uint64_t, std::size_t> positions;
+    if (!node_data_.empty())
+      for (std::size_t i = 0; i < nodes_.tags.size(); ++i) positions[nodes_.tags[i]] = i;
+    for (MshData& data : node_data_)
+      parts_.content.node_fields.push_back(
+          field_of(std::move(data), nodes_.tags.size(), positions));
+  }
+
+  /// Gives the rows of element data the order of the elements.
+  void read_element_fields() {
+    if (element_data_.empty()) return;
+    std::map<std::uint64_t, std::size_t> positions;
+    std::uint32_t n = 0;
+    for (int dimension = 3; dimension >= 0; --dimension) {
+      ElementList& elements = parts_.elements[static_cast<std::size_t>(dimension)];
+      for (const std::size_t id : elements.ids) {
+        positions[id] = n;
+        elements.file_positions.push_back(n++);
+      }
+    }
+    for (MshData& data : element_data_)
+      parts_.content.element_fields.push_back(field_of(std::move(data), n, positions));
   }
 
   void read_nodes() {
@@ -103,13 +227,17 @@ class MshReader {
 
   void add_element_2(std::uint64_t tag, const MshElementType& type, std::uint64_t n_tags) {
     in_.require_bytes(n_tags, sizeof(std::int32_t));
-    int group = 0;
+    int group = 0, entity = 0;
     for (std::uint64_t k = 0; k < n_tags; ++k) {
       const int value = in_.integer("element");
       if (k == 0) group = value;
+      if (k == 1) entity = value;
     }
-    groups_.use(type.dimension, group);
-    add_element(tag, type, group);
+    if (n_tags > 2 && !has_partitions_) {
+      has_partitions_ = true;
+      parts_.notes.emplace_back("the division into partitions is left out");
+    }
+    add_element(tag, type, group, entity);
   }
 
   void read_elements_4(MshVersion4 version) {
@@ -130,14 +258,14 @@ class MshReader {
       const int group = groups_.tag_of_entity(dimension, entity);
       for (std::uint64_t i = 0; i < n; ++i) {
         in_.begin("element", i, n);
-        add_element(in_.tag("the element's tag"), type, group);
+        add_element(in_.tag("the element's tag"), type, group, entity);
       }
       n_found += n;
     }
     msh_require_total(in_, "elements", n_found, n_elements);
   }
 
-  void add_element(std::uint64_t tag, const MshElementType& type, int group) {
+  void add_element(std::uint64_t tag, const MshElementType& type, int group, int entity) {
     std::array<NodeIndex, 8> nodes{};
     for (std::size_t k = 0; k < type.n_nodes; ++k) {
       if (!in_.has_value())
@@ -152,11 +280,11 @@ class MshReader {
       nodes[k] = *index;
     }
     in_.end();
-    if (type.dimension == 0) return;
     ElementList& elements = parts_.elements[static_cast<std::size_t>(type.dimension)];
     elements.nodes.append(std::span(nodes).first(type.n_nodes));
     elements.tags.push_back(group);
     elements.ids.push_back(tag);
+    elements.entities.push_back(entity);
     elements.lines.push_back(in_.position());
   }
 
@@ -171,6 +299,7 @@ class MshReader {
       for (const std::size_t e : order) nodes.append(elements.nodes[e]);
       elements.nodes = std::move(nodes);
       elements.tags = in_order(elements.tags, order);
+      elements.entities = in_order(elements.entities, order);
       elements.ids = in_order(elements.ids, order);
       elements.lines = in_order(elements.lines, order);
     }
@@ -180,6 +309,8 @@ class MshReader {
   Input in_;
   std::optional<MshVersion4> version_4_;
   std::set<std::string> seen_;
+  std::vector<MshData> node_data_, element_data_;
+  bool has_partitions_ = false;
   MshGroups groups_;
   MshNodes nodes_;
   MeshParts parts_;
@@ -195,7 +326,7 @@ std::optional<MshVersion4> version_of(const LineReader& reader, const std::strin
 
 }  // namespace
 
-MeshFile read_msh(const std::filesystem::path& path) {
+MeshFile read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
   reader.require_line("the first line");
@@ -221,6 +352,8 @@ MeshFile read_msh(const std::filesystem::path& path) {
   } else {
     parts = MshReader(MshTextInput(reader), version_4).parts();
   }
+  parts.content.version = version_4 ? "4.1" : "2.2";
+  parts.content.is_binary = is_binary;
   drop_unused_nodes(parts);
   return assemble_mesh(path, std::move(parts));
 }
@@ -234,8 +367,16 @@ const RegisteredFormat gmsh_format(
      .holds_planar_meshes = true,
      .holds_volume_meshes = true,
      .holds_surface_meshes = true,
+     .holds_facets = true,
      .holds_physical_names = true,
      .holds_numbers = true,
+     .holds_several_groups = true,
+     .holds_periodic = true,
+     .min_element_dimension = 0,
+     .holds_field =
+         [](const MeshField& field, bool is_of_file) {
+           return !is_of_file && msh_components(field.n_components) > 0;
+         },
      .read = read_msh,
      .write = write_msh});
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,29 +22,42 @@ namespace {
 
 class MshWriter {
  public:
-  MshWriter(const MeshView& mesh, MshOutput& out)
+  MshWriter(const MeshView& mesh, const std::string& version, MshOutput& out)
       : mesh_(mesh),
         labels_(mesh.topology().labels()),
+        content_(mesh.content() ? *mesh.content() : nothing_),
+        version_(version),
         out_(out),
-        entities_(msh_entities(mesh.topology())) {
-    const auto& ids = labels_.cell_ids;
-    last_cell_ = ids.empty() ? mesh.n_cells() : *std::max_element(ids.begin(), ids.end());
+        elements_(mesh),
+        entities_(msh_entities(mesh, elements_)) {
+    for (std::size_t e = 0; e < elements_.n_cells(); ++e)
+      last_number_ = std::max(last_number_, element_number(e));
+    for (std::size_t e = elements_.n_cells(); e < elements_.size(); ++e) {
+      has_all_ids_ = has_all_ids_ && elements_.id(e) != 0;
+      if (has_all_ids_) last_number_ = std::max(last_number_, elements_.id(e));
+    }
+    for (const MshEntity& entity : entities_)
+      for (const auto& [type, elements] : entity.by_type) n_elements_ += elements.size();
+    if (!has_all_ids_) last_number_ += elements_.size() - elements_.n_cells();
   }
 
-  void write_2() {
-    write_header("2.2");
+  void write() {
+    write_header();
     write_names();
-    write_nodes_2();
-    write_elements_2();
-    out_.finish();
-  }
-
-  void write_4() {
-    write_header("4.1");
-    write_names();
-    write_entities();
-    write_nodes_4();
-    write_elements_4();
+    if (version_ == "2.2") {
+      write_nodes_2();
+      write_elements_2();
+    } else {
+      write_entities();
+      write_nodes_4();
+      write_elements_4();
+    }
+    if (!content_.periodic.empty()) version_ == "2.2" ? write_periodic_2() : write_periodic_4();
+    write_data();
+    const bool is_same = content_.format == "gmsh" && content_.version == version_ &&
+                         content_.is_binary == out_.is_binary();
+    if (is_same)
+      for (const std::string& section : content_.sections) out_.text(section);
     out_.finish();
   }
 
@@ -52,16 +67,16 @@ class MshWriter {
   std::size_t node_number(NodeIndex node) const {
     return labels_.node_ids.empty() ? std::size_t{node} + 1 : labels_.node_ids[node];
   }
-  const CompressedRows<NodeIndex>& rows(const MshEntity& entity) const {
-    return is_of_cells(entity) ? mesh_.topology().cells() : labels_.facets;
+  /// Elements other than cells are numbered after the cells, unless all have a number.
+  std::size_t element_number(std::size_t e) const {
+    if (e < elements_.n_cells()) return labels_.cell_ids.empty() ? e + 1 : labels_.cell_ids[e];
+    if (has_all_ids_) return elements_.id(e);
+    return last_cell() + 1 + e - elements_.n_cells();
   }
-  bool is_of_cells(const MshEntity& entity) const { return entity.dimension == mesh_.dimension(); }
-  /// Facets are numbered after the cells.
-  std::size_t element_number(const MshEntity& entity, std::uint32_t i) const {
-    if (!is_of_cells(entity)) return last_cell_ + 1 + i;
-    return labels_.cell_ids.empty() ? std::size_t{i} + 1 : labels_.cell_ids[i];
+  std::size_t last_cell() const {
+    const auto& ids = labels_.cell_ids;
+    return ids.empty() ? mesh_.n_cells() : *std::max_element(ids.begin(), ids.end());
   }
-  std::size_t n_elements() const { return mesh_.n_cells() + labels_.facets.size(); }
 
   void end_section(const std::string& name) {
     out_.text(out_.is_binary() ? "\n$End" + name + "\n" : "$End" + name + "\n");
@@ -69,8 +84,8 @@ class MshWriter {
 
   // --- Sections of both versions -----------------------------------------------------------------
 
-  void write_header(const std::string& version) {
-    out_.text("$MeshFormat\n" + version + (out_.is_binary() ? " 1 8\n" : " 0 8\n"));
+  void write_header() {
+    out_.text("$MeshFormat\n" + version_ + (out_.is_binary() ? " 1 8\n" : " 0 8\n"));
     if (out_.is_binary()) out_.number(std::int32_t{1});  // shows the byte order
     end_section("MeshFormat");
   }
@@ -80,11 +95,7 @@ class MshWriter {
     std::string lines;
     int n = 0;
     for (const auto& [group, name] : labels_.names) {
-      const bool is_used = std::any_of(
-          entities_.begin(), entities_.end(), [&, group = group](const MshEntity& entity) {
-            return entity.dimension == group.first && entity.group == group.second;
-          });
-      if (!is_used || group.second == 0) continue;
+      if (group.second == 0) continue;
       std::string quoted = name;
       std::replace(quoted.begin(), quoted.end(), '"', '\'');
       lines += std::to_string(group.first) + " " + std::to_string(group.second) + " \"" + quoted +
@@ -99,6 +110,37 @@ class MshWriter {
     for (const double x : mesh_.point(node)) out_.number(x);
   }
 
+  /// Writes the fields of the file. Rows without a number are left out.
+  void write_data() {
+    for (const MeshField& field : content_.node_fields)
+      write_field("NodeData", field,
+                  [&](std::size_t i) { return node_number(static_cast<NodeIndex>(i)); });
+    for (const MeshField& field : content_.element_fields)
+      write_field("ElementData", field, [&](std::size_t e) { return element_number(e); });
+  }
+
+  template <class NumberOf>
+  void write_field(const std::string& section, const MeshField& field, const NumberOf& number_of) {
+    const std::size_t n = field.n_components, n_written = msh_components(n);
+    if (n_written == 0) return;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < field.n_rows(); ++i)
+      if (!std::isnan(field.number(i * n)) && number_of(i) <= INT32_MAX) rows.push_back(i);
+    std::string name = field.name;
+    std::replace(name.begin(), name.end(), '"', '\'');
+    std::string head = "$" + section + "\n1\n\"" + name + "\"\n1\n";
+    append_number(head, field.time);
+    out_.text(head + "\n3\n" + std::to_string(field.step) + "\n" + std::to_string(n_written) +
+              "\n" + std::to_string(rows.size()) + "\n");
+    for (const std::size_t i : rows) {
+      out_.number(static_cast<std::int32_t>(number_of(i)));
+      for (std::size_t k = 0; k < n_written; ++k)
+        out_.number(k < n ? field.number(i * n + k) : 0.0);
+      out_.end_record();
+    }
+    end_section(section);
+  }
+
   // --- Version 2.2 -------------------------------------------------------------------------------
 
   void write_nodes_2() {
@@ -111,29 +153,60 @@ class MshWriter {
     end_section("Nodes");
   }
 
-  /// Writes type by type, as Gmsh does; readers sort by the numbers.
+  /// Writes type by type, as Gmsh does; readers sort by the numbers. An element in several groups
+  /// is repeated for each, with a number of its own.
   void write_elements_2() {
-    out_.text("$Elements\n" + std::to_string(n_elements()) + "\n");
+    std::size_t n = n_elements_;
+    for (const MshEntity& entity : entities_)
+      if (entity.groups.size() > 1)
+        for (const auto& [type, elements] : entity.by_type)
+          n += elements.size() * (entity.groups.size() - 1);
+    out_.text("$Elements\n" + std::to_string(n) + "\n");
+    std::size_t next = last_number_ + 1;
     for (const MshElementType& type : msh_element_types)
       for (const MshEntity& entity : entities_) {
         const auto elements = entity.by_type.find(type.number);
         if (elements == entity.by_type.end()) continue;
-        for (const std::uint32_t i : elements->second) write_element_2(entity, type, i);
+        const auto groups = entity.groups.empty() ? std::vector{0} : entity.groups;
+        for (const std::size_t e : elements->second)
+          for (const int group : groups)
+            write_element_2(entity, type, e, group,
+                            group == groups.front() ? element_number(e) : next++);
       }
     end_section("Elements");
   }
 
-  void write_element_2(const MshEntity& entity, const MshElementType& type, std::uint32_t i) {
+  void write_element_2(const MshEntity& entity, const MshElementType& type, std::size_t e,
+                       int group, std::size_t tag) {
     constexpr std::int32_t n_tags = 2;  // physical group and entity
-    const auto number = static_cast<std::int32_t>(element_number(entity, i));
+    const auto number = static_cast<std::int32_t>(tag);
     const auto head = out_.is_binary() ? std::array<std::int32_t, 4>{type.number, 1, n_tags, number}
                                        : std::array<std::int32_t, 4>{number, type.number, n_tags};
     for (std::size_t k = 0; k < (out_.is_binary() ? 4 : 3); ++k) out_.number(head[k]);
-    out_.number(static_cast<std::int32_t>(entity.group));
+    out_.number(static_cast<std::int32_t>(group));
     out_.number(static_cast<std::int32_t>(entity.number));
-    for (const NodeIndex node : rows(entity)[i])
+    for (const NodeIndex node : elements_.nodes(e))
       out_.number(static_cast<std::int32_t>(node_number(node)));
     out_.end_record();
+  }
+
+  /// As text, also in binary files, as Gmsh does.
+  void write_periodic_2() {
+    std::string text = "$Periodic\n" + std::to_string(content_.periodic.size()) + "\n";
+    for (const PeriodicEntity& link : content_.periodic) {
+      text += std::to_string(link.dimension) + " " + std::to_string(link.entity) + " " +
+              std::to_string(link.partner) + "\n";
+      if (!link.affine.empty()) {
+        text += "Affine";
+        for (const double value : link.affine) append_number(text += ' ', value);
+        text += "\n";
+      }
+      text += std::to_string(link.nodes.size()) + "\n";
+      for (const auto& [node, partner] : link.nodes)
+        text +=
+            std::to_string(node_number(node)) + " " + std::to_string(node_number(partner)) + "\n";
+    }
+    out_.text(text + "$EndPeriodic\n");
   }
 
   // --- Version 4.1 -------------------------------------------------------------------------------
@@ -148,52 +221,80 @@ class MshWriter {
     for (const MshEntity& entity : entities_) {
       out_.number(entity.number);
       write_box(entity);
-      const std::size_t n_groups = entity.group != 0 ? 1 : 0, n_on_boundary = 0;
-      out_.number(n_groups);
-      if (n_groups > 0) out_.number(entity.group);
-      out_.number(n_on_boundary);
+      out_.number(entity.groups.size());
+      for (const int group : entity.groups) out_.number(group);
+      if (entity.dimension > 0) {
+        const auto boundary = entity.of_file ? entity.of_file->boundary : std::vector<int>();
+        out_.number(boundary.size());
+        for (const int number : boundary) out_.number(number);
+      }
       out_.end_record(true);
     }
     end_section("Entities");
   }
 
+  /// Writes the box of an entity, or the coordinates of a point.
   void write_box(const MshEntity& entity) {
-    Point<3> low = Point<3>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    const std::size_t n = entity.dimension == 0 ? 3 : 6;
+    if (entity.of_file && entity.of_file->box.size() >= n) {
+      for (std::size_t k = 0; k < n; ++k) out_.number(entity.of_file->box[k]);
+      return;
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Point<3> low = Point<3>::Constant(infinity), high = -low;
     for (const auto& [type, elements] : entity.by_type)
-      for (const std::uint32_t i : elements)
-        for (const NodeIndex node : rows(entity)[i]) {
+      for (const std::size_t e : elements)
+        for (const NodeIndex node : elements_.nodes(e)) {
           const Point<3> point = mesh_.point(node);
           low = low.cwiseMin(point);
           high = high.cwiseMax(point);
         }
+    if (entity.by_type.empty()) low = high = Point<3>::Zero();
     // Gmsh scales boxes about their middles, here by 1, which rounds. This keeps the files
     // unchanged.
     const Point<3> middle = 0.5 * (low + high);
-    for (const Point<3>& corner : {low, high})
+    for (const Point<3>& corner : {low, high}) {
       for (const double x : Point<3>((corner - middle) + middle)) out_.rounded(x);
+      if (entity.dimension == 0) return;
+    }
   }
 
-  /// Writes all nodes in the first entity of the cells, in their order, whichever entities use
-  /// them.
+  /// Returns the nodes of each entity: as in the file, otherwise all in the first entity of the
+  /// cells, whichever entities use them.
+  std::vector<std::vector<NodeIndex>> nodes_of_entities() const {
+    std::map<std::array<int, 2>, std::size_t> numbers;
+    std::size_t first_of_cells = entities_.size();
+    for (std::size_t k = 0; k < entities_.size(); ++k) {
+      numbers[{entities_[k].dimension, entities_[k].number}] = k;
+      if (entities_[k].dimension == mesh_.dimension()) first_of_cells = std::min(first_of_cells, k);
+    }
+    const auto& of_file = content_.node_entities;
+    std::vector<std::vector<NodeIndex>> nodes(entities_.size());
+    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      const auto known = of_file.empty() ? numbers.end() : numbers.find(of_file[i]);
+      nodes[known == numbers.end() ? first_of_cells : known->second].push_back(i);
+    }
+    return nodes;
+  }
+
   void write_nodes_4() {
     out_.text("$Nodes\n");
     const auto& ids = labels_.node_ids;
+    const auto nodes = nodes_of_entities();
     out_.number(entities_.size());
     out_.number(mesh_.n_nodes());
     out_.number(ids.empty() ? std::size_t{1} : *std::min_element(ids.begin(), ids.end()));
     out_.number(ids.empty() ? mesh_.n_nodes() : *std::max_element(ids.begin(), ids.end()));
     out_.end_record();
-    for (const MshEntity& entity : entities_) {
-      const bool has_nodes = is_of_cells(entity) && entity.number == 1;
-      for (const int value : {entity.dimension, entity.number, 0}) out_.number(value);
-      out_.number(has_nodes ? mesh_.n_nodes() : std::size_t{0});
+    for (std::size_t k = 0; k < entities_.size(); ++k) {
+      for (const int value : {entities_[k].dimension, entities_[k].number, 0}) out_.number(value);
+      out_.number(nodes[k].size());
       out_.end_record();
-      if (!has_nodes) continue;
-      for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      for (const NodeIndex i : nodes[k]) {
         out_.number(node_number(i));
         out_.end_record();
       }
-      for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      for (const NodeIndex i : nodes[k]) {
         write_point(i);
         out_.end_record();
       }
@@ -203,44 +304,64 @@ class MshWriter {
 
   void write_elements_4() {
     out_.text("$Elements\n");
-    const auto& ids = labels_.cell_ids;
-    std::size_t n_blocks = 0;
+    std::size_t n_blocks = 0, first = std::numeric_limits<std::size_t>::max();
     for (const MshEntity& entity : entities_) n_blocks += entity.by_type.size();
+    for (std::size_t e = 0; e < elements_.size(); ++e) first = std::min(first, element_number(e));
     out_.number(n_blocks);
-    out_.number(n_elements());
-    out_.number(ids.empty() ? std::size_t{1} : *std::min_element(ids.begin(), ids.end()));
-    out_.number(last_cell_ + labels_.facets.size());
+    out_.number(n_elements_);
+    out_.number(first);
+    out_.number(last_number_);
     out_.end_record();
     for (const MshEntity& entity : entities_)
       for (const auto& [type, elements] : entity.by_type) {
         for (const int value : {entity.dimension, entity.number, type}) out_.number(value);
         out_.number(elements.size());
         out_.end_record();
-        for (const std::uint32_t i : elements) {
-          out_.number(element_number(entity, i));
-          for (const NodeIndex node : rows(entity)[i]) out_.number(node_number(node));
+        for (const std::size_t e : elements) {
+          out_.number(element_number(e));
+          for (const NodeIndex node : elements_.nodes(e)) out_.number(node_number(node));
           out_.end_record(true);
         }
       }
     end_section("Elements");
   }
 
+  void write_periodic_4() {
+    out_.text("$Periodic\n");
+    out_.number(content_.periodic.size());
+    out_.end_record();
+    for (const PeriodicEntity& link : content_.periodic) {
+      for (const int value : {link.dimension, link.entity, link.partner}) out_.number(value);
+      out_.end_record();
+      out_.number(link.affine.size());
+      for (const double value : link.affine) out_.number(value);
+      out_.end_record();
+      out_.number(link.nodes.size());
+      out_.end_record();
+      for (const auto& [node, partner] : link.nodes) {
+        out_.number(node_number(node));
+        out_.number(node_number(partner));
+        out_.end_record();
+      }
+    }
+    end_section("Periodic");
+  }
+
+  inline static const FileContent nothing_{};
+
   const MeshView& mesh_;
   const MeshLabels& labels_;
+  const FileContent& content_;
+  std::string version_;
   MshOutput& out_;
-  std::vector<MshEntity> entities_;  ///< of the facets, then of the cells
-  std::size_t last_cell_ = 0;
+  AllElements elements_;
+  std::vector<MshEntity> entities_;
+  bool has_all_ids_ = true;
+  std::size_t last_number_ = 0, n_elements_ = 0;
 };
 
 void require_version_2_holds(const std::filesystem::path& path, const Topology& topology) {
   const MeshLabels& labels = topology.labels();
-  const auto& tags = labels.cell_tags;
-  const auto n_untagged = static_cast<std::size_t>(std::count(tags.begin(), tags.end(), 0));
-  const bool is_tagged_in_part = n_untagged > 0 && n_untagged < tags.size();
-  const bool has_only_tagged_facets = labels.facets.size() > 0 && n_untagged == tags.size();
-  if (is_tagged_in_part || has_only_tagged_facets)
-    throw InputError("cannot write " + path.string() +
-                     ": some cells have no physical tag, which version 2.2 cannot hold; use 4.1");
   for (const auto* ids : {&labels.node_ids, &labels.cell_ids})
     for (const std::size_t id : *ids)
       if (id > INT32_MAX - labels.facets.size())
@@ -253,12 +374,17 @@ void require_version_2_holds(const std::filesystem::path& path, const Topology& 
 void write_msh(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                const MeshWriteOptions& options) {
   require_no_polygons(path, mesh);
-  const bool is_version_4 = options.msh_version == MshVersion::v4_1;
-  if (!is_version_4) require_version_2_holds(path, mesh.topology());
+  const FileContent* content = mesh.content();
+  const bool is_of_gmsh = content && content->format == "gmsh";
+  const std::string version = options.msh_version
+                                  ? *options.msh_version == MshVersion::v2_2 ? "2.2" : "4.1"
+                              : is_of_gmsh ? content->version
+                                           : "4.1";
+  const bool is_binary = options.binary.value_or(is_of_gmsh ? content->is_binary : true);
+  if (version == "2.2") require_version_2_holds(path, mesh.topology());
   write_atomically(path, [&](const std::filesystem::path& temporary) {
-    MshOutput out(temporary, options.msh_binary);
-    MshWriter writer(mesh, out);
-    is_version_4 ? writer.write_4() : writer.write_2();
+    MshOutput out(temporary, is_binary);
+    MshWriter(mesh, version, out).write();
   });
 }
 

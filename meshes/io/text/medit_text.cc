@@ -6,22 +6,27 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "meshes/io/all_elements.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
+#include "smoothing/mesh/interfaces.h"
 
 namespace smoothfem {
 
 namespace {
 
-constexpr std::string_view title = "MeshVersionFormatted";
+constexpr std::string_view medit_title = "MeshVersionFormatted",
+                           medit_reference_field = "reference";
 
 /// The sections with elements, in the order in which they are written.
 struct Section {
@@ -56,14 +61,17 @@ class MeditReader {
       : reader_(path, content), content_(content) {}
 
   MeshParts parts() {
-    if (word("the first word") != title)
-      reader_.fail("the first word is not '" + std::string(title) + "'");
+    if (word("the first word") != medit_title)
+      reader_.fail("the first word is not '" + std::string(medit_title) + "'");
     integer("the version");
     for (auto keyword = next_keyword(); !keyword.empty(); keyword = next_keyword())
       if (keyword != "End")
         read_section(keyword);
       else if (!section_follows())
         break;
+    parts_.content.format = "medit";
+    parts_.content.version = std::to_string(dimension_);
+    make_fields();
     return std::move(parts_);
   }
 
@@ -104,12 +112,19 @@ class MeditReader {
       read_vertices();
     } else if (keyword == "RequiredVertices") {
       read_required();
+    } else if (keyword == "Corners") {
+      read_marks(keyword, marks_[{corner_field, "Vertices"}]);
+    } else if (keyword == "Ridges") {
+      read_marks(keyword, marks_[{ridge_field, "Edges"}]);
+    } else if (keyword.starts_with("Required") && find_section(keyword.substr(8))) {
+      read_marks(keyword, marks_[{required_field, std::string(keyword.substr(8))}]);
     } else if (keyword.ends_with("P2") || keyword.ends_with("Q2")) {
       reader_.fail("the section " + std::string(keyword) +
                    " has elements with nodes other than their corners; save the mesh with linear "
                    "elements");
     } else {
       skipped_.emplace();
+      parts_.notes.push_back("the section " + std::string(keyword) + " is left out");
     }
   }
 
@@ -158,7 +173,7 @@ class MeditReader {
     for (auto& point : parts_.coordinates) {
       for (std::uint64_t d = 0; d < dimension_; ++d)
         point[static_cast<Eigen::Index>(d)] = number("a coordinate");
-      word("the vertex's reference");
+      vertex_references_.push_back(reference());
     }
   }
 
@@ -178,6 +193,7 @@ class MeditReader {
     require_vertices(section.keyword);
     ElementList& elements = parts_.elements[section.dimension];
     std::array<NodeIndex, 8> nodes{};
+    positions_[std::string(section.keyword)] = {n_elements_, n};
     for (std::size_t e = 0; e < n; ++e) {
       for (std::size_t k = 0; k < section.n_nodes; ++k) {
         nodes[k] = node();
@@ -185,6 +201,50 @@ class MeditReader {
       }
       elements.nodes.append(std::span(nodes).first(section.n_nodes));
       elements.tags.push_back(reference());
+      elements.file_positions.push_back(n_elements_++);
+    }
+  }
+
+  /// Reads the numbers, from 1, of nodes or elements.
+  void read_marks(std::string_view keyword, std::vector<std::uint64_t>& marks) {
+    for (std::size_t n = count(keyword); n > 0; --n) {
+      marks.push_back(integer("the number of an element"));
+      if (marks.back() == 0) reader_.fail("the number is 0, but elements are counted from 1");
+    }
+  }
+
+  /// Makes fields of the vertices' references, and of marks.
+  void make_fields() {
+    FileContent& content = parts_.content;
+    const auto is_set = [](std::int64_t value) { return value != 0; };
+    if (std::any_of(vertex_references_.begin(), vertex_references_.end(), is_set))
+      content.node_fields.push_back({.name = std::string(medit_reference_field),
+                                     .type = NumberType::int32,
+                                     .values = vertex_references_});
+    for (const auto& [key, numbers] : marks_) {
+      const auto& [name, section] = key;
+      const bool is_of_nodes = section == "Vertices";
+      const auto found = positions_.find(section);
+      const Range range = is_of_nodes                 ? Range{0, parts_.coordinates.size()}
+                          : found == positions_.end() ? Range{}
+                                                      : found->second;
+      auto& fields = is_of_nodes ? content.node_fields : content.element_fields;
+      auto field =
+          std::find_if(fields.begin(), fields.end(),
+                       [&, wanted = name](const MeshField& f) { return f.name == wanted; });
+      if (field == fields.end()) {
+        const std::size_t n = is_of_nodes ? parts_.coordinates.size() : n_elements_;
+        fields.push_back(
+            {.name = name, .type = NumberType::int32, .values = std::vector<std::int64_t>(n, 0)});
+        field = std::prev(fields.end());
+      }
+      for (const std::uint64_t number : numbers) {
+        if (number > range.n)
+          reader_.fail("the number " + std::to_string(number) +
+                       " of a marked element is not one of " + section + ", of which there are " +
+                       std::to_string(range.n));
+        std::get<std::vector<std::int64_t>>(field->values)[range.first + number - 1] = 1;
+      }
     }
   }
 
@@ -201,9 +261,18 @@ class MeditReader {
     for (std::size_t n = count("RequiredVertices"); n > 0; --n) (*parts_.fixed)[node()] = true;
   }
 
+  struct Range {
+    std::size_t first = 0, n = 0;
+  };
+
   LineReader reader_;
   std::string_view content_;
   std::uint64_t dimension_ = 0;
+  std::uint32_t n_elements_ = 0;
+  std::map<std::string, Range> positions_;  ///< of the elements of each section
+  std::vector<std::int64_t> vertex_references_;
+  /// Numbers by the name of a field and a section.
+  std::map<std::pair<std::string, std::string>, std::vector<std::uint64_t>> marks_;
   std::optional<SkippedSection> skipped_;  ///< the current section
   MeshParts parts_;
 };
@@ -212,39 +281,15 @@ class MeditReader {
 
 bool is_medit_text(std::string_view content) {
   LineReader reader({}, content);
-  return reader.next_line() && reader.word() == title;
+  return reader.next_line() && reader.word() == medit_title;
 }
 
-MeshFile read_medit_text(const std::filesystem::path& path) {
+MeshFile read_medit_text(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   return assemble_mesh(path, MeditReader(path, content).parts());
 }
 
 namespace {
-
-void append_row(std::string& text, std::span<const NodeIndex> nodes, int reference) {
-  for (const NodeIndex node : nodes) {
-    append_number(text, std::size_t{node} + 1);
-    text += ' ';
-  }
-  append_number(text, reference);
-  text += '\n';
-}
-
-void append_section(std::string& text, const Section& section,
-                    const CompressedRows<NodeIndex>& rows, const std::vector<int>& tags) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) n += rows[i].size() == section.n_nodes;
-  if (n == 0) return;
-  text.append(section.keyword).append("\n").append(std::to_string(n)).append("\n");
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].size() == section.n_nodes) append_row(text, rows[i], tags.empty() ? 0 : tags[i]);
-}
-
-struct Facets {
-  CompressedRows<NodeIndex> nodes;
-  std::vector<int> tags;
-};
 
 std::vector<NodeIndex> sorted(std::span<const NodeIndex> nodes) {
   std::vector<NodeIndex> key(nodes.begin(), nodes.end());
@@ -252,54 +297,145 @@ std::vector<NodeIndex> sorted(std::span<const NodeIndex> nodes) {
   return key;
 }
 
-/// Returns the labelled facets, and those of the boundary without a label with reference 0.
-Facets facets_with_boundary(const Topology& topology) {
-  Facets facets{topology.labels().facets, topology.labels().facet_tags};
-  std::set<std::vector<NodeIndex>> labelled;
-  for (std::size_t f = 0; f < facets.nodes.size(); ++f) labelled.insert(sorted(facets.nodes[f]));
-  const auto& boundary = topology.boundary_facets();
-  for (std::size_t f = 0; f < boundary.size(); ++f) {
-    if (labelled.contains(sorted(boundary[f]))) continue;
-    facets.nodes.append(boundary[f]);
-    facets.tags.push_back(0);
-  }
+/// Returns the facets of the boundary that the file does not have.
+CompressedRows<NodeIndex> other_boundary_facets(const MeshView& mesh) {
+  const AllElements elements(mesh);
+  std::set<std::vector<NodeIndex>> known;
+  for (std::size_t e = elements.n_cells(); e < elements.size(); ++e)
+    if (elements.dimension(e) == mesh.dimension() - 1) known.insert(sorted(elements.nodes(e)));
+  CompressedRows<NodeIndex> facets;
+  const auto& boundary = mesh.topology().boundary_facets();
+  for (std::size_t f = 0; f < boundary.size(); ++f)
+    if (!known.contains(sorted(boundary[f]))) facets.append(boundary[f]);
   return facets;
 }
 
-void write(const std::filesystem::path& path, const MeshView& mesh,
-           const CompressedRows<NodeIndex>& facets, const std::vector<int>& facet_tags) {
-  const Topology& topology = mesh.topology();
-  const int space_dimension = mesh.planar() != nullptr ? 2 : 3;
-  std::string text(title);
-  text += " 2\nDimension " + std::to_string(space_dimension) + "\nVertices\n" +
-          std::to_string(mesh.n_nodes()) + "\n";
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
-    const Point<3> point = mesh.point(i);
-    for (int d = 0; d < space_dimension; ++d) {
-      append_number(text, point[d]);
-      text += ' ';
+/// Writes a mesh in Medit's text format.
+class MeditWriter {
+ public:
+  /// more_facets: facets with reference 0 in addition to those of the mesh.
+  MeditWriter(const MeshView& mesh, const CompressedRows<NodeIndex>& more_facets)
+      : mesh_(mesh), more_facets_(more_facets), elements_(mesh) {
+    const FileContent* content = mesh.content();
+    is_of_medit_ = content && content->format == "medit";
+    dimension_ = !mesh.planar() || (is_of_medit_ && content->version == "3") ? 3 : 2;
+    if (content && content->plane) dimension_ = 3;
+    for (const std::uint32_t e : elements_.in_file_order(content)) order_.push_back(e);
+  }
+
+  std::string text() {
+    text_ = std::string(medit_title) + " 2\nDimension " + std::to_string(dimension_) + "\n";
+    write_vertices();
+    for (const Section& section : sections) write_elements(section);
+    write_marks();
+    return std::move(text_) + "End\n";
+  }
+
+ private:
+  void write_vertices() {
+    const MeshField* references = field(true, medit_reference_field);
+    text_ += "Vertices\n" + std::to_string(mesh_.n_nodes()) + "\n";
+    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      const Point<3> point = mesh_.point(i);
+      for (int d = 0; d < dimension_; ++d) {
+        append_number(text_, point[d]);
+        text_ += ' ';
+      }
+      append_number(text_, references ? static_cast<int>(references->number(i)) : 0);
+      text_ += '\n';
     }
-    text += "0\n";
   }
-  for (const Section& section : sections) {
-    if (section.dimension == mesh.dimension())
-      append_section(text, section, topology.cells(), topology.labels().cell_tags);
-    else if (section.dimension == mesh.dimension() - 1)
-      append_section(text, section, facets, facet_tags);
+
+  void append_row(std::span<const NodeIndex> nodes, int reference) {
+    for (const NodeIndex node : nodes) {
+      append_number(text_, std::size_t{node} + 1);
+      text_ += ' ';
+    }
+    append_number(text_, reference);
+    text_ += '\n';
   }
-  text += "RequiredVertices\n" + std::to_string(mesh.n_nodes() - topology.free_nodes().size());
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    if (topology.is_fixed(i)) text += "\n" + std::to_string(i + 1);
-  text += "\nEnd\n";
-  write_atomically(path, text);
-}
+
+  void write_elements(const Section& section) {
+    std::vector<std::uint32_t> members;
+    for (const std::uint32_t e : order_)
+      if (elements_.dimension(e) == section.dimension &&
+          elements_.nodes(e).size() == section.n_nodes)
+        members.push_back(e);
+    std::size_t n = members.size();
+    const bool has_more = section.dimension == mesh_.dimension() - 1;
+    for (std::size_t f = 0; has_more && f < more_facets_.size(); ++f)
+      n += more_facets_[f].size() == section.n_nodes;
+    if (n == 0) return;
+    text_.append(section.keyword).append("\n").append(std::to_string(n)).append("\n");
+    for (const std::uint32_t e : members) append_row(elements_.nodes(e), elements_.tag(e));
+    for (std::size_t f = 0; has_more && f < more_facets_.size(); ++f)
+      if (more_facets_[f].size() == section.n_nodes) append_row(more_facets_[f], 0);
+    members_[std::string(section.keyword)] = std::move(members);
+  }
+
+  /// Returns null if the mesh has no such field.
+  const MeshField* field(bool is_of_nodes, std::string_view name) const {
+    if (!mesh_.content()) return nullptr;
+    const auto& fields =
+        is_of_nodes ? mesh_.content()->node_fields : mesh_.content()->element_fields;
+    const auto found = std::find_if(fields.begin(), fields.end(), [&](const MeshField& f) {
+      return f.name == name && f.n_components == 1;
+    });
+    return found == fields.end() ? nullptr : &*found;
+  }
+
+  void write_numbers(const std::string& keyword, const std::vector<std::size_t>& numbers) {
+    text_ += keyword + "\n" + std::to_string(numbers.size());
+    for (const std::size_t number : numbers) text_ += "\n" + std::to_string(number);
+    text_ += "\n";
+  }
+
+  /// A file of Medit gets the required vertices that it had, any other file all fixed nodes.
+  void write_marks() {
+    const Topology& topology = mesh_.topology();
+    std::vector<std::size_t> required, corners;
+    const MeshField* is_corner = field(true, corner_field);
+    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
+      const FixedReasons reasons = topology.fixed_reasons(i);
+      if (is_of_medit_ ? has(reasons, FixedReason::marked) : reasons != 0)
+        required.push_back(std::size_t{i} + 1);
+      if (is_corner && is_corner->number(i) != 0.0) corners.push_back(std::size_t{i} + 1);
+    }
+    if (!corners.empty()) write_numbers("Corners", corners);
+    if (!required.empty() || !is_of_medit_) write_numbers("RequiredVertices", required);
+    if (const MeshField* ridges = field(false, ridge_field))
+      write_marked("Ridges", "Edges", *ridges);
+    if (const MeshField* marks = field(false, required_field))
+      for (const Section& section : sections)
+        write_marked("Required" + std::string(section.keyword), std::string(section.keyword),
+                     *marks);
+  }
+
+  void write_marked(const std::string& keyword, const std::string& section,
+                    const MeshField& marks) {
+    const auto& members = members_[section];
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (marks.number(members[k]) != 0.0) numbers.push_back(k + 1);
+    if (!numbers.empty()) write_numbers(keyword, numbers);
+  }
+
+  const MeshView& mesh_;
+  const CompressedRows<NodeIndex>& more_facets_;
+  AllElements elements_;
+  bool is_of_medit_ = false;
+  int dimension_ = 3;
+  std::vector<std::uint32_t> order_;
+  std::map<std::string, std::vector<std::uint32_t>> members_;  ///< elements of each section
+  std::string text_;
+};
 
 }  // namespace
 
 void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                       const MeshWriteOptions&) {
-  const MeshLabels& labels = mesh.topology().labels();
-  write(path, mesh, labels.facets, labels.facet_tags);
+  require_no_polygons(path, mesh);
+  write_atomically(path, MeditWriter(mesh, {}).text());
 }
 
 void write_medit_with_boundary(const std::filesystem::path& path, const MeshView& mesh) {
@@ -310,16 +446,24 @@ void write_medit_with_boundary(const std::filesystem::path& path, const MeshView
           std::to_string(mesh.topology().cell_nodes(c).size()) +
           " nodes, but Medit's cells of planar meshes have three or four; use the format "
           "vtk or mesh");
-  const Facets facets = facets_with_boundary(mesh.topology());
-  write(path, mesh, facets.nodes, facets.tags);
+  write_atomically(path, MeditWriter(mesh, other_boundary_facets(mesh)).text());
 }
 
 namespace {
+
+bool holds_field(const MeshField& field, bool is_of_file) {
+  const auto& name = field.name;
+  return !is_of_file && (name == medit_reference_field || name == corner_field ||
+                         name == required_field || name == ridge_field);
+}
 
 const RegisteredFormat medit({.name = "medit",
                               .extension = ".mesh",
                               .description = "Medit, text; written for volume meshes",
                               .holds_volume_meshes = true,
+                              .holds_facets = true,
+                              .min_element_dimension = 1,
+                              .holds_field = holds_field,
                               .recognizes = is_medit_text,
                               .read = read_medit_text,
                               .write = write_medit_text});

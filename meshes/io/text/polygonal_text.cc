@@ -98,7 +98,7 @@ void skip_quality_numbers(LineReader& reader, std::size_t n_cells) {
 
 }  // namespace
 
-MeshFile read_polygonal_text(const std::filesystem::path& path) {
+MeshFile read_polygonal_text(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
   reader.require_line("the first line");
@@ -159,7 +159,9 @@ const RegisteredFormat polygonal({.name = "polygonal",
                                   .description = "planar polygonal mesh, text",
                                   .holds_planar_meshes = true,
                                   .holds_polygons = true,
+                                  .holds_tags = false,
                                   .holds_fixed_nodes = true,
+                                  .holds_points_in_space = false,
                                   .read = read_polygonal_text,
                                   .write = write_polygonal_text});
 

@@ -14,8 +14,11 @@ MeshFormat vtk_format(const std::string& name, const std::string& description,
           .holds_surface_meshes = true,
           .holds_polygons = true,
           .holds_fixed_nodes = true,
+          .holds_facets = true,
           .holds_physical_names = true,
           .holds_numbers = true,
+          .min_element_dimension = 0,
+          .holds_field = [](const MeshField&, bool) { return true; },
           .read = read,
           .write = write};
 }

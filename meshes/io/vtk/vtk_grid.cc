@@ -41,14 +41,6 @@ std::string VtkCells::missing_point(std::int64_t point, std::size_t n_points) co
          std::to_string(point) + ", but the file has only " + std::to_string(n_points) + " points";
 }
 
-bool is_known_point_array(std::string_view name) {
-  return name == "fixed" || name == "node_id";
-}
-
-bool is_known_cell_array(std::string_view name) {
-  return name == "physical_tag" || name == "cell_id";
-}
-
 namespace {
 
 /// Dimension and number of nodes (0: any) of a VTK cell type.
@@ -59,10 +51,11 @@ struct CellKind {
 
 std::optional<CellKind> kind_of(int vtk_type) {
   switch (vtk_type) {
-    case VTK_VERTEX:
     case VTK_POLY_VERTEX:
     case VTK_POLY_LINE:
-      return CellKind{0, 0};
+      return CellKind{0, 0};  // left out
+    case VTK_VERTEX:
+      return CellKind{0, 1};
     case VTK_LINE:
       return CellKind{1, 2};
     case VTK_TRIANGLE:
@@ -86,6 +79,12 @@ std::optional<CellKind> kind_of(int vtk_type) {
   }
 }
 
+/// Returns the dimension of the cells of a known type; -1 if they are left out.
+int dimension_of_kind(int vtk_type) {
+  const auto kind = kind_of(vtk_type);
+  return kind->dimension == 0 && kind->n_nodes == 0 ? -1 : kind->dimension;
+}
+
 /// Approximately six times a prism's volume; only its sign is used.
 double signed_prism_volume(const std::vector<Point<3>>& x, std::span<const NodeIndex> nodes) {
   const Point<3> base = (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]) +
@@ -107,8 +106,8 @@ int tag_of(double value) {
 /// Makes the parts of a grid and consumes it.
 class GridParts {
  public:
-  GridParts(const std::string& path, VtkGrid& grid)
-      : path_(path), grid_(grid), cells_(grid.cells) {}
+  GridParts(const std::string& path, VtkGrid& grid, const std::string& tag_field)
+      : path_(path), tag_field_(tag_field), grid_(grid), cells_(grid.cells) {}
 
   MeshParts make() {
     if (grid_.points.empty()) fail("the file has no points");
@@ -123,6 +122,10 @@ class GridParts {
     read_names();
     divide(n_cells);
     parts_.coordinates = std::move(grid_.points);
+    parts_.content.node_fields = std::move(grid_.point_fields);
+    parts_.content.element_fields = std::move(grid_.cell_fields);
+    parts_.content.file_fields = std::move(grid_.file_fields);
+    parts_.notes.insert(parts_.notes.end(), grid_.notes.begin(), grid_.notes.end());
     return std::move(parts_);
   }
 
@@ -149,7 +152,7 @@ class GridParts {
   }
 
   /// Changes the nodes to the order of volume_elements.h, except for wedges. Returns the cell's
-  /// dimension: 0 for cells that are left out.
+  /// dimension, also 0 for cells that are left out.
   std::size_t check_cell(std::size_t cell) {
     const int type = cells_.types[cell];
     const auto kind = kind_of(type);
@@ -177,25 +180,37 @@ class GridParts {
       if (cells_.types[c] == VTK_WEDGE) permute(nodes_of(c), vtk_wedge);
   }
 
-  /// Returns null if the file has no such array.
-  const std::vector<double>* array_of(const auto& arrays, std::string_view name, std::size_t n,
-                                      const std::string& kind) const {
-    const auto found = arrays.find(name);
-    if (found == arrays.end()) return nullptr;
-    if (found->second.size() != n)
-      fail("the " + kind + " array '" + std::string(name) + "' has " +
-           std::to_string(found->second.size()) + " values for " + std::to_string(n) + " " + kind +
-           "s");
-    return &found->second;
+  static auto find(std::vector<MeshField>& fields, std::string_view name) {
+    return std::find_if(fields.begin(), fields.end(),
+                        [&](const MeshField& field) { return field.name == name; });
+  }
+
+  /// Takes the field of a name out of the list. Returns nothing if there is none.
+  std::optional<MeshField> take(std::vector<MeshField>& fields, std::string_view name) const {
+    const auto found = find(fields, name);
+    if (found == fields.end()) return {};
+    auto field = std::move(*found);
+    fields.erase(found);
+    return field;
+  }
+
+  void require_rows(const std::vector<MeshField>& fields, std::size_t n,
+                    const std::string& kind) const {
+    for (const MeshField& field : fields)
+      if (field.n_rows() != n)
+        fail("the " + kind + " array '" + field.name + "' has " + std::to_string(field.n_rows()) +
+             " values for " + std::to_string(n) + " " + kind + "s");
   }
 
   void read_point_arrays() {
-    const std::size_t n = grid_.points.size();
-    if (const auto* ids = array_of(grid_.point_arrays, "node_id", n, "point"))
-      std::transform(ids->begin(), ids->end(), std::back_inserter(parts_.node_ids), id_of);
-    if (const auto* fixed = array_of(grid_.point_arrays, "fixed", n, "point")) {
+    require_rows(grid_.point_fields, grid_.points.size(), "point");
+    if (const auto ids = take(grid_.point_fields, "node_id"))
+      for (std::size_t i = 0; i < ids->n_rows(); ++i)
+        parts_.node_ids.push_back(id_of(ids->number(i * ids->n_components)));
+    if (const auto fixed = take(grid_.point_fields, "fixed")) {
       parts_.fixed.emplace();
-      for (const double value : *fixed) parts_.fixed->push_back(value != 0.0);
+      for (std::size_t i = 0; i < fixed->n_rows(); ++i)
+        parts_.fixed->push_back(fixed->number(i * fixed->n_components) != 0.0);
     }
   }
 
@@ -207,34 +222,71 @@ class GridParts {
              ", which is not 'dimension tag name'");
   }
 
+  /// Returns the array with the tags, null if there is none.
+  const MeshField* tags() {
+    auto& fields = grid_.cell_fields;
+    if (!tag_field_.empty()) {
+      const auto found = find(fields, tag_field_);
+      if (found == fields.end())
+        fail("the file has no cell array '" + tag_field_ + "'; give another --tag-field");
+      return &*found;
+    }
+    for (const std::string_view name : vtk_tag_fields)
+      if (const auto found = find(fields, name); found != fields.end()) return &*found;
+    return nullptr;
+  }
+  const MeshField* boundary_tags() {
+    for (const std::string_view name : vtk_boundary_fields)
+      if (const auto found = find(grid_.cell_fields, name); found != grid_.cell_fields.end())
+        return &*found;
+    return nullptr;
+  }
+
   /// Divides the cells by their dimension.
   void divide(const std::array<std::size_t, 4>& n_cells) {
-    const auto* tags = array_of(grid_.cell_arrays, "physical_tag", cells_.size(), "cell");
-    const auto* ids = array_of(grid_.cell_arrays, "cell_id", cells_.size(), "cell");
-    const auto* only = std::find(n_cells.begin() + 1, n_cells.end(), cells_.size());
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const int dimension = kind_of(cells_.types[c])->dimension;
-      if (dimension == 0) continue;
+    const std::size_t n = cells_.size();
+    require_rows(grid_.cell_fields, n, "cell");
+    const auto ids = take(grid_.cell_fields, "cell_id");
+    const MeshField *of_cells = tags(), *of_boundary = boundary_tags();
+    const int top = n_cells[3] > 0 ? 3 : 2;
+    const auto* only = std::find(n_cells.begin() + 1, n_cells.end(), n);
+    for (std::size_t c = 0; c < n; ++c) {
+      const int dimension = dimension_of_kind(cells_.types[c]);
+      if (dimension < 0) {
+        ++n_left_out_;
+        continue;
+      }
       ElementList& elements = parts_.elements[static_cast<std::size_t>(dimension)];
       if (only == n_cells.end()) elements.nodes.append(nodes_of(c));
-      if (tags) elements.tags.push_back(tag_of((*tags)[c]));
-      if (ids) elements.ids.push_back(id_of((*ids)[c]));
+      const MeshField* field = of_boundary && dimension < top ? of_boundary : of_cells;
+      if (field) elements.tags.push_back(tag_of(field->number(c * field->n_components)));
+      if (ids) elements.ids.push_back(id_of(ids->number(c * ids->n_components)));
+      elements.file_positions.push_back(static_cast<std::uint32_t>(c));
     }
     if (only != n_cells.end())  // large meshes are not held twice
       parts_.elements[static_cast<std::size_t>(only - n_cells.begin())].nodes =
           CompressedRows<NodeIndex>(std::move(cells_.offsets), std::move(cells_.nodes));
+    if (only != n_cells.end() && grid_.cell_fields.empty())
+      parts_.elements[static_cast<std::size_t>(only - n_cells.begin())].file_positions.clear();
+    if (n_left_out_ > 0)
+      parts_.notes.push_back(std::to_string(n_left_out_) +
+                             " lines or vertices of several nodes are left out");
+    if (of_cells && of_cells->name != vtk_tag_fields[0]) parts_.content.tag_field = of_cells->name;
+    (void)take(grid_.cell_fields, vtk_tag_fields[0]);  // written from the tags
   }
 
   const std::string& path_;
+  const std::string& tag_field_;
   VtkGrid& grid_;
   VtkCells& cells_;
   MeshParts parts_;
+  std::size_t n_left_out_ = 0;
 };
 
 }  // namespace
 
-MeshParts parts_of_grid(const std::string& path, VtkGrid grid) {
-  return GridParts(path, grid).make();
+MeshParts parts_of_grid(const std::string& path, VtkGrid grid, const std::string& tag_field) {
+  return GridParts(path, grid, tag_field).make();
 }
 
 }  // namespace smoothfem

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "meshes/io/mesh_assembly.h"
@@ -40,14 +41,11 @@ struct VtkCells {
 struct VtkGrid {
   std::vector<Point<3>> points;
   VtkCells cells;
-  /// First components of those arrays of the file that is_known_point_array and is_known_cell_array
-  /// accept.
-  std::map<std::string, std::vector<double>, std::less<>> point_arrays, cell_arrays;
-  std::string physical_names;  ///< lines "dimension tag name"
+  std::vector<MeshField> point_fields, cell_fields, file_fields;
+  std::string physical_names;      ///< lines "dimension tag name"
+  std::vector<std::string> notes;  ///< arrays that are left out, and why
 };
 
-bool is_known_point_array(std::string_view name);
-bool is_known_cell_array(std::string_view name);
 /// Name in the field data.
 inline constexpr std::string_view vtk_names_array = "physical_name";
 
@@ -56,9 +54,18 @@ inline char vtk_character(double number) {
   return number >= -128.0 && number <= 255.0 ? static_cast<char>(static_cast<int>(number)) : '?';
 }
 
-/// Makes the parts of a mesh. Vertices and lines of several edges are left out. Wedges may have
-/// Gmsh's order of nodes: the order that makes more volumes positive is used. Throws InputError
-/// that begins with the path for cells of other types, and for arrays of a wrong length.
-MeshParts parts_of_grid(const std::string& path, VtkGrid grid);
+/// Makes the parts of a mesh. The arrays 'fixed', 'node_id' and 'cell_id' have their meaning, and
+/// so has the array with the tags: `tag_field`, or the first of the file that is in vtk_tag_fields
+/// if the name is empty. All other arrays are fields. Lines of several edges are left out. Wedges
+/// may have Gmsh's order of nodes: the order that makes more volumes positive is used. Throws
+/// InputError that begins with the path for cells of other types, and for arrays of a wrong length.
+MeshParts parts_of_grid(const std::string& path, VtkGrid grid, const std::string& tag_field);
+
+/// Names of arrays with tags of cells, by smoothfem, Gmsh and meshio, deal.II, MFEM, and VTK.
+/// Those of the second list have tags of cells of lower dimension, if these are not in the first.
+inline constexpr std::array<std::string_view, 8> vtk_tag_fields{
+    "physical_tag", "gmsh:physical", "MaterialID",    "material_id",
+    "material",     "attribute",     "CellEntityIds", "medit:ref"};
+inline constexpr std::array<std::string_view, 2> vtk_boundary_fields{"BoundaryID", "boundary_id"};
 
 }  // namespace smoothfem

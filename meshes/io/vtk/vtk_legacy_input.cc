@@ -19,6 +19,12 @@ constexpr std::array type_names{
     VtkNumberName{"vtkidtype", VtkNumber::int32},
     VtkNumberName{"long", VtkNumber::int64},
     VtkNumberName{"unsigned_long", VtkNumber::uint64},
+    VtkNumberName{"vtktypeint8", VtkNumber::int8},
+    VtkNumberName{"vtktypeuint8", VtkNumber::uint8},
+    VtkNumberName{"vtktypeint16", VtkNumber::int16},
+    VtkNumberName{"vtktypeuint16", VtkNumber::uint16},
+    VtkNumberName{"vtktypeint32", VtkNumber::int32},
+    VtkNumberName{"vtktypeuint32", VtkNumber::uint32},
     VtkNumberName{"vtktypeint64", VtkNumber::int64},
     VtkNumberName{"vtktypeuint64", VtkNumber::uint64},
     VtkNumberName{"float", VtkNumber::float32},
@@ -147,6 +153,22 @@ void LegacyVtkInput::skip_binary_string() {
 void LegacyVtkInput::skip_metadata() {
   while (const auto line = lines_.whole_line())
     if (line->find_first_not_of(" \t\r") == line->npos) return;
+}
+
+std::string decoded_vtk_name(std::string_view name) {
+  std::string decoded;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    int code = 0;
+    const char* const digits = name.data() + i + 1;
+    if (name[i] == '%' && i + 2 < name.size() &&
+        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      decoded += static_cast<char>(code);
+      i += 2;
+    } else {
+      decoded += name[i];
+    }
+  }
+  return decoded;
 }
 
 std::uint8_t LegacyVtkInput::cell_type(std::size_t cell, std::int64_t type) const {

@@ -43,7 +43,8 @@ class LegacyVtkInput {
   /// Throws InputError for counts of numbers that the file cannot hold.
   void require_numbers(std::uint64_t n, std::uint64_t components, VtkNumber type,
                        const std::string& what) const;
-  /// Calls use(number) for n numbers as Value: double or std::int64_t. Call require_numbers before.
+  /// Calls use(number) for n numbers as Value: double, AnyNumber or
+  /// std::int64_t. Call require_numbers before.
   template <class Value, class Use>
   void read_numbers(VtkNumber type, std::uint64_t n, std::string_view what, const Use& use) {
     if (is_binary_) {
@@ -72,6 +73,14 @@ class LegacyVtkInput {
     lines_.require_word(what);
     if constexpr (std::is_floating_point_v<Value>) {
       return lines_.number(what);
+    } else if constexpr (std::is_same_v<Value, AnyInteger>) {
+      const std::string_view found = lines_.word();
+      if (const auto value = any_integer(found)) return *value;
+      fail(std::string(what) + " is " + in_quotes(found) + ", which is not an integer");
+    } else if constexpr (std::is_same_v<Value, AnyNumber>) {
+      const std::string_view found = lines_.word();
+      if (const auto value = any_number(found)) return *value;
+      fail(std::string(what) + " is " + in_quotes(found) + ", which is not a number");
     } else {
       const std::string_view found = lines_.word();
       Value value = 0;
@@ -92,5 +101,8 @@ class LegacyVtkInput {
   bool is_binary_ = false;
   std::string keyword_;
 };
+
+/// Returns the name of an array without VTK's codes, for example %20 for a blank.
+std::string decoded_vtk_name(std::string_view name);
 
 }  // namespace smoothfem

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,10 +12,11 @@
 #include <string_view>
 #include <type_traits>
 
+#include "smoothing/mesh/number_type.h"
+
 namespace smoothfem {
 
-/// Type of the numbers of an array in a VTK file.
-enum class VtkNumber { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+using VtkNumber = NumberType;
 
 struct VtkNumberName {
   std::string_view name;
@@ -30,39 +33,39 @@ std::optional<VtkNumber> vtk_number(const std::array<VtkNumberName, n>& names,
   return found->type;
 }
 
-/// Calls `visit.operator()<T>()` with the C++ type.
-template <class Visit>
-decltype(auto) with_vtk_number(VtkNumber type, const Visit& visit) {
-  switch (type) {
-    case VtkNumber::int8:
-      return visit.template operator()<std::int8_t>();
-    case VtkNumber::uint8:
-      return visit.template operator()<std::uint8_t>();
-    case VtkNumber::int16:
-      return visit.template operator()<std::int16_t>();
-    case VtkNumber::uint16:
-      return visit.template operator()<std::uint16_t>();
-    case VtkNumber::int32:
-      return visit.template operator()<std::int32_t>();
-    case VtkNumber::uint32:
-      return visit.template operator()<std::uint32_t>();
-    case VtkNumber::int64:
-      return visit.template operator()<std::int64_t>();
-    case VtkNumber::uint64:
-      return visit.template operator()<std::uint64_t>();
-    case VtkNumber::float32:
-      return visit.template operator()<float>();
-    default:
-      return visit.template operator()<double>();
-  }
+/// A number that may also be infinite, or none: of data, unlike a coordinate.
+struct AnyNumber {
+  double value;
+  template <class T>
+  explicit AnyNumber(T number) : value(static_cast<double>(number)) {}
+};
+
+/// An integer of data: of 64 bits, without a sign kept as its bits; fractions in text are cut off.
+struct AnyInteger {
+  std::int64_t value;
+  template <class T>
+  explicit AnyInteger(T number) : value(static_cast<std::int64_t>(number)) {}
+};
+
+/// Returns a word of text as a number; nothing if it is not one.
+inline std::optional<AnyNumber> any_number(std::string_view word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc::invalid_argument || end != word.data() + word.size()) return {};
+  return AnyNumber(value);
 }
 
-inline std::size_t size_of(VtkNumber type) {
-  return with_vtk_number(type, []<class T>() { return sizeof(T); });
-}
-
-inline bool is_integer(VtkNumber type) {
-  return with_vtk_number(type, []<class T>() { return std::is_integral_v<T>; });
+inline std::optional<AnyInteger> any_integer(std::string_view word) {
+  const auto parsed = [&]<class T>(T value) -> std::optional<AnyInteger> {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size()) return {};
+    return AnyInteger(value);
+  };
+  if (const auto value = parsed(std::int64_t{0})) return value;
+  if (const auto value = parsed(std::uint64_t{0})) return value;
+  const auto number = any_number(word);
+  if (!number || !(std::abs(number->value) < 0x1p63)) return {};
+  return AnyInteger(number->value);
 }
 
 /// Changes the byte order. Bits: an unsigned integer.
@@ -74,13 +77,14 @@ Bits with_bytes_swapped(Bits bits) {
   return bits;
 }
 
-/// Calls use(number) for n numbers in memory, each as Value: double, or std::int64_t for types of
-/// integers (larger numbers become negative).
+/// Calls use(number) for n numbers in memory, each as Value: double, AnyNumber, or std::int64_t or
+/// AnyInteger for types of integers (larger numbers become negative).
 template <class Value, class Use>
 void for_each_vtk_number(VtkNumber type, bool is_swapped, const char* bytes, std::size_t n,
                          const Use& use) {
-  with_vtk_number(type, [&]<class T>() {
-    if constexpr (std::is_floating_point_v<Value> || std::is_integral_v<T>) {
+  with_number_type(type, [&]<class T>() {
+    if constexpr (std::is_integral_v<T> ||
+                  !(std::is_integral_v<Value> || std::is_same_v<Value, AnyInteger>)) {
       using Bits = std::conditional_t<
           sizeof(T) == 1, std::uint8_t,
           std::conditional_t<sizeof(T) == 2, std::uint16_t,

@@ -199,9 +199,11 @@ class LegacyVtkReader {
     const std::string name(in_.word("the array's name"));
     if (keyword == "lookup_table") {
       in_.skip_colours(in_.count("the size of the lookup table"), 4);
+      grid_.notes.push_back("the lookup table '" + name + "' is left out");
     } else if (keyword == "color_scalars") {
       const std::uint64_t n_components = in_.count("the number of components");
       in_.skip_colours(n_tuples_, n_components);
+      grid_.notes.push_back("the colours '" + name + "' are left out");
     } else if (keyword == "scalars") {
       const std::string type(in_.word("the array's type"));
       const std::uint64_t n_components = in_.has_word() ? in_.count("the number of components") : 1;
@@ -231,24 +233,42 @@ class LegacyVtkReader {
     }
   }
 
-  /// Keeps known arrays and skips all others.
-  void read_array(const std::string& name, const std::string& type_name, std::uint64_t n_components,
-                  std::uint64_t n_tuples) {
-    const bool is_names = attributes_ == Attributes::field && name == vtk_names_array;
-    const bool is_kept = (attributes_ == Attributes::points && is_known_point_array(name)) ||
-                         (attributes_ == Attributes::cells && is_known_cell_array(name));
+  /// Keeps arrays of numbers; skips all others, with a note.
+  void read_array(const std::string& encoded_name, const std::string& type_name,
+                  std::uint64_t n_components, std::uint64_t n_tuples) {
+    const std::string name = decoded_vtk_name(encoded_name);
     const auto type = in_.number_type(type_name);
-    if (!type || (!is_names && !is_kept)) return in_.skip_array(type_name, n_components, n_tuples);
+    if (!type || n_components == 0) {
+      grid_.notes.push_back("the array '" + name + "' is left out: it has no numbers");
+      return in_.skip_array(type_name, n_components, n_tuples);
+    }
     in_.require_numbers(n_tuples, n_components, *type, "values");
-    auto& arrays = attributes_ == Attributes::cells ? grid_.cell_arrays : grid_.point_arrays;
-    std::vector<double>* kept = is_kept ? &arrays[name] : nullptr;
-    if (kept) kept->clear();
-    std::uint64_t component = 0;
-    in_.read_numbers<double>(*type, n_components * n_tuples, "a value", [&](double value) {
-      if (component == 0 && kept) kept->push_back(value);
-      if (component == 0 && is_names) grid_.physical_names += vtk_character(value);
-      if (++component == n_components) component = 0;
-    });
+    if (attributes_ == Attributes::field && name == vtk_names_array) {
+      std::uint64_t component = 0;
+      in_.read_numbers<AnyNumber>(*type, n_components * n_tuples, "a value", [&](AnyNumber number) {
+        if (component == 0) grid_.physical_names += vtk_character(number.value);
+        if (++component == n_components) component = 0;
+      });
+      return;
+    }
+    MeshField field{.name = name, .n_components = n_components, .type = *type};
+    const std::uint64_t n = n_components * n_tuples;
+    if (is_integer(*type)) {
+      auto& values = field.values.emplace<std::vector<std::int64_t>>();
+      values.reserve(n);
+      in_.read_numbers<AnyInteger>(*type, n, "a value",
+                                   [&](AnyInteger number) { values.push_back(number.value); });
+    } else {
+      auto& values = field.values.emplace<std::vector<double>>();
+      values.reserve(n);
+      in_.read_numbers<AnyNumber>(*type, n, "a value",
+                                  [&](AnyNumber number) { values.push_back(number.value); });
+    }
+    auto& fields = attributes_ == Attributes::field   ? grid_.file_fields
+                   : attributes_ == Attributes::cells ? grid_.cell_fields
+                                                      : grid_.point_fields;
+    std::erase_if(fields, [&](const MeshField& other) { return other.name == name; });
+    fields.push_back(std::move(field));
   }
 
   LegacyVtkInput in_;
@@ -259,15 +279,18 @@ class LegacyVtkReader {
   VtkGrid grid_;
 };
 
-MeshParts legacy_vtk_parts(const std::filesystem::path& path) {
+MeshParts legacy_vtk_parts(const std::filesystem::path& path, const MeshReadOptions& options) {
   const std::string content = read_whole_file(path);
-  return parts_of_grid(path.string(), LegacyVtkReader(path, content).grid());
+  auto parts =
+      parts_of_grid(path.string(), LegacyVtkReader(path, content).grid(), options.tag_field);
+  parts.content.format = "vtk";
+  return parts;
 }
 
 }  // namespace
 
-MeshFile read_legacy_vtk(const std::filesystem::path& path) {
-  return assemble_mesh(path, legacy_vtk_parts(path));
+MeshFile read_legacy_vtk(const std::filesystem::path& path, const MeshReadOptions& options) {
+  return assemble_mesh(path, legacy_vtk_parts(path, options));
 }
 
 }  // namespace smoothfem

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -22,18 +23,19 @@ class VtuReader {
 
   VtkGrid grid() {
     for (const VtuPiece& piece : file_.pieces()) read_piece(piece);
-    for (const VtuArray& array : file_.field_data())
-      if (array.name == vtk_names_array) read_names(array);
+    for (const VtuArray& array : file_.field_data()) read_file_array(array);
     return std::move(grid_);
   }
 
  private:
   void read_piece(const VtuPiece& piece) {
-    const std::size_t first_point = grid_.points.size();
+    const std::size_t first_point = grid_.points.size(), first_cell = grid_.cells.size();
     if (piece.n_points > 0) read_points(piece);
     if (piece.n_cells > 0) grid_.cells.append(read_cells(piece), first_point);
-    read_arrays(piece, "PointData", piece.n_points, is_known_point_array, grid_.point_arrays);
-    read_arrays(piece, "CellData", piece.n_cells, is_known_cell_array, grid_.cell_arrays);
+    if (piece.n_points > 0)
+      read_arrays(piece, "PointData", piece.n_points, first_point == 0, grid_.point_fields);
+    if (piece.n_cells > 0)
+      read_arrays(piece, "CellData", piece.n_cells, first_cell == 0, grid_.cell_fields);
   }
 
   const VtuArray& required(const VtuPiece& piece, const std::string& section,
@@ -91,32 +93,81 @@ class VtuReader {
     return cells;
   }
 
-  void read_arrays(const VtuPiece& piece, std::string_view section, std::uint64_t n,
-                   bool (*is_known_array)(std::string_view), auto& arrays) {
+  /// Reads the arrays of a piece. Only those that all pieces have are kept.
+  void read_arrays(const VtuPiece& piece, std::string_view section, std::uint64_t n, bool is_first,
+                   std::vector<MeshField>& fields) {
     const auto found = piece.sections.find(section);
-    if (found == piece.sections.end()) return;
-    for (const VtuArray& array : found->second)
-      if (is_known_array(array.name) && piece.array(section, array.name) == &array)
-        read_first_components(array, n, arrays[std::string(array.name)]);
+    std::set<std::string, std::less<>> names;
+    if (found != piece.sections.end())
+      for (const VtuArray& array : found->second) {
+        const std::string name(array.name);
+        if (piece.array(section, array.name) != &array) continue;
+        const auto same = std::find_if(fields.begin(), fields.end(), [&](const MeshField& field) {
+          return field.name == name && field.n_components == array.n_components;
+        });
+        if (!file_.has_numbers(array) || (!is_first && same == fields.end())) {
+          leave_out(name,
+                    file_.has_numbers(array) ? "not all pieces have it" : "it has no numbers");
+          continue;
+        }
+        if (is_first) {
+          append_values(array, n, fields.emplace_back(new_field(array)));
+        } else {
+          append_values(array, n, *same);
+        }
+        names.insert(name);
+      }
+    std::erase_if(fields, [&](const MeshField& field) {
+      if (names.contains(field.name)) return false;
+      leave_out(field.name, "not all pieces have it");
+      return true;
+    });
   }
 
-  void read_first_components(const VtuArray& array, std::uint64_t n, std::vector<double>& values) {
-    if (array.n_components == 0 || std::max(n, array.n_components) > UINT32_MAX)
+  void leave_out(const std::string& name, const std::string& reason) {
+    const std::string note = "the array '" + name + "' is left out: " + reason;
+    if (std::find(grid_.notes.begin(), grid_.notes.end(), note) == grid_.notes.end())
+      grid_.notes.push_back(note);
+  }
+
+  MeshField new_field(const VtuArray& array) const {
+    MeshField field{.name = std::string(array.name),
+                    .n_components = array.n_components,
+                    .type = file_.type_of(array)};
+    if (is_integer(field.type)) field.values.emplace<std::vector<std::int64_t>>();
+    return field;
+  }
+
+  void append_values(const VtuArray& array, std::uint64_t n, MeshField& field) {
+    if (array.n_components == 0 || std::max<std::uint64_t>(n, array.n_components) > UINT32_MAX)
       file_.fail(array, "would have " + std::to_string(n) + " values of " +
                             std::to_string(array.n_components) + " components");
-    std::uint64_t component = 0;
-    file_.read<double>(
-        array, n * array.n_components, [&] { values.reserve(values.size() + n); },
-        [&](double value) {
-          if (component == 0) values.push_back(value);
-          if (++component == array.n_components) component = 0;
-        });
+    const std::uint64_t n_values = n * array.n_components;
+    std::visit(
+        [&](auto& values) {
+          using Value = typename std::decay_t<decltype(values)>::value_type;
+          const auto start = [&] { values.reserve(values.size() + n_values); };
+          if constexpr (std::is_same_v<Value, double>)
+            file_.read<AnyNumber>(array, n_values, start,
+                                  [&](AnyNumber number) { values.push_back(number.value); });
+          else
+            file_.read<AnyInteger>(array, n_values, start,
+                                   [&](AnyInteger number) { values.push_back(number.value); });
+        },
+        field.values);
   }
 
-  void read_names(const VtuArray& array) {
-    std::vector<double> characters;
-    read_first_components(array, array.n_tuples, characters);
-    for (const double character : characters) grid_.physical_names += vtk_character(character);
+  void read_file_array(const VtuArray& array) {
+    const std::string name(array.name);
+    if (!file_.has_numbers(array)) return leave_out(name, "it has no numbers");
+    MeshField field = new_field(array);
+    append_values(array, array.n_tuples, field);
+    if (name != vtk_names_array) {
+      grid_.file_fields.push_back(std::move(field));
+      return;
+    }
+    for (std::size_t i = 0; i < field.n_rows(); ++i)
+      grid_.physical_names += vtk_character(field.number(i * field.n_components));
   }
 
   VtuFile& file_;
@@ -124,15 +175,17 @@ class VtuReader {
 };
 
 /// Frees the text before the mesh is made of its parts: large meshes would need more memory.
-MeshParts vtu_parts(const std::filesystem::path& path) {
+MeshParts vtu_parts(const std::filesystem::path& path, const MeshReadOptions& options) {
   VtuFile file(path, read_whole_file(path));
-  return parts_of_grid(path.string(), VtuReader(file).grid());
+  auto parts = parts_of_grid(path.string(), VtuReader(file).grid(), options.tag_field);
+  parts.content.format = "vtu";
+  return parts;
 }
 
 }  // namespace
 
-MeshFile read_vtu(const std::filesystem::path& path) {
-  return assemble_mesh(path, vtu_parts(path));
+MeshFile read_vtu(const std::filesystem::path& path, const MeshReadOptions& options) {
+  return assemble_mesh(path, vtu_parts(path, options));
 }
 
 }  // namespace smoothfem

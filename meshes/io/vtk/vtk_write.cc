@@ -2,6 +2,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
@@ -10,6 +11,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkTypeTraits.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridWriter.h>
@@ -20,6 +22,7 @@
 #include <streambuf>
 #include <string>
 
+#include "meshes/io/all_elements.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/error_latching_filebuf.h"
 #include "meshes/io/mesh_assembly.h"
@@ -85,17 +88,20 @@ void insert_cell(vtkUnstructuredGrid& grid, int type, std::span<const NodeIndex>
   grid.InsertNextCell(type, static_cast<vtkIdType>(nodes.size()), row);
 }
 
-void set_cells(const Topology& topology, vtkUnstructuredGrid& grid) {
-  const auto& facets = topology.labels().facets;
-  const std::size_t n_cells = topology.n_cells() + facets.size(),
-                    n_entries = topology.cells().n_entries() + facets.n_entries();
-  grid.AllocateExact(static_cast<vtkIdType>(n_cells), static_cast<vtkIdType>(n_entries));
-  for (CellIndex c = 0; c < topology.n_cells(); ++c)
-    insert_cell(grid, vtk_type(topology.cell_type(c)), topology.cell_nodes(c));
-  for (std::size_t f = 0; f < facets.size(); ++f)
-    insert_cell(grid,
-                topology.dimension() == 2 ? VTK_LINE : vtk_type(element_type(2, facets[f].size())),
-                facets[f]);
+int vtk_type_of(int dimension, std::size_t n_nodes) {
+  return dimension == 0   ? VTK_VERTEX
+         : dimension == 1 ? VTK_LINE
+                          : vtk_type(element_type(dimension, n_nodes));
+}
+
+void set_cells(const AllElements& elements, const std::vector<std::uint32_t>& order,
+               vtkUnstructuredGrid& grid) {
+  std::size_t n_entries = 0;
+  for (std::size_t e = 0; e < elements.size(); ++e) n_entries += elements.nodes(e).size();
+  grid.AllocateExact(static_cast<vtkIdType>(elements.size()), static_cast<vtkIdType>(n_entries));
+  for (const std::uint32_t e : order)
+    insert_cell(grid, vtk_type_of(elements.dimension(e), elements.nodes(e).size()),
+                elements.nodes(e));
 }
 
 /// Returns the first cell that has all nodes of a facet; n_cells if there is no such cell.
@@ -110,30 +116,64 @@ CellIndex cell_of_facet(const Topology& topology, std::span<const NodeIndex> fac
   return static_cast<CellIndex>(topology.n_cells());
 }
 
-/// Returns a field's values at the cells, followed by those at the labelled facets.
-std::vector<double> with_facets(const Topology& topology, std::vector<double> values) {
-  const auto& facets = topology.labels().facets;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const CellIndex cell = cell_of_facet(topology, facets[f]);
+/// Returns a field's values at all elements; those below the cells have the value of a cell that
+/// has all their nodes.
+std::vector<double> with_other_elements(const Topology& topology, const AllElements& elements,
+                                        std::vector<double> values) {
+  for (std::size_t e = elements.n_cells(); e < elements.size(); ++e) {
+    const CellIndex cell = cell_of_facet(topology, elements.nodes(e));
     values.push_back(cell < topology.n_cells() ? values[cell]
                                                : std::numeric_limits<double>::quiet_NaN());
   }
   return values;
 }
 
-void add_labels(const MeshLabels& labels, std::size_t n_cells, vtkUnstructuredGrid& grid) {
-  const std::size_t n_facets = labels.facets.size();
-  if (!labels.cell_tags.empty() || n_facets > 0) {
-    std::vector<int> tags = labels.cell_tags;
-    tags.resize(n_cells, 0);
-    tags.insert(tags.end(), labels.facet_tags.begin(), labels.facet_tags.end());
-    add_array<vtkIntArray>(*grid.GetCellData(), "physical_tag", tags);
-  }
-  if (!labels.cell_ids.empty()) {
-    auto ids = labels.cell_ids;
-    ids.resize(n_cells + n_facets, 0);
-    add_array<vtkTypeInt64Array>(*grid.GetCellData(), "cell_id", ids);
-  }
+/// Adds a field of the file with its type. order: of its rows; empty: as they are.
+void add_field(vtkFieldData& attributes, const MeshField& field,
+               const std::vector<std::uint32_t>& order) {
+  with_number_type(field.type, [&]<class T>() {
+    vtkSmartPointer<vtkDataArray> array;
+    array.TakeReference(vtkDataArray::CreateDataArray(vtkTypeTraits<T>::VTKTypeID()));
+    std::string name = field.name;
+    for (int k = 2; attributes.GetAbstractArray(name.c_str()); ++k)
+      name = field.name + "_" + std::to_string(k);
+    array->SetName(name.c_str());
+    const std::size_t n = field.n_components, n_rows = field.n_rows();
+    array->SetNumberOfComponents(static_cast<int>(n));
+    array->SetNumberOfTuples(static_cast<vtkIdType>(n_rows));
+    auto* to = static_cast<T*>(array->GetVoidPointer(0));
+    std::visit(
+        [&](const auto& values) {
+          for (std::size_t i = 0; i < n_rows; ++i)
+            for (std::size_t k = 0; k < n; ++k)
+              *to++ = static_cast<T>(values[(order.empty() ? i : order[i]) * n + k]);
+        },
+        field.values);
+    attributes.AddArray(array);
+  });
+}
+
+void add_labels(const MeshView& mesh, const AllElements& elements,
+                const std::vector<std::uint32_t>& order, vtkUnstructuredGrid& grid) {
+  const MeshLabels& labels = mesh.topology().labels();
+  const bool has_tag_field = mesh.content() && !mesh.content()->tag_field.empty();
+  const auto has_value = [&](auto value_of) {
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (value_of(e) != 0) return true;
+    return false;
+  };
+  const auto values = [&]<class T>(T, auto value_of) {
+    std::vector<T> result;
+    for (const std::uint32_t e : order) result.push_back(static_cast<T>(value_of(e)));
+    return result;
+  };
+  const auto tag = [&](std::size_t e) { return elements.tag(e); };
+  if (!has_tag_field && (!labels.cell_tags.empty() || has_value(tag)))
+    add_array<vtkIntArray>(*grid.GetCellData(), "physical_tag", values(int{}, tag));
+  if (!labels.cell_ids.empty())
+    add_array<vtkTypeInt64Array>(
+        *grid.GetCellData(), "cell_id",
+        values(std::int64_t{}, [&](std::size_t e) { return elements.id(e); }));
   if (!labels.node_ids.empty())
     add_array<vtkTypeInt64Array>(*grid.GetPointData(), "node_id", labels.node_ids);
   if (labels.names.empty()) return;
@@ -143,19 +183,35 @@ void add_labels(const MeshLabels& labels, std::size_t n_cells, vtkUnstructuredGr
   add_array<vtkUnsignedCharArray>(*grid.GetFieldData(), "physical_name", lines);
 }
 
+void add_content(const FileContent& content, const MeshFields& fields,
+                 const std::vector<std::uint32_t>& order, vtkUnstructuredGrid& grid) {
+  for (const MeshField& field : content.node_fields)
+    if (!fields.point.contains(field.name)) add_field(*grid.GetPointData(), field, {});
+  for (const MeshField& field : content.element_fields)
+    if (!fields.cell.contains(field.name)) add_field(*grid.GetCellData(), field, order);
+  for (const MeshField& field : content.file_fields) add_field(*grid.GetFieldData(), field, {});
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFields& fields) {
   const Topology& topology = mesh.topology();
+  const AllElements elements(mesh);
+  const auto order = elements.in_file_order(mesh.content());
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   set_points(mesh, *grid);
-  set_cells(topology, *grid);
+  set_cells(elements, order, *grid);
   std::vector<int> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) fixed[i] = topology.is_fixed(i) ? 1 : 0;
   add_array<vtkIntArray>(*grid->GetPointData(), "fixed", fixed);
-  add_labels(topology.labels(), mesh.n_cells(), *grid);
+  add_labels(mesh, elements, order, *grid);
+  if (mesh.content()) add_content(*mesh.content(), fields, order, *grid);
   for (const auto& [name, values] : fields.point)
     add_array<vtkDoubleArray>(*grid->GetPointData(), name, values);
-  for (const auto& [name, values] : fields.cell)
-    add_array<vtkDoubleArray>(*grid->GetCellData(), name, with_facets(topology, values));
+  for (const auto& [name, of_cells] : fields.cell) {
+    const auto canonical = with_other_elements(topology, elements, of_cells);
+    std::vector<double> values;
+    for (const std::uint32_t e : order) values.push_back(canonical[e]);
+    add_array<vtkDoubleArray>(*grid->GetCellData(), name, values);
+  }
   return grid;
 }
 

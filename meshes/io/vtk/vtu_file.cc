@@ -137,6 +137,10 @@ void VtuFile::read_appended() {
   tags_.go_to(end);
 }
 
+bool VtuFile::has_numbers(const VtuArray& array) const {
+  return vtk_number(type_names, array.type).has_value();
+}
+
 VtkNumber VtuFile::type_of(const VtuArray& array) const {
   if (const auto type = vtk_number(type_names, array.type)) return *type;
   fail(array, "has numbers of the type " + in_quotes(array.type) + ", which is not known");

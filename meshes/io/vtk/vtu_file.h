@@ -55,13 +55,13 @@ class VtuFile {
   const std::vector<VtuPiece>& pieces() const { return pieces_; }
   const VtuSection& field_data() const { return field_data_; }
 
-  /// Calls use(number) for the n numbers that the array must have, each as Value: double, or
-  /// std::int64_t, for which the array must hold integers. Calls start() before, when the numbers
-  /// are known to exist: allocate memory there.
+  /// Calls use(number) for the n numbers that the array must have, each as Value: double,
+  /// AnyNumber, or std::int64_t, for which the array must hold integers. Calls start() before, when
+  /// the numbers are known to exist: allocate memory there.
   template <class Value, class Start, class Use>
   void read(const VtuArray& array, std::uint64_t n, const Start& start, const Use& use) {
     const VtkNumber type = type_of(array);
-    if (!std::is_floating_point_v<Value> && !is_integer(type))
+    if ((std::is_integral_v<Value> || std::is_same_v<Value, AnyInteger>)&&!is_integer(type))
       fail(array, "has numbers of type " + in_quotes(array.type) + " instead of integers");
     if (array.format == "ascii") {
       LineReader lines = open_text(array, n);
@@ -84,6 +84,11 @@ class VtuFile {
     }
   }
 
+  /// True if the type of an array is one of numbers.
+  bool has_numbers(const VtuArray& array) const;
+  /// Throws InputError if the type is not one of numbers.
+  VtkNumber type_of(const VtuArray& array) const;
+
   [[noreturn]] void fail(const VtuArray& array, const std::string& message) const;
   /// Throws InputError about a piece as a whole.
   [[noreturn]] void fail(const std::string& message) const;
@@ -94,7 +99,6 @@ class VtuFile {
   void read_array_tag();
   void read_appended();
   std::uint64_t number(std::string_view attribute, std::uint64_t fallback) const;
-  VtkNumber type_of(const VtuArray& array) const;
   void release(const VtuArray& array);
 
   LineReader open_text(const VtuArray& array, std::uint64_t n) const;
@@ -115,6 +119,14 @@ class VtuFile {
     lines.require_word("a number");
     if constexpr (std::is_floating_point_v<Value>) {
       return lines.number("a number");
+    } else if constexpr (std::is_same_v<Value, AnyInteger>) {
+      const std::string_view found = lines.word();
+      if (const auto value = any_integer(found)) return *value;
+      lines.fail("found " + in_quotes(found) + ", which is not an integer");
+    } else if constexpr (std::is_same_v<Value, AnyNumber>) {
+      const std::string_view found = lines.word();
+      if (const auto value = any_number(found)) return *value;
+      lines.fail("found " + in_quotes(found) + ", which is not a number");
     } else {
       const std::string_view found = lines.word();
       Value value = 0;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "meshes/io/mesh_view.h"
+
+namespace smoothfem {
+
+/// All elements of a mesh in the order of FileContent: cells, labelled facets, other elements from
+/// the highest dimension to points. For writers. Refers to the mesh.
+class AllElements {
+ public:
+  explicit AllElements(const MeshView& mesh) {
+    const Topology& topology = mesh.topology();
+    const MeshLabels& labels = topology.labels();
+    const FileContent* content = mesh.content();
+    const int dim = mesh.dimension();
+    add({dim, &topology.cells(), &labels.cell_tags, content ? &content->cell_entities : nullptr,
+         &labels.cell_ids});
+    add({dim - 1, &labels.facets, &labels.facet_tags, content ? &content->facet_entities : nullptr,
+         content ? &content->facet_ids : nullptr});
+    for (int d = dim - 1; content && d >= 0; --d) {
+      const OtherElements& others = content->others[static_cast<std::size_t>(d)];
+      add({d, &others.nodes, &others.tags, &others.entities, &others.ids});
+    }
+  }
+
+  std::size_t size() const { return ends_.back(); }
+  std::size_t n_cells() const { return ends_.front(); }
+
+  /// Returns all elements in the order of the file that the mesh comes from.
+  std::vector<std::uint32_t> in_file_order(const FileContent* content) const {
+    if (content && content->file_order.size() == size()) return content->file_order;
+    std::vector<std::uint32_t> order(size());
+    std::iota(order.begin(), order.end(), std::uint32_t{0});
+    return order;
+  }
+
+  int dimension(std::size_t e) const { return part_of(e).dimension; }
+  std::span<const NodeIndex> nodes(std::size_t e) const {
+    return (*part_of(e).rows)[e - first_of(e)];
+  }
+  /// Returns the physical tag; 0: none.
+  int tag(std::size_t e) const { return value(part_of(e).tags, e); }
+  /// Returns the number of the model's entity; 0 if it is not known.
+  int entity(std::size_t e) const { return value(part_of(e).entities, e); }
+  /// Returns the file's number; 0 if it is not known.
+  std::size_t id(std::size_t e) const { return value(part_of(e).ids, e); }
+
+ private:
+  struct Part {
+    int dimension;
+    const CompressedRows<NodeIndex>* rows;
+    const std::vector<int>* tags;
+    const std::vector<int>* entities;
+    const std::vector<std::size_t>* ids;
+  };
+
+  void add(const Part& part) {
+    parts_.push_back(part);
+    ends_.push_back((ends_.empty() ? 0 : ends_.back()) + part.rows->size());
+  }
+  std::size_t number_of_part(std::size_t e) const {
+    std::size_t p = 0;
+    while (e >= ends_[p]) ++p;
+    return p;
+  }
+  const Part& part_of(std::size_t e) const { return parts_[number_of_part(e)]; }
+  std::size_t first_of(std::size_t e) const {
+    const std::size_t p = number_of_part(e);
+    return p == 0 ? 0 : ends_[p - 1];
+  }
+  template <class T>
+  T value(const std::vector<T>* values, std::size_t e) const {
+    return values && !values->empty() ? (*values)[e - first_of(e)] : T{0};
+  }
+
+  std::vector<Part> parts_;
+  std::vector<std::size_t> ends_;
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "meshes/io/mesh_view.h"
+
+namespace smoothfem {
+
+/// Returns what a mesh says that a file of this name cannot hold, so that write_mesh leaves it out:
+/// for example "the names and labels of facets". Throws InputError as write_mesh does if the format
+/// cannot hold the mesh.
+std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh);
+
+}  // namespace smoothfem

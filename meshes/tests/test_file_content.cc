@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a file says comes out as it went in.
+#include "meshes/io/losses.h"
+#include "meshes/tests/mesh_tests.h"
+#include "smoothing/mesh/fixed_nodes.h"
+
+namespace smoothfem {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+
+/// Two squares side by side. The right one is in two groups, and so is the left edge; it has a
+/// periodic partner. The bottom edges have no group; there is a labelled point; node and element
+/// data; a section that smoothfem does not know.
+const std::string all_41 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+    "$PhysicalNames\n5\n0 9 \"sensor\"\n1 1 \"clamped\"\n1 2 \"grounded\"\n2 3 \"solid\"\n"
+    "2 4 \"source\"\n$EndPhysicalNames\n"
+    "$Entities\n1 3 2 0\n"
+    "5 1 0 0 1 9\n"
+    "10 0 0 0 0 1 0 2 1 2 1 5\n11 2 0 0 2 1 0 0 0\n12 0 0 0 2 0 0 0 0\n"
+    "21 0 0 0 1 1 0 1 3 2 10 -12\n22 1 0 0 2 1 0 2 3 4 0\n$EndEntities\n"
+    "$Nodes\n3 6 1 6\n1 10 0 2\n1\n4\n0 0 0\n0 1 0\n2 21 0 2\n2\n5\n1 0 0\n1 1 0\n"
+    "2 22 0 2\n3\n6\n2 0 0\n2 1 0\n$EndNodes\n"
+    "$Elements\n6 7 1 20\n0 5 15 1\n1 2\n1 10 1 1\n7 1 4\n1 11 1 1\n8 3 6\n1 12 1 2\n9 1 2\n10 2 "
+    "3\n"
+    "2 21 3 1\n11 1 2 5 4\n2 22 3 1\n20 2 3 6 5\n$EndElements\n"
+    "$Periodic\n1\n1 11 10\n16 1 0 0 2 0 1 0 0 0 0 1 0 0 0 0 1\n2\n3 1\n6 4\n$EndPeriodic\n"
+    "$NodeData\n1\n\"heat\"\n1\n0.5\n3\n2\n1\n2\n1 0.25\n5 -1\n$EndNodeData\n"
+    "$ElementData\n1\n\"flow\"\n1\n0\n3\n0\n3\n2\n9 1 0 0\n20 0 1 0\n$EndElementData\n"
+    "$Comments\nof the user\n$EndComments\n";
+
+class FileContents : public FileTest {
+ protected:
+  /// Reads a mesh and writes it under another name. Returns what that file then says.
+  MeshLabels through(const std::string& in, const std::string& out,
+                     const MeshWriteOptions& options = {}) {
+    const MeshFile read = read_mesh(file(in));
+    write_mesh(file(out), read.mesh, {}, options);
+    return labels(out);
+  }
+  MeshLabels labels(const std::string& name) {
+    const MeshFile read = read_mesh(file(name));
+    return std::visit([](const auto& mesh) { return mesh.topology().labels(); }, read.mesh);
+  }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(file(name), std::ios::binary) << text;
+  }
+};
+
+TEST_F(FileContents, MshComesOutAsItWentIn) {
+  write("a.msh", all_41);
+  const MeshLabels before = labels("a.msh"), after = through("a.msh", "b.msh");
+  EXPECT_EQ(after, before);
+  const FileContent &a = *after.content, &b = *before.content;
+  EXPECT_EQ(a.version + (a.is_binary ? " binary" : ""), "4.1");
+  EXPECT_EQ(a.facet_ids, b.facet_ids);
+  EXPECT_EQ(a.cell_entities, b.cell_entities);
+  EXPECT_EQ(a.facet_entities, b.facet_entities);
+  EXPECT_EQ(a.others, b.others);
+  EXPECT_EQ(a.entities, b.entities);
+  EXPECT_EQ(a.node_entities, b.node_entities);
+  EXPECT_EQ(a.periodic, b.periodic);
+  EXPECT_EQ(a.sections, b.sections);
+  EXPECT_THAT(content_of(file("b.msh")), HasSubstr("$MeshFormat\n4.1 0 8\n"));
+  EXPECT_THAT(content_of(file("b.msh")), HasSubstr("$Comments\nof the user\n$EndComments\n"));
+  EXPECT_THAT(losses(file("b.msh"), read_mesh(file("a.msh")).mesh), IsEmpty());
+}
+
+TEST_F(FileContents, MshKeepsItsContentInEveryVersionAndEncoding) {
+  write("a.msh", all_41);
+  const MeshLabels before = labels("a.msh");
+  for (const auto version : {MshVersion::v2_2, MshVersion::v4_1})
+    for (const bool binary : {false, true}) {
+      SCOPED_TRACE(std::to_string(static_cast<int>(version)) + " " + std::to_string(binary));
+      const MeshLabels after = through("a.msh", "b.msh", {version, binary});
+      EXPECT_EQ(after.content->version, version == MshVersion::v2_2 ? "2.2" : "4.1");
+      EXPECT_EQ(after.content->is_binary, binary);
+      EXPECT_EQ(after.names, before.names);
+      EXPECT_EQ(after.content->cell_entities, before.content->cell_entities);
+      EXPECT_EQ(after.content->entities.at({2, 22}).groups, (std::vector<int>{3, 4}));
+      EXPECT_EQ(after.content->entities.at({1, 10}).groups, (std::vector<int>{1, 2}));
+      EXPECT_EQ(after.content->periodic, before.content->periodic);
+      EXPECT_EQ(after.content->others, before.content->others);
+      ASSERT_EQ(after.content->node_fields.size(), 1u);
+      EXPECT_EQ(after.content->node_fields[0].name, "heat");
+      EXPECT_EQ(after.content->node_fields[0].time, 0.5);
+      EXPECT_EQ(after.content->node_fields[0].number(4), -1.0);
+      EXPECT_TRUE(std::isnan(after.content->node_fields[0].number(1)));
+      ASSERT_EQ(after.content->element_fields.size(), 1u);
+      EXPECT_EQ(after.content->element_fields[0].number(3 + 1), 1.0);  // of element 20
+    }
+}
+
+TEST_F(FileContents, EveryGroupOfAnEntityCanBeFixed) {
+  write("a.msh", all_41);
+  const MeshFile read = read_mesh(file("a.msh"));
+  const Topology& topology = std::get<PlanarMesh>(read.mesh).topology();
+  for (const std::string group : {"clamped", "grounded", "1", "2"}) {
+    const auto reasons = fixed_nodes(topology, parse_fixed_nodes_rule("group=" + group));
+    EXPECT_TRUE(has(reasons[0], FixedReason::marked)) << group;
+    EXPECT_FALSE(has(reasons[1], FixedReason::marked)) << group;
+  }
+  EXPECT_TRUE(has(topology.fixed_reasons(0), FixedReason::periodic));
+  EXPECT_TRUE(has(topology.fixed_reasons(1), FixedReason::interface));
+}
+
+TEST_F(FileContents, VtkKeepsTagsUnderTheirNameFieldsAndOrder) {
+  write("a.vtk",
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+        "POINTS 6 double\n0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0\n"
+        "CELLS 4 15\n2 0 1\n4 0 1 4 3\n1 4\n4 1 2 5 4\nCELL_TYPES 4\n3 9 1 9\n"
+        "CELL_DATA 4\nSCALARS MaterialID int 1\nLOOKUP_TABLE default\n7 1 0 2\n"
+        "FIELD more 1\nbig%20ids 1 4 vtktypeuint64\n1 2 3 18446744073709551615\n"
+        "POINT_DATA 6\nVECTORS v float\n1 0 0 2 0 0 3 0 0 nan 0 0 5 0 0 6 0 0\n"
+        "FIELD f 1\nn 1 6 vtktypeint32\n1 2 3 4 5 6\n");
+  const MeshLabels before = labels("a.vtk");
+  EXPECT_THAT(before.cell_tags, ElementsAre(1, 2));
+  EXPECT_THAT(before.facet_tags, ElementsAre(7));
+  for (const std::string out : {"b.vtk", "b.vtu"}) {
+    SCOPED_TRACE(out);
+    const MeshLabels after = through("a.vtk", out);
+    EXPECT_EQ(after, before);
+    EXPECT_EQ(after.content->tag_field, "MaterialID");
+    EXPECT_EQ(after.content->file_order, (std::vector<std::uint32_t>{2, 0, 3, 1}));
+    EXPECT_EQ(after.content->others, before.content->others);
+    ASSERT_EQ(after.content->element_fields.size(), 2u);
+    EXPECT_EQ(after.content->element_fields[1].name, "big ids");
+    EXPECT_EQ(after.content->element_fields, before.content->element_fields);
+    ASSERT_EQ(after.content->node_fields.size(), 2u);
+    EXPECT_EQ(after.content->node_fields[0].type, NumberType::float32);
+    EXPECT_EQ(after.content->node_fields[0].n_components, 3u);
+    EXPECT_TRUE(std::isnan(after.content->node_fields[0].number(9)));
+    EXPECT_EQ(after.content->node_fields[1], before.content->node_fields[1]);
+  }
+}
+
+TEST_F(FileContents, UserNamesTheArrayWithTags) {
+  write("a.vtk",
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+        "POINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\nCELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5 5\n"
+        "CELL_DATA 2\nSCALARS zone int 1\nLOOKUP_TABLE default\n4 6\n");
+  EXPECT_THAT(labels("a.vtk").cell_tags, IsEmpty());
+  const MeshFile read = read_mesh(file("a.vtk"), {.tag_field = "zone"});
+  EXPECT_THAT(std::get<PlanarMesh>(read.mesh).topology().labels().cell_tags, ElementsAre(4, 6));
+  EXPECT_THAT(input_error_of([&] { read_mesh(file("a.vtk"), {.tag_field = "region"}); }),
+              HasSubstr("the file has no cell array 'region'"));
+}
+
+TEST_F(FileContents, MeditKeepsRequiredElementsRidgesAndReferences) {
+  write(
+      "a.mesh",
+      "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n0 0 3\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n"
+      "Quadrilaterals\n2\n1 2 5 4 1\n2 3 6 5 1\nEdges\n2\n1 2 7\n2 5 0\n"
+      "Corners\n1\n3\nRequiredEdges\n1\n2\nRidges\n1\n1\nRequiredVertices\n1\n6\nEnd\n");
+  const MeshFile read = read_mesh(file("a.mesh"));
+  const Topology& topology = std::get<PlanarMesh>(read.mesh).topology();
+  for (NodeIndex i = 0; i < 6; ++i)
+    EXPECT_EQ(has(topology.fixed_reasons(i), FixedReason::required),
+              i == 0 || i == 1 || i == 2 || i == 4)
+        << i;
+  const MeshLabels before = labels("a.mesh"), after = through("a.mesh", "b.mesh");
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(*after.content, *before.content);
+  EXPECT_EQ(*through("b.mesh", "c.mesh").content, *before.content);
+  EXPECT_EQ(content_of(file("c.mesh")), content_of(file("b.mesh")));
+}
+
+TEST_F(FileContents, LossesAreNamed) {
+  write("a.msh", all_41);
+  const MeshFile read = read_mesh(file("a.msh"));
+  EXPECT_THAT(losses(file("b.vtu"), read.mesh),
+              UnorderedElementsAre(HasSubstr("(grounded, source)"), "periodic partners",
+                                   "the section $Comments"));
+  EXPECT_THAT(
+      losses(file("b.mesh"), read.mesh),
+      ::testing::IsSupersetOf({std::string("the tags of cells"), std::string("labelled facets"),
+                               std::string("the fields heat, flow")}));
+}
+
+TEST_F(FileContents, PlanesComeBackInTheirPlaneAndUnmovedNodesBitByBit) {
+  const std::string points[] = {"0 0 5 1 0 5 1 1 5 0 1 5",           // z = 5
+                                "0 3 0 1 3 0 1 3 1 0 3 1",           // y = 3
+                                "0 0 1e-13 1 0 0 1 1 -1e-13 0 1 0",  // noise
+                                "0 0 0 1 0 0 1 0.6 0.8 0 0.6 0.8"};  // tilted
+  for (const std::string& text : points) {
+    SCOPED_TRACE(text);
+    write("a.vtk",
+          "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n" +
+              text + "\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n");
+    MeshFile read = read_mesh(file("a.vtk"));
+    auto& mesh = std::get<PlanarMesh>(read.mesh);
+    EXPECT_NEAR((mesh.coordinates()[2] - mesh.coordinates()[0]).norm(), std::sqrt(2.0), 1e-12);
+    const MeshView view(mesh);
+    std::istringstream expected(text);
+    for (NodeIndex i = 0; i < 4; ++i)
+      for (int d = 0; d < 3; ++d) {
+        double x = 0.0;
+        expected >> x;
+        EXPECT_EQ(view.point(i)[d], x);
+      }
+    const Point<3> corner = view.point(1);
+    mesh.coordinates()[1] += Point<2>(0.25, 0.0);
+    EXPECT_LT((view.point(1) - corner - Point<3>(0.25, 0.0, 0.0)).norm(), 1e-12);
+  }
+}
+
+TEST_F(FileContents, SlightlyCurvedSurfacesAreNoPlanes) {
+  write("a.vtk",
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+        "0 0 1e-8 1 0 0 1 1 0 0 1 0\nCELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5 5\n");
+  EXPECT_TRUE(std::holds_alternative<SurfaceMesh>(read_mesh(file("a.vtk")).mesh));
+}
+
+}  // namespace
+}  // namespace smoothfem
