@@ -33,8 +33,8 @@ class Losses {
     find_fields();
     add(!format_.holds_periodic && !content_->periodic.empty(), "periodic partners");
     add(!format_.holds_points_in_space && content_->plane, "the plane of the mesh in space");
-    const bool is_same = content_->format == format_.name;
-    add(!is_same && !content_->sections.empty(), sections());
+    const bool keeps_text = content_->format == format_.name && !content_->sections.empty();
+    for (const std::string& name : content_->section_names) add(!keeps_text, name);
     return std::move(found_);
   }
 
@@ -67,7 +67,7 @@ class Losses {
     std::vector<std::string> names;
     const auto find = [&](const std::vector<MeshField>& fields, bool is_of_file) {
       for (const MeshField& field : fields)
-        if (field.name != content_->tag_field &&
+        if (field.name != content_->tag_field && !is_own_field(field) &&
             !(format_.holds_field && format_.holds_field(field, is_of_file)))
           names.push_back(field.name);
     };
@@ -75,13 +75,6 @@ class Losses {
     find(content_->element_fields, false);
     find(content_->file_fields, true);
     add(!names.empty(), (names.size() == 1 ? "the field " : "the fields ") + joined(names));
-  }
-
-  std::string sections() const {
-    std::vector<std::string> names;
-    for (const std::string& section : content_->sections)
-      names.push_back(section.substr(0, section.find_first_of(" \r\n")));
-    return (names.size() == 1 ? "the section " : "the sections ") + joined(names);
   }
 
   const MeshLabels& labels_;
@@ -92,6 +85,10 @@ class Losses {
 };
 
 }  // namespace
+
+bool is_own_field(const MeshField& field) {
+  return field.name == "mean_ratio";
+}
 
 std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh) {
   return Losses(mesh, format_for(path, mesh)).find();

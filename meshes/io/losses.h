@@ -9,6 +9,9 @@
 
 namespace smoothfem {
 
+/// True for a field that smoothfem writes itself, as it has it anew: the mean ratio of cells.
+bool is_own_field(const MeshField& field);
+
 /// Returns what a mesh says that a file of this name cannot hold, so that write_mesh leaves it out:
 /// for example "the names and labels of facets". Throws InputError as write_mesh does if the format
 /// cannot hold the mesh.

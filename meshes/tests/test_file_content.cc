@@ -169,6 +169,52 @@ TEST_F(FileContents, MeditKeepsRequiredElementsRidgesAndReferences) {
   EXPECT_EQ(content_of(file("c.mesh")), content_of(file("b.mesh")));
 }
 
+const std::string cae_job =
+    "*Heading\r\n** made by hand\n*NODE, NSET=NALL\n1, 0, 0, 0\n2, 1.0, 0., 0.\n3, 1, 1, "
+    "0\n4,0,1,0\n"
+    "5, 0,0,1\n6, 1,0,1\n7, 1,1,1\n8, 0,1,1\n9, .5, .5, .5\n"
+    "*ELEMENT, TYPE=C3D8, ELSET=EALL\n1, 1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=SPRINGA, ELSET=S\n9, 1, "
+    "2\n"
+    "*NSET, NSET=CLAMPED\n1, 2\n*SURFACE, NAME=TOP, TYPE=ELEMENT\n1, S2\n*STEP\n*NODE PRINT\nU\n"
+    "*END STEP\n";
+
+TEST_F(FileContents, AbaqusKeepsAllTextThatIsNoCoordinate) {
+  write("a.inp", cae_job);
+  MeshFile read = read_mesh(file("a.inp"));
+  EXPECT_THAT(read.notes,
+              ElementsAre("1 elements of types SPRINGA are left out, as they are no cells"));
+  write_mesh(file("b.inp"), read.mesh);
+  EXPECT_EQ(content_of(file("b.inp")), cae_job);
+  std::get<VolumeMesh>(read.mesh).coordinates()[1].x() = 1.25;
+  write_mesh(file("b.inp"), read.mesh);
+  std::string expected = cae_job;
+  expected.replace(expected.find("2, 1.0, 0., 0."), 14, "2, 1.25, 0, 0");
+  EXPECT_EQ(content_of(file("b.inp")), expected);
+  EXPECT_THAT(losses(file("b.inp"), read.mesh), IsEmpty());
+  EXPECT_THAT(losses(file("b.vtu"), read.mesh),
+              ElementsAre("*NSET CLAMPED", "*SURFACE TOP", "*STEP", "*NODE PRINT"));
+}
+
+TEST_F(FileContents, AbaqusPlacesInstances) {
+  const std::string part =
+      "*Node\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+      "*Element, type=C3D8R\n1, 1,2,3,4,5,6,7,8\n*Elset, elset=body\n1\n*End Part\n";
+  write("a.inp", "*Part, name=A\n" + part + "*Part, name=B\n" + part +
+                     "*Assembly, name=all\n*Instance, name=A-1, part=A\n*End Instance\n"
+                     "*Instance, name=B-1, part=B\n0., 0., 3.\n0., 0., 3., 0., 0., 4., 90.\n"
+                     "*End Instance\n*Elset, elset=upper, instance=B-1\n1\n*End Assembly\n");
+  const MeshFile read = read_mesh(file("a.inp"));
+  const auto& mesh = std::get<VolumeMesh>(read.mesh);
+  ASSERT_EQ(mesh.n_cells(), 2u);
+  // Moved by 3 along z, then turned by 90 degrees about this axis: (1, 0, 0) becomes (0, 1, 3).
+  EXPECT_LT((mesh.coordinates()[9] - Point<3>(0.0, 1.0, 3.0)).norm(), 1e-14);
+  EXPECT_EQ(mesh.topology().labels().names.at({3, mesh.topology().labels().cell_tags[0]}),
+            "A-1.body");
+  EXPECT_EQ(mesh.topology().labels().names.at({3, mesh.topology().labels().cell_tags[1]}),
+            "B-1.body");
+  EXPECT_THAT(read.notes, ElementsAre(HasSubstr("the 2 instances become one mesh")));
+}
+
 TEST_F(FileContents, LossesAreNamed) {
   write("a.msh", all_41);
   const MeshFile read = read_mesh(file("a.msh"));

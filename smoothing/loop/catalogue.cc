@@ -122,6 +122,10 @@ Parameters Method<dim, spacedim>::parameters() {
       if (stages.size() > 1) parameter.name = std::string(stage->name()) + "." + parameter.name;
       all.push_back(std::move(parameter));
     }
+  all.push_back({"floor",
+                 "initial: reset nodes at the end until no cell is worse than the worst one of the "
+                 "initial mesh; not in the thesis",
+                 Choice{&floor, {"none", "initial"}}});
   return all;
 }
 

@@ -36,6 +36,9 @@ struct Method {
   MethodInfo info;
   Stages<dim, spacedim> stages;
   std::shared_ptr<const Problem<spacedim>> problem = {};  ///< for methods that need one
+  /// 1: no cell of the result is worse than the worst one of the initial mesh, if that is valid.
+  /// Nodes of worse cells get their initial positions at the end.
+  int floor = 0;
 
   /// Returns all parameters, as "stage.name" if the method has more than one stage.
   Parameters parameters();

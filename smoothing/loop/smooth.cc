@@ -73,6 +73,8 @@ class SmoothingRun {
       evaluate_quality();
     }
     state_.initial_quality = quality_;
+    if (method.floor != 0 && quality_.n_invalid == 0)
+      initial_.assign(state_.mesh.coordinates().begin(), state_.mesh.coordinates().end());
     if (any_stage(method, [](const auto& stage) {
           return stage.stopping().criterion == StoppingRule::Criterion::max_displacement;
         })) {
@@ -126,8 +128,29 @@ class SmoothingRun {
     return result;
   }
 
+  /// Resets nodes until no cell is worse than the worst one of the initial mesh (Method::floor).
+  /// This ends: a cell whose nodes all have their initial positions is not worse.
+  void keep_floor() {
+    if (initial_.empty()) return;
+    const double floor = state_.initial_quality.q_min;
+    StepReport report{.n_counted = 0};
+    {
+      const ScopedTimer timer(seconds_);
+      evaluate_quality();
+      if (quality_.n_invalid == 0 && quality_.q_min >= floor) return;
+      report.n_made_invalid = quality_.n_invalid;
+      report.n_reset =
+          reset_nodes_of_invalid_cells(state_.mesh, initial_, state_.cell_quality, floor).size();
+      quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
+    }
+    n_floor_reset_ = report.n_reset;
+    result_record_ = n_records_;
+    observe("floor", 1, report);
+  }
+
   SmoothingResult result(std::vector<StageResult> stages) const {
-    return {std::move(stages), seconds_, preparation_seconds_, quality_, result_record_};
+    return {std::move(stages), seconds_,       preparation_seconds_,
+            quality_,          result_record_, n_floor_reset_};
   }
 
  private:
@@ -218,6 +241,8 @@ class SmoothingRun {
   MeshQuality quality_;
   double mean_edge_length_ = 0.0;
   std::vector<Point<spacedim>> previous_;
+  std::vector<Point<spacedim>> initial_;  ///< empty without a floor
+  std::size_t n_floor_reset_ = 0;
   std::size_t n_records_ = 0, result_record_ = 0;
 };
 
@@ -245,6 +270,7 @@ SmoothingResult smooth_unscaled(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>
   run.start(method);
   std::vector<StageResult> stages;
   for (auto& stage : method.stages) stages.push_back(run.run_stage(*stage));
+  run.keep_floor();
   return run.result(std::move(stages));
 }
 

@@ -108,7 +108,8 @@ struct FileContent {
 
   std::string tag_field;  ///< name of the array with the tags, in formats that name it
   std::vector<MeshField> node_fields, element_fields, file_fields;
-  std::vector<std::string> sections;  ///< text that only the same version of the format holds
+  std::vector<std::string> sections;       ///< text that only the same version of the format holds
+  std::vector<std::string> section_names;  ///< what these say, for messages
 
   bool operator==(const FileContent&) const = default;
 };

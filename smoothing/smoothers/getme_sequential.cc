@@ -88,7 +88,12 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
         {"max_mean_loss",
          "stop when q_mean, evaluated once a cycle, has fallen by more than this fraction of its "
          "value at the stage's start (Section 5.2)",
-         &max_mean_loss_, 0.0, 1.0}};
+         &max_mean_loss_, 0.0, 1.0},
+        {"perfect",
+         "stop when the lowest quality is above 1 minus this; not in the thesis. The last digits "
+         "of "
+         "a perfect mesh would take thousands of times as long as the mesh",
+         &perfect_, 0.0, 1.0}};
     all.insert(all.end(), own.begin(), own.end());
     for (auto& parameter : assess_.parameters()) all.push_back(std::move(parameter));
     return all;
@@ -129,7 +134,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   StepReport step(SmoothingState<dim, spacedim>& state) override {
     StepReport report{.n_counted = 0};
     moved_in_cycle_.clear();
-    for (int i = 0; i < cycle_ && !by_corrected_quality_.empty(); ++i) {
+    for (int i = 0; i < cycle_ && !by_corrected_quality_.empty() && !is_perfect(); ++i) {
       const CellIndex worst = worst_cell(state);
       transform(state, worst);
       const bool kept = accept_or_undo(state, worst);
@@ -148,7 +153,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     if (Assessment::result == ResultMesh::best_q_star_min && !by_quality_.empty())
       report.q_star_min = report.score;
     report.moved = moved_in_cycle_;
-    report.converged = quality_gain_ < -max_mean_loss_ * initial_quality_sum_;
+    report.converged = quality_gain_ < -max_mean_loss_ * initial_quality_sum_ || is_perfect();
     return report;
   }
 
@@ -158,6 +163,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   double lowest_quality() const {
     return by_quality_.empty() ? 0.0 : by_quality_.key(by_quality_.top());
   }
+
+  bool is_perfect() const { return lowest_quality() > 1.0 - perfect_; }
 
   /// Returns the worst cell. If two elements share their worst face and so have equal quality, it
   /// is the one with the lower mean ratio (thesis, Section 4.7).
@@ -248,6 +255,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   int patience_below_start_ = 10;
   int max_cycles_ = 100000;
   double max_mean_loss_ = 1.0;
+  double perfect_ = 1e-4;
 
   MinTree by_quality_, by_corrected_quality_;
   std::vector<double> penalties_;

@@ -6,6 +6,8 @@
 
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
 
@@ -217,6 +219,85 @@ TEST_P(EveryMethod, KeepsTheMeshValidIfItPromisesTo) {
       });
     }
   });
+}
+
+TEST_P(EveryMethod, LeavesNoCellWorseThanTheWorstOneIfAsked) {
+  in_every_dimension([]<int dim>() {
+    for (auto& [name, mesh] : distorted_meshes<dim>()) {
+      test::distort(mesh, 0.4, 5);
+      const double floor = mesh_quality(mesh).q_min;
+      auto made = short_method<dim>();
+      made.set("floor", "initial");
+      const auto outcome = smooth(mesh, made);
+      EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u) << name;
+      EXPECT_GE(mesh_quality(mesh).q_min, floor) << name;
+      EXPECT_EQ(outcome.quality.q_min, mesh_quality(mesh).q_min) << name;
+    }
+  });
+}
+
+/// The mesh with two materials left and right of x. The nodes between them stay.
+template <int dim>
+Mesh<dim> with_interface(const Mesh<dim>& mesh, double x) {
+  MeshLabels labels;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    Point<dim> sum = Point<dim>::Zero();
+    for (const NodeIndex i : mesh.topology().cell_nodes(c)) sum += mesh.coordinates()[i];
+    labels.cell_tags.push_back(
+        sum.x() < x * static_cast<double>(mesh.topology().cell_nodes(c).size()) ? 1 : 2);
+  }
+  const Topology topology(dim, mesh.n_nodes(), mesh.topology().cells(), std::nullopt, labels);
+  auto reasons = topology.fixed_reasons();
+  add_implied_reasons(topology, reasons);
+  return {std::make_shared<const Topology>(dim, mesh.n_nodes(), mesh.topology().cells(),
+                                           std::move(reasons), labels),
+          mesh.copied_coordinates()};
+}
+
+TEST_P(EveryMethod, KeepsInterfacesBitwise) {
+  in_every_dimension([]<int dim>() {
+    for (const auto& [name, shaken] : distorted_meshes<dim>()) {
+      double middle = 0.0;
+      for (const auto& point : shaken.coordinates())
+        middle += point.x() / static_cast<double>(shaken.n_nodes());
+      const Mesh<dim> mesh = with_interface(shaken, middle);
+      std::size_t n_inner = 0;
+      Mesh<dim> result = mesh;
+      auto made = short_method<dim>();
+      smooth(result, made);
+      for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+        if (!has(mesh.topology().fixed_reasons(i), FixedReason::interface)) continue;
+        n_inner += !mesh.topology().on_boundary()[i];
+        EXPECT_EQ(result.copied_coordinates()[i], mesh.copied_coordinates()[i]) << name << ' ' << i;
+      }
+      EXPECT_GT(n_inner, 0u) << name;
+    }
+  });
+}
+
+TEST_P(EveryMethod, SlidesOnAPlaneInterfaceWithoutLeavingIt) {
+  const std::string name = GetParam().substr(0, GetParam().find(' '));
+  if (!supports_mesh_kind<3>(name, true)) GTEST_SKIP() << "the method keeps no constraints";
+  for (const auto kind : {BoxCells::hexahedra, BoxCells::tetrahedra, BoxCells::prisms}) {
+    VolumeMesh mesh = with_interface(box_mesh(4, 4, 4, kind), 2.0);
+    std::vector<NodeIndex> on_interface;
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      if (mesh.coordinates()[i].x() == 2.0 && !mesh.topology().on_boundary()[i])
+        on_interface.push_back(i);
+    mesh = with_sliding_boundary(mesh, {}, default_slide_distance,
+                                 {.boundary = false, .interfaces = true});
+    for (std::size_t k = 0; k < on_interface.size(); ++k)
+      mesh.coordinates()[on_interface[k]] += Point<3>(0.0, k % 2 == 0 ? 0.2 : -0.2, 0.1);
+    const VolumeMesh before = mesh;
+    auto made = short_method<3>();
+    smooth(mesh, made);
+    bool any_moved = false;
+    for (const NodeIndex i : on_interface) {
+      EXPECT_NEAR(mesh.coordinates()[i].x(), 2.0, 1e-12);
+      any_moved = any_moved || mesh.coordinates()[i] != before.coordinates()[i];
+    }
+    EXPECT_TRUE(any_moved);
+  }
 }
 
 TEST_P(EveryMethod, RefusesTangledMeshesIfItNeedsValidMeshes) {

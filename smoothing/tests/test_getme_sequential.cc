@@ -7,6 +7,7 @@
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/element_step.h"
 #include "smoothing/tests/planar_meshes.h"
+#include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
 namespace {
@@ -83,6 +84,19 @@ TEST(GetmeSequential, ACycleFollowsTheRulesOfTheThesis) {
     }
   EXPECT_GT(outcome.n_undone, 10) << "otherwise a penalty is not tested";
   EXPECT_GT(outcome.n_repeated, 10) << "otherwise a penalty is not tested";
+}
+
+TEST(GetmeSequential, EndsWhenTheMeshIsPerfect) {
+  VolumeMesh mesh = test::box_mesh(4, 4, 4, test::BoxCells::hexahedra);
+  test::distort(mesh, 0.2, 3);
+  auto method = make_method<3>("getme");
+  const auto result = smooth(mesh, method);
+  EXPECT_EQ(result.stages[1].why_stopped, "it converged");
+  EXPECT_LT(result.stages[1].iterations, 5000u);
+  EXPECT_GT(result.quality.q_min, 1.0 - 1e-4);
+  mesh = test::box_mesh(4, 4, 4, test::BoxCells::hexahedra);
+  auto sequential = make_method<3>("getme-sequential");
+  EXPECT_EQ(smooth(mesh, sequential).stages[0].iterations, 0u);
 }
 
 }  // namespace

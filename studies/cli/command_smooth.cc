@@ -129,6 +129,7 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
                          Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines,
                          Recorder& recorder) {
   make_valid(arguments, method, mesh, cell_lines);
+  if (!arguments.allow_worse) method.floor = 1;
   Observer<dim, spacedim>
       observer;  // empty without --log and --series, because it costs a pass over all cells
   if (recorder.records())
@@ -148,6 +149,10 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
+  if constexpr (dim == spacedim)
+    mesh = with_layer_rule(std::move(mesh), arguments);
+  else if (arguments.keep_layers)
+    throw InputError("--keep-layers is for planar and volume meshes; leave it out");
   mesh = fix_nodes_away_from_bad_cells(std::move(mesh), arguments);
   const MeshQuality before = mesh_quality(mesh);
   const std::vector<double> sizes_before = cell_sizes(mesh);
@@ -181,7 +186,8 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
       arguments.out.c_str());
   print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
   for (const std::string& line :
-       {fixed_reasons_text(mesh.topology()), size_changes(sizes_before, sizes)})
+       {fixed_reasons_text(mesh.topology()), size_changes(sizes_before, sizes),
+        fields_text(mesh.topology().labels().content.get())})
     if (!line.empty()) std::printf("%s\n", line.c_str());
   if constexpr (dim == 3)
     if (const auto* constraints = mesh.constraints())
@@ -255,6 +261,12 @@ void add_smooth_command(CLI::App& app) {
                    "nodes between cells of different groups, and of labelled inner facets: fixed "
                    "(default), slide on the interface (volume meshes), or free")
       ->check(CLI::IsMember({"fixed", "slide", "free"}));
+  command
+      ->add_option("--keep-layers", arguments->keep_layers,
+                   "keep thin cells (aspect ratio above 10) in layers along the boundary, or along "
+                   "group=NAME")
+      ->expected(0, 1)
+      ->default_str("");
   command->add_option(
       "--feature-angle", arguments->feature_angle,
       "keep edges of a surface or of a sliding boundary whose facets make more than this "
@@ -289,6 +301,8 @@ void add_smooth_command(CLI::App& app) {
       ->check(CLI::Range(0, 1000));
   command->add_flag("--fail-if-invalid", arguments->fail_if_invalid,
                     "write nothing and exit with 2 if the smoothed mesh has invalid cells");
+  command->add_flag("--allow-worse", arguments->allow_worse,
+                    "keep the method's result even if its worst cell is worse than that of IN");
   command->add_flag("--quiet", arguments->quiet, "print nothing but warnings");
   add_plugin_option(*command);
   add_examples(

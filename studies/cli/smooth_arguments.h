@@ -17,9 +17,10 @@ struct SmoothArguments {
   std::string method = "getme";
   std::vector<std::string> settings;
   std::optional<double> feature_angle, slide_distance, only_below;
-  int rings = 2;      ///< layers of cells around the bad cells of only_below
-  int n_threads = 0;  ///< 0: OpenMP's default
-  bool untangle = false, fail_if_invalid = false, quiet = false;
+  int rings = 2;                           ///< layers of cells around the bad cells of only_below
+  int n_threads = 0;                       ///< 0: OpenMP's default
+  std::optional<std::string> keep_layers;  ///< of all groups if empty, otherwise "group=NAME"
+  bool untangle = false, fail_if_invalid = false, quiet = false, allow_worse = false;
 };
 
 /// True if a planar boundary slides, which it does only while a mesh is untangled.

@@ -7,15 +7,18 @@
 
 #include "meshes/io/mesh_file.h"
 #include "smoothing/mesh/mesh.h"
+#include "studies/cli/smooth_arguments.h"
 
 namespace smoothfem {
 
 /// Prints sentences on standard error, each as a line "smoothfem: note: ...".
 void print_notes(const std::string& path, const std::vector<std::string>& notes);
 
-/// Prints one note that names what a file of this name cannot hold, if anything. Says once that
-/// fields pass unchanged.
+/// Prints one note that names what a file of this name cannot hold, if anything.
 void print_losses(const std::filesystem::path& path, const MeshView& mesh);
+
+/// Returns a sentence on the fields of the file that pass through; empty if there are none.
+std::string fields_text(const FileContent* content);
 
 /// Sizes (areas or volumes) of the cells of a mesh, without signs.
 template <int dim, int spacedim>
@@ -24,6 +27,11 @@ std::vector<double> cell_sizes(const Mesh<dim, spacedim>& mesh);
 /// Returns, for example, "cell sizes: 0.31 to 28 times the initial ones, half of them 0.8 to 1.4";
 /// empty if they are the same.
 std::string size_changes(const std::vector<double>& before, const std::vector<double>& after);
+
+/// Returns the mesh with the nodes of its layers fixed, as --keep-layers asks for. Otherwise warns
+/// before a run that makes them isotropic.
+template <int dim>
+Mesh<dim> with_layer_rule(Mesh<dim> mesh, const SmoothArguments& arguments);
 
 /// Returns by how much the size of the domain has changed, if by more than 1e-9 of it: "the area
 /// has changed from 1 to 1.2 (by 20 %)". kind: "area" or "volume".

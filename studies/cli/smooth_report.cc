@@ -26,6 +26,12 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
           "invalid\n",
           stage.n_last_reset, n_free_nodes);
   }
+  if (result.n_floor_reset > 0)
+    std::printf(
+        "%zu nodes are back at their initial positions, so that no cell is worse than the worst "
+        "one "
+        "before (--allow-worse leaves them)\n",
+        result.n_floor_reset);
   if (result.result_record == 0)
     std::printf("the result is the initial mesh: no iteration made a better one\n");
 }

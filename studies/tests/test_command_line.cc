@@ -183,8 +183,8 @@ TEST_F(CommandLine, SettingsComeAfterThePreset) {
 }
 
 TEST_F(CommandLine, TheRuleForFixedNodesDecidesWhichMove) {
-  const VolumeMesh mesh = shaken_box();
-  write_mesh(file("in.msh"), mesh);
+  write_mesh(file("in.msh"), shaken_box());
+  const VolumeMesh mesh = read_volume(file("in.msh"));
   for (const std::string rule : {"boundary", "file", "free", "group=inlet", "group=5"}) {
     const Outcome outcome = smoothfem({"smooth", "in.msh", "-m", "laplace", "-o", "out.msh",
                                        "--fix", rule, "--set", "max_iterations=1"});
@@ -192,7 +192,7 @@ TEST_F(CommandLine, TheRuleForFixedNodesDecidesWhichMove) {
     const auto after = read_volume(file("out.msh")).copied_coordinates();
     const auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule(rule));
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-      EXPECT_EQ(after[i] == mesh.copied_coordinates()[i], fixed[i]) << rule << " node " << i;
+      EXPECT_EQ(after[i] == mesh.copied_coordinates()[i], fixed[i] != 0) << rule << " node " << i;
   }
 }
 

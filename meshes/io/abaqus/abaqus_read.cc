@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -13,6 +16,7 @@
 #include "meshes/io/label_range.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 
@@ -24,36 +28,74 @@ struct LabelledElements {
   std::vector<std::size_t> sets;
 };
 
+/// Nodes, elements and sets with labels of their own: of a part, or of a file without parts.
+struct LabelledMesh {
+  std::vector<std::size_t> node_ids;
+  std::vector<Point<3>> coordinates;
+  std::array<LabelledElements, 4> elements;
+  std::vector<LabelRange> fixed;
+  std::unordered_map<std::size_t, std::size_t> set_of;
+  std::vector<std::pair<LabelRange, std::size_t>> set_ranges;
+};
+
+/// A part of the file at its place in the assembly.
+struct Instance {
+  std::string name, part;
+  Point<3> translation = Point<3>::Zero();
+  Eigen::AngleAxisd rotation = Eigen::AngleAxisd::Identity();
+  Point<3> axis_point = Point<3>::Zero();
+  /// Element sets of the assembly with elements of this instance.
+  std::vector<std::pair<LabelRange, std::string>> sets{};
+
+  bool is_moved() const { return !translation.isZero(0.0) || rotation.angle() != 0.0; }
+  Point<3> place(const Point<3>& point) const {
+    const Point<3> moved = point + translation;
+    if (rotation.angle() == 0.0) return moved;
+    return axis_point + rotation * (moved - axis_point);
+  }
+};
+
+/// Element types that are no cells: springs, masses, connectors and the like.
+bool is_no_cell(std::string_view type) {
+  constexpr std::array prefixes{"SPRING", "DASHPOT", "MASS",  "ROTARYI", "CONN",    "GAP",  "DGAP",
+                                "DCOUP",  "DISTRIB", "JOINT", "ITS",     "HEATCAP", "FLINK"};
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const char* prefix) { return type.starts_with(prefix); });
+}
+
 class AbaqusReader {
  public:
   AbaqusReader(const std::filesystem::path& path, std::string_view content)
-      : lines_(path, content) {}
+      : lines_(path, content), content_(content) {}
 
   MeshParts parts() {
     while (lines_.next_keyword()) read_block();
     for (const std::string& comment : lines_.name_comments()) add_physical_name(comment, parts_);
+    place_instances();
     sort_nodes();
     for (int dimension = 1; dimension <= 3; ++dimension) add_elements(dimension);
+    describe_content();
     return std::move(parts_);
   }
 
  private:
   void read_block() {
     const std::string& keyword = lines_.keyword();
+    note_keyword(keyword);
     if (keyword == "ASSEMBLY" || keyword == "END ASSEMBLY")
       in_assembly_ = keyword == "ASSEMBLY";
     else if (keyword == "INSTANCE")
       read_instance();
-    else if (keyword == "END INSTANCE")
-      in_instance_ = false;
+    else if (keyword == "PART")
+      mesh_ = &parts_of_file_[capitals(lines_.parameter("NAME"))];
+    else if (keyword == "END PART" || keyword == "END INSTANCE")
+      mesh_ = &whole_;
     else if (keyword == "NODE" || keyword == "ELEMENT")
       read_mesh_block(keyword);
     else if (keyword == "ELSET")
       read_element_set();
     else if (keyword == "NSET" && capitals(lines_.parameter("NSET")) == abaqus_fixed_set)
-      for_each_range([&](const LabelRange& range) { fixed_.push_back(range); });
-    else if (keyword == "PART" && ++n_parts_ > 1)
-      lines_.fail("the file has several parts; save each of them as a separate file");
+      for_each_range([&](const LabelRange& range) { mesh_->fixed.push_back(range); });
     else if (keyword == "INCLUDE" || keyword == "SYSTEM" || keyword == "NGEN" ||
              keyword == "NFILL" || keyword == "NCOPY" || keyword == "ELGEN" || keyword == "ELCOPY")
       lines_.fail("*" + keyword +
@@ -63,20 +105,124 @@ class AbaqusReader {
 
   void read_mesh_block(const std::string& keyword) {
     // Reference points of an assembly have separate labels and are not part of the mesh.
-    if (in_assembly_ && !in_instance_) return;
+    if (in_assembly_ && mesh_ == &whole_) return;
     if (lines_.has_parameter("INPUT"))
       lines_.fail("*" + keyword + " with INPUT is not supported; put the lines of that file here");
     keyword == "NODE" ? read_nodes() : read_elements();
   }
 
+  /// An instance may have a translation, then an axis by two points and an angle in degrees. It may
+  /// also have nodes and elements of its own.
   void read_instance() {
-    in_instance_ = true;
-    if (++n_instances_ > 1)
-      lines_.fail("the assembly has several instances; save each of them as a separate file");
-    if (lines_.next_data())
+    Instance& instance = instances_.emplace_back();
+    instance.name = lines_.parameter("NAME");
+    instance.part = capitals(lines_.parameter("PART"));
+    std::vector<double> numbers;
+    while (lines_.next_data())
+      while (lines_.has_field())
+        numbers.push_back(lines_.number("a number of the instance's place"));
+    if (numbers.size() != 0 && numbers.size() != 3 && numbers.size() != 10)
       lines_.fail(
-          "the instance is moved or turned, which is not supported; save the mesh with its "
-          "final coordinates and without instances");
+          "the place of the instance has " + std::to_string(numbers.size()) +
+          " numbers; give a translation (3), and for a turn two points and an angle (7 more)");
+    if (numbers.size() >= 3) instance.translation = {numbers[0], numbers[1], numbers[2]};
+    if (numbers.size() == 10) {
+      instance.axis_point = {numbers[3], numbers[4], numbers[5]};
+      const Point<3> axis = Point<3>(numbers[6], numbers[7], numbers[8]) - instance.axis_point;
+      if (axis.isZero(0.0)) lines_.fail("the two points of the instance's axis are equal");
+      instance.rotation =
+          Eigen::AngleAxisd(numbers[9] * std::numbers::pi / 180.0, axis.normalized());
+    }
+    if (parts_of_file_.contains(instance.part)) {
+      mesh_ = &whole_;
+    } else {  // its nodes and elements follow
+      instance.part = "*" + std::to_string(instances_.size());
+      mesh_ = &parts_of_file_[instance.part];
+    }
+  }
+
+  /// Remembers the keywords whose data are not part of the mesh.
+  void note_keyword(const std::string& keyword) {
+    constexpr std::array of_mesh{"NODE",     "ELEMENT",  "ELSET",        "PART",         "END PART",
+                                 "ASSEMBLY", "INSTANCE", "END INSTANCE", "END ASSEMBLY", "HEADING"};
+    if (std::find(of_mesh.begin(), of_mesh.end(), keyword) != of_mesh.end()) return;
+    if (keyword.starts_with("END ")) return;
+    std::string text = "*" + keyword;
+    for (const char* key : {"NSET", "NAME"})
+      if (const std::string name = lines_.parameter(key); !name.empty()) text += " " + name;
+    if (text == "*NSET " + std::string(abaqus_fixed_set)) return;
+    auto& names = parts_.content.section_names;
+    if (std::find(names.begin(), names.end(), text) == names.end()) names.push_back(text);
+  }
+
+  /// Puts all instances into one mesh. With several, the labels of each follow those of the one
+  /// before, and the names of sets begin with that of the instance.
+  void place_instances() {
+    if (instances_.empty() && parts_of_file_.empty()) return;
+    if (instances_.empty())
+      for (const auto& [name, part] : parts_of_file_)
+        instances_.push_back({.name = name, .part = name});
+    const bool are_several = instances_.size() > 1;
+    std::size_t node_base = 0, element_base = 0;
+    for (const Instance& instance : instances_) {
+      const LabelledMesh& part = parts_of_file_.at(instance.part);
+      const auto set_of = [&](std::size_t set) {
+        if (set == 0 || !are_several) return set;
+        return set_number(instance.name + "." + set_names_[set - 1]);
+      };
+      const auto shifted = [](const LabelRange& range, std::size_t base) {
+        return LabelRange{range.first + base, range.last + base, range.step};
+      };
+      std::size_t last_node = node_base, last_element = element_base;
+      for (std::size_t i = 0; i < part.node_ids.size(); ++i) {
+        whole_.node_ids.push_back(part.node_ids[i] + node_base);
+        whole_.coordinates.push_back(instance.place(part.coordinates[i]));
+        last_node = std::max(last_node, whole_.node_ids.back());
+      }
+      for (std::size_t d = 0; d < part.elements.size(); ++d) {
+        const LabelledElements& from = part.elements[d];
+        LabelledElements& to = whole_.elements[d];
+        for (std::size_t e = 0; e < from.list.ids.size(); ++e) {
+          row_.clear();
+          for (const NodeIndex label : from.list.nodes[e])
+            row_.push_back(static_cast<NodeIndex>(label + node_base));
+          to.list.nodes.append(row_);
+          to.list.ids.push_back(from.list.ids[e] + element_base);
+          to.list.lines.push_back(from.list.lines[e]);
+          to.sets.push_back(set_of(from.sets[e]));
+          last_element = std::max(last_element, to.list.ids.back());
+        }
+      }
+      for (const auto& [label, set] : part.set_of)
+        whole_.set_of.try_emplace(label + element_base, set_of(set));
+      for (const auto& [range, set] : part.set_ranges)
+        whole_.set_ranges.emplace_back(shifted(range, element_base), set_of(set));
+      for (const auto& [range, name] : instance.sets)
+        whole_.set_ranges.emplace_back(shifted(range, element_base), set_number(name));
+      for (const LabelRange& range : part.fixed) whole_.fixed.push_back(shifted(range, node_base));
+      node_base = last_node;
+      element_base = last_element;
+    }
+    if (are_several)
+      parts_.notes.push_back(
+          "the " + std::to_string(instances_.size()) +
+          " instances become one mesh, whose nodes and elements are numbered anew");
+  }
+
+  /// Keeps the file's text, if its nodes are where the text says.
+  void describe_content() {
+    FileContent& content = parts_.content;
+    content.format = "abaqus";
+    if (!types_left_out_.empty())
+      parts_.notes.push_back(std::to_string(n_left_out_) + " elements of types " +
+                             joined({types_left_out_.begin(), types_left_out_.end()}) +
+                             " are left out, as they are no cells");
+    if (are_in_several_sets_)
+      parts_.notes.emplace_back("elements in several sets have the tag of one of them");
+    const bool is_placed =
+        instances_.size() > 1 || (instances_.size() == 1 && instances_[0].is_moved());
+    if (!is_placed && !content_.starts_with(abaqus_first_comment))
+      content.sections.emplace_back(content_);
   }
 
   void read_nodes() {
@@ -87,20 +233,25 @@ class AbaqusReader {
       const std::size_t label = lines_.label("the node's label");
       Point<3> point = Point<3>::Zero();
       for (int d = 0; d < 3 && lines_.has_field(); ++d) point[d] = lines_.number("a coordinate");
-      parts_.node_ids.push_back(label);
-      parts_.coordinates.push_back(point);
+      mesh_->node_ids.push_back(label);
+      mesh_->coordinates.push_back(point);
     }
   }
 
   void read_elements() {
     const std::string type = capitals(lines_.parameter("TYPE"));
     const auto element = abaqus_element(type);
+    if (!element && is_no_cell(type)) {
+      types_left_out_.insert(type);
+      while (lines_.next_data()) ++n_left_out_;
+      return;
+    }
     if (!element)
       lines_.fail(
           "the element type '" + type +
           "' cannot be read; use C3D4, C3D5, C3D6, C3D8, CPS3, CPS4, S3, S4 or similar types, "
           "whose nodes are their corners");
-    auto& elements = elements_[element->dimension];
+    auto& elements = mesh_->elements[static_cast<std::size_t>(element->dimension)];
     const std::size_t set = set_number(lines_.parameter("ELSET"));
     while (lines_.next_data()) {
       elements.list.ids.push_back(lines_.label("the element's label"));
@@ -152,16 +303,27 @@ class AbaqusReader {
   }
 
   void read_element_set() {
-    const std::size_t set = set_number(lines_.parameter("ELSET"));
+    const std::string name = lines_.parameter("ELSET");
+    const std::string of_instance = capitals(lines_.parameter("INSTANCE"));
+    const auto instance =
+        std::find_if(instances_.begin(), instances_.end(),
+                     [&](const Instance& other) { return capitals(other.name) == of_instance; });
+    if (instance != instances_.end())
+      return for_each_range(
+          [&](const LabelRange& range) { instance->sets.emplace_back(range, name); });
+    const std::size_t set = set_number(name);
     for_each_range([&](const LabelRange& range) {
       if (range.first == range.last)
-        set_of_.try_emplace(range.first, set);
+        are_in_several_sets_ =
+            !mesh_->set_of.try_emplace(range.first, set).second || are_in_several_sets_;
       else
-        set_ranges_.emplace_back(range, set);
+        mesh_->set_ranges.emplace_back(range, set);
     });
   }
 
   void sort_nodes() {
+    parts_.node_ids = std::move(whole_.node_ids);
+    parts_.coordinates = std::move(whole_.coordinates);
     auto& ids = parts_.node_ids;
     const auto order = sorted_by(ids);
     for (std::size_t i = 1; i < order.size(); ++i)
@@ -169,9 +331,9 @@ class AbaqusReader {
         lines_.fail("the file defines the node " + std::to_string(ids[order[i]]) + " twice");
     reorder(parts_.coordinates, order);
     reorder(ids, order);
-    if (fixed_.empty()) return;
+    if (whole_.fixed.empty()) return;
     parts_.fixed.emplace(ids.size(), false);
-    for (const LabelRange& range : fixed_)
+    for (const LabelRange& range : whole_.fixed)
       for_each_in_range(ids, range, [&](std::size_t i) { (*parts_.fixed)[i] = true; });
   }
 
@@ -205,7 +367,7 @@ class AbaqusReader {
 
   /// Adds the elements in the order of their labels.
   void add_elements(int dimension) {
-    LabelledElements& from = elements_[dimension];
+    LabelledElements& from = whole_.elements[static_cast<std::size_t>(dimension)];
     ElementList& to = parts_.elements[dimension];
     std::vector<std::size_t> sets;
     for (const std::size_t e : sorted_by(from.list.ids)) {
@@ -225,16 +387,22 @@ class AbaqusReader {
 
   /// Gives elements without a set (0) the first *ELSET that contains them. Sets are numbered in the
   /// order of appearance.
-  void find_sets(const std::vector<std::size_t>& ids, std::vector<std::size_t>& sets) const {
+  void find_sets(const std::vector<std::size_t>& ids, std::vector<std::size_t>& sets) {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> first(ids.size(), none);
     for (std::size_t i = 0; i < ids.size(); ++i)
-      if (const auto found = set_of_.find(ids[i]); found != set_of_.end()) first[i] = found->second;
-    for (const auto& [range, set] : set_ranges_)
-      for_each_in_range(ids, range,
-                        [&, set = set](std::size_t i) { first[i] = std::min(first[i], set); });
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      if (sets[i] == 0 && first[i] != none) sets[i] = first[i];
+      if (const auto found = whole_.set_of.find(ids[i]); found != whole_.set_of.end())
+        first[i] = found->second;
+    for (const auto& [range, set] : whole_.set_ranges)
+      for_each_in_range(ids, range, [&, set = set](std::size_t i) {
+        are_in_several_sets_ = are_in_several_sets_ || first[i] != none;
+        first[i] = std::min(first[i], set);
+      });
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (first[i] == none) continue;
+      are_in_several_sets_ = are_in_several_sets_ || (sets[i] != 0 && sets[i] != first[i]);
+      if (sets[i] == 0) sets[i] = first[i];
+    }
   }
 
   /// Returns the tag that a comment gave to the set's name, or a new one.
@@ -257,17 +425,20 @@ class AbaqusReader {
   }
 
   AbaqusLines lines_;
+  std::string_view content_;
   MeshParts parts_;
-  std::array<LabelledElements, 4> elements_;
+  LabelledMesh whole_;  ///< the file without parts; in the end all instances
+  std::map<std::string, LabelledMesh> parts_of_file_;  ///< by name in capitals
+  std::vector<Instance> instances_;
+  LabelledMesh* mesh_ = &whole_;  ///< that the lines belong to
   std::vector<NodeIndex> row_;
-  std::vector<LabelRange> fixed_;
   std::vector<std::string> set_names_;
   std::map<std::string, std::size_t> set_numbers_;  ///< by name in capitals, from 1
-  std::unordered_map<std::size_t, std::size_t> set_of_;
-  std::vector<std::pair<LabelRange, std::size_t>> set_ranges_;
   std::map<std::pair<int, std::size_t>, int> tags_;
-  int n_parts_ = 0, n_instances_ = 0;
-  bool in_assembly_ = false, in_instance_ = false;
+  std::set<std::string> types_left_out_;
+  std::size_t n_left_out_ = 0;
+  bool are_in_several_sets_ = false;
+  bool in_assembly_ = false;
 };
 
 }  // namespace

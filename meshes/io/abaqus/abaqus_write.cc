@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "meshes/io/abaqus/abaqus_file.h"
 #include "meshes/io/abaqus/abaqus_lines.h"
@@ -171,10 +173,85 @@ class AbaqusWriter {
 
 }  // namespace
 
+namespace {
+
+/// Returns the text of an input file with the coordinates of a mesh that was read from it. Lines of
+/// nodes that have not moved stay as they are, and so does everything else.
+class AbaqusRewriter {
+ public:
+  explicit AbaqusRewriter(const MeshView& mesh) : mesh_(mesh) {
+    const auto& ids = mesh.topology().labels().node_ids;
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      nodes_[ids.empty() ? std::size_t{i} + 1 : ids[i]] = i;
+  }
+
+  std::string text(const std::string& original) {
+    std::string result;
+    bool is_node_block = false;
+    for (std::size_t begin = 0; begin < original.size();) {
+      const std::size_t end = std::min(original.find('\n', begin), original.size() - 1) + 1;
+      const std::string_view line = std::string_view(original).substr(begin, end - begin);
+      if (line.starts_with('*') && !line.starts_with("**")) {
+        const std::string_view name = line.substr(1, line.find_first_of(",\r\n") - 1);
+        is_node_block = capitals(name.substr(0, name.find_last_not_of(" \t") + 1)) == "NODE";
+      }
+      is_node_block && !line.starts_with('*') ? append_node(result, line) : void(result += line);
+      begin = end;
+    }
+    return result;
+  }
+
+ private:
+  void append_node(std::string& result, std::string_view line) const {
+    LineReader reader("", line, ", \t\r\v\f");
+    std::vector<double> old;
+    std::size_t label = 0;
+    try {
+      if (!reader.next_line() || !reader.has_word()) {
+        result += line;
+        return;
+      }
+      label = reader.integer("the label");
+      while (old.size() < 3 && reader.has_word()) old.push_back(reader.number("a coordinate"));
+    } catch (const InputError&) {
+      result += line;
+      return;
+    }
+    const auto node = nodes_.find(label);
+    if (node == nodes_.end()) {  // no cell uses it
+      result += line;
+      return;
+    }
+    const Point<3> point = mesh_.point(node->second);
+    bool has_moved = false;
+    for (std::size_t d = 0; d < 3; ++d)
+      has_moved =
+          has_moved || point[static_cast<Eigen::Index>(d)] != (d < old.size() ? old[d] : 0.0);
+    if (!has_moved) {
+      result += line;
+      return;
+    }
+    append_number(result, label);
+    for (std::size_t d = 0; d < std::max<std::size_t>(old.size(), 2); ++d) {
+      result += ", ";
+      append_number(result, point[static_cast<Eigen::Index>(d)]);
+    }
+    result += line.ends_with("\r\n") ? "\r\n" : "\n";
+  }
+
+  const MeshView& mesh_;
+  std::unordered_map<std::size_t, NodeIndex> nodes_;
+};
+
+}  // namespace
+
 void write_abaqus(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                   const MeshWriteOptions&) {
   require_no_polygons(path, mesh);
-  write_atomically(path, AbaqusWriter(mesh).text());
+  const FileContent* content = mesh.content();
+  const bool has_text = content && content->format == "abaqus" && !content->sections.empty();
+  write_atomically(path, has_text ? AbaqusRewriter(mesh).text(content->sections.front())
+                                  : AbaqusWriter(mesh).text());
 }
 
 }  // namespace smoothfem

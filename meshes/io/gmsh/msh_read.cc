@@ -149,7 +149,12 @@ class MshReader {
     if (in_.is_swapped())
       parts_.notes.push_back("the section " + section + " is left out: it has another byte order");
     else
-      parts_.content.sections.push_back(std::move(text));
+      keep_text(section, std::move(text));
+  }
+
+  void keep_text(const std::string& section, std::string text) {
+    parts_.content.sections.push_back(std::move(text));
+    parts_.content.section_names.push_back("the section " + section);
   }
 
   void read_periodic() {
