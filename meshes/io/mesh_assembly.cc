@@ -10,6 +10,7 @@
 
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
+#include "smoothing/geometry/extreme_size.h"
 #include "smoothing/surface/surface_constraints.h"
 
 namespace smoothfem {
@@ -106,6 +107,8 @@ void require_usable_coordinates(const MeshParts& parts) {
                                                 : ", which is not a finite number"));
     }
   }
+  if (!parts.coordinates.empty())
+    require_ordinary_numbers(extreme_exponent(std::span<const Point<3>>(parts.coordinates)));
 }
 
 }  // namespace
