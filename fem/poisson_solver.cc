@@ -2,6 +2,7 @@
 #include "fem/poisson_solver.h"
 
 #include <chrono>
+#include <cmath>
 
 #include "fem/assembly/assembly.h"
 #include "fem/assembly/error_norms.h"
@@ -208,6 +209,11 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
   work.discrete.head(work.free_solution.size()) = work.free_solution;
   const ErrorNorms norms = error_norms(space, x, solution, work.system.exact, work.discrete);
   record_errors(norms, record);
+  if (!std::isfinite(norms.l2_error) || !std::isfinite(norms.h1_error) ||
+      !std::isfinite(norms.e_max)) {
+    record.cg_converged = false;
+    add_remark("numbers have overflowed", record);
+  }
   record_points(work.system.points, norms.points, space.ranks, record);
   return record;
 }

@@ -2,6 +2,7 @@
 """The command lines of the package."""
 
 import argparse
+import os
 import re
 import sys
 from dataclasses import replace
@@ -131,6 +132,14 @@ def warn(sentence):
     print(sentence, file=sys.stderr)
 
 
+def say(text):
+    """Prints a text as long as somebody reads it: after `| head`, the files are still made."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def planned_figures(outputs, request, only, width):
     """The figures to choose from. Meshes are read only if figures of them may be among those chosen."""
     # Matplotlib takes a second to load.
@@ -164,7 +173,7 @@ def make_study(options):
              for suffix, write in ((".csv", as_csv), (".md", as_markdown), (".tex", as_latex))]
     texts += [(f"{name}.md", text) for name, text in outputs.texts.items() if name in wanted]
 
-    tell = (lambda text: None) if options.quiet else print
+    tell = (lambda text: None) if options.quiet else say
     folder = options.out or outputs.folder
     for sentence in outputs.warnings:
         warn(sentence)
@@ -217,7 +226,7 @@ def make_chosen_figures(options, chosen, study_title):
         raise ResultsError(f"{options.folder}: there is no figure to draw into {options.out}; choose others by --only or --y.")
     if not options.quiet:
         for path in paths:
-            print(f"wrote {path}")
+            say(f"wrote {path}")
 
 
 def make_report(options):
@@ -225,7 +234,7 @@ def make_report(options):
     outputs = outputs_of(options.folder)
     path = outputs.write_page(options.against, options.out)
     if not options.quiet:
-        print(f"wrote {path}")
+        say(f"wrote {path}")
 
 
 def make_histogram(options):

@@ -6,8 +6,10 @@
 #include <Eigen/Eigenvalues>
 
 #include <random>
+#include <stdexcept>
 
 #include "fem/linear_algebra/lanczos_eigenvalues.h"
+#include "smoothing/base/interruption.h"
 
 namespace smoothfem {
 
@@ -22,6 +24,7 @@ class Operator {
   Eigen::Index rows() const { return size_; }
   Eigen::Index cols() const { return size_; }
   void perform_op(const double* in, double* out) const {
+    let_interrupt();
     Eigen::Map<Eigen::VectorXd>(out, size_) = apply_(Eigen::Map<const Eigen::VectorXd>(in, size_));
   }
 
@@ -47,9 +50,13 @@ void largest_eigenvector(Eigen::Index size, const Apply& apply, Eigen::Index sub
   constexpr Eigen::Index max_restarts = 1000;
   Operator<Apply> op(size, apply);
   Spectra::SymEigsSolver<Operator<Apply>> solver(op, 1, std::min(subspace, size));
-  solver.init(vector.data());
-  solver.compute(Spectra::SortRule::LargestAlge, max_restarts, 0.1 * verified_residual);
-  if (solver.info() == Spectra::CompInfo::Successful) vector = solver.eigenvectors().col(0);
+  try {
+    solver.init(vector.data());
+    solver.compute(Spectra::SortRule::LargestAlge, max_restarts, 0.1 * verified_residual);
+    if (solver.info() == Spectra::CompInfo::Successful) vector = solver.eigenvectors().col(0);
+  } catch (const std::runtime_error&) {  // of Spectra, for extreme numbers: the residual shows it
+  } catch (const std::invalid_argument&) {
+  }
 }
 
 double relative_residual(const SparseMatrix& matrix, const Eigen::VectorXd& v, double& eigenvalue) {
@@ -69,7 +76,9 @@ ConditionNumber CholeskyConditionNumber::compute(const SparseMatrix& matrix) {
                                                matrix.innerIndexPtr(), matrix.valuePtr());
   if (!analyzed_) factorization_.analyzePattern(columns);
   analyzed_ = true;
+  let_interrupt();
   factorization_.factorize(columns);
+  let_interrupt();
   if (factorization_.info() != Eigen::Success) return result;  // not positive definite
 
   largest_eigenvector(

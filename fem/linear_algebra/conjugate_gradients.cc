@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "smoothing/base/interruption.h"
 #include "smoothing/simd/lanes.h"
 
 namespace smoothfem {
@@ -72,6 +73,7 @@ ConjugateGradientsResult conjugate_gradients(const SlicedMatrix& matrix, const E
   const double goal = options.tolerance * options.tolerance * (residual + options.norm_offset);
   bool out_of_time = false, indefinite = false;
   while (residual > goal && result.iterations < options.max_iterations && !out_of_time) {
+    let_interrupt();
     const double curvature = ranks.sum(matrix.multiply(p, q));
     if (options.stop_if_indefinite && !(curvature > 0.0 && rho > 0.0)) {
       indefinite = true;

@@ -29,6 +29,15 @@ void check_finite(const ManufacturedSolution<dim>& s, const SolutionKeys& keys,
   if (key != nullptr)
     throw InputError("the solution's " + std::string(key) + " is not a finite number at " +
                      point_text(p) + ", a node of the mesh: use a formula that is finite there");
+  // Sums of squares must be finite, too.
+  constexpr double largest = 1e100;
+  const char* large = std::abs(value) > largest                  ? keys.value
+                      : gradient.cwiseAbs().maxCoeff() > largest ? keys.gradient
+                      : std::abs(s.load(p)) > largest            ? keys.load
+                                                                 : nullptr;
+  if (large != nullptr)
+    throw InputError("the solution's " + std::string(large) + " is above 1e100 at " +
+                     point_text(p) + ", a node of the mesh, so that errors overflow: scale it");
 }
 
 template <int dim>
@@ -36,6 +45,10 @@ void check_diffusivity(const ManufacturedSolution<dim>& s, const Point<dim>& p) 
   if (!s.diffusivity) return;
   constexpr double rounding = 1e-12;
   const Diffusivity<dim> a = s.diffusivity(p);
+  const double size = a.cwiseAbs().maxCoeff();
+  if (!(size >= 1e-100 && size <= 1e100))
+    throw InputError("the solution's 'diffusivity' at " + point_text(p) +
+                     ", a node of the mesh, is outside of 1e-100 to 1e100: scale it");
   const std::string at = " at " + point_text(p) + ", a node of the mesh: ";
   if (!((a - a.transpose()).norm() <= rounding * a.norm()))
     throw InputError("the solution's 'diffusivity' is not symmetric" + at +

@@ -8,6 +8,7 @@
 
 #include "meshes/distortion/node_moves.h"
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/quality/mesh_quality.h"
 
@@ -48,6 +49,7 @@ class Distortion {
     moves_.undo_all();
     for (int sweep = 0; sweep < n_sweeps_; ++sweep)
       for (std::size_t level = 0; level < levels_.size(); ++level) {
+        let_interrupt();
         const auto nodes = levels_[level];
         parallel_for_ranges(
             nodes.size(), min_nodes_per_thread(dim), [&](std::size_t first, std::size_t last) {

@@ -30,6 +30,7 @@ using Clock = std::chrono::steady_clock;
                                   int output) {
   setpgid(0, 0);                     // so that all processes it starts can be killed together
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // it ends with this process
+  close_on_exec();
   const int nothing = open("/dev/null", O_RDONLY);
   if (chdir(folder) == 0 && dup2(nothing, 0) >= 0 && dup2(output, 1) >= 0 && dup2(output, 2) >= 0)
     execle("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr), environment);
@@ -68,6 +69,10 @@ std::vector<char*> environment_of_children() {
   }
   entries.push_back(nullptr);
   return entries;
+}
+
+void close_on_exec() {
+  (void)close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);  // older kernels do nothing
 }
 
 CommandEnd run_command(const std::string& command, const fs::path& folder, double timeout_seconds) {

@@ -27,6 +27,10 @@ CommandEnd run_command(const std::string& command, const std::filesystem::path& 
 /// take itself for one of this program's ranks. Ends with a null pointer.
 std::vector<char*> environment_of_children();
 
+/// Closes all files of this process but standard input, output and error when it starts a program,
+/// for example those of mpirun. May be called between fork and exec.
+void close_on_exec();
+
 /// Returns the file that /bin/sh starts for this name; empty if there is no such file.
 std::filesystem::path find_program(const std::string& name);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
 #include <numeric>
-#include <regex>
 
 #include "meshes/external/child_process.h"
 #include "meshes/external/command_line.h"
@@ -93,16 +92,7 @@ struct CommandParameters {
                        "step_{iteration}.vtk");
     if (repeat > 1 && (counts || !series.empty()))
       throw InputError("a command with {iterations} or a series is not repeated; leave repeat out");
-    try {
-      const std::regex pattern(time_pattern);
-      if (!time_pattern.empty() && pattern.mark_count() == 0)
-        throw InputError("the time_pattern '" + time_pattern +
-                         "' has no group; put the part for the number in parentheses, as in "
-                         "'time: ([0-9.]+)'");
-    } catch (const std::regex_error&) {
-      throw InputError("the time_pattern '" + time_pattern +
-                       "' is not a regular expression; write one such as 'time: ([0-9.]+)'");
-    }
+    if (!time_pattern.empty()) (void)TimePattern(time_pattern);
   }
 };
 
@@ -200,21 +190,21 @@ class CommandSmoother final : public Smoother<dim> {
       series_.emplace();
       series_run_ = run_program(*initial_, p_.max_iterations, series_->path());
       n_in_series_ = 0;
-      while (n_in_series_ < p_.max_iterations && fs::exists(series_file(n_in_series_ + 1)))
+      while (n_in_series_ < p_.max_iterations && is_file(series_file(n_in_series_ + 1)))
         ++n_in_series_;
       if (n_in_series_ == 0)
         throw SmootherFailure("it left no file " + series_file(1).filename().string() +
                               last_output_text());
       series_times_ = p_.time_pattern.empty()
                           ? std::vector<double>()
-                          : matched_numbers(series_run_.output, p_.time_pattern);
+                          : TimePattern(p_.time_pattern).times(series_run_.output, p_.time_unit);
     }
     const int n = n_done_ + 1;
     const auto points = returned_coordinates<dim>(series_file(n), *initial_);
     // One time for each iteration, or one for all, of which each gets an equal share.
     const auto i = static_cast<std::size_t>(n - 1);
     if (series_times_.size() >= static_cast<std::size_t>(n_in_series_))
-      seconds_ = p_.time_unit * series_times_[i];
+      seconds_ = series_times_[i];
     else
       seconds_ = method_seconds(series_run_, last_time(series_run_.output)) * n / n_in_series_;
     wall_seconds_ = series_run_.wall_seconds;
@@ -227,14 +217,15 @@ class CommandSmoother final : public Smoother<dim> {
 
   /// Returns the time that the program prints, or the run's time less its start and its files.
   double method_seconds(const Run& made, std::optional<double> printed) {
-    if (printed) return p_.time_unit * *printed;
+    if (printed) return *printed;
     if (!startup_seconds_) startup_seconds_ = measured_startup();
     return std::max(0.0, made.wall_seconds - *startup_seconds_);
   }
 
+  /// Returns the last time that the program has printed, in seconds.
   std::optional<double> last_time(const std::string& output) const {
     if (p_.time_pattern.empty()) return std::nullopt;
-    const auto times = matched_numbers(output, p_.time_pattern);
+    const auto times = TimePattern(p_.time_pattern).times(output, p_.time_unit);
     if (times.empty())
       throw SmootherFailure("it printed nothing that the time_pattern '" + p_.time_pattern +
                             "' matches" + last_output_text());
@@ -357,8 +348,14 @@ class CommandSmoother final : public Smoother<dim> {
     return files;
   }
 
+  /// Reading a pipe or a device, which a program may leave, too, might not end.
+  static bool is_file(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+  }
+
   fs::path present_file(const fs::path& folder, const std::string& name) const {
-    if (!fs::exists(folder / name))
+    if (!is_file(folder / name))
       throw SmootherFailure("it left no file " + name + last_output_text());
     return folder / name;
   }

@@ -12,6 +12,7 @@
 #include "meshes/io/plane_of_points.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
+#include "smoothing/geometry/extreme_size.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/mesh/interfaces.h"
 #include "smoothing/surface/surface_constraints.h"
@@ -191,6 +192,8 @@ void require_usable_coordinates(const MeshParts& parts) {
                                                 : ", which is not a finite number"));
     }
   }
+  if (!parts.coordinates.empty())
+    require_ordinary_numbers(extreme_exponent(std::span<const Point<3>>(parts.coordinates)));
 }
 
 }  // namespace

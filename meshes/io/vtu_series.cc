@@ -5,28 +5,10 @@
 #include <cstdio>
 
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
-
-namespace {
-
-std::string escaped_for_xml(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
-}  // namespace
 
 VtuSeries::VtuSeries(std::filesystem::path collection) : collection_(std::move(collection)) {
   if (collection_.extension() != ".pvd")

@@ -23,8 +23,8 @@ def script(text):
 
 
 def json_in_page(data):
-    """JSON within a page: nothing in it ends the element."""
-    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    """JSON within a page: nothing in it ends the element, or begins a comment or another script."""
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
 def html_table(table, caption, identifier, filters=()):

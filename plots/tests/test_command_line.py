@@ -219,6 +219,17 @@ class WithoutPackages(CommandLine):
             (self.folder / module).rmdir()
 
 
+class Pipe(CommandLine):
+    def test_files_are_made_although_nobody_reads(self):
+        reading, writing = os.pipe()
+        os.close(reading)
+        with os.fdopen(writing, "w") as nobody:
+            done = subprocess.run([sys.executable, "-B", "-m", "plots", str(self.results), "--no-figures"], cwd=PACKAGE.parent,
+                                  stdout=nobody, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertTrue(list((self.results / "tables").iterdir()))
+
+
 class Library(CommandLine):
     def test_the_readme_does_what_it_says(self):
         text = (PACKAGE / "README.md").read_text(encoding="utf-8")

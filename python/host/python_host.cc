@@ -2,6 +2,7 @@
 #include <dlfcn.h>
 #include <pybind11/embed.h>
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 
@@ -24,6 +25,25 @@ fs::path package_folder() {
         fs::exists(folder / "smoothfem" / "__init__.py"))
       return folder;
   return {};
+}
+
+/// Handlers of the program, by signal; null if the program has none.
+void (*program_handlers[NSIG])(int) = {};
+
+/// Interrupts a step that is in Python's hands by KeyboardInterrupt, and tells the program.
+void on_interrupt(int signal) {
+  PyErr_SetInterrupt();
+  program_handlers[signal](signal);
+}
+
+/// Python has its own handler for Ctrl-C. The program's comes first again.
+void share_signals(int signal, const struct sigaction& of_program) {
+  struct sigaction shared = of_program;
+  if (of_program.sa_handler != SIG_DFL && of_program.sa_handler != SIG_IGN) {
+    program_handlers[signal] = of_program.sa_handler;
+    shared.sa_handler = on_interrupt;
+  }
+  sigaction(signal, &shared, nullptr);
 }
 
 /// As the python3 that this was compiled for would start, but Ctrl-C stays the program's.
@@ -60,12 +80,20 @@ extern "C" const char* smoothfem_start_python() {
   const fs::path folder = package_folder();
   if (folder.empty()) return "the Python package smoothfem is missing; install smoothfem anew";
   if (Py_IsInitialized() == 0) {
+    struct sigaction interrupt {
+    }, terminate{};
+    sigaction(SIGINT, nullptr, &interrupt);
+    sigaction(SIGTERM, nullptr, &terminate);
     if (const PyStatus status = start_interpreter(); PyStatus_Exception(status)) {
       why_not = status.err_msg ? status.err_msg : "the interpreter has ended at once";
       return why_not.c_str();
     }
     try {
       import_package(folder.string());
+      const py::module_ signals = py::module_::import("signal");
+      signals.attr("signal")(SIGINT, signals.attr("default_int_handler"));
+      share_signals(SIGINT, interrupt);
+      share_signals(SIGTERM, terminate);
     } catch (const py::error_already_set& error) {
       why_not = py::cast<std::string>(py::str(error.value()));
       why_not = why_not.substr(0, why_not.find('\n')) +

@@ -92,6 +92,9 @@ Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
 
 Result smooth_mesh(const py::object& object, const py::object& method, const py::object& callback,
                    const std::string& preset, const Settings& settings, bool history, int threads) {
+  if (threads < 0 || threads > 1024)
+    throw InputError("threads is " + std::to_string(threads) +
+                     ", but has to be from 1 to 1024, or 0 for all cores");
   const Threads of_this_call(threads);
   std::function<void(const IterationRecord&)> call;
   if (!callback.is_none()) call = [&](const IterationRecord& record) { callback(record, object); };

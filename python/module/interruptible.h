@@ -11,8 +11,21 @@
 
 namespace smoothfem {
 
+/// Asks Python whether a signal has come, but only so often that it costs nothing. Throws what its
+/// handler raises, for Ctrl-C KeyboardInterrupt.
+inline void ask_python_for_signals() {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto interval = std::chrono::milliseconds(50);
+  static thread_local Clock::time_point asked{};
+  const auto now = Clock::now();
+  if (now - asked < interval) return;
+  asked = now;
+  const pybind11::gil_scoped_acquire gil;
+  if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+}
+
 /// A stage that asks Python before each step whether a signal has come: Ctrl-C then ends the run by
-/// KeyboardInterrupt. Only so often that it costs nothing.
+/// KeyboardInterrupt.
 template <int dim, int spacedim>
 class Interruptible final : public Smoother<dim, spacedim> {
  public:
@@ -32,20 +45,12 @@ class Interruptible final : public Smoother<dim, spacedim> {
   double initial_score() const override { return stage_->initial_score(); }
 
   StepReport step(SmoothingState<dim, spacedim>& state) override {
-    constexpr auto interval = std::chrono::milliseconds(50);
-    if (const auto now = Clock::now(); now - asked_ >= interval) {
-      asked_ = now;
-      const pybind11::gil_scoped_acquire gil;
-      if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
-    }
+    ask_python_for_signals();
     return stage_->step(state);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::unique_ptr<Smoother<dim, spacedim>> stage_;
-  Clock::time_point asked_{};
 };
 
 }  // namespace smoothfem

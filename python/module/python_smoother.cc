@@ -2,8 +2,12 @@
 #include "python/module/python_smoother.h"
 
 #include <pybind11/stl.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "python/module/python_mesh.h"
+#include "smoothing/base/interruption.h"
 #include "smoothing/loop/python_methods.h"
 
 namespace smoothfem {
@@ -32,17 +36,45 @@ struct PythonObjects {
   }
 };
 
+/// A text of Python's, which may have parts that are not Unicode.
+std::string utf8(const py::handle& text) {
+  return py::cast<std::string>(py::str(text).attr("encode")("utf-8", "replace"));
+}
+
+/// Keeps what a user's code may change in a program that has started the interpreter: the current
+/// folder, and that there is one process.
+class AsBefore {
+ public:
+  AsBefore() : folder_(std::filesystem::current_path(ignored_)) {}
+  ~AsBefore() {
+    if (!started_python()) return;
+    if (::getpid() != process_) ::_exit(0);  // a copy by fork, which must not write results, too
+    if (std::filesystem::current_path(ignored_) != folder_)
+      std::filesystem::current_path(folder_, ignored_);
+  }
+  AsBefore(const AsBefore&) = delete;
+
+ private:
+  std::error_code ignored_;
+  std::filesystem::path folder_;
+  pid_t process_ = ::getpid();
+};
+
 /// Runs Python. _smoothers.py makes InputErrors of what smoothers do wrong; a program that has
 /// started the interpreter knows no other exceptions of Python's, but in Python they keep what they
 /// know besides, and Ctrl-C is passed on.
 template <class Call>
 decltype(auto) with_python(const Call& call) {
   const py::gil_scoped_acquire gil;
+  const AsBefore as_before;
   try {
     return call();
   } catch (const py::error_already_set& error) {
     if (!started_python()) throw;
-    throw SmootherFailure(py::cast<std::string>(py::str(error.value())));
+    if (interruption()) throw Interrupted{};
+    throw SmootherFailure(error.matches(PyExc_KeyboardInterrupt)
+                              ? "its code in Python has raised KeyboardInterrupt"
+                              : utf8(error.value()));
   }
 }
 

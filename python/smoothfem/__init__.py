@@ -30,7 +30,7 @@ def read(path):
 
     Its cells may be invalid. Raises InputError with the text "path:line: problem" for a file without a mesh.
     """
-    return _core.read(_os.fspath(path))
+    return _core.read(_os.fsencode(path))
 
 
 def write(mesh, path, *, cell=None, point=None):
@@ -39,7 +39,7 @@ def write(mesh, path, *, cell=None, point=None):
     cell, point: {name: n_cells (n_nodes) numbers}, written with the mesh in formats that support it. Raises
     InputError for an unknown suffix, a cell that the format does not support, and a file that cannot be written.
     """
-    _core.write(mesh, _os.fspath(path), cell or {}, point or {})
+    _core.write(mesh, _os.fsencode(path), cell or {}, point or {})
 
 
 def domains():

@@ -3,6 +3,8 @@
 mistake of a smoother raises an InputError of one sentence."""
 
 import inspect
+import math
+import os
 import re
 import sys
 import traceback
@@ -13,6 +15,8 @@ import numpy as np
 from ._core import InputError
 
 STOPPING = {"tolerance": 1e-4, "patience": 0, "max_iterations": 10000}  # defaults of QualityGainStopping
+RANGES = {"tolerance": (-1.0, 1.0), "patience": (0, 10**9), "max_iterations": (1, 10**9)}  # of QualityGainStopping, too
+MOST = 2**31 - 1  # the largest whole number of a parameter
 _known = {}
 
 
@@ -20,6 +24,8 @@ def definition_in(path, name, once):
     """Returns the Definition of the class `name` in the file `path`. Raises InputError.
 
     once: if True, a file that has been run is not read again. Otherwise it is run again if its text has changed."""
+    if once:
+        _keep_process()
     known = _known.get(path)
     if known is None or not once:
         source = _with_context(path, f"{path} cannot be read", lambda: _read(path))
@@ -32,6 +38,21 @@ def definition_in(path, name, once):
         raise InputError(f"{path} has no class '{name}'; " + (
             f"choose one of {', '.join(classes)}" if classes else "it has no class with step(self, mesh) at all"))
     return Definition(getattr(module, name), f"python:{path}:{name}", path)
+
+
+def _keep_process():
+    """Makes os._exit an error: it would end the program without its results. In processes that a smoother forks it stays."""
+    if getattr(os._exit, "of_smoothfem", False):
+        return
+    leave, own = os._exit, os.getpid()
+
+    def leave_if_forked(code):
+        if os.getpid() != own:
+            leave(code)
+        raise SystemExit(code)
+
+    leave_if_forked.of_smoothfem = True
+    os._exit = leave_if_forked
 
 
 def _read(path):
@@ -58,10 +79,10 @@ class Definition:
         self.method_name = method_name or f"python:{self.name}"
         if not callable(getattr(cls, "step", None)):
             raise InputError(f"the class {self.name} is not a smoother: it has no step(self, mesh)")
-        self.title = str(getattr(cls, "title", self.name))
+        self.title = _unicode(getattr(cls, "title", self.name))
         documentation = (cls.__doc__ or "a smoother written in Python").strip().splitlines()[0]
-        self.description = str(getattr(cls, "description", documentation.rstrip(".")))
-        self.source = str(getattr(cls, "source", "a class in Python"))
+        self.description = _unicode(getattr(cls, "description", documentation.rstrip(".")))
+        self.source = _unicode(getattr(cls, "source", "a class in Python"))
         self.parameters = [self._parameter(*entry) for entry in getattr(cls, "parameters", {}).items()]
         for key, default in STOPPING.items():
             setattr(self, key, self._number(key, getattr(cls, key, default), type(default)))
@@ -77,12 +98,18 @@ class Definition:
                              "digits and _, that is not an attribute of the class")
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
             raise InputError(f"{self.name}: parameter {name} has the default {value!r}; it has to be a number or a string")
-        return name, value, str(reason)
+        if isinstance(value, float) and not math.isfinite(value) or isinstance(value, int) and abs(value) > MOST:
+            raise InputError(f"{self.name}: parameter {name} has the default {value!r}; numbers have to be finite, and "
+                             f"whole numbers at most {MOST}")
+        return name, _unicode(value) if isinstance(value, str) else value, _unicode(reason)
 
     def _number(self, key, value, kind):
         if isinstance(value, bool) or not isinstance(value, (int, float)) or kind(value) != value:
             raise InputError(f"{self.name}: {key} is {value!r}, but has to be a "
                              f"{'whole number' if kind is int else 'number'}")
+        lowest, highest = RANGES[key]
+        if not lowest <= value <= highest:
+            raise InputError(f"{self.name}: {key} is {value!r}, but has to be from {lowest} to {highest}")
         return kind(value)
 
 
@@ -138,6 +165,11 @@ class Run:
                              "the nodes in mesh.free may move")
 
 
+def _unicode(text):
+    """Returns a text that UTF-8 can hold."""
+    return str(text).encode("utf-8", "replace").decode("utf-8")
+
+
 def _with_context(path, what, call):
     """Returns call(). Exceptions in it become an InputError of one sentence with file, line and their text."""
     try:
@@ -145,14 +177,22 @@ def _with_context(path, what, call):
     except (InputError, KeyboardInterrupt):
         raise
     except BaseException as error:  # an exit must not end the program either
-        raise InputError(f"{what}: {_sentence(error, path)}") from error
+        raise InputError(_unicode(f"{what}: {_sentence(error, path)}")) from error
+
+
+def _text_of(error):
+    """Returns the text of an exception, whose own code may fail."""
+    try:
+        return str(error)
+    except Exception:
+        return "without a text"
 
 
 def _sentence(error, path):
     """Returns, for example, 'mine.py:12: ZeroDivisionError: division by zero'. The line is the last line of the smoother's
     file in the traceback."""
     at = [(frame.filename, frame.lineno) for frame in traceback.extract_tb(error.__traceback__) if frame.filename == path]
-    text = str(error)
+    text = _text_of(error)
     if isinstance(error, SyntaxError) and error.lineno:
         at, text = [(error.filename, error.lineno)], error.msg
     place = f"{at[-1][0]}:{at[-1][1]}: " if at else ""

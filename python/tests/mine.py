@@ -2,6 +2,8 @@
 """Examples of smoothers of users: valid ones, and ones that violate rules."""
 
 import json
+import os
+import time
 
 import numpy as np
 
@@ -92,6 +94,69 @@ class Raises:
 class Exits:
     def step(self, mesh):
         raise SystemExit(0)
+
+
+class Leaves:
+    def step(self, mesh):
+        os._exit(0)
+
+
+class Interrupts:
+    def step(self, mesh):
+        raise KeyboardInterrupt
+
+
+class Surrogate:
+    title = "a \udcff"
+
+    def step(self, mesh):
+        raise ValueError("\udcff")
+
+
+class TooMany:
+    max_iterations = -5
+
+    def step(self, mesh):
+        pass
+
+
+class Huge:
+    parameters = {"n": (10**30, "too large")}
+
+    def step(self, mesh):
+        pass
+
+
+class NotANumber:
+    parameters = {"x": (float("nan"), "no number")}
+
+    def step(self, mesh):
+        pass
+
+
+class GoesElsewhere:
+    max_iterations = 1
+
+    def step(self, mesh):
+        os.makedirs("elsewhere", exist_ok=True)
+        os.chdir("elsewhere")
+
+
+class Forks:
+    max_iterations = 2
+
+    def step(self, mesh):
+        os.fork()
+
+
+class Sleeps:
+    tolerance = -1.0
+
+    def step(self, mesh):
+        self.n = getattr(self, "n", 0) + 1
+        if self.n == 3:
+            open("asleep", "w").close()
+            time.sleep(1000)
 
 
 class Keeps:

@@ -11,6 +11,8 @@ CHEATS = {"MovesFixed": "MovesFixed: step has moved the fixed node", "NotFinite"
           "WrongShape": "WrongShape: step returned an array of the shape", "ReturnsText": "ReturnsText: step returned no array",
           "Raises": r"Raises: step failed: mine.py:\d+: ZeroDivisionError: division by zero",
           "Exits": "Exits: step failed: mine.py:.*SystemExit", "Keeps": "Keeps: step keeps mesh.points",
+          "Surrogate": r"Surrogate: step failed: mine.py:\d+: ValueError: \?", "TooMany": "max_iterations is -5, but has to be from 1",
+          "Huge": "parameter n has the default 10+; numbers have to be finite", "NotANumber": "parameter x has the default nan",
           "FailsToBegin": r"FailsToBegin: initialize failed: mine.py:\d+: ValueError: assignment destination is read-only"}
 
 

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 
 import numpy as np
@@ -125,7 +126,7 @@ class Smoothing(unittest.TestCase):
         mesh = distorted("triangles")
         self.assertEqual(smoothfem.smooth(mesh.copy(), "laplace", tolerance=0.0, max_iterations=np.int64(3)).iterations, "3")
         for wrong, sentence in (({"tolerance": -1}, "outside its range"), ({"tolerence": 1}, "did you mean 'tolerance'"),
-                                ({"max_iterations": 2.5}, "whole number")):
+                                ({"max_iterations": 2.5}, "whole number"), ({"threads": -1}, "threads is -1")):
             with self.subTest(wrong), self.assertRaisesRegex(smoothfem.InputError, sentence):
                 smoothfem.smooth(mesh, "laplace", **wrong)
         with self.assertRaisesRegex(smoothfem.InputError, "there is no method"):
@@ -169,6 +170,35 @@ class Smoothing(unittest.TestCase):
             threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
             # Without the interrupt this would take hours.
             smoothfem.smooth(mesh, "laplace", tolerance=0.0, max_iterations=10**9)
+
+    def test_ctrl_c_ends_solving_and_distorting(self):
+        mesh = smoothfem.generate("gear", elements="triangles", edge_scale=1)
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        # Without the interrupt the first call would take minutes, the second one hours.
+        for call in (lambda: [smoothfem.solve(mesh, "gear", 2) for _ in range(1000)],
+                     lambda: smoothfem.distort(mesh, 0.4, candidates=10**7)):
+            with self.assertRaises(KeyboardInterrupt):
+                threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+                call()
+
+    def test_names_of_files_may_have_any_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.fsdecode(os.fsencode(folder) + b"/bin\xff.vtk")
+            smoothfem.write(smoothfem.Mesh(SQUARE, QUADRILATERALS), path)
+            self.assertEqual(len(smoothfem.read(path).points), 9)
+            with self.assertRaisesRegex(smoothfem.InputError, "there is no such file"):
+                smoothfem.read(path.replace("bin", "other"))
+
+    def test_names_of_fields_are_escaped(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "out.vtu"
+            mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+            smoothfem.write(mesh, path, cell={"<a&\"b>": [1.0] * 4})
+            names = [entry.get("Name") for entry in xml.etree.ElementTree.parse(path).iter("DataArray")]
+            self.assertIn("<a&\"b>", names)
+            np.testing.assert_array_equal(smoothfem.read(path).points, mesh.points)
+            with self.assertRaisesRegex(smoothfem.InputError, "control character"):
+                smoothfem.write(mesh, path, cell={"a\nb": [1.0] * 4})
 
     def test_other_threads_run_meanwhile(self):
         # One thread smooths for hours. If it kept the GIL, the other thread could not report.

@@ -4,6 +4,9 @@
 import hashlib
 import json
 import os
+import signal
+import subprocess
+import time
 import unittest
 from pathlib import Path
 
@@ -12,7 +15,8 @@ import numpy as np
 from .built import EXAMPLES, MESHES, PROGRAM, distorted, grid, run, smoothfem
 from .smoother_files import CHEATS, SMOOTHERS, InAFolder
 
-NO_SMOOTHERS = {"NoStep": "not a smoother: it has no step", "Text": "parameter flag has the default True", "Mime": "has no class 'Mime'"}
+NO_SMOOTHERS = {"NoStep": "not a smoother: it has no step", "Text": "parameter flag has the default True", "Mime": "has no class 'Mime'",
+                "Leaves": "Leaves: step failed: mine.py:.*SystemExit", "Interrupts": "has raised KeyboardInterrupt"}
 STUDY = """set title     = Python smoothers
 set dimension = {dim}
 set meshes    = mesh
@@ -84,6 +88,30 @@ class InTheProgram(InAFolder):
             with self.subTest(name):
                 self.assertRegex(self.refused("smooth", "in.vtu", "-m", f"python:mine.py:{name}", "-o", "out.vtu"), sentence)
                 self.assertFalse(Path("out.vtu").exists())
+
+    def test_current_folder_and_process_stay(self):
+        mesh = distorted("triangles")
+        for name in ("GoesElsewhere", "Forks"):
+            smoothfem.write(mesh, "in.vtu")
+            outcome = run(PROGRAM, "smooth", "in.vtu", "-m", f"python:mine.py:{name}", "-o", "out.vtu", folder=self.folder)
+            self.assertEqual(outcome.stdout.count("written to"), 1, outcome.stdout)
+            np.testing.assert_array_equal(smoothfem.read("out.vtu").points, mesh.points)
+            Path("out.vtu").unlink()
+
+    def test_interrupted_in_a_step(self):
+        smoothfem.write(distorted("triangles"), "in.vtu")
+        with subprocess.Popen([PROGRAM, "smooth", "in.vtu", "-m", "python:mine.py:Sleeps", "-o", "out.vtu", "--log", "rows.csv"],
+                              stderr=subprocess.PIPE, text=True) as process:
+            while not Path("asleep").exists() and process.poll() is None:
+                time.sleep(0.05)
+            process.send_signal(signal.SIGINT)
+            began = time.monotonic()
+            errors = process.communicate(timeout=60)[1]
+        self.assertLess(time.monotonic() - began, 5.0)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertRegex(errors, "^Interrupted: no mesh is written; the rows so far are in rows.csv")
+        self.assertEqual(len(Path("rows.csv").read_text().splitlines()), 4)  # headings, the initial mesh, two steps
+        self.assertFalse(Path("out.vtu").exists())
 
     def test_files_that_are_none(self):
         smoothfem.write(distorted("triangles"), "in.vtu")

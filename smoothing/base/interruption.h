@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <csignal>
 
 namespace smoothfem {
 
@@ -10,6 +11,26 @@ namespace smoothfem {
 inline std::atomic<bool>& interruption() {
   static std::atomic<bool> asked{false};
   return asked;
+}
+
+/// Makes Ctrl-C and SIGTERM set interruption(). A second one ends the process at once.
+inline void notice_signals() {
+  const auto notice = [](int signal) {
+    interruption() = true;
+    std::signal(signal, SIG_DFL);
+  };
+  std::signal(SIGINT, notice);
+  std::signal(SIGTERM, notice);
+}
+
+/// Function that long loops call often, on the thread that has called them; null: none. It may
+/// throw to end the loop. Python's module looks for Ctrl-C there.
+inline std::atomic<void (*)()>& interruption_hook() {
+  static std::atomic<void (*)()> hook{nullptr};
+  return hook;
+}
+inline void let_interrupt() {
+  if (auto* const hook = interruption_hook().load(std::memory_order_relaxed)) hook();
 }
 
 /// Thrown after an interruption was seen. It is not an error: the work in progress is discarded.

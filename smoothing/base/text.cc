@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/base/text.h"
 
+#include <boost/locale/utf.hpp>
 #include <fstream>
 #include <sstream>
 
@@ -15,6 +16,29 @@ std::vector<std::string> split_list(const std::string& text) {
     items.push_back(item.substr(first, item.find_last_not_of(" \t") - first + 1));
   }
   return items;
+}
+
+std::string shortened(const std::string& text) {
+  std::size_t length = 60;
+  if (text.size() <= length) return text;
+  const auto continues = [&] { return (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80; };
+  while (length > 0 && continues()) --length;  // no half character
+  return text.substr(0, length) + "...";
+}
+
+std::string as_utf8(const std::string& text) {
+  namespace utf = boost::locale::utf;
+  std::string result;
+  for (auto at = text.begin(); at != text.end();) {
+    const auto begin = at;
+    if (utf::is_valid_codepoint(utf::utf_traits<char>::decode(at, text.end()))) {
+      result.append(begin, at);
+    } else {
+      result += "\xEF\xBF\xBD";
+      at = begin + 1;
+    }
+  }
+  return result;
 }
 
 std::string file_content(const std::filesystem::path& path) {

@@ -26,6 +26,13 @@ std::string number_text(Number value) {
 /// Returns the items of a comma-separated list, without surrounding spaces and without empty items.
 std::vector<std::string> split_list(const std::string& text);
 
+/// Returns the text for a message: at most about 60 bytes, followed by "..." if there are more.
+std::string shortened(const std::string& text);
+
+/// Returns the text with U+FFFD in place of each byte that is not UTF-8. Names of files may have
+/// such bytes.
+std::string as_utf8(const std::string& text);
+
 /// Returns the content of a file, byte by byte; empty if it cannot be read.
 std::string file_content(const std::filesystem::path& path);
 

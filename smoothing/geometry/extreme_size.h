@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "smoothing/base/input_error.h"
 #include "smoothing/mesh/point.h"
 
 namespace smoothfem {
@@ -22,6 +23,16 @@ int extreme_exponent(std::span<const PointType> points) {
   if (!(extent > 0.0) || !std::isfinite(extent)) return 0;
   const int exponent = std::ilogb(extent);
   return std::abs(exponent) > ordinary ? exponent : 0;
+}
+
+/// Throws InputError for meshes so small that their coordinates have lost digits, or that the sizes
+/// of their cells underflow. exponent: the mesh's extreme_exponent.
+inline void require_ordinary_numbers(int exponent) {
+  constexpr int smallest = -334;  // 1e-100
+  if (exponent < smallest)
+    throw InputError("the mesh is only about 2^" + std::to_string(exponent) +
+                     " wide, so small that sizes of cells underflow; choose a smaller unit of "
+                     "length");
 }
 
 template <class PointType>

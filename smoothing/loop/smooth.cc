@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "smoothing/base/interruption.h"
 #include "smoothing/base/scoped_timer.h"
 #include "smoothing/geometry/extreme_size.h"
 #include "smoothing/loop/best_mesh.h"
@@ -112,6 +113,7 @@ class SmoothingRun {
       complete_quality(traits, report);
       result.iterations += report.n_counted;
       observe(result.name, result.iterations, report);
+      if (interruption()) throw Interrupted{};
       history.add(quality_, is_best);
       result.n_last_reset = report.n_reset;
       if (auto why = history.why_stop(stopping, report, state_.initial_quality.q_star_min,
@@ -306,10 +308,10 @@ SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer) {
   require_constraints_kept(mesh, method);
   require_problem(method);
+  const int own_exponent = extreme_exponent(std::as_const(mesh).coordinates());
+  require_ordinary_numbers(own_exponent);
   // Scaling would move the mesh off its constraints and its problem.
-  const int exponent = mesh.constraints() || method.info.needs_problem
-                           ? 0
-                           : extreme_exponent(std::as_const(mesh).coordinates());
+  const int exponent = mesh.constraints() || method.info.needs_problem ? 0 : own_exponent;
   if (exponent == 0) return smooth_unscaled(mesh, method, observer);
   const ScaledMesh scaled(mesh, -exponent);
   Observer<dim, spacedim> rescaling_observer;

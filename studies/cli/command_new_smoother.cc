@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <regex>
 
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/data_folder.h"
@@ -56,11 +56,21 @@ std::string filled_in(std::string text, const Spellings& s) {
   return text;
 }
 
+/// True for words of lower-case letters and digits with '-' between them, such as half-laplace.
+bool is_name(const std::string& name) {
+  constexpr std::size_t longest = 100;  // the name is part of names of files
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto is_allowed = [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '-';
+  };
+  return !name.empty() && name.size() <= longest && is_letter(name.front()) && name.back() != '-' &&
+         name.find("--") == std::string::npos && std::all_of(name.begin(), name.end(), is_allowed);
+}
+
 void make_folder(const NewSmootherArguments& arguments) {
-  static const std::regex allowed("[a-z][a-z0-9]*(-[a-z0-9]+)*");
-  if (!std::regex_match(arguments.name, allowed))
-    throw InputError("a smoother cannot be called '" + arguments.name +
-                     "'; use lower-case letters, digits and '-', as in half-laplace");
+  if (!is_name(arguments.name))
+    throw InputError("a smoother cannot be called '" + shortened(arguments.name) +
+                     "'; use at most 100 lower-case letters, digits and '-', as in half-laplace");
   if (fs::exists(arguments.name))
     throw InputError("a file or folder '" + arguments.name +
                      "' exists here; choose another name or another folder");

@@ -144,7 +144,7 @@ void print_json(const Report& r) {
                                                                {"max", m.max}})
       of_metric[key] = value;
   }
-  std::printf("%s\n", json.dump(2).c_str());
+  std::printf("%s\n", json.dump(2, ' ', false, decltype(json)::error_handler_t::replace).c_str());
 }
 
 /// Numbers of cells of each type by mean ratio, for `plots histogram`.

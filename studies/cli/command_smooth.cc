@@ -6,7 +6,9 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
+#include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
+#include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/bad_places.h"
@@ -137,6 +139,11 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
   use_folders(method, {});
   try {
     return {method.info.title, smooth(mesh, method, observer)};
+  } catch (const Interrupted&) {
+    recorder.write_log();
+    std::fprintf(stderr, "Interrupted: no mesh is written%s%s.\n",
+                 arguments.log.empty() ? "" : "; the rows so far are in ", arguments.log.c_str());
+    throw;
   } catch (const SmootherFailure& failure) {
     throw InputError("the method " + method.info.name + " failed: " + failure.what());
   }
@@ -145,6 +152,8 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
 template <int dim, int spacedim>
 void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
                  const std::vector<std::size_t>& cell_lines, const MeshWriteOptions& options) {
+  // Otherwise Ctrl-C ends the process at once.
+  if (!arguments.log.empty() || method_in_file(arguments.method)) notice_signals();
   auto method = configured_method<dim, spacedim>(arguments);
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);

@@ -12,6 +12,7 @@
 #include "smoothing/base/interruption.h"
 #include "studies/cli/commands.h"
 #include "studies/framework/definition/find_study.h"
+#include "studies/framework/definition/study.h"
 #include "studies/framework/run/peak_memory.h"
 #include "studies/kinds/study_kinds.h"
 
@@ -31,33 +32,40 @@ struct StudyArguments {
   StudyOptions options;
 };
 
-/// Stops a study at the next good place. A second Ctrl-C ends the process at once.
-void on_interrupt(int signal) {
-  interruption() = true;
-  std::signal(signal, SIG_DFL);
-}
-
 ReadyStudy read(const StudyArguments& arguments) {
   return read_any_study(find_study(arguments.study), arguments.quick ? "quick" : arguments.scale);
+}
+
+/// Warns about keys that the study file sets twice. A process of the run leaves that to its parent.
+void warn_about_repetitions(const StudyArguments& arguments) {
+  if (!arguments.options.ranks.is_root() || arguments.options.task_socket >= 0) return;
+  for (const auto& sentence : StudyText(find_study(arguments.study)).repetitions())
+    std::fprintf(stderr, "smoothfem: warning: %s\n", sentence.c_str());
 }
 
 void run(StudyArguments& arguments, std::optional<MpiSession>& mpi) {
   StudyOptions& options = arguments.options;
   if (options.ranks.is_root()) {
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    notice_signals();
     options.interrupted = &interruption();
   } else {  // the root ends the run
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
   }
+  // Looking at a stranger's study file must not run it.
+  const std::optional<OnlyLook> only_look =
+      options.dry_run ? std::optional<OnlyLook>(std::in_place) : std::nullopt;
   const ReadyStudy study = read(arguments);
+  warn_about_repetitions(arguments);
   if (study.needs_mpi && !mpi) {
     mpi.emplace();
     options.ranks = Ranks(MPI_COMM_WORLD);
   }
   if (!options.shard.empty() && !study.has_shards)
     throw InputError("--shard is for collections, but the study " + study.header.name +
+                     " is of another kind; leave it out");
+  if (options.retry_failed && !study.has_shards)
+    throw InputError("--retry-failed is for collections, but the study " + study.header.name +
                      " is of another kind; leave it out");
   if (options.out.empty()) options.out = std::filesystem::path("results") / study.header.name;
   study.run(options);
@@ -80,12 +88,14 @@ void run_on_all_ranks(StudyArguments& arguments) {
 
 /// Prints the launcher's work for a study, one item a line. "ranks N": number of processes that is
 /// fastest on this machine. "out FOLDER": results folder. "draw OPTION": option for drawing. "fetch
-/// NAME": published meshes are wanted. Prints nothing about the program's own work.
+/// NAME": published meshes are wanted. Prints nothing about the program's own work. Runs no code
+/// that the study names.
 void print_plan(const StudyArguments& arguments) {
   if (arguments.list || arguments.options.dry_run) return;
   // More processes speed up a study if they share the finite elements of volume meshes.
   unsigned n_ranks = 1;
   std::string name = std::filesystem::path(arguments.study).stem();
+  const OnlyLook only_look;
   try {
     const ReadyStudy study = read(arguments);
     name = study.header.name;
@@ -138,25 +148,32 @@ void smoothfem_add_study_command(CLI::App& app) {
       "--scale", arguments->scale,
       "one of the study's scales, for example quick or paper: other mesh sizes and records");
   command->add_flag("--quick", arguments->quick, "the same as --scale quick");
-  command->add_option(
+  auto* shard = command->add_option(
       "--shard", arguments->options.shard,
       "run only part K of N of a collection, for example 3/10; 'smoothfem merge' merges the "
       "results");
   command->add_flag("--force", arguments->options.force,
                     "start anew; keep the folder of an earlier run under another name");
+  command->add_flag("--retry-failed", arguments->options.retry_failed,
+                    "try the members of a collection again that have failed");
   command->add_flag("--quiet", arguments->options.quiet, "no progress, no results on the screen");
   command->add_flag("--verbose", arguments->verbose, "print all tables and the paths of all files");
   // For the launcher, which draws. This program never draws.
   command->add_flag("--no-figures", arguments->no_figures, "make tables, but draw nothing")
       ->envname("SMOOTHFEM_NO_FIGURES");
   command->add_flag("--dry-run", arguments->options.dry_run,
-                    "only show what would run, the estimated time, memory and disk space");
+                    "only show what would run, the estimated time, memory and disk space; no code "
+                    "that the study names is run");
   command->add_flag("--print-plan", arguments->print_plan)->group("");  // for the launcher
   command->add_option("--task-socket", arguments->options.task_socket)->group("");  // not shown
   add_plugin_option(*command);
   add_examples(*command, {"smoothfem study gear --quick", "smoothfem study my.prm --dry-run",
                           "smoothfem study gear --plugin ./libmine.so"});
-  command->callback([arguments] {
+  command->callback([arguments, shard] {
+    if (shard->count() > 0 && arguments->options.shard.empty())
+      throw InputError(
+          "--shard is empty; write the part and the number of parts, for example 1/10, or leave it "
+          "out");
     if (arguments->list) return arguments->print_plan ? void() : list_studies();
     if (arguments->quick && !arguments->scale.empty() && arguments->scale != "quick")
       throw InputError("--quick asks for the scale quick, --scale for " + arguments->scale +

@@ -3,9 +3,12 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <system_error>
 
 #include "smoothfem_versions.h"
 #include "smoothing/base/find_named.h"
+#include "smoothing/base/interruption.h"
 #include "smoothing/simd/registers.h"
 #include "studies/cli/commands.h"
 
@@ -76,10 +79,22 @@ int main(int argc, char** argv) {
   } catch (const smoothfem::InputError& error) {
     std::fprintf(stderr, "smoothfem: %s\n", error.what());
     return smoothfem::exit_bad_input;
+  } catch (const smoothfem::Interrupted&) {
+    return 130;  // as of a process that SIGINT has ended
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr,
                  "smoothfem: there is not enough memory for this mesh; use a smaller one\n");
     return 1;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "smoothfem: %s: %s; check the path and who may use it\n",
+                 error.path1().c_str(), error.code().message().c_str());
+    return smoothfem::exit_bad_input;
+  } catch (const std::system_error& error) {  // for example, no more threads
+    std::fprintf(stderr,
+                 "smoothfem: the system cannot give what the program needs (%s); close other "
+                 "programs, take fewer --threads, or raise the limits that 'ulimit -a' shows\n",
+                 error.code().message().c_str());
+    return smoothfem::exit_bad_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "smoothfem: internal error: %s\n", error.what());
     return 1;

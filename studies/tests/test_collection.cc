@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "smoothing/tests/volume_meshes.h"
+#include "studies/framework/results/folder_lock.h"
 #include "studies/kinds/collection/collection.h"
 #include "studies/kinds/collection/member_study.h"
 #include "studies/kinds/collection/task_process.h"
@@ -120,6 +121,24 @@ TEST_F(Collections, MergedShardsAreTheWhole) {
   expect_same_tables("whole", "both");
   const Outcome again = smoothfem({"study", "all.prm", "--out", "both"});
   EXPECT_THAT(again.err, ::testing::HasSubstr("nothing to do"));
+
+  // Without a part, the merged folder says what it lacks, and the study completes it.
+  const Outcome half = smoothfem({"merge", "part2", "part2", "--out", "half"});
+  EXPECT_EQ(half.exit_code, 2);
+  EXPECT_THAT(half.err, ::testing::ContainsRegex("of 14 members are not complete.*belong to 1/2"));
+  EXPECT_EQ(table("half/members.csv").rows.size(), 14u);
+  EXPECT_THAT(content_of(file("half/provenance.json")),
+              ::testing::HasSubstr("\"status\": \"interrupted\""));
+  ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "half", "--quiet"}).exit_code, 0);
+  expect_same_tables("whole", "half");
+
+  // Parts of other mesh files do not belong to it.
+  write_mesh(file("meshes/good0.vtk"), shaken_grid(3, 0.2));
+  ASSERT_EQ(
+      smoothfem({"study", "all.prm", "--out", "other1", "--shard", "1/2", "--quiet"}).exit_code, 0);
+  const Outcome mixed = smoothfem({"merge", "other1", "part2", "--out", "mixed"});
+  EXPECT_EQ(mixed.exit_code, 2);
+  EXPECT_THAT(mixed.err, ::testing::HasSubstr("they differ in content of mesh good0"));
   const Outcome taken = smoothfem({"merge", "part2", "part1", "--out", "both"});
   EXPECT_EQ(taken.exit_code, 2);
   EXPECT_THAT(taken.err, ::testing::HasSubstr("both is there already"));
@@ -149,6 +168,73 @@ TEST_F(Collections, KilledRunsResume) {
   EXPECT_TRUE(was_half_done) << "no kill has hit a run with something to go on from";
   ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "killed", "--quiet"}).exit_code, 0);
   expect_same_tables("unbroken", "killed");
+}
+
+TEST_F(Collections, MembersWhoseProcessWasKilledAreOpenAgain) {
+  write_good_meshes(2);
+  write_study(
+      "set methods = once\nsubsection method once\n set command = test -f {folder}/again || "
+      "{ touch {folder}/again; kill -9 $PPID; }; cp {in} {out}\nend\n");
+  const Outcome killed = smoothfem({"study", "all.prm", "--out", "out"});
+  EXPECT_EQ(killed.exit_code, 0) << killed.err;
+  EXPECT_THAT(killed.err, ::testing::HasSubstr("1 members are complete, 0 have failed"));
+  EXPECT_THAT(killed.err, ::testing::HasSubstr("1 did not reach their end"));
+  const auto open = table("out/members.csv").select({{"status", "meshed"}});
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_THAT(open[0].at("reason"), ::testing::HasSubstr("was killed"));
+  const Outcome again = smoothfem({"study", "all.prm", "--out", "out"});
+  EXPECT_THAT(again.err, ::testing::HasSubstr("2 members are complete, 0 have failed"));
+  EXPECT_THAT(smoothfem({"study", "all.prm", "--out", "out"}).err,
+              ::testing::HasSubstr("nothing to do"));
+}
+
+TEST_F(Collections, MembersMayHaveATimeLimit) {
+  write_good_meshes(1);
+  write_study(
+      "set time limit = 2\nset methods = slow\nsubsection method slow\n"
+      " set command = sleep 1000; : {in} {out}\nend\n");
+  const Outcome outcome = smoothfem({"study", "all.prm", "--out", "out", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 2) << "no member is complete";
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("no member of out is complete"));
+  EXPECT_EQ(table("out/members.csv").rows.at(0).at("reason"),
+            "it has taken longer than the time limit of 2 s");
+}
+
+TEST_F(Collections, ChangedMeshFilesAreSeen) {
+  write_good_meshes(2);
+  file_with("meshes/rubbish.vtk", "not a mesh\n");
+  write_study();
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"study", "all.prm", "--out", "out"});
+    return smoothfem(more);
+  };
+  EXPECT_THAT(run({}).err, ::testing::HasSubstr("2 members are complete, 1 have failed"));
+  EXPECT_THAT(run({}).err, ::testing::HasSubstr("nothing to do"));
+  EXPECT_THAT(run({"--retry-failed"}).err,
+              ::testing::HasSubstr("2 members are complete, 1 have failed"));
+  write_mesh(file("meshes/rubbish.vtk"), shaken_grid(3, 0.2));
+  EXPECT_THAT(run({}).err, ::testing::HasSubstr("3 members are complete, 0 have failed"));
+  write_mesh(file("meshes/good1.vtu"), shaken_grid(3, 0.2));
+  const Outcome changed = run({});
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_THAT(changed.err, ::testing::ContainsRegex("other files: .*good1.vtu has changed"));
+}
+
+TEST_F(Collections, FilesMayHaveAnyNames) {
+  write_study("set collection = meshes/*, meshes/...vtk\n");
+  fs::create_directories(file("meshes"));
+  for (const std::string name :
+       {"e'.vtk", "e+.vtk", "e-.vtk", "...vtk", "bin\xff\xfe.vtk", "a\nb.vtk"})
+    write_mesh(file("meshes") / name, shaken_grid(3, 0.2));
+  fs::create_symlink("loop.vtk", file("meshes/loop.vtk"));
+  std::vector<std::string> names;
+  for (const auto& member : read_collection(file("all.prm")).members) names.push_back(member.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"-.", "a-b", "bin--", "meshes-e-.vtk",
+                                             "meshes-e-.vtk.2", "meshes-e-.vtk.3"}));
+  const Outcome outcome = smoothfem({"study", "all.prm", "--out", "out"});
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("6 members are complete, 0 have failed"));
+  EXPECT_EQ(table("out/members.csv").select({{"file", "bin\xEF\xBF\xBD\xEF\xBF\xBD.vtk"}}).size(),
+            1u);
 }
 
 TEST_F(Collections, MethodsThatKnowTheSolutionHaveMeshesOfTheirOwnForEach) {
@@ -234,23 +320,37 @@ TEST_F(Collections, RefusesBadCollections) {
 /// The process that the test below starts.
 TEST(TaskServer, DISABLED_Answers) {
   const std::string socket = own_command().back();
-  answer_tasks(std::stoi(socket.substr(socket.find('=') + 1)), [](const std::string& task) {
+  const int socket_number = std::stoi(socket.substr(socket.find('=') + 1));
+  answer_tasks(socket_number, [&](const std::string& task) {
     if (task == "crash") std::raise(SIGKILL);
     if (task == "end") std::_Exit(3);
     if (task == "throw") throw std::runtime_error("two\nlines");
+    if (task == "lock") throw FolderTaken("taken");
+    if (task == "garbage") EXPECT_EQ(::write(socket_number, "garbage", 7), 7);
+    if (task == "fork") (void)::fork();
+    if (task == "sleep") ::sleep(1000);
     return task + " done";
   });
 }
 
+const std::vector<std::string> task_server{own_command()[0], "--gtest_also_run_disabled_tests",
+                                           "--gtest_filter=TaskServer.*", "--gtest_brief=1",
+                                           "--gtest_print_time=0"};
+
+TaskAnswer answer_of(TaskProcess& process, const std::string& task) {
+  process.give(task);
+  std::optional<TaskAnswer> answer;
+  while (!(answer = process.answer())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return *answer;
+}
+
+std::string text_of(const TaskAnswer& answer) {
+  return answer.outcome + "|" + answer.failure;
+}
+
 TEST(TaskProcess, ACrashingTaskDoesNotAffectOthers) {
-  TaskProcess process({own_command()[0], "--gtest_also_run_disabled_tests",
-                       "--gtest_filter=TaskServer.*", "--gtest_brief=1", "--gtest_print_time=0"});
-  const auto answer_to = [&](const std::string& task) {
-    process.give(task);
-    std::optional<TaskAnswer> answer;
-    while (!(answer = process.answer())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return answer->outcome + "|" + answer->failure;
-  };
+  TaskProcess process(task_server);
+  const auto answer_to = [&](const std::string& task) { return text_of(answer_of(process, task)); };
   EXPECT_EQ(answer_to("first"), "first done|");
   EXPECT_EQ(answer_to("crash"), "|the process that worked on it was killed: Killed");
   EXPECT_EQ(answer_to("second"), "second done|");
@@ -258,6 +358,28 @@ TEST(TaskProcess, ACrashingTaskDoesNotAffectOthers) {
   EXPECT_EQ(answer_to("end"), "|the process that worked on it has ended with exit code 3");
   EXPECT_EQ(answer_to("third"), "third done|");
   EXPECT_EQ(process.answer(), std::nullopt);
+}
+
+TEST(TaskProcess, OnlyAnswersAreTakenForAnswers) {
+  TaskProcess process(task_server);
+  EXPECT_THAT(answer_of(process, "garbage").failure, ::testing::HasSubstr("file descriptor"));
+  EXPECT_EQ(text_of(answer_of(process, "fork")), "fork done|");
+  EXPECT_EQ(text_of(answer_of(process, "next")), "next done|");
+}
+
+TEST(TaskProcess, KnowsWhichFailuresAreNotThoseOfTheTask) {
+  TaskProcess process(task_server);
+  EXPECT_TRUE(answer_of(process, "crash").may_succeed_later);
+  EXPECT_TRUE(answer_of(process, "lock").may_succeed_later);
+  EXPECT_FALSE(answer_of(process, "throw").may_succeed_later);
+  EXPECT_FALSE(answer_of(process, "end").may_succeed_later);
+}
+
+TEST(TaskProcess, EndsTasksThatTakeTooLong) {
+  TaskProcess process(task_server, 0.5);
+  const TaskAnswer answer = answer_of(process, "sleep");
+  EXPECT_EQ(answer.failure, "it has taken longer than the time limit of 0.5 s");
+  EXPECT_FALSE(answer.may_succeed_later);
 }
 
 TEST_F(Collections, OnRanksOfMpirunTheyAreTheSame) {

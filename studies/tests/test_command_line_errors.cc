@@ -263,6 +263,21 @@ TEST_F(BadInput, FolderThatCannotBeMade) {
 TEST_F(BadInput, StudyFile) {
   file_with("bad.prm", "set meshes = m\nset degreesx = 1\n");
   expect_refused({"study", "bad.prm", "--out", "results"}, {"bad.prm:2: "});
+  expect_refused({"study", "bad.prm", "--shard", ""}, {"--shard is empty"});
+  expect_refused({"study", "gear", "--retry-failed"}, {"--retry-failed is for collections"});
+}
+
+TEST_F(BadInput, SmootherName) {
+  for (const std::string& name : {std::string(300, 'a'), std::string(100'000, 'a'),
+                                  std::string("a--b"), std::string("A"), std::string("a-")})
+    expect_refused({"new-smoother", name}, {"cannot be called"});
+}
+
+TEST_F(BadInput, TinyMesh) {
+  file_with("tiny.mesh",
+            "planar_polygonal_mesh\nnodes 3\n0 0\n1e-320 0\n0 1e-320\npolygons 1\n3 0 1 2\n"
+            "fixed_node_indices 0\n");
+  expect_mesh_refused("tiny.mesh", {"tiny.mesh: ", "smaller unit of length"});
 }
 
 TEST_F(BadInput, Generator) {

@@ -78,6 +78,24 @@ TEST_F(CommandLine, DryRunPrintsThePlanAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(file("results")));
 }
 
+TEST_F(CommandLine, LookingAtAStudyRunsNothingOfIt) {
+  write_mesh(file("grid.vtu"), shaken_grid(3, 0.2));
+  file_with("evil.py", "open('ran', 'w')\nclass Mine:\n    def step(self, mesh):\n        pass\n");
+  file_with("evil.prm",
+            "set meshes = m\nset methods = mine, other\nset degrees = 1\n"
+            "subsection mesh m\n set file = grid.vtu\nend\n"
+            "subsection method mine\n set type = python:evil.py:Mine\nend\n"
+            "subsection method other\n set command = cp {in} {out}\n"
+            " set version_command = touch " +
+                file("ran").string() + "\nend\n");
+  for (const std::string option : {"--dry-run", "--print-plan"}) {
+    const Outcome outcome = smoothfem({"study", "evil.prm", option});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(option == "--dry-run" ? "python:evil.py:Mine" : "ranks 1"));
+    EXPECT_FALSE(std::filesystem::exists(file("ran"))) << option;
+  }
+}
+
 TEST_F(CommandLine, EveryHelpHasExamples) {
   for (const std::string command :
        {"study", "smooth", "quality", "generate", "list", "new-smoother"})

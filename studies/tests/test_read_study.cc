@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <regex>
 
@@ -314,6 +316,77 @@ TEST_F(StudyFile, MayNotIncludeItself) {
   const std::string message =
       checked(input_error_of([&] { read("include base.prm\n"); }), file("base.prm"));
   EXPECT_THAT(message, ::testing::HasSubstr("base.prm:2: "));
+}
+
+TEST_F(StudyFile, MayHaveTextOfAnyLength) {
+  const std::string text(100'000, 'a');
+  EXPECT_EQ(read("set title = " + text + "\nset note = " + text + "\n" + one_mesh).header.note,
+            text);
+  std::string seeds;
+  for (int i = 1; i <= 10'000; ++i) seeds += (i > 1 ? "," : "") + std::to_string(i);
+  EXPECT_EQ(read(one_mesh + "set seeds = " + seeds + "\n").meshes.size(), 1u);
+  expect_error_at(5, one_mesh + "set record every = " + text + "\n", "whole number");
+  expect_error_at(5, one_mesh + "set " + text + " = 1\n", "there is no key");
+  expect_error_at(5, one_mesh + text + "\n", "is not a line of a study file");
+}
+
+TEST_F(StudyFile, MayBeginWithAByteOrderMarkAndEndLinesByReturns) {
+  EXPECT_EQ(read("\xEF\xBB\xBFset title = x\n" + one_mesh).header.title, "x");
+  std::string returns = "set title = x\n" + one_mesh;
+  std::replace(returns.begin(), returns.end(), '\n', '\r');
+  EXPECT_EQ(read(returns).header.title, "x");
+}
+
+TEST_F(StudyFile, IsInUtf8OutsideOfComments) {
+  expect_error_at(5, one_mesh + "set title = \xe9\xff\n", "is not UTF-8");
+  EXPECT_EQ(read(one_mesh + "set title = \xc3\xa9 # \xe9\n").header.title, "\xc3\xa9");
+}
+
+TEST_F(StudyFile, IsARegularFile) {
+  ASSERT_EQ(::mkfifo(file("pipe.prm").c_str(), 0600), 0);
+  EXPECT_THAT(input_error_of([&] { read_study(file("pipe.prm")); }),
+              ::testing::HasSubstr("is not a regular file"));
+  for (const std::string endless : {"pipe.prm", "/dev/zero", "/dev/urandom"})
+    expect_error_at(1, "include " + endless + "\n", "cannot read the file");
+}
+
+TEST_F(StudyFile, IncludesSoManyFilesAtMost) {
+  for (int i = 0; i < 20; ++i)
+    file_with(std::to_string(i) + ".prm", i == 0 ? ""
+                                                 : "include " + std::to_string(i - 1) +
+                                                       ".prm\ninclude " + std::to_string(i - 1) +
+                                                       ".prm\n");
+  EXPECT_THAT(input_error_of([&] { read("include 19.prm\n"); }),
+              ::testing::HasSubstr("includes too many files"));
+  EXPECT_EQ(read("include 5.prm\n" + one_mesh).meshes.size(), 1u);
+}
+
+TEST_F(StudyFile, KeysThatOneFileSetsTwiceAreNamed) {
+  file_with("base.prm", "set degrees = 1\nset title = a\n");
+  const StudyText text(file_with("own.prm",
+                                 "include base.prm\nset degrees = 2\nset note = a\n"
+                                 " subsection  solution # of it\nset u\t=x\nset  u = y\n end #\n"
+                                 "set note = b\nset u = z\n"));
+  const auto found = text.repetitions();
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_THAT(found[0], ::testing::HasSubstr("own.prm:6: 'solution/u' is set a second time"));
+  EXPECT_THAT(found[1], ::testing::ContainsRegex("own.prm:8: 'note'.*own.prm:3"));
+}
+
+TEST_F(StudyFile, CanBeLookedAtWithoutRunningItsCode) {
+  const std::string text =
+      one_mesh +
+      "set plugins = none.so\nset methods = laplace, mine, theirs\n"
+      "subsection method mine\n set type = python:none.py:Mine\n set gain = 2\nend\n"
+      "subsection method theirs\n set type = of-the-plugin\n set threads = 2\nend\n";
+  expect_error(text, "none.so");
+  const OnlyLook only_look;
+  const Study study = read(text);
+  ASSERT_EQ(study.methods.size(), 3u);
+  EXPECT_FALSE(study.methods[0].is_stand_in);
+  EXPECT_TRUE(study.methods[1].is_stand_in && study.methods[2].is_stand_in);
+  EXPECT_EQ(study.methods[1].type, "python:none.py:Mine");
+  expect_error_at(5, one_mesh + "set degreesx = 1\n", "degreesx");
 }
 
 TEST_F(StudyFile, MethodParametersOutOfRangeAreFoundWithTheirLine) {

@@ -685,6 +685,29 @@ TEST_F(RunStudy, ForceStartsAnewAndKeepsTheOldFolder) {
   EXPECT_TRUE(fs::exists(file("out_2") / "summary.csv"));
 }
 
+TEST_F(RunStudy, ForceChecksEverythingBeforeItRenamesAFolder) {
+  const fs::path out = run(study());
+  const std::string old = content_of(out / "iterations.csv");
+  const auto refused = [&](const std::string& more) {
+    return input_error_of([&] {
+      run_study(study(more), {.out = out, .mesh_dir = {}, .force = true, .quiet = true});
+    });
+  };
+  EXPECT_NE(refused("subsection solution\n set name = sine\n set natural = group none\nend\n"), "");
+  EXPECT_NE(refused("subsection solution\n set u = 1/(x - x)\nend\n"), "");
+  EXPECT_EQ(content_of(out / "iterations.csv"), old);
+  EXPECT_FALSE(fs::exists(file("out_1")));
+}
+
+TEST_F(RunStudy, NumbersThatOverflowAreRefused) {
+  const auto refused = [&](const std::string& solution) {
+    return input_error_of([&] { run(study("subsection solution\n" + solution + "end\n")); });
+  };
+  EXPECT_THAT(refused(" set u = 1e300*x^3\n"), ::testing::HasSubstr("is above 1e100"));
+  EXPECT_THAT(refused(" set u = x\n set diffusivity = 1e-300\n"),
+              ::testing::HasSubstr("'diffusivity'"));
+}
+
 TEST_F(RunStudy, RefusesFoldersItCannotMake) {
   file_with("regular", "content");
   const std::string message = input_error_of([&] { run(study("set degrees =\n"), "regular/out"); });

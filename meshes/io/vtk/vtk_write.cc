@@ -29,6 +29,7 @@
 #include "meshes/io/node_order.h"
 #include "meshes/io/vtk/vtk_files.h"
 #include "meshes/io/vtk/vtk_messages.h"
+#include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
@@ -247,6 +248,18 @@ vtkStandardNewMacro(StreamingWriter);
 
 }  // namespace
 
+namespace {
+
+/// VTK writes names as they are.
+void escape_names(vtkFieldData& attributes) {
+  for (int i = 0; i < attributes.GetNumberOfArrays(); ++i) {
+    vtkAbstractArray& array = *attributes.GetAbstractArray(i);
+    array.SetName(escaped_for_xml(array.GetName()).c_str());
+  }
+}
+
+}  // namespace
+
 /// Writes to memory first: VTK does not notice every failed write; write_atomically does.
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions&) {
@@ -266,7 +279,10 @@ void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const Me
   writer->SetDataModeToBinary();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToNone();
-  writer->SetInputData(grid_of(mesh, fields));
+  const auto grid = grid_of(mesh, fields);
+  escape_names(*grid->GetPointData());
+  escape_names(*grid->GetCellData());
+  writer->SetInputData(grid);
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     ErrorLatchingFilebuf file(temporary);
     writer->set_buffer(file);

@@ -5,8 +5,29 @@
 
 #include "meshes/io/line_reader.h"
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
+
+std::string escaped_for_xml(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < ' ')
+      throw InputError("the name '" + shortened(text) +
+                       "' has a control character, which XML cannot hold; rename it");
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
 
 namespace {
 

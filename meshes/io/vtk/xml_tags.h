@@ -10,6 +10,10 @@
 
 namespace smoothfem {
 
+/// Returns a text as the value of an attribute. Throws InputError for control characters, which XML
+/// cannot hold.
+std::string escaped_for_xml(const std::string& text);
+
 /// A tag `<name a="1" b="2">`, `</name>` or `<name/>` of the text.
 struct XmlTag {
   std::string_view name;

@@ -41,6 +41,9 @@ void check_solution(const StudySolution& solution) {
 
 /// Throws InputError if a stage with its own record interval belongs to none of the methods.
 void check_stages(const Study& study) {
+  const auto& methods = study.methods;
+  if (std::any_of(methods.begin(), methods.end(), [](const auto& m) { return m.is_stand_in; }))
+    return;
   std::vector<std::string> known;
   with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
     for (const auto& method : study.methods)
@@ -75,7 +78,7 @@ void check_smooth_for(const Study& study) {
       throw InputError(what +
                        ", which is for studies with a list 'solutions' but not for collections; "
                        "take it out, or name the solutions in 'solutions'");
-    if (!method.needs_problem(study.dimensions))
+    if (!method.is_stand_in && !method.needs_problem(study.dimensions))
       throw InputError(what + ", but does not move nodes by a solution; take it out");
     for (const auto& label : method.smooth_for) {
       if (std::find(labels.begin(), labels.end(), label) == labels.end())

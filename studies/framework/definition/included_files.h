@@ -13,7 +13,8 @@ class StudyText {
  public:
   /// Reads the file. Paths of included files are relative to the file that includes them.
   /// Throws InputError if the file cannot be read. If an included file cannot be read or includes
-  /// itself, the message has file and line.
+  /// itself, if there are too many of them, or if a line is not UTF-8, the message has file and
+  /// line.
   explicit StudyText(const std::filesystem::path& file);
 
   const std::string& text() const { return text_; }
@@ -24,6 +25,9 @@ class StudyText {
   StudyText with_text(std::string text) const;
   /// "FILE:LINE" of a line of the text, counted from 1.
   std::string position(std::size_t line) const;
+  /// Returns a sentence for each key that one file sets twice in the same subsection. The last
+  /// value counts. A file may set keys of files that it includes.
+  std::vector<std::string> repetitions() const;
 
  private:
   /// including: the files on the way to this one, the study's first.
@@ -32,6 +36,7 @@ class StudyText {
   std::filesystem::path file_;
   std::string text_;
   std::vector<std::string> positions_;
+  std::size_t n_includes_ = 0;
 };
 
 }  // namespace smoothfem

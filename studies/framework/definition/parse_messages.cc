@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/definition/parse_messages.h"
 
-#include <regex>
+#include <optional>
 #include <sstream>
 
 #include "smoothing/base/find_named.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 
@@ -18,8 +19,27 @@ std::string reason_in(const std::string& message) {
   std::string reason = begin == std::string::npos ? message : message.substr(begin + mark.size());
   reason = reason.substr(0, reason.find("Stacktrace"));
   reason = reason.substr(0, reason.find("\n----"));
-  reason = std::regex_replace(reason, std::regex("\\s+"), " ");
-  return std::regex_replace(reason, std::regex("^ +|[ .]+$"), "");
+  std::istringstream words(reason);
+  std::string result;
+  for (std::string word; words >> word;) result += (result.empty() ? "" : " ") + word;
+  return result.substr(0, result.find_last_not_of(" .") + 1);
+}
+
+/// Returns the text between its begin and its end; nothing if it does not begin and end so. Values
+/// in messages may be long, so there are no regular expressions here: they recurse.
+std::optional<std::string> between(const std::string& text, std::string_view begin,
+                                   std::string_view end) {
+  if (text.size() < begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end))
+    return std::nullopt;
+  return text.substr(begin.size(), text.size() - begin.size() - end.size());
+}
+
+/// Cuts a text in two at the last occurrence of a mark; nothing if there is none.
+std::optional<std::pair<std::string, std::string>> cut_at(const std::string& text,
+                                                          std::string_view mark) {
+  const auto at = text.rfind(mark);
+  if (at == std::string::npos) return std::nullopt;
+  return std::pair{text.substr(0, at), text.substr(at + mark.size())};
 }
 
 /// Names of keys, or of the subsections that contain them.
@@ -69,17 +89,17 @@ std::string bounds_text(const std::string& lower, const std::string& upper) {
 
 /// Returns the required form of a value, from deal.II's description of a pattern.
 std::string pattern_text(const std::string& pattern, const std::string& value) {
-  std::smatch match;
-  if (std::regex_match(pattern, match,
-                       std::regex(R"(\[(Integer range|Double) (.*)\.\.\.(.*) \(inclusive\)\])")))
-    return (match[1] == "Double" ? "a number" : "a whole number") +
-           bounds_text(match[2].str(), match[3].str());
+  for (const auto& [begin, what] :
+       {std::pair{"[Integer range ", "a whole number"}, {"[Double ", "a number"}})
+    if (const auto range = between(pattern, begin, " (inclusive)]"))
+      if (const auto bounds = cut_at(*range, "..."))
+        return what + bounds_text(bounds->first, bounds->second);
   if (pattern.starts_with("[Integer")) return "a whole number";
   if (pattern.starts_with("[Double")) return "a number";
   if (pattern == "[Bool]") return "true or false";
-  if (std::regex_match(pattern, match, std::regex(R"(\[Selection (.*) \])"))) {
+  if (const auto selection = between(pattern, "[Selection ", " ]")) {
     std::vector<std::string> names;
-    std::istringstream choices(match[1].str());
+    std::istringstream choices(*selection);
     for (std::string name; std::getline(choices, name, '|');)
       if (!name.empty()) names.push_back(name);
     return "one of " + joined(names) +
@@ -92,26 +112,24 @@ std::string pattern_text(const std::string& pattern, const std::string& value) {
 }
 
 std::string in_our_words(const std::string& reason, const std::vector<std::string>& keys) {
-  const auto matches = [&](const char* expression, std::smatch& match) {
-    return std::regex_match(reason, match, std::regex(expression));
-  };
-  std::smatch match;
-  if (matches("No entry with name <(.*)> was declared in the current subsection", match))
-    return no_such("key", match[1], names_in(keys, false));
-  if (matches("There is no such subsection to be entered: (.*)", match))
-    return no_such_subsection(match[1], names_in(keys, true));
-  if (matches(
-          "The entry value (.*) for the entry named (.*) does not match the given pattern: (.*)",
-          match))
-    return match[2].str() + " = " + match[1].str() + " is not allowed; it has to be " +
-           pattern_text(match[3], match[1]);
-  if (matches("There are unequal numbers of 'subsection' and 'end'.*", match))
+  if (const auto key =
+          between(reason, "No entry with name <", "> was declared in the current subsection"))
+    return no_such("key", *key, names_in(keys, false));
+  if (const auto name = between(reason, "There is no such subsection to be entered: ", ""))
+    return no_such_subsection(*name, names_in(keys, true));
+  if (const auto entry = between(reason, "The entry value ", ""))
+    if (const auto form = cut_at(*entry, " does not match the given pattern: "))
+      if (const auto pair = cut_at(form->first, " for the entry named "))
+        return pair->second + " = " + shortened(pair->first) + " is not allowed; it has to be " +
+               pattern_text(form->second, pair->first);
+  if (reason.starts_with("There are unequal numbers of 'subsection' and 'end'"))
     return "a subsection has no end; write 'end' below the keys of each";
-  if (matches("There is no subsection to leave here", match))
+  if (reason == "There is no subsection to leave here")
     return "this 'end' ends no subsection; remove it";
-  if (matches("The line <(.*)> could not be parsed.*", match))
-    return "the line '" + match[1].str() +
-           "' is not a line of a study file; begin it with set, subsection, end, include or #";
+  if (const auto line = between(reason, "The line <", ""))
+    if (const auto text = cut_at(*line, "> could not be parsed"))
+      return "the line '" + shortened(text->first) +
+             "' is not a line of a study file; begin it with set, subsection, end, include or #";
   return reason;
 }
 
@@ -120,10 +138,11 @@ std::string in_our_words(const std::string& reason, const std::vector<std::strin
 InputError parse_error(const StudyText& text, const std::string& message,
                        const std::vector<std::string>& keys) {
   std::string reason = reason_in(message), position = text.file().string();
-  std::smatch match;
-  if (std::regex_match(reason, match, std::regex("Line <([0-9]+)> of file <[^>:]*>?: ?(.*)"))) {
-    position = text.position(std::stoul(match[1]));
-    reason = match[2].str();
+  // deal.II writes "Line <12> of file <this file>: reason", for some reasons without the last '>'.
+  const std::string begin = "Line <", middle = std::string("> of file <") + study_file_in_messages;
+  if (const auto at = reason.find(middle); reason.starts_with(begin) && at != reason.npos) {
+    position = text.position(std::stoul(reason.substr(begin.size())));
+    reason.erase(0, reason.find_first_not_of(">: ", at + middle.size()));
   }
   return InputError(position + ": " + in_our_words(reason, keys));
 }

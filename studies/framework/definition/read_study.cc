@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <sstream>
 
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
@@ -86,7 +87,7 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 
 StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
                                 const std::string& name, const std::string& type,
-                                const std::filesystem::path& folder) {
+                                const std::filesystem::path& folder, bool is_stand_in) {
   const Subsection subsection(p, "method " + name);
   StudyMethod method{.name = name,
                      .type = type,
@@ -94,7 +95,8 @@ StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
                      .threads = static_cast<int>(p.get_integer("threads")),
                      .smooth_for = split_list(p.get("smooth for")),
                      .settings = {},
-                     .folder = folder};
+                     .folder = folder,
+                     .is_stand_in = is_stand_in};
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
     auto defaults = method.make<dim, spacedim>();
     for (const auto& parameter : defaults.parameters())
@@ -286,6 +288,7 @@ MeshDimensions read_dimensions(ParameterHandler& p, const StudyText& text,
 
 template <int dim, int spacedim>
 Method<dim, spacedim> StudyMethod::make() const {
+  if (is_stand_in) return {.info = {.name = type, .title = title}, .stages = {}};
   auto method = make_method<dim, spacedim>(method_name_in(folder, type));
   for (const auto& [parameter, value] : settings) method.set(parameter, value);
   return method;
@@ -310,6 +313,55 @@ Study read_study(const std::filesystem::path& file, const std::string& scale) {
   return study_of_text(StudyText(file), scale);
 }
 
+namespace {
+
+int& n_looking() {
+  static int n = 0;
+  return n;
+}
+
+/// True if the method's code is in a file that the study names and that is not to be run.
+bool is_not_run(const std::string& type, bool has_plugins) {
+  if (!OnlyLook::is_on()) return false;
+  if (method_in_file(type)) return true;
+  const auto known = method_catalogue(true);
+  return has_plugins && std::none_of(known.begin(), known.end(),
+                                     [&](const MethodInfo& info) { return info.name == type; });
+}
+
+/// Declares the subsection of a method whose parameters are not known: with any keys that it has.
+void declare_stand_in(ParameterHandler& p, const StudyText& text, const std::string& method) {
+  const Subsection subsection(p, "method " + method);
+  for (const std::string key : {"type", "title"})
+    p.declare_entry(key, method, dealii::Patterns::Anything());
+  p.declare_entry("threads", "0", dealii::Patterns::Integer(0));
+  p.declare_entry("smooth for", "", dealii::Patterns::Anything());
+  std::istringstream lines(text.text());
+  std::vector<std::string> sections;
+  for (std::string line; std::getline(lines, line);) {
+    const StudyLine read = study_line(line);
+    if (read.kind == StudyLine::Kind::subsection) sections.push_back(read.name);
+    if (read.kind == StudyLine::Kind::end && !sections.empty()) sections.pop_back();
+    const bool is_inside = sections.size() == 1 && sections.front() == "method " + method;
+    const bool is_declared = read.name == "type" || read.name == "title" ||
+                             read.name == "threads" || read.name == "smooth for";
+    if (read.kind == StudyLine::Kind::set && is_inside && !is_declared)
+      p.declare_entry(read.name, "", dealii::Patterns::Anything());
+  }
+}
+
+}  // namespace
+
+OnlyLook::OnlyLook() {
+  ++n_looking();
+}
+OnlyLook::~OnlyLook() {
+  --n_looking();
+}
+bool OnlyLook::is_on() {
+  return n_looking() > 0;
+}
+
 Study study_of_text(const StudyText& text, const std::string& scale) {
   const std::filesystem::path& file = text.file();
   // The lists and the methods' types determine which subsections exist. So the lists are read
@@ -319,9 +371,11 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
   parse_study(lists, text, true);
   const auto meshes = split_list(lists.get("meshes"));
   const MeshDimensions dimensions = read_dimensions(lists, text, meshes);
+  const auto plugins = split_list(lists.get("plugins"));
   in_file(file, [&] {
-    for (const std::filesystem::path plugin : split_list(lists.get("plugins")))
-      load_plugin(plugin.is_relative() ? file.parent_path() / plugin : plugin);
+    for (const std::filesystem::path plugin : plugins)
+      if (!OnlyLook::is_on())
+        load_plugin(plugin.is_relative() ? file.parent_path() / plugin : plugin);
   });
   const auto methods = method_labels(lists.get("methods"), dimensions);
   const auto solutions = split_list(lists.get("solutions"));
@@ -349,9 +403,12 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
       type = types.get("type");
       if (type == method && !types.get("command").empty()) type = "command";
     }
-    in_file(file, [&] {
-      declare_method(p, dimensions, method, type, lists.get("preset"), file.parent_path());
-    });
+    if (is_not_run(type, !plugins.empty()))
+      declare_stand_in(p, text, method);
+    else
+      in_file(file, [&] {
+        declare_method(p, dimensions, method, type, lists.get("preset"), file.parent_path());
+      });
     type_of[method] = type;
   }
   parse_study(p, text, false);
@@ -371,7 +428,8 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
   in_file(file, [&] { study.meshes = for_each_seed(study.meshes, read_seeds(p.get("seeds"))); });
   for (const auto& method : methods)
     study.methods.push_back(in_file(file, [&] {
-      return read_method_section(p, dimensions, method, type_of[method], file.parent_path());
+      return read_method_section(p, dimensions, method, type_of[method], file.parent_path(),
+                                 is_not_run(type_of[method], !plugins.empty()));
     }));
   read_problem(p, file.string(), study);
   in_file(file, [&] { check_study(study); });

@@ -58,6 +58,7 @@ struct StudyMethod {
   std::vector<std::string> smooth_for{};
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
   std::filesystem::path folder{};   ///< of the study file, which a method's file is relative to
+  bool is_stand_in = false;         ///< read by OnlyLook: without its code it cannot smooth
   std::vector<MethodFile> files{};  ///< programs, scripts, plugins: filled when the study runs
   std::string version{};            ///< that the program reports
 
@@ -118,6 +119,16 @@ struct Study {
 
 /// Returns all solutions of a study. The solution of the records is the first.
 std::vector<const StudySolution*> solutions_of(const Study& study);
+
+/// While one lives, this process reads studies without running code that they name: methods in
+/// files and plugins. Such methods are stand-ins, whose parameters are not checked.
+class OnlyLook {
+ public:
+  OnlyLook();
+  ~OnlyLook();
+  OnlyLook(const OnlyLook&) = delete;
+  static bool is_on();
+};
 
 /// Reads a study from a parameter file (deal.II's ParameterHandler format). scale: applies the
 /// subsection `scale NAME`; empty: no scale.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "smoothing/base/find_named.h"
@@ -16,12 +15,24 @@ namespace smoothfem {
 using dealii::ParameterHandler;
 
 std::string read_study_text(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
-    throw InputError(file.string() + ": cannot read this study file; check its path");
-  return text.str() + "\n";
+  // Pipes and devices may have no end.
+  std::error_code ignored;  // a missing file cannot be opened
+  const auto status = std::filesystem::status(file, ignored);
+  std::ifstream stream;
+  if (std::filesystem::is_regular_file(status)) stream.open(file);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  const bool is_there = std::filesystem::exists(status);
+  if (!stream.is_open() || stream.bad())
+    throw InputError(file.string() + (is_there && !std::filesystem::is_regular_file(status)
+                                          ? ": this is not a regular file; give a study file"
+                                          : ": cannot read this study file; check its path"));
+  std::string text = content.str() + "\n";
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  if (text.find('\n') + 1 == text.size())  // lines may end by '\r' alone
+    std::replace(text.begin(), text.end(), '\r', '\n');
+  return text;
 }
 
 namespace {
@@ -40,18 +51,32 @@ void refuse_keys_as_subsections(ParameterHandler& p, const StudyText& text) {
   int depth = 0, number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::string first, name;
-    words >> first >> name;
-    for (std::string word; words >> word;) name += " " + word;
-    if (first == "end") --depth;
-    if (first != "subsection") continue;
-    if (depth++ == 0 && std::find(keys.begin(), keys.end(), name) != keys.end())
+    const StudyLine read = study_line(line);
+    if (read.kind == StudyLine::Kind::end) --depth;
+    if (read.kind != StudyLine::Kind::subsection) continue;
+    if (depth++ == 0 && std::find(keys.begin(), keys.end(), read.name) != keys.end())
       throw parse_error(text,
                         "Line <" + std::to_string(number) + "> of file <" + study_file_in_messages +
-                            ">: There is no such subsection to be entered: " + name,
+                            ">: There is no such subsection to be entered: " + read.name,
                         keys);
   }
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blanks = " \t\r";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Returns the words of a text with single blanks between them.
+std::string with_single_blanks(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    const bool is_blank = c == ' ' || c == '\t';
+    if (!is_blank || !result.ends_with(' ')) result += is_blank ? ' ' : c;
+  }
+  return result;
 }
 
 }  // namespace
@@ -67,9 +92,13 @@ void parse_study(ParameterHandler& p, const StudyText& text, bool skip_undefined
 }
 
 void check_label(const std::string& label, const std::string& what, const std::string& file) {
-  static const std::regex allowed("[A-Za-z0-9._-]+");
-  if (!std::regex_match(label, allowed))
-    throw InputError(file + ": the " + what + " label '" + label +
+  const bool is_allowed =
+      !label.empty() && label != "." && label != ".." &&
+      std::all_of(label.begin(), label.end(), [](unsigned char c) {
+        return (c < 0x80 && std::isalnum(c) != 0) || c == '.' || c == '_' || c == '-';
+      });
+  if (!is_allowed)
+    throw InputError(file + ": the " + what + " label '" + shortened(label) +
                      "' may only have letters, digits, '.', '_' and '-'");
 }
 
@@ -81,26 +110,30 @@ void require_scale(const std::string& scale, const std::vector<std::string>& kno
                                   : choose_one_of(known, scale) + ", or leave --scale out"));
 }
 
+StudyLine study_line(std::string_view line) {
+  line = trimmed(line.substr(0, line.find('#')));
+  const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+  const std::string_view rest = trimmed(line.substr(word.size()));
+  if (line == "end") return {StudyLine::Kind::end};
+  if (word == "subsection") return {StudyLine::Kind::subsection, with_single_blanks(rest)};
+  const auto equals = rest.find('=');
+  if (word != "set" || equals == std::string_view::npos) return {};
+  return {StudyLine::Kind::set, with_single_blanks(trimmed(rest.substr(0, equals))),
+          std::string(trimmed(rest.substr(equals + 1)))};
+}
+
 StudyParameters all_parameters(ParameterHandler& p) {
-  // Compiled once, because studies have hundreds of lines and `list` reads all studies.
-  static const std::regex begin("\\s*subsection (.*)"), end("\\s*end\\s*"),
-      set("\\s*set (.*?)\\s*=\\s*(.*)");
   StudyParameters result;
   std::ostringstream text;
   p.print_parameters(text, ParameterHandler::ShortPRM);
   std::istringstream lines(text.str());
-  std::vector<std::string> prefix;
+  std::vector<std::string> prefix{""};
   for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (std::regex_match(line, match, begin))
-      prefix.push_back(match[1].str() + "/");
-    else if (std::regex_match(line, end))
-      prefix.pop_back();
-    else if (std::regex_match(line, match, set)) {
-      std::string key;
-      for (const auto& part : prefix) key += part;
-      result.emplace_back(key + match[1].str(), match[2].str());
-    }
+    const StudyLine read = study_line(line);
+    if (read.kind == StudyLine::Kind::subsection) prefix.push_back(prefix.back() + read.name + "/");
+    if (read.kind == StudyLine::Kind::end) prefix.pop_back();
+    if (read.kind == StudyLine::Kind::set)
+      result.emplace_back(prefix.back() + read.name, read.value);
   }
   return result;
 }

@@ -53,6 +53,16 @@ void check_label(const std::string& label, const std::string& what, const std::s
 void require_scale(const std::string& scale, const std::vector<std::string>& known,
                    const std::string& file);
 
+/// A line of a study file, without its comment and without blanks around its parts.
+struct StudyLine {
+  enum class Kind { subsection, end, set, other } kind = Kind::other;
+  std::string name{};   ///< of the subsection, with single blanks, or of the key
+  std::string value{};  ///< of the key
+};
+
+/// Reads a line of any length, as deal.II does.
+StudyLine study_line(std::string_view line);
+
 /// Returns all keys with their present values.
 StudyParameters all_parameters(dealii::ParameterHandler& p);
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 
@@ -25,23 +28,16 @@ inline std::vector<std::string> csv_fields(const std::string& line) {
   return fields;
 }
 
-/// Lines of comma-separated fields. Numbers have the shortest form that reads back as the same
-/// number.
+/// Lines of comma-separated fields in UTF-8; other bytes become U+FFFD. Numbers have the shortest
+/// form that reads back as the same number.
 class CsvText {
  public:
   explicit CsvText(const std::string& header) : text_(header + "\n") {}
 
   CsvText& field(const std::string& value) {
-    if (!first_) text_ += ',';
-    first_ = false;
-    if (value.find_first_of(",\"\n") == std::string::npos) {
-      text_ += value;
-      return *this;
-    }
-    text_ += '"';
-    for (const char c : value) text_ += c == '"' ? std::string("\"\"") : std::string(1, c);
-    text_ += '"';
-    return *this;
+    const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+    return std::all_of(value.begin(), value.end(), is_ascii) ? utf8_field(value)
+                                                             : utf8_field(as_utf8(value));
   }
   CsvText& number(double value) {
     char buffer[32];
@@ -56,6 +52,19 @@ class CsvText {
   std::string text() const { return text_; }
 
  private:
+  CsvText& utf8_field(const std::string& value) {
+    if (!first_) text_ += ',';
+    first_ = false;
+    if (value.find_first_of(",\"\n") == std::string::npos) {
+      text_ += value;
+      return *this;
+    }
+    text_ += '"';
+    for (const char c : value) text_ += c == '"' ? std::string("\"\"") : std::string(1, c);
+    text_ += '"';
+    return *this;
+  }
+
   std::string text_;
   bool first_ = true;
 };

@@ -44,8 +44,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   const std::string owner = is_taken ? owner_of_lock(descriptor_) : "";
   ::close(std::exchange(descriptor_, -1));
   if (is_taken)
-    throw InputError(owner + " is writing its results into " + folder.string() +
-                     "; wait until it has ended, or take another --out");
+    throw FolderTaken(owner + " is writing its results into " + folder.string() +
+                      "; wait until it has ended, or take another --out");
 }
 
 FolderLock::~FolderLock() {

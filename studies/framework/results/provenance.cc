@@ -13,6 +13,7 @@
 
 #include "smoothfem_commit.h"
 #include "smoothfem_versions.h"
+#include "smoothing/base/text.h"
 #include "smoothing/loop/method_scheme.h"
 #include "smoothing/simd/registers.h"
 
@@ -165,6 +166,8 @@ std::string provenance_json(const RunFacts& facts) {
   json["written"] = now_utc();
   json["scale"] = facts.study.scale.empty() ? "default" : facts.study.scale;
   json["built_in"] = facts.study.built_in;
+  if (!facts.shard.empty()) json["shard"] = facts.shard;
+  if (!facts.members.empty()) json["members"] = facts.members;
   json["program"] = describe_program();
   json["machine"] = describe_machine(facts);
   json["meshes"] = describe_meshes(facts);
@@ -175,7 +178,8 @@ std::string provenance_json(const RunFacts& facts) {
   json["settings"] = settings_of(facts.study, facts.meshes, facts.methods);
   json["sessions"] = describe_sessions(facts);
   json["seconds"] = seconds_of(json["sessions"]);
-  return json.dump(2) + "\n";
+  // Names of files may be no UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 EarlierRun read_provenance(const std::filesystem::path& path) {
@@ -206,14 +210,14 @@ std::map<std::string, std::string> settings_of(const StudyHeader& study,
                                               study.file_parameters.end());
   settings["--scale"] = study.scale;
   for (const auto& mesh : meshes) {
-    settings["source of mesh " + mesh.description.name] = mesh.setting;
+    settings["source of mesh " + mesh.description.name] = as_utf8(mesh.setting);
     if (!mesh.source_sha256.empty())
       settings["content of mesh " + mesh.description.name] = mesh.source_sha256;
   }
   if (meshes.empty()) return settings;
   for (const auto& method : methods)
     for (const auto& file : method.files)
-      settings["content of method " + method.name + ", " + file.name] = file.sha256;
+      settings["content of method " + method.name + ", " + as_utf8(file.name)] = file.sha256;
   return settings;
 }
 

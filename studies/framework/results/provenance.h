@@ -26,6 +26,8 @@ struct RunFacts {
   MeshDimensions dimensions{};
   std::vector<MeshFacts> meshes{};
   std::vector<StudyMethod> methods{};  ///< for meshes of these dimensions
+  std::string shard{};                 ///< of a collection, for example "3/10"; empty: all
+  std::map<std::string, std::string> members{};  ///< member -> mesh, of all shards
 };
 
 /// Returns the text of provenance.json: commit, compiler, versions, machine, seeds, parameters in

@@ -21,8 +21,8 @@ void require_published_files(const Study& study, const fs::path& mesh_dir) {
                    " names a published file; leave it out or set 'published file' for a mesh");
 }
 
-void move_old_results(const fs::path& folder) {
-  if (!fs::exists(folder) || fs::is_empty(folder)) return;
+std::string move_old_results(const fs::path& folder) {
+  if (!fs::exists(folder) || fs::is_empty(folder)) return {};
   fs::path plain = folder;
   if (!plain.has_filename()) plain = plain.parent_path();
   fs::path other;
@@ -35,6 +35,7 @@ void move_old_results(const fs::path& folder) {
   if (error)
     throw InputError("cannot rename " + plain.string() + " to " + other.string() + ": " +
                      error.message());
+  return "The earlier results are now in " + other.string() + ".";
 }
 
 void make_results_folder(const fs::path& folder, std::optional<FolderLock>& lock) {
@@ -44,8 +45,8 @@ void make_results_folder(const fs::path& folder, std::optional<FolderLock>& lock
   lock.reset();  // a process cannot take over its own lock
   lock.emplace(folder);
   if (!read_provenance(folder / "provenance.json").status.empty())
-    throw InputError("another run has begun to write its results into " + folder.string() +
-                     " in the meantime; start this one again, or take another --out");
+    throw FolderTaken("another run has begun to write its results into " + folder.string() +
+                      " in the meantime; start this one again, or take another --out");
 }
 
 void check_settings_match(const EarlierRun& earlier, const StudyHeader& study,

@@ -16,8 +16,9 @@ void require_writable(const std::filesystem::path& folder);
 /// Throws InputError if --mesh-dir is set but no mesh of the study names a published file.
 void require_published_files(const Study& study, const std::filesystem::path& mesh_dir);
 
-/// Renames the folder to the first free name of NAME_1, NAME_2, ..., if it holds anything.
-void move_old_results(const std::filesystem::path& folder);
+/// Renames the folder to the first free name of NAME_1, NAME_2, ..., if it holds anything. Returns
+/// a sentence with the new name, or nothing.
+std::string move_old_results(const std::filesystem::path& folder);
 
 /// Makes the folder of a run that has no results yet, and locks it. The earlier lock was for a
 /// missing or renamed folder. Throws InputError if another run has begun there in the meantime.

@@ -77,7 +77,7 @@ void Progress::end() {
 }
 
 void Progress::say(const std::string& text) {
-  if (quiet_) return;
+  if (quiet_ || text.empty()) return;
   clear_line();
   std::fprintf(stderr, "%s\n", text.c_str());
 }

@@ -25,7 +25,7 @@ class Progress {
   void update(std::size_t done, const std::string& what, std::optional<double> seconds_left = {});
   /// Ends the phase and prints how long it took.
   void end();
-  /// Prints a line.
+  /// Prints a line; nothing for an empty text.
   void say(const std::string& text);
 
  private:

@@ -45,8 +45,7 @@ class StudyRun {
     require_writable(options_.out);
     require_published_files(study_, options_.mesh_dir);
     lock_.emplace(options_.out);
-    if (options_.force) move_old_results(options_.out);
-    earlier_ = read_provenance(options_.out / "provenance.json");
+    if (!options_.force) earlier_ = read_provenance(options_.out / "provenance.json");
     check_settings_match(earlier_, study_.header, {}, {}, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
@@ -135,6 +134,7 @@ class StudyRun {
   /// one.
   void begin_writing() {
     writing_ = true;
+    if (options_.force) progress_.say(move_old_results(options_.out));
     if (earlier_.status.empty()) {
       make_results_folder(options_.out, lock_);
       data_.checkpoint.remove();  // of a run whose provenance is missing
@@ -418,9 +418,9 @@ void run_study(const Study& study, const StudyOptions& options) {
   if (!options.ranks.is_root())
     return options.dry_run ? void() : serve_solves(study, options.ranks);
   Study taken = study;
-  note_files(taken);
   if (!options.mesh_dir.empty()) taken.meshes = without_published_repetitions(taken.meshes);
-  if (options.dry_run) return print_plan(taken, options);
+  if (options.dry_run) return print_plan(taken, options);  // before commands say their version
+  note_files(taken);
   with_dimensions(study.dimensions,
                   [&]<int dim, int spacedim>() { StudyRun<dim, spacedim>(taken, options).run(); });
 }

@@ -19,6 +19,7 @@ struct StudyOptions {
   std::filesystem::path out;       ///< folder of the results; made if it is not there
   std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
   bool force = false;              ///< start anew; the folder of an earlier run is renamed
+  bool retry_failed = false;       ///< also the members of a collection that have failed
   bool quiet = false;
   RunUntil until = RunUntil::results;     ///< of studies of smoothing methods
   bool initial_meshes_are_there = false;  ///< in `out`, although no run has begun there

@@ -29,8 +29,8 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
     throw InputError("--mesh-dir is given, but the study " + study.name +
                      " has no meshes; leave it out");
   std::optional<FolderLock> lock(options.out);
-  if (options.force) move_old_results(options.out);
-  const EarlierRun earlier = read_provenance(options.out / "provenance.json");
+  const EarlierRun earlier =
+      options.force ? EarlierRun{} : read_provenance(options.out / "provenance.json");
   check_settings_match(earlier, study, {}, {}, options.out);
 
   Progress progress(options.quiet);
@@ -40,6 +40,7 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
                  "name.");
     return;
   }
+  if (options.force) progress.say(move_old_results(options.out));
   if (earlier.status.empty()) make_results_folder(options.out, lock);
   PhaseTimes times;
   const std::string started = now_utc();

@@ -45,6 +45,8 @@ struct Collection {
   /// along its longest side.
   std::map<std::string, StudySolution> solutions;
   std::vector<Member> members;  ///< sorted by name
+  /// Seconds that a member may take for each phase of run_collection; 0: no limit.
+  double time_limit = 0.0;
 };
 
 /// Reads a study file of the kind `collection`. Throws InputError as read_study does, for patterns

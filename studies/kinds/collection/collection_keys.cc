@@ -2,7 +2,6 @@
 #include "studies/kinds/collection/collection_keys.h"
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
 
 #include "studies/framework/definition/study_keys.h"
@@ -25,21 +24,20 @@ class OwnLines {
 
   /// True if the next line belongs to the collection alone.
   bool operator()(const std::string& line) {
-    static const std::regex begin("\\s*subsection\\s+(.*?)\\s*(#.*)?"), end("\\s*end\\s*(#.*)?"),
-        set("\\s*set\\s+(.*?)\\s*=.*");
     const bool goes_on = continues_;
     continues_ = line.ends_with('\\');
     if (goes_on) return own_line_;
-    std::smatch match;
     own_line_ = inside_own_solution();
-    if (std::regex_match(line, match, begin)) {
-      sections_.push_back(std::regex_replace(match[1].str(), std::regex("\\s+"), " "));
+    const StudyLine read = study_line(line);
+    if (read.kind == StudyLine::Kind::subsection) {
+      sections_.push_back(read.name);
       own_line_ = inside_own_solution();
-    } else if (std::regex_match(line, end)) {
+    } else if (read.kind == StudyLine::Kind::end) {
       if (!sections_.empty()) sections_.pop_back();
-    } else if (std::regex_match(line, match, set) && has_own_keys()) {
-      own_line_ = own_line_ || contains(collection_lists, match[1]) ||
-                  (sections_.empty() && (match[1] == "kind" || match[1] == "write meshes"));
+    } else if (read.kind == StudyLine::Kind::set && has_own_keys()) {
+      own_line_ =
+          own_line_ || contains(collection_lists, read.name) ||
+          (sections_.empty() && contains({"kind", "write meshes", "time limit"}, read.name));
     }
     return own_line_;
   }
@@ -88,6 +86,9 @@ void declare_collection(ParameterHandler& p) {
                   "has a subsection 'solution NAME'. Empty: the one of the subsection 'solution'.");
   p.declare_entry("write meshes", "false", Patterns::Bool(),
                   "Write the resulting meshes of every member, too.");
+  p.declare_entry("time limit", "0", Patterns::Double(0.0),
+                  "Largest time, in seconds, that a member may take for each of its mesh, its "
+                  "smoothing and its finite elements; a slower one fails. 0: no limit.");
 }
 
 void declare_collection_scale(ParameterHandler& p, const std::string& scale) {

@@ -24,7 +24,8 @@ std::vector<fs::path> matching_files(const fs::path& pattern) {
   std::vector<fs::path> files;
   if (outcome == 0)
     for (std::size_t i = 0; i < found.gl_pathc; ++i)
-      if (fs::is_regular_file(found.gl_pathv[i])) files.emplace_back(found.gl_pathv[i]);
+      if (std::error_code not_there; fs::is_regular_file(found.gl_pathv[i], not_there))
+        files.emplace_back(found.gl_pathv[i]);
   ::globfree(&found);
   if (files.empty())
     throw InputError("'collection' names " + pattern.string() +
@@ -33,15 +34,31 @@ std::vector<fs::path> matching_files(const fs::path& pattern) {
   return files;
 }
 
-/// Keeps letters, digits, '.', '_' and '-', and replaces anything else by '-'.
+/// Keeps letters, digits, '.', '_' and '-', and replaces anything else by '-', also a '.' at the
+/// beginning: labels are names of folders.
 std::string label_of(std::string text) {
   for (char& c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
+  if (text.starts_with('.')) text.front() = '-';
   return text;
 }
 
+/// Numbers labels that occur several times: a, a.2, a.3.
+void number_equal_labels(std::vector<Member>& members) {
+  std::set<std::string> taken;
+  for (const auto& member : members) taken.insert(member.name);
+  std::map<std::string, int> n_called;
+  for (auto& member : members) {
+    int& n = n_called[member.name];
+    if (++n == 1) continue;
+    while (taken.contains(member.name + "." + std::to_string(n))) ++n;
+    member.name += "." + std::to_string(n);
+    taken.insert(member.name);
+  }
+}
+
 /// Makes one member per file. Files with the same name get their folder, and if
-/// necessary their extension, as part of their name.
+/// necessary their extension, or a number, as part of their name.
 std::vector<Member> file_members(const std::vector<fs::path>& files) {
   std::map<std::string, int> n_called, n_in_folder;
   for (const auto& file : files) {
@@ -57,10 +74,11 @@ std::vector<Member> file_members(const std::vector<fs::path>& files) {
       if (n_in_folder[label] > 1) label = label_of(folder / file.filename());
     }
     Member member{.name = label, .family = folder, .mesh = {}, .solution = {}};
-    member.mesh.name = member.mesh.title = label;
     member.mesh.file = file;
     members.push_back(std::move(member));
   }
+  number_equal_labels(members);
+  for (auto& member : members) member.mesh.name = member.mesh.title = member.name;
   return members;
 }
 
@@ -160,6 +178,10 @@ std::vector<Member> with_solutions(const std::vector<Member>& meshes,
   return members;
 }
 
+std::string origin_of(const Member& member) {
+  return member.mesh.file.empty() ? "the domain " + member.mesh.domain : member.mesh.file.string();
+}
+
 }  // namespace
 
 std::vector<Member> expand_members(ParameterHandler& p, const fs::path& folder) {
@@ -183,8 +205,9 @@ std::vector<Member> expand_members(ParameterHandler& p, const fs::path& folder) 
       std::adjacent_find(members.begin(), members.end(),
                          [](const Member& a, const Member& b) { return a.name == b.name; });
   if (twice != members.end())
-    throw InputError("the collection has two members of the name " + twice->name +
-                     "; name each size, distortion, solution and file once");
+    throw InputError("the collection has two members of the name " + twice->name + " (" +
+                     origin_of(*twice) + ", and " + origin_of(*std::next(twice)) +
+                     "); name each size, distortion, solution and file once");
   return members;
 }
 

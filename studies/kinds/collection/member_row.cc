@@ -27,7 +27,9 @@ std::string header(const std::vector<std::string>& columns) {
 void add_fields(CsvText& csv, const std::vector<std::string>& columns, const MemberRow& row) {
   for (const auto& column : columns) {
     const auto found = row.find(column);
-    csv.field(found == row.end() ? "" : found->second);
+    std::string value = found == row.end() ? "" : found->second;
+    std::replace(value.begin(), value.end(), '\n', ' ');  // of a file's name; rows are lines
+    csv.field(value);
   }
 }
 
@@ -139,6 +141,15 @@ std::vector<MemberRow> read_rows(const fs::path& out) {
   std::sort(rows.begin(), rows.end(),
             [](const auto& a, const auto& b) { return a.at("member") < b.at("member"); });
   return rows;
+}
+
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+    text += (i == 0 ? "" : ", ") + names[i];
+  const std::size_t n_others = names.size() > most ? names.size() - most : 0;
+  return n_others > 0 ? text + " and " + std::to_string(n_others) + " others" : text;
 }
 
 void write_collected_tables(const fs::path& out, const std::vector<MemberRow>& rows) {

@@ -38,6 +38,9 @@ MemberRow read_row(const std::filesystem::path& folder);
 /// Returns the rows of all members that have a folder, sorted by name.
 std::vector<MemberRow> read_rows(const std::filesystem::path& out);
 
+/// Returns "a, b, c, d, e and 3 others".
+std::string some_of(const std::vector<std::string>& names);
+
 /// Writes members.csv. From the tables of complete members it writes iterations.csv, summary.csv
 /// and any others of the known names. It needs memory for one line at a time. Throws InputError if
 /// tables have different columns.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/kinds/collection/member_study.h"
 
+#include <array>
 #include <cstdio>
-#include <regex>
 
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
@@ -93,12 +93,22 @@ StudyParameters own_parameters(const Study& study) {
 
 std::string in_box(const std::string& formula, const Eigen::AlignedBox3d& box) {
   const double length = box.sizes().maxCoeff();
-  std::string result = formula;
-  for (int d = 0; d < 3; ++d) {
-    const std::string by =
+  std::array<std::string, 3> by;
+  for (int d = 0; d < 3; ++d)
+    by[static_cast<std::size_t>(d)] =
         box.sizes()[d] > 0.0 ? scaled(static_cast<char>('x' + d), box.min()[d], length) : "0";
-    result = std::regex_replace(result, std::regex(std::string("\\b") + "XYZ"[d] + "\\b"), by);
+  std::string result, word;
+  for (const char c : formula + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+      word += c;
+      continue;
+    }
+    const bool is_coordinate = word == "X" || word == "Y" || word == "Z";
+    result += is_coordinate ? by[static_cast<std::size_t>(word.front() - 'X')] : word;
+    result += c;
+    word.clear();
   }
+  result.pop_back();
   return result;
 }
 

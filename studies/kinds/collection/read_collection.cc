@@ -112,6 +112,10 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
   collection.header = collection.common.begin()->second.header;
   collection.header.parameters = joined_parameters(all_parameters(p), collection.header.parameters);
   collection.header.file_parameters = joined_parameters(said, collection.header.file_parameters);
+  // Results do not depend on it, and it may be raised for members that have failed.
+  std::erase_if(collection.header.file_parameters,
+                [](const auto& entry) { return entry.first == "time limit"; });
+  collection.time_limit = p.get_double("time limit");
   return collection;
 }
 

@@ -12,6 +12,7 @@
 #include "studies/framework/results/folder_lock.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
+#include "studies/framework/results/sha256.h"
 #include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
 #include "studies/kinds/collection/member_row.h"
@@ -67,10 +68,17 @@ double size_of(const MemberRow& row) {
   return n_cells == row.end() || n_cells->second.empty() ? 1.0 : std::stod(n_cells->second);
 }
 
+std::map<std::string, std::string> meshes_of(const std::vector<Member>& members) {
+  std::map<std::string, std::string> meshes;
+  for (const auto& member : members) meshes[member.name] = member.mesh.name;
+  return meshes;
+}
+
 class CollectionRun {
  public:
   CollectionRun(const Collection& collection, const StudyOptions& options)
       : collection_(collection),
+        header_(collection.header),
         options_(options),
         n_processes_(options.ranks.size() > 1 ? static_cast<unsigned int>(options.ranks.size())
                                               : options.threads()),
@@ -81,17 +89,20 @@ class CollectionRun {
   }
 
   void run() {
-    team_.emplace(options_.ranks, n_processes_);
+    team_.emplace(options_.ranks, n_processes_, collection_.time_limit);
     require_writable(options_.out);
     lock_.emplace(options_.out);
-    if (options_.force) move_old_results(options_.out);
-    earlier_ = read_provenance(options_.out / "provenance.json");
+    if (!options_.force) earlier_ = read_provenance(options_.out / "provenance.json");
     check_settings_match(earlier_, collection_.header, {}, {}, options_.out);
+    note_contents_of_files();
     read_rows_of_members();
+    require_same_files();
+    if (options_.retry_failed)
+      for (auto& row : rows_)
+        if (row["status"] == member_failed) row["status"] = member_open;
     if (earlier_.status == "complete" && is_complete()) return report_complete();
+    if (options_.force) progress_.say(move_old_results(options_.out));
     if (earlier_.status.empty()) make_results_folder(options_.out, lock_);
-    for (auto& row : rows_)
-      if (row["status"] == member_failed) row["status"] = member_open;
     write_provenance("running");
     try {
       for (const Phase& phase : phases) times_.measure(phase.name, [&] { run_phase(phase); });
@@ -99,7 +110,7 @@ class CollectionRun {
       end_interrupted();
     }
     times_.measure("writing", [&] { write_tables(); });
-    write_provenance("complete");
+    write_provenance(is_complete() ? "complete" : "interrupted");
     report();
   }
 
@@ -123,9 +134,54 @@ class CollectionRun {
 
   void read_rows_of_members() {
     for (const Member* member : members_) {
-      rows_.push_back(read_row(folder_of(*member)));
+      rows_.push_back(options_.force ? MemberRow{} : read_row(folder_of(*member)));
       if (rows_.back().empty()) rows_.back() = row_of(*member);
     }
+  }
+
+  static std::string content_setting(const Member& member) {
+    return "content of mesh " + member.mesh.name;
+  }
+
+  /// Notes the content of all mesh files, also those of other shards: shards whose files differ do
+  /// not belong together.
+  void note_contents_of_files() {
+    for (const auto& member : collection_.members)
+      if (const auto setting = content_setting(member);
+          !member.mesh.file.empty() && !contents_.contains(setting))
+        contents_[setting] = sha256_of_file(member.mesh.file);
+    header_.file_parameters.insert(header_.file_parameters.end(), contents_.begin(),
+                                   contents_.end());
+  }
+
+  /// True if the mesh file of a member is not the one of the earlier run.
+  bool has_changed(const Member& member) const {
+    const auto now = contents_.find(content_setting(member));
+    const auto then = earlier_.settings.find(content_setting(member));
+    return now != contents_.end() && then != earlier_.settings.end() && now->second != then->second;
+  }
+
+  /// Opens failed members again whose file has changed. Throws InputError if other members have
+  /// results of a file that has changed.
+  void require_same_files() {
+    std::set<std::string> changed;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!has_changed(*members_[i])) continue;
+      const std::string& status = rows_[i].at("status");
+      if (status != member_failed && status != member_open)
+        changed.insert(members_[i]->mesh.file.string());
+    }
+    if (!changed.empty())
+      throw InputError("the results in " + options_.out.string() +
+                       " are those of other files: " + some_of({changed.begin(), changed.end()}) +
+                       (changed.size() == 1 ? " has" : " have") +
+                       " changed since then; start anew with --force, which keeps them under "
+                       "another name, or take another --out");
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (has_changed(*members_[i])) {
+        fs::remove_all(folder_of(*members_[i]));  // begun with the earlier file
+        rows_[i] = row_of(*members_[i]);
+      }
   }
 
   bool is_complete() const {
@@ -190,7 +246,9 @@ class CollectionRun {
   /// Writes a member's new status.
   void note(std::size_t i, const Phase& phase, const TaskAnswer& end) {
     MemberRow& row = rows_[i];
-    row["status"] = end.failure.empty() ? phase.makes : member_failed;
+    row["status"] = end.failure.empty()     ? phase.makes
+                    : end.may_succeed_later ? phase.needs
+                                            : member_failed;
     row["reason"] = end.failure;
     if (!end.outcome.empty()) add_facts(end.outcome, row);
     write_row(folder_of(*members_[i]), row);
@@ -210,31 +268,55 @@ class CollectionRun {
   }
 
   void report() {
-    progress_.say(std::to_string(count(member_complete)) + " members are complete, " +
-                  std::to_string(count(member_failed)) + " have failed; " +
-                  (options_.out / "members.csv").string() + " says why.");
+    const std::size_t n_complete = count(member_complete), n_failed = count(member_failed),
+                      n_open = rows_.size() - n_complete - n_failed;
+    progress_.say(std::to_string(n_complete) + " members are complete, " +
+                  std::to_string(n_failed) + " have failed; " +
+                  (options_.out / "members.csv").string() + " says why." +
+                  (n_failed > 0 ? " --retry-failed tries failed members again." : "") +
+                  (n_open > 0 ? " " + std::to_string(n_open) +
+                                    " did not reach their end, for example because their process "
+                                    "was killed; the same command tries them again."
+                              : ""));
+    require_results();
+  }
+
+  /// Throws InputError if there are members, but none is complete.
+  void require_results() const {
+    if (rows_.empty() || count(member_complete) > 0) return;
+    throw InputError("no member of " + options_.out.string() + " is complete; the first, " +
+                     rows_.front().at("member") + ", failed: " + rows_.front().at("reason"));
   }
 
   void report_complete() {
     progress_.say("The results in " + options_.out.string() +
                   " are complete: nothing to do. --force starts anew and keeps them under another "
-                  "name.");
+                  "name." +
+                  (count(member_failed) > 0
+                       ? " --retry-failed tries the " + std::to_string(count(member_failed)) +
+                             " failed members again."
+                       : ""));
+    require_results();
   }
 
   void write_provenance(const std::string& status) const {
     const auto& [dimension, common] = *collection_.common.begin();
     write_atomically(options_.out / "provenance.json",
-                     provenance_json({.study = collection_.header,
+                     provenance_json({.study = header_,
                                       .processors = {options_.smoothing_threads, n_processes_, 1},
                                       .status = status,
                                       .started = started_,
                                       .seconds = times_.seconds(),
                                       .earlier_sessions = earlier_.sessions,
                                       .dimensions = {dimension, dimension},
-                                      .methods = common.methods}));
+                                      .methods = common.methods,
+                                      .shard = options_.shard,
+                                      .members = meshes_of(collection_.members)}));
   }
 
   const Collection& collection_;
+  StudyHeader header_;                           ///< with the content of files
+  std::map<std::string, std::string> contents_;  ///< SHA-256 of each mesh file, by its setting
   const StudyOptions& options_;
   unsigned int n_processes_;
   Progress progress_;
@@ -267,7 +349,7 @@ void run_collection(const Collection& collection, const StudyOptions& options) {
                      " are named by the study; leave it out");
   CollectionRun run(collection, options);  // on all ranks, so that all find the same faults
   if (!options.ranks.is_root()) {
-    if (!options.dry_run) serve_task_team(options.ranks);
+    if (!options.dry_run) serve_task_team(options.ranks, collection.time_limit);
   } else if (options.dry_run) {
     run.print_plan();
   } else {

@@ -15,7 +15,7 @@ namespace {
 /// workers.
 constexpr auto pause = std::chrono::milliseconds(2);
 
-enum Tag : int { outcome_tag, failure_tag, task_tag, end_tag };
+enum Tag : int { outcome_tag, failure_tag, failure_for_now_tag, task_tag, end_tag };
 
 void send(const Ranks& ranks, int to, Tag tag, const std::string& text) {
   MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, to, tag, ranks.communicator());
@@ -63,11 +63,12 @@ class TaskTeam::Worker {
 
 class TaskTeam::OwnWorker : public Worker {
  public:
+  explicit OwnWorker(double limit_seconds) : process_(own_command(), limit_seconds) {}
   void give(const std::string& task) override { process_.give(task); }
   std::optional<TaskAnswer> answer() override { return process_.answer(); }
 
  private:
-  TaskProcess process_{own_command()};
+  TaskProcess process_;
 };
 
 class TaskTeam::RankWorker : public Worker {
@@ -79,8 +80,9 @@ class TaskTeam::RankWorker : public Worker {
   std::optional<TaskAnswer> answer() override {
     auto message = receive(ranks_, rank_);
     if (!message) return std::nullopt;
-    return message->tag == outcome_tag ? TaskAnswer{message->text, ""}
-                                       : TaskAnswer{"", message->text};
+    return message->tag == outcome_tag
+               ? TaskAnswer{message->text, ""}
+               : TaskAnswer{"", message->text, message->tag == failure_for_now_tag};
   }
 
  private:
@@ -88,14 +90,14 @@ class TaskTeam::RankWorker : public Worker {
   int rank_;
 };
 
-TaskTeam::TaskTeam(const Ranks& ranks, unsigned int n_processes) {
+TaskTeam::TaskTeam(const Ranks& ranks, unsigned int n_processes, double limit_seconds) {
   for (const char is_first : first_of_machines(ranks))
     is_first_of_machine_.push_back(is_first != 0);
-  workers_.push_back(std::make_unique<OwnWorker>());
+  workers_.push_back(std::make_unique<OwnWorker>(limit_seconds));
   for (int rank = 1; rank < ranks.size(); ++rank)
     workers_.push_back(std::make_unique<RankWorker>(ranks, rank));
   while (ranks.size() == 1 && workers_.size() < n_processes)
-    workers_.push_back(std::make_unique<OwnWorker>());
+    workers_.push_back(std::make_unique<OwnWorker>(limit_seconds));
   is_first_of_machine_.resize(workers_.size(), false);
 }
 
@@ -132,10 +134,10 @@ void TaskTeam::run(const std::vector<std::string>& tasks, AtOnce at_once,
   on_wait();
 }
 
-void serve_task_team(const Ranks& ranks) {
+void serve_task_team(const Ranks& ranks, double limit_seconds) {
   constexpr int root = 0;
   first_of_machines(ranks);
-  TaskProcess process{own_command()};
+  TaskProcess process(own_command(), limit_seconds);
   while (true) {
     if (const auto message = receive(ranks, root)) {
       if (message->tag == end_tag) return;
@@ -145,9 +147,12 @@ void serve_task_team(const Ranks& ranks) {
         send(ranks, root, failure_tag, error.what());
       }
     }
-    if (const auto answer = process.answer())
-      answer->failure.empty() ? send(ranks, root, outcome_tag, answer->outcome)
-                              : send(ranks, root, failure_tag, answer->failure);
+    if (const auto answer = process.answer()) {
+      const Tag tag = answer->failure.empty()     ? outcome_tag
+                      : answer->may_succeed_later ? failure_for_now_tag
+                                                  : failure_tag;
+      send(ranks, root, tag, answer->failure.empty() ? answer->outcome : answer->failure);
+    }
     std::this_thread::sleep_for(pause);
   }
 }

@@ -18,8 +18,9 @@ namespace smoothfem {
 class TaskTeam {
  public:
   /// n_processes: number on this machine, used if there is one rank. With several ranks only the
-  /// root has a team, and the others serve it. Collective.
-  TaskTeam(const Ranks& ranks, unsigned int n_processes);
+  /// root has a team, and the others serve it. limit_seconds: of each task, as for TaskProcess.
+  /// Collective.
+  TaskTeam(const Ranks& ranks, unsigned int n_processes, double limit_seconds);
   /// Ends the serving of the other ranks.
   ~TaskTeam();
   TaskTeam(const TaskTeam&) = delete;
@@ -47,6 +48,6 @@ class TaskTeam {
 
 /// Does tasks, on ranks other than the root, until the root's team ends. Collective with the making
 /// of the team.
-void serve_task_team(const Ranks& ranks);
+void serve_task_team(const Ranks& ranks, double limit_seconds);
 
 }  // namespace smoothfem
