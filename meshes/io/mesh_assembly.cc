@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "meshes/doctor/repair.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
 #include "smoothing/surface/surface_constraints.h"
@@ -52,11 +53,6 @@ MeshLabels labels_of(MeshParts& parts, int dim) {
   return labels;
 }
 
-bool is_planar(const std::vector<Point<3>>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [&](const auto& point) { return point.z() == points.front().z(); });
-}
-
 std::vector<Point<2>> without_z(const std::vector<Point<3>>& points) {
   std::vector<Point<2>> result;
   result.reserve(points.size());
@@ -80,7 +76,7 @@ std::shared_ptr<const Topology> make_topology(MeshParts& parts, int dim) {
 AnyMesh make_mesh(MeshParts& parts, int dim) {
   if (parts.coordinates.size() >= std::numeric_limits<NodeIndex>::max())
     throw InputError("the mesh has more nodes than 32 bits can count");
-  if (dim == 2 && !is_planar(parts.coordinates)) {
+  if (dim == 2 && !is_planar(parts)) {
     MeshLabels labels = labels_of(parts, dim);
     return make_surface_mesh(std::move(parts.elements[dim].nodes), std::move(parts.coordinates),
                              std::move(labels), std::move(parts.fixed));
@@ -92,6 +88,8 @@ AnyMesh make_mesh(MeshParts& parts, int dim) {
 
 /// Largest coordinate: its sixth powers (squares of volumes) do not overflow.
 constexpr double largest_coordinate = 1e50;
+
+}  // namespace
 
 void require_usable_coordinates(const MeshParts& parts) {
   for (std::size_t i = 0; i < parts.coordinates.size(); ++i) {
@@ -108,14 +106,26 @@ void require_usable_coordinates(const MeshParts& parts) {
   }
 }
 
-}  // namespace
+int dimension_of(const MeshParts& parts) {
+  return parts.elements[3].nodes.empty() ? 2 : 3;
+}
 
-MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
-  const int dim = parts.elements[3].nodes.empty() ? 2 : 3;
-  const auto lines = std::move(parts.elements[dim].lines);
+bool is_planar(const MeshParts& parts) {
+  const auto& points = parts.coordinates;
+  return std::all_of(points.begin(), points.end(),
+                     [&](const auto& point) { return point.z() == points.front().z(); });
+}
+
+MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
+                       const MeshReadOptions& options) {
+  const int dim = dimension_of(parts);
+  std::vector<std::size_t> lines;
   try {
+    if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);
     require_usable_coordinates(parts);
-    return {make_mesh(parts, dim), lines};
+    auto notes = repair_while_reading(parts, options);
+    lines = std::move(parts.elements[dim].lines);
+    return {make_mesh(parts, dim), lines, std::move(notes)};
   } catch (const CellError& error) {
     std::string position = path.string() + ":";
     if (!lines.empty()) position += std::to_string(lines[error.cell()]) + ":";
@@ -170,26 +180,35 @@ CompressedRows<NodeIndex> renumbered(const CompressedRows<NodeIndex>& rows,
 
 }  // namespace
 
-void drop_unused_nodes(MeshParts& parts) {
-  constexpr NodeIndex unused = std::numeric_limits<NodeIndex>::max();
-  std::vector<NodeIndex> new_index(parts.coordinates.size(), unused);
-  for (int dim = 1; dim <= 3; ++dim)
-    for (const NodeIndex node : parts.elements[dim].nodes.entries()) new_index[node] = 0;
-  NodeIndex n_used = 0;
+void renumber_nodes(MeshParts& parts, std::span<const NodeIndex> first) {
+  std::vector<NodeIndex> new_index(parts.coordinates.size(), no_node);
+  NodeIndex n_left = 0;
   for (std::size_t i = 0; i < new_index.size(); ++i) {
-    if (new_index[i] == unused) continue;
-    new_index[i] = n_used;
-    parts.coordinates[n_used] = parts.coordinates[i];
-    if (parts.fixed) (*parts.fixed)[n_used] = (*parts.fixed)[i];
-    if (!parts.node_ids.empty()) parts.node_ids[n_used] = parts.node_ids[i];
-    ++n_used;
+    if (first[i] == no_node) continue;
+    if (first[i] != i) {
+      new_index[i] = new_index[first[i]];
+      if (parts.fixed && (*parts.fixed)[i]) (*parts.fixed)[new_index[i]] = true;
+      continue;
+    }
+    new_index[i] = n_left;
+    parts.coordinates[n_left] = parts.coordinates[i];
+    if (parts.fixed) (*parts.fixed)[n_left] = (*parts.fixed)[i];
+    if (!parts.node_ids.empty()) parts.node_ids[n_left] = parts.node_ids[i];
+    ++n_left;
   }
-  if (n_used == parts.coordinates.size()) return;
-  parts.coordinates.resize(n_used);
-  if (parts.fixed) parts.fixed->resize(n_used);
-  if (!parts.node_ids.empty()) parts.node_ids.resize(n_used);
+  if (n_left == parts.coordinates.size()) return;
+  parts.coordinates.resize(n_left);
+  if (parts.fixed) parts.fixed->resize(n_left);
+  if (!parts.node_ids.empty()) parts.node_ids.resize(n_left);
   for (int dim = 1; dim <= 3; ++dim)
     parts.elements[dim].nodes = renumbered(parts.elements[dim].nodes, new_index);
+}
+
+void drop_unused_nodes(MeshParts& parts) {
+  std::vector<NodeIndex> first(parts.coordinates.size(), no_node);
+  for (int dim = 1; dim <= 3; ++dim)
+    for (const NodeIndex node : parts.elements[dim].nodes.entries()) first[node] = node;
+  renumber_nodes(parts, first);
 }
 
 }  // namespace smoothfem

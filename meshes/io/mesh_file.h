@@ -18,12 +18,18 @@ struct MeshFile {
   AnyMesh mesh;  ///< a volume mesh if the file has volume cells, otherwise a planar one, or a
                  ///< surface mesh if z is not constant
   std::vector<std::size_t> cell_lines;  ///< line of each cell in the file; empty if it has none
+  std::vector<std::string> notes{};     ///< what was changed in reading, one sentence each
+};
+
+struct MeshReadOptions {
+  bool turns_over = true;  ///< cells whose only fault is the direction of their nodes
+  bool merges = false;     ///< boundary nodes that lie in one place
 };
 
 /// Reads a mesh. The format follows from the extension (mesh_formats()); if two formats share one,
 /// from the content. Surface cells of volume meshes become labelled facets if they have a tag.
 /// Throws InputError "path:line: message"; the line may be missing.
-MeshFile read_mesh(const std::filesystem::path& path);
+MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& options = {});
 
 /// Returns the planar mesh of a file. Throws InputError that names `path` for any other mesh.
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path);
@@ -52,6 +58,8 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
 /// Checks a name before long work: throws InputError if write_mesh could not write this file.
 void require_mesh_path(const std::filesystem::path& path);
 
+struct MeshParts;  // mesh_assembly.h
+
 /// A format: its description for `smoothfem list`, its reader and its writer.
 struct MeshFormat {
   std::string name;
@@ -66,7 +74,7 @@ struct MeshFormat {
   /// True if content has this format; needed if formats share an extension. At most one may be
   /// null: the fallback.
   bool (*recognizes)(std::string_view content) = nullptr;
-  MeshFile (*read)(const std::filesystem::path&);
+  MeshParts (*read)(const std::filesystem::path&);
   void (*write)(const std::filesystem::path&, const MeshView&, const MeshFields&,
                 const MeshWriteOptions&);
 };

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "meshes/doctor/examine_boundary.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/base/parallel.h"
@@ -11,6 +12,7 @@
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/bad_places.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/mesh_notes.h"
 #include "studies/cli/smooth_report.h"
 #include "studies/cli/standard_streams.h"
 
@@ -73,6 +75,18 @@ Mesh<dim, spacedim> fix_nodes_away_from_bad_cells(Mesh<dim, spacedim> mesh,
   return with_fixed_nodes(std::move(mesh), std::move(fixed));
 }
 
+/// The mesh with the nodes of seams fixed, whose sides would come apart. Warns about them.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_fixed_seams(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
+  const auto [findings, seam_nodes] = examine_boundary(mesh);
+  warn_about(arguments.in, findings);
+  if (seam_nodes.empty()) return mesh;
+  std::vector<bool> fixed(mesh.n_nodes());
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    fixed[i] = seam_nodes[i] || mesh.topology().is_fixed(i);
+  return with_fixed_nodes(std::move(mesh), std::move(fixed));
+}
+
 struct Outcome {
   std::string method_title;
   SmoothingResult smoothing;
@@ -126,6 +140,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   const auto topology_of_file = mesh.shared_topology();
   mesh = with_constraints(std::move(mesh), arguments);
   mesh = with_rule(std::move(mesh), arguments.fix);
+  mesh = with_fixed_seams(std::move(mesh), arguments);
   mesh = fix_nodes_away_from_bad_cells(std::move(mesh), arguments);
   const MeshQuality before = mesh_quality(mesh);
   Recorder recorder(arguments);
@@ -179,7 +194,9 @@ void smooth_file(SmoothArguments arguments) {
   require_different_files(arguments);
   require_mesh_path(arguments.out);
   if (!arguments.log.empty()) require_writable_file(arguments.log);
-  MeshFile file = read_mesh(arguments.in);
+  MeshFile file = read_mesh(arguments.in,
+                            {.turns_over = !arguments.keep_orientation, .merges = arguments.merge});
+  print_notes(arguments.in, file.notes);
   std::visit([&](auto& mesh) { smooth_mesh(arguments, std::move(mesh), file.cell_lines); },
              file.mesh);
   if (output) print_content(output->path());
@@ -237,6 +254,10 @@ void add_smooth_command(CLI::App& app) {
           "--rings", arguments->rings,
           "with --only-below: rings of cells around bad cells whose nodes also move (default: 2)")
       ->check(CLI::Range(0, 1000));
+  command->add_flag("--merge", arguments->merge,
+                    "merge boundary nodes that lie in one place, for example on the seam between "
+                    "the parts of a parallel program");
+  add_keep_orientation(*command, arguments->keep_orientation);
   command->add_flag("--fail-if-invalid", arguments->fail_if_invalid,
                     "write nothing and exit with 2 if the smoothed mesh has invalid cells");
   command->add_flag("--quiet", arguments->quiet, "print nothing but warnings");

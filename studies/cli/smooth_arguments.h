@@ -19,6 +19,7 @@ struct SmoothArguments {
   int rings = 2;      ///< layers of cells around the bad cells of only_below
   int n_threads = 0;  ///< 0: OpenMP's default
   bool untangle = false, fail_if_invalid = false, quiet = false;
+  bool merge = false, keep_orientation = false;
 };
 
 /// True if a planar boundary slides, which it does only while a mesh is untangled.

@@ -272,9 +272,9 @@ class AbaqusReader {
 
 }  // namespace
 
-MeshFile read_abaqus(const std::filesystem::path& path) {
+MeshParts read_abaqus(const std::filesystem::path& path) {
   const std::string content = read_whole_file(path);
-  return assemble_mesh(path, AbaqusReader(path, content).parts());
+  return AbaqusReader(path, content).parts();
 }
 
 namespace {

@@ -195,7 +195,7 @@ std::optional<MshVersion4> version_of(const LineReader& reader, const std::strin
 
 }  // namespace
 
-MeshFile read_msh(const std::filesystem::path& path) {
+MeshParts read_msh(const std::filesystem::path& path) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
   reader.require_line("the first line");
@@ -221,8 +221,8 @@ MeshFile read_msh(const std::filesystem::path& path) {
   } else {
     parts = MshReader(MshTextInput(reader), version_4).parts();
   }
-  drop_unused_nodes(parts);
-  return assemble_mesh(path, std::move(parts));
+  parts.leaves_out_unused_nodes = true;
+  return parts;
 }
 
 namespace {

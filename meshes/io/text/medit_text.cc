@@ -215,9 +215,9 @@ bool is_medit_text(std::string_view content) {
   return reader.next_line() && reader.word() == title;
 }
 
-MeshFile read_medit_text(const std::filesystem::path& path) {
+MeshParts read_medit_text(const std::filesystem::path& path) {
   const std::string content = read_whole_file(path);
-  return assemble_mesh(path, MeditReader(path, content).parts());
+  return MeditReader(path, content).parts();
 }
 
 namespace {

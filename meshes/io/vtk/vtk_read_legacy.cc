@@ -266,8 +266,8 @@ MeshParts legacy_vtk_parts(const std::filesystem::path& path) {
 
 }  // namespace
 
-MeshFile read_legacy_vtk(const std::filesystem::path& path) {
-  return assemble_mesh(path, legacy_vtk_parts(path));
+MeshParts read_legacy_vtk(const std::filesystem::path& path) {
+  return legacy_vtk_parts(path);
 }
 
 }  // namespace smoothfem

@@ -131,8 +131,8 @@ MeshParts vtu_parts(const std::filesystem::path& path) {
 
 }  // namespace
 
-MeshFile read_vtu(const std::filesystem::path& path) {
-  return assemble_mesh(path, vtu_parts(path));
+MeshParts read_vtu(const std::filesystem::path& path) {
+  return vtu_parts(path);
 }
 
 }  // namespace smoothfem
