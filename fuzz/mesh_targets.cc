@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fuzz/targets.h"
-#include "meshes/io/mesh_file.h"
+#include "meshes/io/mesh_assembly.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem::fuzz {
@@ -38,7 +38,7 @@ void read(const std::filesystem::path& path) {
                                    [](const MeshFormat& f) { return f.name == name; });
   require(format != formats.end(), std::string("there is no format ") + name);
   // Not read_mesh: it would turn foreign exceptions into InputErrors.
-  const MeshFile file = format->read(path);
+  const MeshFile file = assemble_mesh(path, format->read(path));
   std::visit([](const auto& mesh) { require_sound(mesh); }, file.mesh);
 }
 

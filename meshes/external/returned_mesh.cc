@@ -114,7 +114,7 @@ void keep_fixed_nodes(const Mesh<dim>& mesh, std::vector<Point<dim>>& points) {
 
 MeshFile read_returned(const std::filesystem::path& file) {
   try {
-    return read_mesh(file);
+    return read_mesh(file, {.turns_over = false});
   } catch (const InputError& error) {
     std::string reason = error.what();  // without the temporary folder
     if (const auto at = reason.find(file.string()); at != std::string::npos)

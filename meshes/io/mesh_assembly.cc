@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "meshes/doctor/repair.h"
 #include "meshes/io/plane_of_points.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
@@ -160,24 +161,34 @@ AnyMesh make_mesh(MeshParts& parts, int dim) {
     auto topology = make_topology(parts, dim);
     return VolumeMesh(std::move(topology), std::move(parts.coordinates));
   }
-  auto plane = plane_of(parts.coordinates);
-  if (!plane) {
+  if (!is_planar(parts)) {
     MeshLabels labels = LabelParts(parts, dim).make();
     return make_surface_mesh(std::move(parts.elements[dim].nodes), std::move(parts.coordinates),
                              std::move(labels), std::move(parts.fixed));
   }
   std::vector<Point<2>> points;
   points.reserve(parts.coordinates.size());
-  const bool is_xy_plane = *plane == PlaneInSpace();
-  for (const auto& point : parts.coordinates)
-    points.push_back(is_xy_plane ? Point<2>(point.x(), point.y()) : plane->in_plane(point));
-  if (!is_xy_plane) parts.content.plane = std::move(plane);
+  for (const auto& point : parts.coordinates) points.emplace_back(point.x(), point.y());
   auto topology = make_topology(parts, dim);
   return PlanarMesh(std::move(topology), std::move(points));
 }
 
+/// Gives the points of a planar mesh in space the coordinates of their plane, which is kept.
+void lay_into_plane(MeshParts& parts, int dim) {
+  if (dim == 3) return;
+  auto plane = plane_of(parts.coordinates);
+  if (!plane || *plane == PlaneInSpace()) return;
+  for (Point<3>& point : parts.coordinates) {
+    const Point<2> in_plane = plane->in_plane(point);
+    point = {in_plane.x(), in_plane.y(), 0.0};
+  }
+  parts.content.plane = std::move(plane);
+}
+
 /// Largest coordinate: its sixth powers (squares of volumes) do not overflow.
 constexpr double largest_coordinate = 1e50;
+
+}  // namespace
 
 void require_usable_coordinates(const MeshParts& parts) {
   for (std::size_t i = 0; i < parts.coordinates.size(); ++i) {
@@ -196,14 +207,32 @@ void require_usable_coordinates(const MeshParts& parts) {
     require_ordinary_numbers(extreme_exponent(std::span<const Point<3>>(parts.coordinates)));
 }
 
-}  // namespace
+int dimension_of(const MeshParts& parts) {
+  return parts.elements[3].nodes.empty() ? 2 : 3;
+}
 
-MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts) {
-  const int dim = parts.elements[3].nodes.empty() ? 2 : 3;
-  const auto lines = std::move(parts.elements[dim].lines);
+bool is_planar(const MeshParts& parts) {
+  const auto& points = parts.coordinates;
+  return std::all_of(points.begin(), points.end(),
+                     [&](const auto& point) { return point.z() == points.front().z(); });
+}
+
+MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
+                       const MeshReadOptions& options) {
+  const int dim = dimension_of(parts);
+  std::vector<std::size_t> lines;
   try {
+    const std::size_t n_nodes = parts.coordinates.size();
+    if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);
+    if (const std::size_t n = n_nodes - parts.coordinates.size(); n > 0)
+      parts.notes.push_back(
+          std::to_string(n) +
+          (n == 1 ? " node that no cell uses is" : " nodes that no cell uses are") + " left out");
     require_usable_coordinates(parts);
+    lay_into_plane(parts, dim);
     auto notes = std::move(parts.notes);
+    for (std::string& done : repair_while_reading(parts, options)) notes.push_back(std::move(done));
+    lines = std::move(parts.elements[dim].lines);
     return {make_mesh(parts, dim), lines, std::move(notes)};
   } catch (const CellError& error) {
     std::string position = path.string() + ":";
@@ -261,77 +290,96 @@ CompressedRows<NodeIndex> renumbered(const CompressedRows<NodeIndex>& rows,
 
 namespace {
 
-constexpr NodeIndex unused = std::numeric_limits<NodeIndex>::max();
-
-/// Keeps those rows of a field whose new index is not `unused`.
-void keep_rows(MeshField& field, const std::vector<NodeIndex>& new_index) {
+/// Keeps those rows of a field whose node takes no other's place.
+void keep_rows(MeshField& field, std::span<const NodeIndex> first) {
   std::visit(
       [&](auto& values) {
         const std::size_t n = field.n_components;
         std::size_t n_kept = 0;
-        for (std::size_t i = 0; i < new_index.size() && (i + 1) * n <= values.size(); ++i)
-          if (new_index[i] != unused)
+        for (std::size_t i = 0; i < first.size() && (i + 1) * n <= values.size(); ++i)
+          if (first[i] == i)
             for (std::size_t k = 0; k < n; ++k) values[n_kept++] = values[i * n + k];
         values.resize(n_kept);
       },
       field.values);
 }
 
-/// Keeps what the content says of nodes that are left, with their new indices, and the points of
-/// the model at them.
-void keep_nodes(MeshParts& parts, const std::vector<NodeIndex>& new_index, std::size_t n_used) {
-  FileContent& content = parts.content;
-  for (MeshField& field : content.node_fields) keep_rows(field, new_index);
-  if (!content.node_entities.empty()) {
-    for (std::size_t i = 0; i < new_index.size(); ++i)
-      if (new_index[i] != unused) content.node_entities[new_index[i]] = content.node_entities[i];
-    content.node_entities.resize(n_used);
-  }
-  for (PeriodicEntity& periodic : content.periodic) {
-    std::erase_if(periodic.nodes, [&](const auto& pair) {
-      return new_index[pair[0]] == unused || new_index[pair[1]] == unused;
-    });
-    for (auto& pair : periodic.nodes) pair = {new_index[pair[0]], new_index[pair[1]]};
-  }
+template <class Value>
+void keep_values(std::vector<Value>& values, std::span<const NodeIndex> first) {
+  if (values.empty()) return;
+  std::size_t n_kept = 0;
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (first[i] == i) values[n_kept++] = values[i];
+  values.resize(n_kept);
+}
+
+/// Removes the points of the model at nodes that are removed.
+void remove_points(ElementList& points, const std::vector<NodeIndex>& new_index) {
   ElementList kept;
-  ElementList& points = parts.elements[0];
+  const auto keep = [](const auto& from, std::size_t e, auto& to) {
+    if (!from.empty()) to.push_back(from[e]);
+  };
   for (std::size_t e = 0; e < points.nodes.size(); ++e) {
     const NodeIndex node = new_index[points.nodes[e][0]];
-    if (node == unused) continue;
+    if (node == no_node) continue;
     kept.nodes.append(std::array{node});
-    if (!points.tags.empty()) kept.tags.push_back(points.tags[e]);
-    if (!points.ids.empty()) kept.ids.push_back(points.ids[e]);
-    if (!points.lines.empty()) kept.lines.push_back(points.lines[e]);
-    if (!points.entities.empty()) kept.entities.push_back(points.entities[e]);
-    if (!points.file_positions.empty()) kept.file_positions.push_back(points.file_positions[e]);
+    keep(points.tags, e, kept.tags);
+    keep(points.ids, e, kept.ids);
+    keep(points.lines, e, kept.lines);
+    keep(points.entities, e, kept.entities);
+    keep(points.file_positions, e, kept.file_positions);
   }
   points = std::move(kept);
 }
 
+/// Renumbers the nodes in what else the file says.
+void renumber_content(MeshParts& parts, std::span<const NodeIndex> first,
+                      const std::vector<NodeIndex>& new_index) {
+  FileContent& content = parts.content;
+  for (MeshField& field : content.node_fields) keep_rows(field, first);
+  keep_values(content.node_entities, first);
+  if (content.plane) keep_values(content.plane->initial, first);
+  for (PeriodicEntity& periodic : content.periodic) {
+    std::erase_if(periodic.nodes, [&](const auto& pair) {
+      return new_index[pair[0]] == no_node || new_index[pair[1]] == no_node;
+    });
+    for (auto& pair : periodic.nodes) pair = {new_index[pair[0]], new_index[pair[1]]};
+  }
+  remove_points(parts.elements[0], new_index);
+}
+
 }  // namespace
 
-void drop_unused_nodes(MeshParts& parts) {
-  std::vector<NodeIndex> new_index(parts.coordinates.size(), unused);
-  for (int dim = 1; dim <= 3; ++dim)
-    for (const NodeIndex node : parts.elements[dim].nodes.entries()) new_index[node] = 0;
-  NodeIndex n_used = 0;
+void renumber_nodes(MeshParts& parts, std::span<const NodeIndex> first) {
+  std::vector<NodeIndex> new_index(parts.coordinates.size(), no_node);
+  NodeIndex n_left = 0;
   for (std::size_t i = 0; i < new_index.size(); ++i) {
-    if (new_index[i] == unused) continue;
-    new_index[i] = n_used;
-    parts.coordinates[n_used] = parts.coordinates[i];
-    if (parts.fixed) (*parts.fixed)[n_used] = (*parts.fixed)[i];
-    if (!parts.node_ids.empty()) parts.node_ids[n_used] = parts.node_ids[i];
-    ++n_used;
+    if (first[i] == no_node) continue;
+    if (first[i] != i) {
+      new_index[i] = new_index[first[i]];
+      if (parts.fixed && (*parts.fixed)[i]) (*parts.fixed)[new_index[i]] = true;
+      continue;
+    }
+    new_index[i] = n_left;
+    parts.coordinates[n_left] = parts.coordinates[i];
+    if (parts.fixed) (*parts.fixed)[n_left] = (*parts.fixed)[i];
+    if (!parts.node_ids.empty()) parts.node_ids[n_left] = parts.node_ids[i];
+    ++n_left;
   }
-  if (n_used == parts.coordinates.size()) return;
-  parts.notes.push_back(std::to_string(parts.coordinates.size() - n_used) +
-                        " nodes that no cell uses are left out");
-  keep_nodes(parts, new_index, n_used);
-  parts.coordinates.resize(n_used);
-  if (parts.fixed) parts.fixed->resize(n_used);
-  if (!parts.node_ids.empty()) parts.node_ids.resize(n_used);
+  if (n_left == parts.coordinates.size()) return;
+  renumber_content(parts, first, new_index);
+  parts.coordinates.resize(n_left);
+  if (parts.fixed) parts.fixed->resize(n_left);
+  if (!parts.node_ids.empty()) parts.node_ids.resize(n_left);
   for (int dim = 1; dim <= 3; ++dim)
     parts.elements[dim].nodes = renumbered(parts.elements[dim].nodes, new_index);
+}
+
+void drop_unused_nodes(MeshParts& parts) {
+  std::vector<NodeIndex> first(parts.coordinates.size(), no_node);
+  for (int dim = 1; dim <= 3; ++dim)
+    for (const NodeIndex node : parts.elements[dim].nodes.entries()) first[node] = node;
+  renumber_nodes(parts, first);
 }
 
 }  // namespace smoothfem

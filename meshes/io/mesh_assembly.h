@@ -4,14 +4,19 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "meshes/io/mesh_file.h"
 
 namespace smoothfem {
+
+/// Stands for a node that does not exist.
+constexpr NodeIndex no_node = std::numeric_limits<NodeIndex>::max();
 
 /// Elements of one dimension as listed in a file. Each of the vectors is empty or has one entry for
 /// each element.
@@ -32,11 +37,24 @@ struct MeshParts {
   bool fixes_boundary_as_well = false;               ///< in addition to `fixed`
   std::map<std::pair<int, int>, std::string> names;  ///< (dimension, tag) -> physical name
   std::vector<std::size_t> node_ids;                 ///< the file's numbers; may be empty
+  bool leaves_out_unused_nodes = false;              ///< points of a CAD model
   /// What else the file says; its elements are in `elements`, and the rows of its element fields
   /// are in the order of the file.
-  FileContent content;
-  std::vector<std::string> notes;  ///< sentences on what is left out or changed
+  FileContent content{};
+  std::vector<std::string> notes{};  ///< sentences on what is left out or changed
 };
+
+/// Returns the data of a file without making a mesh of it. Throws InputError as read_mesh does, but
+/// only for files that cannot be read.
+MeshParts read_mesh_parts(const std::filesystem::path& path);
+
+/// Returns the dimension of the elements that become cells: 3 if there are any, otherwise 2.
+int dimension_of(const MeshParts& parts);
+/// True if all nodes have the same z.
+bool is_planar(const MeshParts& parts);
+
+/// Throws InputError that names the first node with a coordinate that is not finite or too large.
+void require_usable_coordinates(const MeshParts& parts);
 
 /// Makes a mesh. Elements of dimension 3, if any, make a volume mesh. Otherwise those of dimension
 /// 2 make a planar mesh if all points lie in a plane, up to 1e-9 of their extent, and otherwise a
@@ -45,7 +63,8 @@ struct MeshParts {
 /// cells are kept if they are positive, all different and not simply 1, 2, ... in order. Nodes stay
 /// for the reasons of add_implied_reasons(). Errors of the mesh become InputErrors that start with
 /// "path:line: " or "path: ".
-MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts);
+MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
+                       const MeshReadOptions& options = {});
 
 /// Returns a physical name as one line "dimension tag name", for formats without a section for it.
 std::string physical_name_line(const std::pair<int, int>& dimension_and_tag,
@@ -56,8 +75,12 @@ bool add_physical_name(const std::string& line, MeshParts& parts);
 /// Throws InputError if the mesh has a polygon; for writers of formats without polygons.
 void require_no_polygons(const std::filesystem::path& path, const MeshView& mesh);
 
+/// Gives the nodes new numbers in their order. first[i] is i, or an earlier node that takes the
+/// place of node i, or no_node to remove node i, which then no element may use.
+void renumber_nodes(MeshParts& parts, std::span<const NodeIndex> first);
+
 /// Removes nodes that no element of dimension 1 or higher uses (points of a CAD model), keeping the
-/// order, and adds a note.
+/// order.
 void drop_unused_nodes(MeshParts& parts);
 
 }  // namespace smoothfem

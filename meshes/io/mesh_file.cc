@@ -7,6 +7,7 @@
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/line_reader.h"
+#include "meshes/io/mesh_assembly.h"
 #include "smoothing/base/registry.h"
 
 namespace smoothfem {
@@ -74,11 +75,11 @@ const MeshFormat& format_of_content(const std::filesystem::path& path) {
   return *other;
 }
 
-}  // namespace
-
-MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& options) {
+/// Returns the result of work(), whose foreign exceptions become InputErrors about the file.
+template <class Work>
+auto read_safely(const std::filesystem::path& path, const Work& work) {
   try {
-    return format_of_content(path).read(path, options);
+    return work();
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -86,6 +87,18 @@ MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& opt
   } catch (const std::exception&) {
     throw InputError(path.string() + ": the file is damaged");
   }
+}
+
+}  // namespace
+
+MeshParts read_mesh_parts(const std::filesystem::path& path) {
+  return read_safely(path, [&] { return format_of_content(path).read(path, {}); });
+}
+
+MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& options) {
+  return read_safely(path, [&] {
+    return assemble_mesh(path, format_of_content(path).read(path, options), options);
+  });
 }
 
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path) {

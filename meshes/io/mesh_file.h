@@ -19,11 +19,13 @@ struct MeshFile {
   AnyMesh mesh;  ///< a volume mesh if the file has volume cells, otherwise a planar one, or a
                  ///< surface mesh if its points do not lie in a plane
   std::vector<std::size_t> cell_lines;  ///< line of each cell in the file; empty if it has none
-  std::vector<std::string> notes;       ///< sentences on what was left out or changed
+  std::vector<std::string> notes{};     ///< what was left out or changed, one sentence each
 };
 
 struct MeshReadOptions {
-  std::string tag_field;  ///< name of the cell array with tags, in VTK files; empty: a known one
+  bool turns_over = true;   ///< cells whose only fault is the direction of their nodes
+  bool merges = false;      ///< boundary nodes that lie in one place
+  std::string tag_field{};  ///< name of the cell array with tags, in VTK files; empty: a known one
 };
 
 /// Reads a mesh. The format follows from the extension (mesh_formats()); if two formats share one,
@@ -69,6 +71,8 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
 /// Checks a name before long work: throws InputError if write_mesh could not write this file.
 void require_mesh_path(const std::filesystem::path& path);
 
+struct MeshParts;  // mesh_assembly.h
+
 /// A format: its description for `smoothfem list`, its reader and its writer.
 struct MeshFormat {
   std::string name;
@@ -90,7 +94,7 @@ struct MeshFormat {
   /// True if content has this format; needed if formats share an extension. At most one may be
   /// null: the fallback.
   bool (*recognizes)(std::string_view content) = nullptr;
-  MeshFile (*read)(const std::filesystem::path&, const MeshReadOptions&);
+  MeshParts (*read)(const std::filesystem::path&, const MeshReadOptions&);
   void (*write)(const std::filesystem::path&, const MeshView&, const MeshFields&,
                 const MeshWriteOptions&);
 };

@@ -160,13 +160,15 @@ struct PlanarFile {
   std::vector<std::size_t> cell_lines;
 };
 
-inline PlanarFile read_planar(const std::filesystem::path& path) {
-  const MeshFile file = read_mesh(path);
+inline PlanarFile read_planar(const std::filesystem::path& path,
+                              const MeshReadOptions& options = {}) {
+  const MeshFile file = read_mesh(path, options);
   return {planar_mesh(file, path), file.cell_lines};
 }
 
-inline VolumeMesh read_volume(const std::filesystem::path& path) {
-  return std::get<VolumeMesh>(read_mesh(path).mesh);
+inline VolumeMesh read_volume(const std::filesystem::path& path,
+                              const MeshReadOptions& options = {}) {
+  return std::get<VolumeMesh>(read_mesh(path, options).mesh);
 }
 
 /// Returns the nodes that are free but for the interfaces between tags.

@@ -97,7 +97,7 @@ TEST_F(VolumeFiles, WedgesAreWrittenInTheOrderOfVtk) {
       "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n"
       "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n0 0 2\n1 0 2\n0 1 2\n0 0 3\n1 0 3\n0 1 3\n"
       "CELLS 3 21\n6 0 2 1 3 5 4\n6 3 5 4 6 8 7\n6 6 7 8 9 10 11\nCELL_TYPES 3\n13\n13\n13\n";
-  const VolumeMesh mesh = read_volume(file_with("b.vtk", two_against_one));
+  const VolumeMesh mesh = read_volume(file_with("b.vtk", two_against_one), {.turns_over = false});
   EXPECT_GT(signed_cell_size(mesh, 0), 0.0);
   EXPECT_GT(signed_cell_size(mesh, 1), 0.0);
   EXPECT_LT(signed_cell_size(mesh, 2), 0.0);
@@ -116,7 +116,7 @@ TEST_F(VolumeFiles, KeepsInvertedCellsAndNamesThemByNumberAndLine) {
   const auto path = file_with(
       "a.inp",
       "*NODE\n10,0,0,0\n20,1,0,0\n30,0,1,0\n40,0,0,1\n*ELEMENT,TYPE=C3D4\n7,10,30,20,40\n");
-  const MeshFile read = read_mesh(path);
+  const MeshFile read = read_mesh(path, {.turns_over = false});
   const auto& mesh = std::get<VolumeMesh>(read.mesh);
   EXPECT_EQ(mesh.topology().labels().node_ids, (std::vector<std::size_t>{10, 20, 30, 40}));
   EXPECT_THAT(input_error_of([&] { require_valid(mesh, path.string(), read.cell_lines); }),

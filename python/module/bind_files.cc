@@ -90,6 +90,15 @@ py::array_t<double> quality(const PythonMesh& mesh, const std::string& metric) {
   return array_of(numbers);
 }
 
+/// Warns of what was changed in reading.
+PythonMesh read(const std::string& path) {
+  MeshFile file = read_mesh(path);
+  for (const std::string& note : file.notes)
+    if (PyErr_WarnEx(PyExc_UserWarning, (path + ": " + note).c_str(), 2) != 0)
+      throw py::error_already_set();
+  return PythonMesh(std::move(file.mesh));
+}
+
 std::string quality_text(const MeshQuality& q) {
   char text[128];
   std::snprintf(text, sizeof(text),
@@ -109,7 +118,7 @@ void bind_files(py::module_& module) {
       .def_readonly("q_mean", &MeshQuality::q_mean, "arithmetic mean over all cells")
       .def_readonly("n_invalid", &MeshQuality::n_invalid, "number of cells with quality <= 0")
       .def("__repr__", &quality_text);
-  module.def("read", [](const std::string& path) { return PythonMesh(read_mesh(path).mesh); });
+  module.def("read", &read);
   module.def("write", [](const PythonMesh& mesh, const std::string& path, const Fields& cell,
                          const Fields& point) {
     mesh.visit([&](const auto& m) { write_mesh(path, m, {.cell = cell, .point = point}); });

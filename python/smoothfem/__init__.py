@@ -28,7 +28,7 @@ __all__ = ["InputError", "Iteration", "Mesh", "Quality", "Result", "Results", "S
 def read(path):
     """Reads a mesh from a file: .msh, .vtk, .vtu, .mesh or .inp.
 
-    Its cells may be invalid. Raises InputError with the text "path:line: problem" for a file without a mesh.
+    Its cells may be invalid. Cells whose only fault is the direction of their nodes are turned over, with a UserWarning. Raises InputError with the text "path:line: problem" for a file without a mesh.
     """
     return _core.read(_os.fsencode(path))
 

@@ -98,7 +98,7 @@ constexpr std::array<const char*, fixed_reasons.size()> reason_texts{
     "marked as fixed",
     "on interfaces between groups",
     "required by the file",
-    "hanging on edges or faces of other cells",
+    "on seams of hanging or coincident nodes",
     "in layers",
     "with periodic partners",
     "on corners",

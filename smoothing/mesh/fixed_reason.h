@@ -13,7 +13,7 @@ enum class FixedReason : std::uint16_t {
   marked = 1 << 1,     ///< marked as fixed by the file, an option or the caller
   interface = 1 << 2,  ///< between cells of different tags, or on a labelled inner facet
   required = 1 << 3,   ///< on an element that the file requires
-  hanging = 1 << 4,    ///< inside an edge or a face of another cell
+  hanging = 1 << 4,    ///< inside an edge or a face of another cell, or on a seam of such nodes
   layer = 1 << 5,      ///< in a stack of thin cells that is kept
   periodic = 1 << 6,   ///< has a periodic partner
   corner = 1 << 7,     ///< corner of a surface

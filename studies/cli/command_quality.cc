@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "meshes/doctor/examine_boundary.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/metrics/metric_statistics.h"
@@ -16,6 +17,7 @@
 #include "smoothing/quality/warpage.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/mesh_notes.h"
 #include "studies/cli/plots.h"
 #include "studies/cli/smooth_notes.h"
 #include "studies/cli/standard_streams.h"
@@ -31,7 +33,7 @@ constexpr std::size_t n_csv_bins = 40;  ///< a picture shows more than lines of 
 struct QualityArguments {
   std::string in, from, histogram, mark, metrics;
   double below = 0.0;
-  bool json = false;
+  bool json = false, keep_orientation = false;
 };
 
 std::string plural(const std::string& type) {
@@ -88,6 +90,7 @@ struct Report {
   std::vector<NamedNumber> geometry;
   std::vector<std::size_t> histogram;
   std::vector<MetricStatistics> metrics;
+  std::vector<Finding> findings;
 };
 
 void print_text(const Report& r) {
@@ -101,6 +104,8 @@ void print_text(const Report& r) {
   std::printf("%-13s%.6f\n%-13s%.6f\n%-13s%.6f\n%-13s%zu\n", "q_min", r.quality.q_min, "q*_min",
               r.quality.q_star_min, "q_mean", r.quality.q_mean, "invalid", r.quality.n_invalid);
   for (const auto& [key, text, value] : r.geometry) std::printf("%-13s%.6g\n", text, value);
+  for (const Finding& finding : r.findings)
+    std::printf("%-13s%s\n", "warning", finding.sentence.c_str());
   const std::size_t most = *std::max_element(r.histogram.begin(), r.histogram.end());
   constexpr std::size_t width = 50;
   std::printf("mean ratio\n");
@@ -144,6 +149,8 @@ void print_json(const Report& r) {
                                                                {"max", m.max}})
       of_metric[key] = value;
   }
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const Finding& finding : r.findings) json["findings"].push_back(json_of(finding));
   std::printf("%s\n", json.dump(2, ' ', false, decltype(json)::error_handler_t::replace).c_str());
 }
 
@@ -248,7 +255,8 @@ void report(const QualityArguments& arguments, const Mesh<dim, spacedim>& mesh,
        .quality = mesh_quality(topology, cell_quality),
        .geometry = geometry_numbers(mesh),
        .histogram = quality_histogram(cell_quality, n_bins),
-       .metrics = metric_statistics(metrics_named(arguments.metrics), &mesh)});
+       .metrics = metric_statistics(metrics_named(arguments.metrics), &mesh),
+       .findings = examine_boundary(mesh).findings});
   if (!arguments.mark.empty()) mark_bad_cells(arguments, mesh, cell_quality);
   std::fflush(stdout);
   if (!arguments.histogram.empty())
@@ -267,7 +275,7 @@ void report_quality(QualityArguments arguments) {
   (void)metrics_named(arguments.metrics);  // throws before a large mesh is read
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   if (input) arguments.in = input->path();
-  const MeshFile file = read_mesh(arguments.in);
+  const MeshFile file = read_mesh(arguments.in, {.turns_over = !arguments.keep_orientation});
   print_notes(arguments.in, file.notes);
   std::visit([&](const auto& mesh) { report(arguments, mesh, file.cell_lines); }, file.mesh);
 }
@@ -295,6 +303,7 @@ void add_quality_command(CLI::App& app) {
           "commas, or all")
       ->expected(0, 1)
       ->default_str("all");
+  add_keep_orientation(*command, arguments->keep_orientation);
   command->add_flag("--json", arguments->json, "as JSON");
   add_examples(*command,
                {"smoothfem quality in.vtu", "smoothfem quality in.vtu --mark bad.vtu --below 0.2",

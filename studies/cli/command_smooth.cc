@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "meshes/doctor/examine_boundary.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/base/interruption.h"
@@ -13,6 +14,7 @@
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/quality/bad_places.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/mesh_notes.h"
 #include "studies/cli/smooth_notes.h"
 #include "studies/cli/smooth_report.h"
 #include "studies/cli/standard_streams.h"
@@ -97,6 +99,18 @@ Mesh<dim, spacedim> fix_nodes_away_from_bad_cells(Mesh<dim, spacedim> mesh,
   return with_fixed_nodes(std::move(mesh), std::move(fixed));
 }
 
+/// The mesh with the nodes of seams fixed, whose sides would come apart. Warns about them.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_fixed_seams(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
+  const auto [findings, seam_nodes] = examine_boundary(mesh);
+  warn_about(arguments.in, findings);
+  if (seam_nodes.empty()) return mesh;
+  auto reasons = mesh.topology().fixed_reasons();
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    if (seam_nodes[i]) reasons[i] |= bit(FixedReason::hanging);
+  return with_fixed_nodes(std::move(mesh), std::move(reasons));
+}
+
 struct Outcome {
   std::string method_title;
   SmoothingResult smoothing;
@@ -162,6 +176,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
     mesh = with_layer_rule(std::move(mesh), arguments);
   else if (arguments.keep_layers)
     throw InputError("--keep-layers is for planar and volume meshes; leave it out");
+  mesh = with_fixed_seams(std::move(mesh), arguments);
   mesh = fix_nodes_away_from_bad_cells(std::move(mesh), arguments);
   const MeshQuality before = mesh_quality(mesh);
   const std::vector<double> sizes_before = cell_sizes(mesh);
@@ -230,7 +245,9 @@ void smooth_file(SmoothArguments arguments) {
   require_different_files(arguments);
   require_mesh_path(arguments.out);
   if (!arguments.log.empty()) require_writable_file(arguments.log);
-  MeshFile file = read_mesh(arguments.in, {.tag_field = arguments.tag_field});
+  MeshFile file = read_mesh(arguments.in, {.turns_over = !arguments.keep_orientation,
+                                           .merges = arguments.merge,
+                                           .tag_field = arguments.tag_field});
   print_notes(arguments.in, file.notes);
   std::visit(
       [&](auto& mesh) { smooth_mesh(arguments, std::move(mesh), file.cell_lines, target.options); },
@@ -308,6 +325,10 @@ void add_smooth_command(CLI::App& app) {
           "--rings", arguments->rings,
           "with --only-below: rings of cells around bad cells whose nodes also move (default: 2)")
       ->check(CLI::Range(0, 1000));
+  command->add_flag("--merge", arguments->merge,
+                    "merge boundary nodes that lie in one place, for example on the seam between "
+                    "the parts of a parallel program");
+  add_keep_orientation(*command, arguments->keep_orientation);
   command->add_flag("--fail-if-invalid", arguments->fail_if_invalid,
                     "write nothing and exit with 2 if the smoothed mesh has invalid cells");
   command->add_flag("--allow-worse", arguments->allow_worse,

@@ -10,6 +10,8 @@ namespace smoothfem {
 /// Each function adds one subcommand to the program. The commands' callbacks throw InputError.
 void add_smooth_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+void add_repair_command(CLI::App& app);
 void add_new_smoother_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_report_command(CLI::App& app);
@@ -22,6 +24,12 @@ void smoothfem_add_generate_command(CLI::App& app);
 void smoothfem_add_list_command(CLI::App& app);
 void smoothfem_add_merge_command(CLI::App& app);
 }
+
+/// Thrown by a command's callback to end the program with an exit code other than 0, for example
+/// after a report.
+struct ExitCode {
+  int code;
+};
 
 /// A command as `smoothfem --help` lists it.
 struct Command {

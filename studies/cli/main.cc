@@ -55,6 +55,8 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
+  } catch (const ExitCode& exit) {
+    return exit.code;
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "smoothfem: %s\n", parse_message(app, error, argc, argv).c_str());
     return exit_bad_input;

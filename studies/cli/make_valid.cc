@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "meshes/doctor/examine_boundary.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/optimization/untangle.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -61,11 +62,12 @@ template <int dim>
 /// --fix stay.
 UntangleResult untangle_with_sliding_boundary(const SmoothArguments& arguments, PlanarMesh& mesh) {
   const BoundaryLines lines(mesh, features_of(arguments), slide_distance_of(arguments));
+  const auto on_seam = examine_boundary(mesh).seam_nodes;  // its sides would come apart
   std::vector<bool> fixed(mesh.n_nodes());
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    fixed[i] =
-        lines.is_corner(i) || (mesh.topology().is_fixed(i) &&
-                               (!arguments.fix.empty() || !mesh.topology().on_boundary()[i]));
+    fixed[i] = lines.is_corner(i) || (!on_seam.empty() && on_seam[i]) ||
+               (mesh.topology().is_fixed(i) &&
+                (!arguments.fix.empty() || !mesh.topology().on_boundary()[i]));
   PlanarMesh sliding = with_fixed_nodes(mesh, std::move(fixed));
   const UntangleResult result = untangle(sliding, {}, &lines);
   mesh.set_coordinates(sliding.coordinates());

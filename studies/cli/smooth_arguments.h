@@ -21,6 +21,7 @@ struct SmoothArguments {
   int n_threads = 0;                       ///< 0: OpenMP's default
   std::optional<std::string> keep_layers;  ///< of all groups if empty, otherwise "group=NAME"
   bool untangle = false, fail_if_invalid = false, quiet = false, allow_worse = false;
+  bool merge = false, keep_orientation = false;
 };
 
 /// True if a planar boundary slides, which it does only while a mesh is untangled.

@@ -25,11 +25,6 @@ std::string rounded(double value, int digits) {
 
 }  // namespace
 
-void print_notes(const std::string& path, const std::vector<std::string>& notes) {
-  for (const std::string& note : notes)
-    std::fprintf(stderr, "smoothfem: note: %s: %s\n", path.c_str(), note.c_str());
-}
-
 void print_losses(const std::filesystem::path& path, const MeshView& mesh) {
   const auto lost = losses(path, mesh);
   if (!lost.empty())

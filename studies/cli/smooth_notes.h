@@ -7,12 +7,10 @@
 
 #include "meshes/io/mesh_file.h"
 #include "smoothing/mesh/mesh.h"
+#include "studies/cli/mesh_notes.h"
 #include "studies/cli/smooth_arguments.h"
 
 namespace smoothfem {
-
-/// Prints sentences on standard error, each as a line "smoothfem: note: ...".
-void print_notes(const std::string& path, const std::vector<std::string>& notes);
 
 /// Prints one note that names what a file of this name cannot hold, if anything.
 void print_losses(const std::filesystem::path& path, const MeshView& mesh);

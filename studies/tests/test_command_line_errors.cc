@@ -77,9 +77,11 @@ TEST_F(BadInput, ClockwisePolygon) {
   file_with("clockwise.mesh",
             "planar_polygonal_mesh\nnodes 4\n0 0\n1 0\n1 1\n0 1\npolygons 1\n4 3 2 1 0\n"
             "fixed_node_indices 0\n");
-  expect_mesh_refused("clockwise.mesh", {"clockwise.mesh:8: ", "clockwise"});
   file_with("mixed.mesh", square("0.5 0.5", "3 4 1 0"));
-  expect_mesh_refused("mixed.mesh", {"mixed.mesh:"});
+  for (const std::string name : {"clockwise.mesh", "mixed.mesh"}) {
+    expect_refused({"quality", name, "--keep-orientation"}, {name + ":", "clockwise"});
+    expect_refused({"smooth", name, "--keep-orientation", "-o", "out.vtu"}, {name + ":"});
+  }
 }
 
 TEST_F(BadInput, CellWithAMissingNode) {

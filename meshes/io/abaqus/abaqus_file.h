@@ -22,7 +22,7 @@ namespace smoothfem {
 ///
 /// Throws InputError for several parts, instances that are moved, nodes and elements that Abaqus
 /// would generate or include, and elements with mid-nodes.
-MeshFile read_abaqus(const std::filesystem::path& path, const MeshReadOptions& = {});
+MeshParts read_abaqus(const std::filesystem::path& path, const MeshReadOptions& = {});
 
 /// Writes an Abaqus input file. Throws InputError for polygons with five or more nodes. Facets are
 /// written as S3, S4 or T2D2 elements with labels after those of the cells.

@@ -443,9 +443,9 @@ class AbaqusReader {
 
 }  // namespace
 
-MeshFile read_abaqus(const std::filesystem::path& path, const MeshReadOptions&) {
+MeshParts read_abaqus(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
-  return assemble_mesh(path, AbaqusReader(path, content).parts());
+  return AbaqusReader(path, content).parts();
 }
 
 namespace {

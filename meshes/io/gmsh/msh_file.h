@@ -20,7 +20,7 @@ namespace smoothfem {
 /// Throws InputError "path:line: message" ("path: at byte N: ..." for binary files). Causes: other
 /// versions, incomplete files, nodes or elements with equal tags, coordinates that are not finite,
 /// and elements with nodes other than their corners.
-MeshFile read_msh(const std::filesystem::path& path, const MeshReadOptions& = {});
+MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions& = {});
 
 /// Writes a Gmsh file. Version and encoding follow the options; text has enough digits to keep
 /// every bit. Each physical tag is an entity of the model. Throws InputError for polygons with five

@@ -331,7 +331,7 @@ std::optional<MshVersion4> version_of(const LineReader& reader, const std::strin
 
 }  // namespace
 
-MeshFile read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
+MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
   reader.require_line("the first line");
@@ -359,8 +359,8 @@ MeshFile read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
   }
   parts.content.version = version_4 ? "4.1" : "2.2";
   parts.content.is_binary = is_binary;
-  drop_unused_nodes(parts);
-  return assemble_mesh(path, std::move(parts));
+  parts.leaves_out_unused_nodes = true;
+  return parts;
 }
 
 namespace {

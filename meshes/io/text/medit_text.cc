@@ -284,9 +284,9 @@ bool is_medit_text(std::string_view content) {
   return reader.next_line() && reader.word() == medit_title;
 }
 
-MeshFile read_medit_text(const std::filesystem::path& path, const MeshReadOptions&) {
+MeshParts read_medit_text(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
-  return assemble_mesh(path, MeditReader(path, content).parts());
+  return MeditReader(path, content).parts();
 }
 
 namespace {

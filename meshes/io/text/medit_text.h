@@ -15,7 +15,7 @@ namespace smoothfem {
 /// sections are ignored. RequiredVertices are fixed in addition to the boundary nodes. All nodes
 /// are kept. Each section may end with End. A file without a final End is accepted if it ends after
 /// a complete section and a line's end. Throws InputError for elements with mid-nodes.
-MeshFile read_medit_text(const std::filesystem::path& path, const MeshReadOptions& = {});
+MeshParts read_medit_text(const std::filesystem::path& path, const MeshReadOptions& = {});
 
 /// True if the first word of the content announces this format.
 bool is_medit_text(std::string_view content);

@@ -15,7 +15,7 @@ namespace smoothfem {
 
 namespace {
 
-constexpr std::string_view title = "planar_polygonal_mesh";
+constexpr std::string_view first_line = "planar_polygonal_mesh";
 
 /// Returns "node 5 of 11", counted from 1.
 std::string nth(const std::string& what, std::size_t i, std::size_t n) {
@@ -98,12 +98,12 @@ void skip_quality_numbers(LineReader& reader, std::size_t n_cells) {
 
 }  // namespace
 
-MeshFile read_polygonal_text(const std::filesystem::path& path, const MeshReadOptions&) {
+MeshParts read_polygonal_text(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
   reader.require_line("the first line");
-  if (reader.word() != title)
-    reader.fail("the first line is not '" + std::string(title) +
+  if (reader.word() != first_line)
+    reader.fail("the first line is not '" + std::string(first_line) +
                 "' (planar polygonal mesh) and not 'MeshVersionFormatted' (Medit); the format of "
                 "this file is unknown");
   reader.require_end_of_line();
@@ -112,7 +112,7 @@ MeshFile read_polygonal_text(const std::filesystem::path& path, const MeshReadOp
   read_polygons(reader, parts);
   parts.fixed = read_fixed(reader, parts.coordinates.size());
   if (reader.next_line()) skip_quality_numbers(reader, parts.elements[2].nodes.size());
-  return assemble_mesh(path, std::move(parts));
+  return parts;
 }
 
 namespace {
@@ -129,7 +129,7 @@ void write_polygonal_text(const std::filesystem::path& path, const MeshView& vie
                           const MeshFields&, const MeshWriteOptions&) {
   const PlanarMesh& mesh = *view.planar();
   const Topology& topology = mesh.topology();
-  std::string text(title);
+  std::string text(first_line);
   text += "\nnodes " + std::to_string(mesh.n_nodes()) + "\n";
   for (const auto& point : mesh.coordinates()) {
     append_padded(text, point.x(), ' ');

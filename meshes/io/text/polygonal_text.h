@@ -13,7 +13,7 @@ namespace smoothfem {
 /// and M lines of a number k and k node numbers (from 0, counterclockwise); `fixed_node_indices F`
 /// and F lines. `polygon_mean_ratio_quality_numbers M` and M lines may follow; their form is
 /// checked and their values are ignored.
-MeshFile read_polygonal_text(const std::filesystem::path& path, const MeshReadOptions& = {});
+MeshParts read_polygonal_text(const std::filesystem::path& path, const MeshReadOptions& = {});
 
 /// Writes this format. Coordinates have 17 significant digits, so that reading returns the same
 /// values bit for bit. Fixed nodes and mean ratios of the cells are always written; labels and

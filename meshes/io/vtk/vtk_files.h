@@ -20,8 +20,8 @@ namespace smoothfem {
 /// Many programs write wedges in Gmsh's order (node_order.h). That order is used for all wedges if
 /// more of them have a positive volume in it than in VTK's order. Throws InputError for incomplete
 /// files, cells with mid-edge nodes and other cells.
-MeshFile read_legacy_vtk(const std::filesystem::path& path, const MeshReadOptions& options = {});
-MeshFile read_vtu(const std::filesystem::path& path, const MeshReadOptions& options = {});
+MeshParts read_legacy_vtk(const std::filesystem::path& path, const MeshReadOptions& options = {});
+MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& options = {});
 
 /// Writes cells, followed by the labelled facets, the arrays that the readers use (tags, names and
 /// numbers if the mesh has them), and the fields; a facet has the value of its cell. Both formats

@@ -289,8 +289,8 @@ MeshParts legacy_vtk_parts(const std::filesystem::path& path, const MeshReadOpti
 
 }  // namespace
 
-MeshFile read_legacy_vtk(const std::filesystem::path& path, const MeshReadOptions& options) {
-  return assemble_mesh(path, legacy_vtk_parts(path, options));
+MeshParts read_legacy_vtk(const std::filesystem::path& path, const MeshReadOptions& options) {
+  return legacy_vtk_parts(path, options);
 }
 
 }  // namespace smoothfem

@@ -184,8 +184,8 @@ MeshParts vtu_parts(const std::filesystem::path& path, const MeshReadOptions& op
 
 }  // namespace
 
-MeshFile read_vtu(const std::filesystem::path& path, const MeshReadOptions& options) {
-  return assemble_mesh(path, vtu_parts(path, options));
+MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& options) {
+  return vtu_parts(path, options);
 }
 
 }  // namespace smoothfem

@@ -69,6 +69,7 @@ Json describe_meshes(const RunFacts& facts) {
                       {"q_mean", mesh.quality.q_mean},
                       {"file", mesh.file},
                       {"sha256", mesh.sha256}});
+    if (!mesh.changes.empty()) meshes.back()["changes"] = mesh.changes;
     for (const auto& [degree, n_points] : mesh.max_points)
       meshes.back()["most_hexahedron_points"][std::to_string(degree)] = n_points;
     if (!mesh.description.repeats.empty()) meshes.back()["repeats"] = mesh.description.repeats;

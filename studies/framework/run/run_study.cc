@@ -85,6 +85,8 @@ class StudyRun {
           description, study_, options_.mesh_dir,
           earlier_.status.empty() && !options_.initial_meshes_are_there ? fs::path()
                                                                         : options_.out));
+      for (const auto& change : data_.meshes.back().changes)
+        progress_.say(data_.meshes.back().origin + ": " + change);
       stop_if_interrupted();
     }
     progress_.end();

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
+#include "meshes/doctor/examine_boundary.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/geometry/extreme_size.h"
@@ -24,9 +25,12 @@ Mesh<dim, spacedim> of_kind(AnyMesh&& mesh, const std::string& name) {
                    std::to_string(dim) + "'; set it to " + std::to_string(5 - dim));
 }
 
+/// changes: gets the sentences about changes that were made in reading.
 template <int dim, int spacedim>
-Mesh<dim, spacedim> read_valid_mesh(const std::filesystem::path& path) {
+Mesh<dim, spacedim> read_valid_mesh(const std::filesystem::path& path,
+                                    std::vector<std::string>& changes) {
   MeshFile file = read_mesh(path);
+  changes = std::move(file.notes);
   const auto mesh = of_kind<dim, spacedim>(std::move(file.mesh), path.string());
   require_valid(mesh, path.string(), file.cell_lines);
   return mesh;
@@ -79,15 +83,15 @@ Source source_of(const StudyMesh& description, const std::filesystem::path& mesh
 }
 
 template <int dim, int spacedim>
-Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source,
-                              double edge_scale) {
+Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale,
+                              std::vector<std::string>& changes) {
   Mesh<dim, spacedim> mesh =
       source.file.empty() ? of_kind<dim, spacedim>(find_domain(description.domain)
                                                        .generate({.elements = description.elements,
                                                                   .edge_scale = edge_scale,
                                                                   .seed = description.seed}),
                                                    "the domain " + description.domain)
-                          : read_valid_mesh<dim, spacedim>(source.file);
+                          : read_valid_mesh<dim, spacedim>(source.file, changes);
   if (source.published || !is_distorted(description)) return mesh;
   DistortionParameters parameters;
   parameters.kind = description.distortion;
@@ -117,12 +121,14 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   // The format does not store groups of the boundary either.
   const bool again = (!source.file.empty() && (source.published || !is_distorted(description))) ||
                      !study.finite_elements.natural_groups.empty();
+  std::vector<std::string> changes;
   Mesh<dim, spacedim> mesh =
       dim == spacedim && !again && !earlier.empty() && std::filesystem::exists(earlier / initial)
-          ? read_valid_mesh<dim, spacedim>(earlier / initial)
-          : make_mesh<dim, spacedim>(description, source,
-                                     study.edge_scale * description.edge_scale);
+          ? read_valid_mesh<dim, spacedim>(earlier / initial, changes)
+          : make_mesh<dim, spacedim>(description, source, study.edge_scale * description.edge_scale,
+                                     changes);
   if (!study.degrees.empty()) {
+    if (!source.file.empty()) require_conforming(mesh, source.file.string());
     for (const int degree : study.degrees)
       require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
     if (const int exponent = extreme_exponent(std::as_const(mesh).coordinates()); exponent != 0)
@@ -139,6 +145,7 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                   .setting = source.setting(),
                   .file = initial,
                   .published = source.published,
+                  .changes = std::move(changes),
                   .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file),
                   .sha256 = {}};
   return {std::move(facts), std::move(mesh)};

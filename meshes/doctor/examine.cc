@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/doctor/examine.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "meshes/doctor/examinations/orientation.h"
+#include "meshes/doctor/examinations/pieces.h"
+#include "meshes/doctor/examinations/same_cells.h"
+#include "meshes/doctor/examine_boundary.h"
+#include "smoothing/quality/mean_ratio.h"
+#include "smoothing/simd/cells.h"
+
+namespace smoothfem {
+
+namespace {
+
+/// True if a mesh would count the cell as invalid. Cells in space have their own mean normal.
+bool is_invalid(const PlainCells& cells, std::span<const NodeIndex> nodes) {
+  const auto at = [&](NodeIndex node) -> const Point<3>& { return cells.points[node]; };
+  bool invalid = false;
+  if (cells.dim == 3) {
+    with_corners_at<3>(nodes, at, [&](auto corners) { invalid = !(mean_ratio(corners) > 0.0); });
+    return invalid;
+  }
+  const Point<3> upper = cells.planar ? Point<3>(0.0, 0.0, 1.0) : facet_normal(nodes, cells.points);
+  with_corners_at<2>(
+      nodes, at, [&](auto corners) { invalid = !(mean_ratio(vector_of(upper), corners) > 0.0); });
+  return invalid;
+}
+
+void add_directions(Findings& findings, const FacetTable& table) {
+  const PlainCells& cells = findings.cells();
+  const Orientation orientation = find_reversed_cells(cells, table);
+  const auto& reversed = orientation.reversed;
+  if (!reversed.empty()) {
+    auto finding = findings.at_cell(FindingKind::reversed_cells, reversed.size(), reversed[0]);
+    finding.is_repairable = true;
+    findings.add(finding,
+                 count_of(reversed.size(), "cell") +
+                     (reversed.size() == 1 ? " lists its" : " list their") +
+                     " nodes in the wrong direction, which is the only fault",
+                 "'smoothfem repair' turns such cells over, and so do all commands that read the "
+                 "file");
+  }
+  if (orientation.one_sided)
+    findings.add(findings.at_cell(FindingKind::one_sided, 1, *orientation.one_sided),
+                 "a piece of the mesh has no upper side, like a Moebius strip",
+                 "cut it in the mesh generator");
+  const auto right = with_reversed(cells.dim, cells.cells, reversed);
+  std::size_t n_folded = 0;
+  CellIndex first = 0;
+  for (CellIndex c = 0; c < right.size(); ++c)
+    if (is_invalid(cells, right[c]) && n_folded++ == 0) first = c;
+  if (n_folded > 0)
+    findings.add(findings.at_cell(FindingKind::folded_cells, n_folded, first),
+                 count_of(n_folded, "cell") + (n_folded == 1 ? " is" : " are") +
+                     " folded, flat or not convex, whatever the direction of " +
+                     (n_folded == 1 ? "its" : "their") + " nodes",
+                 cells.dim == 2 && !cells.planar ? "repair the surface in the mesh generator"
+                                                 : "'smoothfem smooth --untangle' may help");
+}
+
+void add_crowded_facets(Findings& findings, const FacetTable& table) {
+  std::size_t count = 0;
+  NodeIndex first = 0;
+  CellIndex cell = 0;
+  table.for_each([&](NodeIndex node, std::span<const CellFacet> facet) {
+    if (facet.size() <= 2 || count++ > 0) return;
+    first = node;
+    cell = facet[2].cell;
+  });
+  if (count == 0) return;
+  auto finding = findings.at_node(FindingKind::crowded_facets, count, first);
+  finding.cell = findings.numbers().cell(cell);
+  findings.add(
+      finding,
+      count_of(count, findings.facet_name()) +
+          (count == 1 ? " belongs to three or more cells" : " belong to three or more cells each"),
+      "separate the pieces there in the mesh generator");
+}
+
+/// Adds cells that name a node twice, and cells with the nodes of another one. Returns the rest.
+std::vector<bool> add_unusable_cells(Findings& findings) {
+  const PlainCells& cells = findings.cells();
+  const auto collapsed = collapsed_cells(cells.cells);
+  const auto doubled = doubled_cells(cells.cells);
+  if (!collapsed.empty())
+    findings.add(findings.at_cell(FindingKind::collapsed_cells, collapsed.size(), collapsed[0]),
+                 count_of(collapsed.size(), "cell") +
+                     (collapsed.size() == 1 ? " names a node twice" : " name a node twice"),
+                 "remove them, or list them as cells with fewer nodes");
+  if (!doubled.empty()) {
+    auto finding = findings.at_cell(FindingKind::doubled_cells, doubled.size(), doubled[0]);
+    finding.is_repairable = true;
+    findings.add(finding,
+                 count_of(doubled.size(), "cell") + (doubled.size() == 1 ? " has" : " have") +
+                     " the same nodes as another cell",
+                 "'smoothfem repair' removes the later ones");
+  }
+  std::vector<bool> usable(cells.cells.size(), true);
+  for (const auto* unusable : {&collapsed, &doubled})
+    for (const CellIndex c : *unusable) usable[c] = false;
+  return usable;
+}
+
+void add_unused_nodes(Findings& findings) {
+  const PlainCells& cells = findings.cells();
+  std::vector<bool> used(cells.points.size(), false);
+  for (const NodeIndex node : cells.cells.entries()) used[node] = true;
+  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+  if (count == 0) return;
+  const auto first =
+      static_cast<NodeIndex>(std::find(used.begin(), used.end(), false) - used.begin());
+  auto finding = findings.at_node(FindingKind::unused_nodes, count, first);
+  finding.is_repairable = true;
+  findings.add(finding,
+               count_of(count, "node") + (count == 1 ? " belongs" : " belong") + " to no cell",
+               "'smoothfem repair' drops such nodes");
+}
+
+/// Adds a finding if all nodes lie in one plane, but not in a plane z = const.
+void add_plane(Findings& findings) {
+  const PlainCells& cells = findings.cells();
+  if (cells.dim != 2 || cells.planar) return;
+  Eigen::AlignedBox3d box;
+  for (const auto& p : cells.points) box.extend(p);
+  const double bound = 1e-9 * box.diagonal().norm();
+  Point<3> normal(0.0, 0.0, 1.0);
+  const bool noise = box.sizes().z() <= bound;
+  if (!noise) {
+    const Point<3> centre = box.center();
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (const auto& p : cells.points) moments += (p - centre) * (p - centre).transpose();
+    Point<3> mean = Point<3>::Zero();
+    for (const auto& p : cells.points) mean += (p - centre) / double(cells.points.size());
+    moments -= double(cells.points.size()) * mean * mean.transpose();
+    normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().col(0);
+    double low = 0.0, high = 0.0;
+    for (const auto& p : cells.points) {
+      const double height = normal.dot(p - cells.points[0]);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    if (high - low > bound) return;
+  }
+  findings.add(findings.at_node(FindingKind::other_plane, 1, 0),
+               noise ? "the mesh is planar but for noise in z"
+                     : "the mesh is planar, but not in a plane z = const: its normal is " +
+                           place_text(normal, false),
+               "set z to one value, or turn the mesh");
+}
+
+/// Cells of which a mesh can be made, with their numbers.
+struct UsableCells {
+  CompressedRows<NodeIndex> nodes;
+  std::vector<std::size_t> numbers;
+};
+UsableCells usable_cells(const Findings& findings, const std::vector<bool>& usable) {
+  UsableCells result;
+  for (CellIndex c = 0; c < usable.size(); ++c) {
+    if (!usable[c]) continue;
+    result.nodes.append(findings.cells().cells[c]);
+    result.numbers.push_back(*findings.numbers().cell(c));
+  }
+  return result;
+}
+
+/// Examines cells of which a mesh can be made.
+std::vector<Finding> examine_usable(const PlainCells& cells, const FileNumbers& numbers) {
+  Findings findings(cells, numbers);
+  const FacetTable table(cells);
+  add_directions(findings, table);
+  add_crowded_facets(findings, table);
+  (void)add_seams(findings, skin_of(cells, table));
+  return std::move(findings).take();
+}
+
+}  // namespace
+
+void require_readable_cells(const MeshParts& parts) {
+  const int dim = dimension_of(parts);
+  const auto& cells = parts.elements[dim].nodes;
+  if (cells.empty()) throw InputError("the mesh has no cells");
+  for (CellIndex c = 0; c < cells.size(); ++c) {
+    if (!is_cell_size(dim, cells[c].size()))
+      throw CellError(c, "has " + count_of(cells[c].size(), "node") + ", which no cell can have");
+    for (const NodeIndex node : cells[c])
+      if (node >= parts.coordinates.size())
+        throw CellError(c, "names node " + std::to_string(node) + ", but the file has only " +
+                               count_of(parts.coordinates.size(), "node") + ", counted from 0");
+  }
+}
+
+Examination examine(const MeshParts& parts) {
+  const int dim = dimension_of(parts);
+  require_usable_coordinates(parts);
+  require_readable_cells(parts);
+  const ElementList& list = parts.elements[dim];
+  PlainCells cells{dim, list.nodes, parts.coordinates, dim == 2 && is_planar(parts)};
+  FileNumbers numbers{true, parts.node_ids, list.ids};
+  Examination result{.mesh_kind = mesh_kind_name(dim, dim == 3 || cells.planar ? dim : 3),
+                     .n_nodes = parts.coordinates.size(),
+                     .n_cells = list.nodes.size(),
+                     .n_pieces = count_pieces(cells),
+                     .findings = {}};
+  Findings findings(cells, numbers);
+  const auto usable = add_unusable_cells(findings);
+  add_unused_nodes(findings);
+  add_plane(findings);
+  std::vector<Finding> more;
+  if (std::find(usable.begin(), usable.end(), false) == usable.end()) {
+    more = examine_usable(cells, numbers);
+  } else if (const auto rest = usable_cells(findings, usable); !rest.nodes.empty()) {
+    more = examine_usable({dim, rest.nodes, parts.coordinates, cells.planar},
+                          {true, parts.node_ids, rest.numbers});
+  }
+  result.findings = std::move(findings).take();
+  result.findings.insert(result.findings.end(), more.begin(), more.end());
+  return result;
+}
+
+}  // namespace smoothfem

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meshes/doctor/examinations/facet_table.h"
+#include "meshes/doctor/finding.h"
+
+namespace smoothfem {
+
+/// Numbers of nodes and cells in the file, or from 0 where it has none. Default: none are shown.
+struct FileNumbers {
+  bool are_shown = false;
+  std::span<const std::size_t> nodes{}, cells{};
+
+  std::optional<std::size_t> node(NodeIndex i) const { return number(nodes, i); }
+  std::optional<std::size_t> cell(CellIndex c) const { return number(cells, c); }
+
+ private:
+  std::optional<std::size_t> number(std::span<const std::size_t> ids, std::size_t i) const {
+    if (!are_shown) return std::nullopt;
+    return ids.empty() || ids[i] == 0 ? i : ids[i];
+  }
+};
+
+/// Collects findings about cells.
+class Findings {
+ public:
+  explicit Findings(const PlainCells& cells, const FileNumbers& numbers = {})
+      : cells_(cells), numbers_(numbers) {}
+
+  const PlainCells& cells() const { return cells_; }
+  const FileNumbers& numbers() const { return numbers_; }
+  const char* facet_name() const { return cells_.dim == 2 ? "edge" : "face"; }
+
+  /// Returns a finding without a sentence whose first place is a node, or a cell.
+  Finding at_node(FindingKind kind, std::size_t count, NodeIndex node) const {
+    return {kind, count, cells_.points[node], std::nullopt, numbers_.node(node), {}, false};
+  }
+  Finding at_cell(FindingKind kind, std::size_t count, CellIndex cell) const {
+    const Point<3>& at = cells_.points[cells_.cells[cell][0]];
+    return {kind, count, at, numbers_.cell(cell), std::nullopt, {}, false};
+  }
+
+  /// Adds a finding. Its sentence says the fault, the first place and the remedy.
+  void add(Finding finding, const std::string& fault, const std::string& remedy) {
+    std::string place = finding.count == 1 ? "it is " : "the first is ";
+    if (finding.node)
+      place += "node " + std::to_string(*finding.node) + " ";
+    else if (finding.cell)
+      place += "cell " + std::to_string(*finding.cell) + " ";
+    place += "at " + place_text(finding.at, cells_.planar);
+    finding.sentence = fault + "; " + place + "; " + remedy;
+    all_.push_back(std::move(finding));
+  }
+
+  std::vector<Finding> take() && { return std::move(all_); }
+
+ private:
+  const PlainCells& cells_;
+  FileNumbers numbers_;
+  std::vector<Finding> all_;
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Tests what is found in meshes, and how it is repaired.
+#include "meshes/doctor/examine.h"
+#include "meshes/doctor/examine_boundary.h"
+#include "meshes/doctor/repair.h"
+#include "meshes/io/mesh_view.h"
+#include "meshes/tests/mesh_tests.h"
+#include "smoothing/quality/mesh_quality.h"
+#include "smoothing/tests/volume_meshes.h"
+
+namespace smoothfem {
+namespace {
+
+using ::testing::HasSubstr;
+
+MeshParts sick_parts(int dim, const std::vector<Point<3>>& x, const test::Cells& cells) {
+  MeshParts parts;
+  parts.coordinates = x;
+  parts.elements[dim].nodes = test::rows_of(cells);
+  return parts;
+}
+
+MeshParts sick_parts(const MeshView& mesh) {
+  MeshParts parts;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) parts.coordinates.push_back(mesh.point(i));
+  parts.elements[mesh.dimension()].nodes = mesh.topology().cells();
+  return parts;
+}
+
+/// Lists the nodes of some cells in the opposite direction: as seen in a mirror.
+void mirror(MeshParts& parts, const std::vector<CellIndex>& which) {
+  ElementList& list = parts.elements[dimension_of(parts)];
+  test::Cells cells;
+  for (CellIndex c = 0; c < list.nodes.size(); ++c)
+    cells.emplace_back(list.nodes[c].begin(), list.nodes[c].end());
+  for (const CellIndex c : which) {
+    auto& n = cells[c];
+    if (dimension_of(parts) == 2)
+      std::reverse(n.begin(), n.end());
+    else if (n.size() == 4)
+      std::swap(n[1], n[3]);
+    else if (n.size() == 5)
+      std::swap(n[1], n[3]);
+    else
+      std::rotate(n.begin(), n.begin() + static_cast<std::ptrdiff_t>(n.size() / 2), n.end());
+  }
+  list.nodes = test::rows_of(cells);
+}
+
+std::vector<FindingKind> kinds_in(const MeshParts& parts) {
+  std::vector<FindingKind> kinds;
+  for (const auto& finding : examine(parts).findings) kinds.push_back(finding.kind);
+  return kinds;
+}
+
+/// Returns the only finding; fails if there are others.
+Finding only_finding(const MeshParts& parts) {
+  const auto findings = examine(parts).findings;
+  EXPECT_EQ(findings.size(), 1u);
+  return findings.empty() ? Finding{} : findings.front();
+}
+
+const std::vector<Point<3>> unit_square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+std::vector<std::pair<std::string, AnyMesh>> small_meshes() {
+  std::vector<std::pair<std::string, AnyMesh>> all;
+  for (auto& [name, mesh] : test::regular_topologies<2>()) all.emplace_back(name, mesh);
+  for (auto& [name, mesh] : test::regular_topologies<3>()) all.emplace_back(name, mesh);
+  return all;
+}
+
+TEST(Doctor, FindsNothingInSoundMeshesOfEveryElementType) {
+  for (const auto& [name, mesh] : small_meshes()) {
+    SCOPED_TRACE(name);
+    const MeshParts parts = sick_parts(mesh);
+    EXPECT_THAT(kinds_in(parts), ::testing::IsEmpty());
+    EXPECT_EQ(examine(parts).n_pieces, 1u);
+    const MeshFile file = assemble_mesh("m", parts);
+    EXPECT_THAT(file.notes, ::testing::IsEmpty());
+    EXPECT_EQ(MeshView(file.mesh).topology().cells(), MeshView(mesh).topology().cells());
+  }
+}
+
+TEST(Doctor, ReadingTurnsOverMirroredCellsOfEveryElementType) {
+  for (const auto& [name, mesh] : small_meshes()) {
+    SCOPED_TRACE(name);
+    const std::size_t n = MeshView(mesh).n_cells();
+    std::vector<CellIndex> some, all;
+    for (CellIndex c = 0; c < n; ++c) {
+      if (c % 3 == 1) some.push_back(c);
+      all.push_back(c);
+    }
+    for (const auto& which : {some, all}) {
+      MeshParts parts = sick_parts(mesh);
+      mirror(parts, which);
+      const Finding finding = only_finding(parts);
+      EXPECT_EQ(finding.kind, FindingKind::reversed_cells);
+      EXPECT_EQ(finding.count, which.size());
+      EXPECT_EQ(finding.cell, which.front());
+      const MeshFile file = assemble_mesh("m", parts);
+      ASSERT_EQ(file.notes.size(), 1u);
+      EXPECT_THAT(file.notes[0], HasSubstr("turned over " + std::to_string(which.size()) + " of"));
+      std::visit([](const auto& m) { EXPECT_EQ(mesh_quality(m).n_invalid, 0u); }, file.mesh);
+      const MeshFile kept = assemble_mesh("m", parts, {.turns_over = false});
+      EXPECT_EQ(MeshView(kept.mesh).topology().cells(), parts.elements[dimension_of(parts)].nodes);
+    }
+  }
+}
+
+TEST(Doctor, LabelsStayWithCellsThatAreTurnedOver) {
+  MeshParts parts = sick_parts(2, unit_square, {{0, 1, 2}, {0, 3, 2}});
+  parts.elements[2].tags = {5, 6};
+  parts.elements[2].ids = {10, 20};
+  parts.elements[2].lines = {7, 8};
+  parts.elements[1].nodes = test::rows_of({{2, 3}});
+  parts.elements[1].tags = {9};
+  const MeshFile file = assemble_mesh("m", parts);
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_THAT(file.notes[0], HasSubstr("cell 20 (line 8) at (0, 0)"));
+  const auto& labels = MeshView(file.mesh).topology().labels();
+  EXPECT_EQ(labels.cell_tags, (std::vector<int>{5, 6}));
+  EXPECT_EQ(labels.facet_tags, std::vector<int>{9});
+}
+
+TEST(Doctor, FoldedCellsAreNotTurnedOver) {
+  // The fifth node lies outside, so that one cell is folded. Another one is mirrored.
+  auto x = unit_square;
+  x.emplace_back(0.5, 1.5, 0.0);
+  MeshParts parts = sick_parts(2, x, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {0, 3, 4}});
+  const auto findings = examine(parts).findings;
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].kind, FindingKind::reversed_cells);
+  EXPECT_EQ(findings[0].cell, 3u);
+  EXPECT_EQ(findings[1].kind, FindingKind::folded_cells);
+  EXPECT_EQ(findings[1].count, 1u);
+  EXPECT_EQ(findings[1].cell, 2u);
+  EXPECT_FALSE(findings[1].is_repairable);
+}
+
+TEST(Doctor, TheSmallerPartOfASurfaceIsTurnedOver) {
+  auto x = unit_square;
+  x.emplace_back(0.5, 0.5, 1.0);
+  const MeshParts parts = sick_parts(2, x, {{0, 1, 4}, {2, 1, 4}, {2, 3, 4}, {3, 0, 4}});
+  EXPECT_EQ(only_finding(parts).cell, 1u);
+  const MeshFile file = assemble_mesh("m", parts);
+  EXPECT_EQ(file.notes.size(), 1u);
+  EXPECT_TRUE(std::ranges::equal(MeshView(file.mesh).topology().cell_nodes(1),
+                                 std::vector<NodeIndex>{2, 4, 1}));
+}
+
+TEST(Doctor, AMoebiusStripHasOneSide) {
+  const MeshParts parts =
+      sick_parts(2, {{2, 0, 1}, {2, 0, -1}, {-1, 2, 1}, {-1, 1, -1}, {-1, -2, 1}, {-1, -1, -1}},
+                 {{0, 1, 3, 2}, {2, 3, 5, 4}, {4, 5, 0, 1}});
+  EXPECT_THAT(kinds_in(parts), ::testing::Contains(FindingKind::one_sided));
+}
+
+/// A square next to two smaller ones, or to three.
+MeshParts quadtree(int n_small) {
+  std::vector<Point<3>> x = unit_square;
+  test::Cells cells{{0, 1, 2, 3}};
+  for (int k = 0; k <= n_small; ++k) {
+    const double y = k / static_cast<double>(n_small);
+    if (k > 0 && k < n_small) x.emplace_back(1.0, y, 0.0);
+    x.emplace_back(1.5, y, 0.0);
+  }
+  NodeIndex left = 1, right = 4;
+  for (int k = 1; k <= n_small; ++k) {
+    const NodeIndex upper_left = k == n_small ? 2 : right + 1;
+    const NodeIndex upper_right = k == n_small ? right + 1 : right + 2;
+    cells.push_back({left, right, upper_right, upper_left});
+    left = upper_left;
+    right = upper_right;
+  }
+  return sick_parts(2, x, cells);
+}
+
+TEST(Doctor, FindsHangingNodesInThePlane) {
+  for (const int n : {2, 3}) {
+    SCOPED_TRACE(n);
+    const Finding finding = only_finding(quadtree(n));
+    EXPECT_EQ(finding.kind, FindingKind::hanging_nodes);
+    EXPECT_EQ(finding.count, static_cast<std::size_t>(n - 1));
+    EXPECT_EQ(finding.node, 5u);
+    EXPECT_EQ(finding.cell, 0u);
+    EXPECT_EQ(finding.at, Point<3>(1.0, 1.0 / n, 0.0));
+  }
+  // Triangles; the coordinates have six digits only.
+  const MeshParts triangles = sick_parts(
+      2, {{0, 0, 0}, {0.7, 0.1, 0}, {0.333333, 0.9, 0}, {0.233333, 0.033333, 0}, {0.3, -0.8, 0}},
+      {{0, 1, 2}, {4, 3, 0}, {4, 1, 3}});
+  EXPECT_EQ(only_finding(triangles).kind, FindingKind::hanging_nodes);
+}
+
+/// A unit cube next to a layer of n x n small ones.
+MeshParts octree(int n, test::BoxCells kind) {
+  const VolumeMesh coarse = test::box_mesh(1, 1, 1, kind);
+  const auto m = static_cast<std::uint32_t>(n);
+  const VolumeMesh fine = test::box_mesh(m, m, 1, kind);
+  MeshParts parts = sick_parts(coarse);
+  test::Cells cells;
+  for (CellIndex c = 0; c < coarse.n_cells(); ++c)
+    cells.emplace_back(coarse.topology().cell_nodes(c).begin(),
+                       coarse.topology().cell_nodes(c).end());
+  std::vector<NodeIndex> number(fine.n_nodes());
+  for (NodeIndex i = 0; i < fine.n_nodes(); ++i) {
+    const Point<3> p = fine.coordinates()[i] / n + Point<3>(0, 0, 1);
+    const auto same = std::find(parts.coordinates.begin(), parts.coordinates.end(), p);
+    number[i] = static_cast<NodeIndex>(same - parts.coordinates.begin());
+    if (same == parts.coordinates.end()) parts.coordinates.push_back(p);
+  }
+  for (CellIndex c = 0; c < fine.n_cells(); ++c) {
+    auto& cell = cells.emplace_back();
+    for (const NodeIndex i : fine.topology().cell_nodes(c)) cell.push_back(number[i]);
+  }
+  parts.elements[3].nodes = test::rows_of(cells);
+  return parts;
+}
+
+TEST(Doctor, FindsHangingNodesInSpace) {
+  for (const auto kind : {test::BoxCells::tetrahedra, test::BoxCells::pyramids,
+                          test::BoxCells::prisms, test::BoxCells::hexahedra}) {
+    SCOPED_TRACE(test::name_of(kind));
+    const Finding two = only_finding(octree(2, kind));
+    EXPECT_EQ(two.kind, FindingKind::hanging_nodes);
+    EXPECT_EQ(two.count, 5u);
+    EXPECT_EQ(only_finding(octree(3, kind)).count, 12u);
+  }
+}
+
+TEST(Doctor, FindsHangingNodesOnWarpedFaces) {
+  MeshParts parts = octree(4, test::BoxCells::hexahedra);
+  for (auto& p : parts.coordinates) p.z() += 0.2 * p.x() * p.y();
+  EXPECT_EQ(only_finding(parts).count, 21u);
+}
+
+/// Two copies of a mesh next to each other in direction x, with the nodes of the seam twice.
+MeshParts with_seam(const MeshView& mesh, double width) {
+  MeshParts parts = sick_parts(mesh);
+  ElementList& list = parts.elements[mesh.dimension()];
+  const auto n = static_cast<NodeIndex>(parts.coordinates.size());
+  for (NodeIndex i = 0; i < n; ++i)
+    parts.coordinates.emplace_back(parts.coordinates[i] + Point<3>(width, 0, 0));
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    std::vector<NodeIndex> cell;
+    for (const NodeIndex i : mesh.topology().cell_nodes(c)) cell.push_back(n + i);
+    list.nodes.append(cell);
+  }
+  return parts;
+}
+
+TEST(Doctor, FindsAndMergesCoincidentNodes) {
+  const MeshParts planar = with_seam(test::grid_mesh(2, test::GridCells::triangles), 2.0);
+  const Finding in_plane = only_finding(planar);
+  EXPECT_EQ(in_plane.kind, FindingKind::coincident_nodes);
+  EXPECT_EQ(in_plane.count, 3u);
+  EXPECT_THAT(in_plane.sentence, HasSubstr("2 pairs of edges form a seam"));
+  const MeshParts boxes = with_seam(test::box_mesh(1, 1, 1, test::BoxCells::hexahedra), 1.0);
+  const Finding in_space = only_finding(boxes);
+  EXPECT_EQ(in_space.count, 4u);
+  EXPECT_THAT(in_space.sentence, HasSubstr("1 pair of faces form a seam"));
+  for (MeshParts parts : {planar, boxes}) {
+    EXPECT_EQ(examine(parts).n_pieces, 2u);
+    const MeshFile merged = assemble_mesh("m", parts, {.merges = true});
+    EXPECT_EQ(merged.notes.size(), 1u);
+    const std::size_t n_before = parts.coordinates.size();
+    EXPECT_EQ(repair(parts).size(), 1u);
+    EXPECT_LT(parts.coordinates.size(), n_before);
+    EXPECT_EQ(MeshView(merged.mesh).n_nodes(), parts.coordinates.size());
+    EXPECT_THAT(kinds_in(parts), ::testing::IsEmpty());
+    EXPECT_EQ(examine(parts).n_pieces, 1u);
+  }
+}
+
+TEST(Doctor, FlatCellsAndNearNodesOfOneCellDoNotCoincide) {
+  const double tiny = 1e-11;  // a layer of cells that are so thin
+  MeshParts parts =
+      sick_parts(2, {{0, 0, 0}, {1, 0, 0}, {1, tiny, 0}, {0, tiny, 0}, {1, 1, 0}, {0, 1, 0}},
+                 {{0, 1, 2, 3}, {3, 2, 4, 5}});
+  EXPECT_THAT(kinds_in(parts), ::testing::IsEmpty());
+}
+
+TEST(Doctor, FindsPiecesThatTouch) {
+  const MeshParts planar = sick_parts(2, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                                      {{0, 1, 2}, {0, 3, 4}});
+  EXPECT_EQ(only_finding(planar).kind, FindingKind::touching_nodes);
+  EXPECT_EQ(only_finding(planar).node, 0u);
+  // Two cubes with an edge in common, and two with a node.
+  for (const bool edge : {true, false}) {
+    const Point<3> shift(1.0, 1.0, edge ? 0.0 : 1.0);
+    MeshParts parts = sick_parts(test::box_mesh(1, 1, 1, test::BoxCells::hexahedra));
+    std::vector<NodeIndex> cell;
+    const auto nodes = parts.elements[3].nodes[0];
+    for (const NodeIndex i : nodes) {
+      const Point<3> p = parts.coordinates[i] + shift;
+      const auto same = std::find(parts.coordinates.begin(), parts.coordinates.end(), p);
+      cell.push_back(static_cast<NodeIndex>(same - parts.coordinates.begin()));
+      if (same == parts.coordinates.end()) parts.coordinates.push_back(p);
+    }
+    parts.elements[3].nodes.append(cell);
+    const Finding finding = only_finding(parts);
+    EXPECT_EQ(finding.kind, edge ? FindingKind::touching_edges : FindingKind::touching_nodes);
+    EXPECT_EQ(finding.count, 1u);
+  }
+}
+
+TEST(Doctor, FindsCellsAndNodesOfWhichNoMeshIsMade) {
+  auto x = unit_square;
+  x.emplace_back(0.5, -1.0, 0.0);
+  x.emplace_back(7.0, 7.0, 0.0);
+  x.emplace_back(0.4, 2.0, 0.0);
+  MeshParts parts = sick_parts(2, x, {{0, 1, 2}, {0, 2, 3}, {2, 0, 1}, {0, 2, 6}, {0, 4, 4, 1}});
+  EXPECT_THAT(kinds_in(parts),
+              ::testing::ElementsAre(FindingKind::collapsed_cells, FindingKind::doubled_cells,
+                                     FindingKind::unused_nodes, FindingKind::crowded_facets));
+  EXPECT_EQ(examine(parts).findings[2].node, 5u);
+  EXPECT_THAT(input_error_of([&] { assemble_mesh("m", parts); }), HasSubstr("more than once"));
+  const MeshParts faces =
+      sick_parts(3, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, 2}},
+                 {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}});
+  EXPECT_EQ(only_finding(faces).kind, FindingKind::crowded_facets);
+}
+
+TEST(Doctor, RefusesDataThatNoCellsHave) {
+  MeshParts parts = sick_parts(2, unit_square, {{0, 1, 4}});
+  EXPECT_THAT(input_error_of([&] { examine(parts); }), HasSubstr("names node 4"));
+  EXPECT_THAT(input_error_of([&] { examine(MeshParts{}); }), HasSubstr("no cells"));
+  parts.coordinates[0].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(input_error_of([&] { repair(parts); }), HasSubstr("not a finite number"));
+}
+
+TEST(Doctor, SaysThatAMeshIsPlanarInAnotherPlane) {
+  MeshParts parts = sick_parts(test::grid_mesh(3, test::GridCells::quadrilaterals));
+  parts.coordinates[5].z() = 1e-12;
+  EXPECT_EQ(only_finding(parts).kind, FindingKind::other_plane);
+  EXPECT_THAT(only_finding(parts).sentence, HasSubstr("noise in z"));
+  for (auto& p : parts.coordinates) p = Point<3>(p.x(), 0.3 * p.x() + 2.0, p.y());
+  EXPECT_THAT(only_finding(parts).sentence, HasSubstr("its normal is"));
+  parts.coordinates[5].y() += 0.1;
+  EXPECT_THAT(kinds_in(parts), ::testing::IsEmpty());
+}
+
+TEST(Doctor, RepairsAllAtOnceAndKeepsWhatTheFileSays) {
+  auto x = unit_square;
+  x.insert(x.end(), {{9, 9, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}});
+  MeshParts parts = sick_parts(2, x, {{0, 1, 2, 3}, {1, 2, 3, 0}, {5, 8, 7, 6}});
+  parts.node_ids = {10, 11, 12, 13, 14, 15, 16, 17, 18};
+  parts.elements[2].tags = {1, 2, 3};
+  parts.elements[2].ids = {21, 22, 23};
+  parts.elements[1].nodes = test::rows_of({{1, 2}, {8, 5}, {6, 7}});
+  parts.elements[1].tags = {4, 4, 5};
+  parts.fixed = std::vector<bool>{true, false, false, false, false, true, false, false, false};
+  EXPECT_EQ(repair(parts).size(), 4u);
+  EXPECT_EQ(parts.node_ids, (std::vector<std::size_t>{10, 11, 12, 13, 16, 17}));
+  EXPECT_EQ(*parts.fixed, (std::vector<bool>{true, true, false, false, false, false}));
+  EXPECT_EQ(parts.elements[2].tags, (std::vector<int>{1, 3}));
+  EXPECT_EQ(parts.elements[2].ids, (std::vector<std::size_t>{21, 23}));
+  EXPECT_EQ(parts.elements[2].nodes, test::rows_of({{0, 1, 2, 3}, {1, 4, 5, 2}}));
+  EXPECT_EQ(parts.elements[1].tags, (std::vector<int>{4, 5}));
+  EXPECT_THAT(kinds_in(parts), ::testing::IsEmpty());
+}
+
+TEST(Doctor, NodesOfSeamsAreMarked) {
+  const MeshFile file = assemble_mesh("m", quadtree(2));
+  const auto seen = examine_boundary(std::get<PlanarMesh>(file.mesh));
+  ASSERT_EQ(seen.findings.size(), 1u);
+  EXPECT_THAT(seen.findings[0].sentence, HasSubstr("1 hanging node lies inside an edge"));
+  EXPECT_EQ(seen.seam_nodes,
+            (std::vector<bool>{false, true, true, false, false, true, false, false}));
+  EXPECT_THROW(require_conforming(std::get<PlanarMesh>(file.mesh), "m"), InputError);
+  const auto octree_mesh = assemble_mesh("m", octree(2, test::BoxCells::tetrahedra)).mesh;
+  EXPECT_EQ(examine_boundary(std::get<VolumeMesh>(octree_mesh)).findings.size(), 1u);
+}
+
+}  // namespace
+}  // namespace smoothfem
