@@ -38,7 +38,7 @@ void read(const std::filesystem::path& path) {
                                    [](const MeshFormat& f) { return f.name == name; });
   require(format != formats.end(), std::string("there is no format ") + name);
   // Not read_mesh: it would turn foreign exceptions into InputErrors.
-  const MeshFile file = assemble_mesh(path, format->read(path));
+  const MeshFile file = assemble_mesh(path, format->read(path, {}));
   std::visit([](const auto& mesh) { require_sound(mesh); }, file.mesh);
 }
 

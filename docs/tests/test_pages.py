@@ -81,6 +81,7 @@ MADE = {
     "readme": ("out.vtu", "results/gear/summary.csv", ".local/bin/smoothfem"),
     "tutorials/first-study": ("results/gear/figures",),
     "how-to/latex": ("error_d1.pdf", "results/gear/report.html"),
+    "how-to/keep-what-a-file-says": ("smoothed.msh", "moved.msh", "other.msh"),
     "how-to/check-and-repair": ("whole.vtk", "smoothed.vtk"),
     "how-to/untangle-and-slide": ("valid.vtk", "slid.vtu", "smooth-roof.vtu", "bad.vtu", "local.vtu"),
     "how-to/reproduce-the-thesis": ("out.msh", "best.msh"),

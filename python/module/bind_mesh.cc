@@ -93,6 +93,18 @@ AnyMesh mesh_of(const Coordinates& points, CompressedRows<NodeIndex> cells,
       points_of<dim>(points));
 }
 
+/// Quadrilaterals of meshio have points in space; they would become tetrahedra.
+void require_clear_dimension(const CompressedRows<NodeIndex>& rows,
+                             const std::vector<Point<3>>& points) {
+  const bool is_flat = std::all_of(points.begin(), points.end(), [&](const Point<3>& point) {
+    return point.z() == points.front().z();
+  });
+  if (is_flat && !rows.empty() && rows[0].size() == 4)
+    throw InputError(
+        "the cells have four nodes, and all points have the same z: give points[:, :2] for planar "
+        "quadrilaterals, dim=2 for a surface, or dim=3 for tetrahedra");
+}
+
 PythonMesh make_mesh(const py::object& given, const py::object& cells, const py::object& fixed,
                      std::optional<int> dim) {
   const auto points = Coordinates::ensure(given);
@@ -105,6 +117,7 @@ PythonMesh make_mesh(const py::object& given, const py::object& cells, const py:
                      std::to_string(cell_dim));
   auto rows = rows_of(cells);
   auto flags = flags_of(fixed, static_cast<std::size_t>(points.shape(0)));
+  if (cell_dim == 3 && !dim) require_clear_dimension(rows, points_of<3>(points));
   if (cell_dim == 3) return PythonMesh(mesh_of<3>(points, std::move(rows), std::move(flags)));
   if (spacedim == 2) return PythonMesh(mesh_of<2>(points, std::move(rows), std::move(flags)));
   return PythonMesh(make_surface_mesh(std::move(rows), points_of<3>(points), {}, std::move(flags)));
@@ -124,6 +137,65 @@ std::string description(const PythonMesh& mesh) {
     return "<smoothfem.Mesh: " + std::string(mesh_kind_name(dim, spacedim)) + ", " +
            std::to_string(m.n_nodes()) + " nodes, " + std::to_string(m.n_cells()) + " cells>";
   });
+}
+
+template <class Value>
+py::array array_of(const std::vector<Value>& values, std::size_t n_rows, std::size_t n_columns) {
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(n_rows)};
+  if (n_columns > 1) shape.push_back(static_cast<py::ssize_t>(n_columns));
+  return py::array_t<Value>(shape, values.data());
+}
+
+/// The physical tag of each cell, 0 without one.
+py::array tags(const PythonMesh& mesh) {
+  const Topology& topology = mesh.arrays().topology();
+  auto all = topology.labels().cell_tags;
+  all.resize(topology.n_cells(), 0);
+  return array_of(all, all.size(), 1);
+}
+
+/// Name of each reason -> the nodes that stay for it.
+py::dict fixed_by_reason(const PythonMesh& mesh) {
+  const Topology& topology = mesh.arrays().topology();
+  py::dict result;
+  for (const auto& [reason, name] : fixed_reasons) {
+    std::vector<NodeIndex> nodes;
+    for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
+      if (has(topology.fixed_reasons(i), reason)) nodes.push_back(i);
+    if (!nodes.empty())
+      result[py::str(name.data(), name.size())] = array_of(nodes, nodes.size(), 1);
+  }
+  return result;
+}
+
+/// The fields of the file: {"point": {name: values}, "cell": {name: values}}.
+py::dict data(const PythonMesh& mesh) {
+  const Topology& topology = mesh.arrays().topology();
+  const FileContent* content = topology.labels().content.get();
+  py::dict of_nodes, of_cells;
+  const auto add = [](py::dict& to, const MeshField& field, std::size_t n_rows) {
+    std::visit(
+        [&](const auto& values) {
+          to[py::str(field.name)] = array_of(values, n_rows, field.n_components);
+        },
+        field.values);
+  };
+  if (content) {
+    for (const MeshField& field : content->node_fields) add(of_nodes, field, topology.n_nodes());
+    for (const MeshField& field : content->element_fields) add(of_cells, field, topology.n_cells());
+  }
+  py::dict result;
+  result["point"] = of_nodes;
+  result["cell"] = of_cells;
+  return result;
+}
+
+/// (dimension, tag) -> name.
+py::dict names(const PythonMesh& mesh) {
+  py::dict result;
+  for (const auto& [key, name] : mesh.arrays().topology().labels().names)
+    result[py::make_tuple(key.first, key.second)] = name;
+  return result;
 }
 
 }  // namespace
@@ -169,6 +241,17 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly(
           "fixed", [](const PythonMesh& m) { return m.arrays().fixed_nodes(); },
           "Numbers of the nodes that stay, ascending; read-only.")
+      .def_property_readonly("tags", &tags,
+                             "Physical tag of each cell, as the file has it; 0 without a tag.")
+      .def_property_readonly("names", &names, "Names of physical groups: {(dimension, tag): name}.")
+      .def_property_readonly(
+          "data", &data,
+          "Fields of the file: {'point': {name: values}, 'cell': {name: values}}, with a row for "
+          "each node or cell.")
+      .def_property_readonly(
+          "fixed_reasons", &fixed_by_reason,
+          "Why nodes stay: {reason: node numbers}, for example 'boundary', 'interface' or "
+          "'required'.")
       .def_property_readonly("n_nodes", n_nodes)
       .def_property_readonly("n_cells", n_cells)
       .def_property_readonly(

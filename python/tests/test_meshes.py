@@ -38,6 +38,24 @@ class Meshes(unittest.TestCase):
         surface = smoothfem.Mesh(roof, QUADRILATERALS, dim=2)
         self.assertEqual((surface.kind, surface.dim, surface.spacedim), ("surface", 2, 3))
 
+    def test_shows_what_the_file_says(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "two.vtk"
+            file.write_text("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n"
+                            "0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0\nCELLS 2 10\n4 0 1 4 3\n4 1 2 5 4\nCELL_TYPES 2\n9 9\n"
+                            "CELL_DATA 2\nSCALARS MaterialID int 1\nLOOKUP_TABLE default\n4 7\n"
+                            "POINT_DATA 6\nVECTORS v double\n" + "1 2 3\n" * 6)
+            mesh = smoothfem.read(file)
+            np.testing.assert_array_equal(mesh.tags, [4, 7])
+            np.testing.assert_array_equal(mesh.data["cell"]["MaterialID"], [4, 7])
+            np.testing.assert_array_equal(mesh.data["point"]["v"], [[1, 2, 3]] * 6)
+            np.testing.assert_array_equal(mesh.fixed_reasons["interface"], [1, 4])
+            self.assertEqual(mesh.names, {})
+
+    def test_four_columns_in_a_plane_are_no_tetrahedra_by_guess(self):
+        with self.assertRaisesRegex(smoothfem.InputError, "the same z: give points"):
+            smoothfem.Mesh(np.column_stack([SQUARE, np.zeros(9)]), QUADRILATERALS)
+
     def test_fixed_nodes_by_flags_or_numbers(self):
         flags = np.zeros(9, dtype=bool)
         flags[[0, 2, 6, 8]] = True

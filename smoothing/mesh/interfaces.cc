@@ -6,22 +6,17 @@
 #include <set>
 #include <string_view>
 
+#include "smoothing/mesh/sorted_nodes.h"
 #include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
 
 namespace {
 
-std::vector<NodeIndex> sorted(std::span<const NodeIndex> nodes) {
-  std::vector<NodeIndex> result(nodes.begin(), nodes.end());
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
 std::set<std::vector<NodeIndex>> boundary_keys(const Topology& topology) {
   std::set<std::vector<NodeIndex>> keys;
   const auto& facets = topology.boundary_facets();
-  for (std::size_t f = 0; f < facets.size(); ++f) keys.insert(sorted(facets[f]));
+  for (std::size_t f = 0; f < facets.size(); ++f) keys.insert(sorted_nodes(facets[f]));
   return keys;
 }
 
@@ -32,7 +27,7 @@ std::vector<std::size_t> inner_labelled_facets(const Topology& topology) {
   if (facets.empty()) return inner;
   const auto boundary = boundary_keys(topology);
   for (std::size_t f = 0; f < facets.size(); ++f)
-    if (!boundary.contains(sorted(facets[f]))) inner.push_back(f);
+    if (!boundary.contains(sorted_nodes(facets[f]))) inner.push_back(f);
   return inner;
 }
 
@@ -84,7 +79,7 @@ Interfaces inner_interfaces(const Topology& topology) {
   const auto materials = cell_materials(topology);
   std::map<std::vector<NodeIndex>, int> tags;  // of labelled inner facets, until they are found
   for (const std::size_t f : inner_labelled_facets(topology))
-    tags[sorted(labels.facets[f])] = labels.facet_tags[f];
+    tags[sorted_nodes(labels.facets[f])] = labels.facet_tags[f];
   if (materials.empty() && tags.empty()) return found;
   // Of the two cells of a facet, the one with the lower material gives the direction; between cells
   // of one material the first cell does.
@@ -95,7 +90,7 @@ Interfaces inner_interfaces(const Topology& topology) {
     for_each_facet(topology.dimension(), nodes.size(), [&](std::span<const std::size_t> at) {
       row.clear();
       for (const std::size_t k : at) row.push_back(nodes[k]);
-      auto key = sorted(row);
+      auto key = sorted_nodes(row);
       const bool is_between =
           !materials.empty() && std::any_of(row.begin(), row.end(), [&](NodeIndex i) {
             const auto cells = topology.node_cells(i);

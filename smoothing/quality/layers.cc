@@ -14,11 +14,11 @@ namespace smoothfem {
 namespace {
 
 /// Length of an edge, or area of a face.
-double facet_size(const PlanarMesh& mesh, std::span<const NodeIndex> nodes) {
+double size_of_facet(const PlanarMesh& mesh, std::span<const NodeIndex> nodes) {
   return (mesh.coordinates()[nodes[1]] - mesh.coordinates()[nodes[0]]).norm();
 }
-double facet_size(const VolumeMesh& mesh, std::span<const NodeIndex> nodes) {
-  return 0.5 * area_vector(nodes, mesh.coordinates()).norm();
+double size_of_facet(const VolumeMesh& mesh, std::span<const NodeIndex> nodes) {
+  return 0.5 * smoothfem::area_vector(nodes, mesh.coordinates()).norm();
 }
 
 /// Calls use(nodes) for each facet of a cell.
@@ -37,7 +37,7 @@ template <int dim>
 double largest_facet(const Mesh<dim>& mesh, CellIndex cell) {
   double largest = 0.0;
   for_each_facet_of(mesh.topology(), cell, [&](std::span<const NodeIndex> facet) {
-    largest = std::max(largest, facet_size(mesh, facet));
+    largest = std::max(largest, size_of_facet(mesh, facet));
   });
   return largest;
 }
@@ -94,8 +94,8 @@ Layers find_layers(const Mesh<dim>& mesh, const std::set<int>& tags) {
     const int tag = of_facets.empty() ? 0 : of_facets[f];
     if (!tags.empty() && !tags.contains(tag)) continue;
     for_each_cell_of_facet(topology, boundary[f], [&](CellIndex c) {
-      if (is_thin[c] && facet_size(mesh, boundary[f]) >= nearly_largest * largest_facet(mesh, c) &&
-          add(c))
+      if (is_thin[c] &&
+          size_of_facet(mesh, boundary[f]) >= nearly_largest * largest_facet(mesh, c) && add(c))
         layers.tags.insert(tag);
     });
   }

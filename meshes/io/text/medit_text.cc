@@ -20,6 +20,7 @@
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
 #include "smoothing/mesh/interfaces.h"
+#include "smoothing/mesh/sorted_nodes.h"
 
 namespace smoothfem {
 
@@ -291,22 +292,17 @@ MeshParts read_medit_text(const std::filesystem::path& path, const MeshReadOptio
 
 namespace {
 
-std::vector<NodeIndex> sorted(std::span<const NodeIndex> nodes) {
-  std::vector<NodeIndex> key(nodes.begin(), nodes.end());
-  std::sort(key.begin(), key.end());
-  return key;
-}
-
 /// Returns the facets of the boundary that the file does not have.
 CompressedRows<NodeIndex> other_boundary_facets(const MeshView& mesh) {
   const AllElements elements(mesh);
   std::set<std::vector<NodeIndex>> known;
   for (std::size_t e = elements.n_cells(); e < elements.size(); ++e)
-    if (elements.dimension(e) == mesh.dimension() - 1) known.insert(sorted(elements.nodes(e)));
+    if (elements.dimension(e) == mesh.dimension() - 1)
+      known.insert(sorted_nodes(elements.nodes(e)));
   CompressedRows<NodeIndex> facets;
   const auto& boundary = mesh.topology().boundary_facets();
   for (std::size_t f = 0; f < boundary.size(); ++f)
-    if (!known.contains(sorted(boundary[f]))) facets.append(boundary[f]);
+    if (!known.contains(sorted_nodes(boundary[f]))) facets.append(boundary[f]);
   return facets;
 }
 
