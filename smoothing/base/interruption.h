@@ -7,8 +7,8 @@
 namespace smoothfem {
 
 /// Set when the user asks the process to end (Ctrl-C); never cleared. Long loops and waits check
-/// it.
-inline std::atomic<bool>& interruption() {
+/// it. Visible, so that a library that hides its symbols has the same one.
+[[gnu::visibility("default")]] inline std::atomic<bool>& interruption() {
   static std::atomic<bool> asked{false};
   return asked;
 }
@@ -25,7 +25,7 @@ inline void notice_signals() {
 
 /// Function that long loops call often, on the thread that has called them; null: none. It may
 /// throw to end the loop. Python's module looks for Ctrl-C there.
-inline std::atomic<void (*)()>& interruption_hook() {
+[[gnu::visibility("default")]] inline std::atomic<void (*)()>& interruption_hook() {
   static std::atomic<void (*)()> hook{nullptr};
   return hook;
 }
