@@ -71,7 +71,7 @@ class NewSmoother(Study, unittest.TestCase):
 
     def test_names_that_cannot_be(self):
         (self.folder / "here").mkdir()
-        self.assertIn("use lower-case letters", self.refused("new-smoother", "Ab_cd"))
+        self.assertIn("use at most 100 lower-case letters", self.refused("new-smoother", "Ab_cd"))
         self.assertIn("'here' exists here", self.refused("new-smoother", "here"))
         self.assertIn("a method 'laplace' exists", self.refused("new-smoother", "laplace"))
 
