@@ -12,7 +12,7 @@ namespace smoothfem {
 
 namespace {
 
-/// Collects what is lost.
+/// Collects the losses of a mesh in a format.
 class Losses {
  public:
   Losses(const MeshView& mesh, const MeshFormat& format)

@@ -41,7 +41,7 @@ struct MeshParts {
   /// What else the file says; its elements are in `elements`, and the rows of its element fields
   /// are in the order of the file.
   FileContent content{};
-  std::vector<std::string> notes{};  ///< sentences on what is left out or changed
+  std::vector<std::string> notes{};  ///< on data that are left out or changed
 };
 
 /// Returns the data of a file without making a mesh of it. Throws InputError as read_mesh does, but

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Tests what is found in meshes, and how it is repaired.
+/// Tests the findings in meshes, and their repair.
 #include "meshes/doctor/examine.h"
 #include "meshes/doctor/examine_boundary.h"
 #include "meshes/doctor/repair.h"

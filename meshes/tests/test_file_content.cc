@@ -170,7 +170,7 @@ TEST_F(FileContents, MeditKeepsRequiredElementsRidgesAndReferences) {
 }
 
 const std::string cae_job =
-    "*Heading\r\n** made by hand\n*NODE, NSET=NALL\n1, 0, 0, 0\n2, 1.0, 0., 0.\n3, 1, 1, "
+    "*Heading\r\n** a comment\n*NODE, NSET=NALL\n1, 0, 0, 0\n2, 1.0, 0., 0.\n3, 1, 1, "
     "0\n4,0,1,0\n"
     "5, 0,0,1\n6, 1,0,1\n7, 1,1,1\n8, 0,1,1\n9, .5, .5, .5\n"
     "*ELEMENT, TYPE=C3D8, ELSET=EALL\n1, 1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=SPRINGA, ELSET=S\n9, 1, "

@@ -14,7 +14,7 @@ std::vector<NodeIndex> sorted(std::span<const NodeIndex> row) {
   return nodes;
 }
 
-/// Returns the rows that are equal to an earlier row, ascending. normal(row): what is compared.
+/// Returns the rows that are equal to an earlier row, ascending. normal(row): the row to compare.
 template <class Normal>
 std::vector<std::uint32_t> repeated_rows(const CompressedRows<NodeIndex>& rows,
                                          const Normal& normal) {

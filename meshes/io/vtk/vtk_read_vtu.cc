@@ -93,7 +93,7 @@ class VtuReader {
     return cells;
   }
 
-  /// Reads the arrays of a piece. Only those that all pieces have are kept.
+  /// Reads the arrays of a piece. Only arrays of all pieces are kept.
   void read_arrays(const VtuPiece& piece, std::string_view section, std::uint64_t n, bool is_first,
                    std::vector<MeshField>& fields) {
     const auto found = piece.sections.find(section);
