@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadVolume{"abaqus_empty_field", ".inp", "*NODE\n1,0,,0\n", ":2: field 3 of the line"},
         BadVolume{"abaqus_moved", ".inp",
                   abaqus_head + "*INSTANCE, NAME=a, PART=b\n0,0\n*END INSTANCE\n",
-                  ":7: the place of the instance has 2 numbers"},
+                  ":8: the place of the instance has 2 numbers"},
         BadVolume{"abaqus_include", ".inp", "*INCLUDE, INPUT=mesh.inp\n",
                   ":1: *INCLUDE is not supported"},
         BadVolume{"abaqus_range", ".inp", abaqus_head + "*ELSET, ELSET=a, GENERATE\n5,1\n",

@@ -62,6 +62,14 @@ class Meshes(unittest.TestCase):
         for fixed in (flags, [0, 2, 6, 8]):
             np.testing.assert_array_equal(smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=fixed).fixed, [0, 2, 6, 8])
 
+    def test_reading_warns_of_cells_that_it_turns_over(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "clockwise.mesh"
+            path.write_text("planar_polygonal_mesh\nnodes 4\n0 0\n1 0\n1 1\n0 1\npolygons 1\n4 3 2 1 0\nfixed_node_indices 0\n")
+            with self.assertWarnsRegex(UserWarning, r"clockwise\.mesh: turned over 1 of 1 cells"):
+                mesh = smoothfem.read(path)
+        np.testing.assert_array_equal(mesh.cells, [[3, 0, 1, 2]])
+
     def test_points_are_the_memory_of_the_mesh(self):
         mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
         self.assertEqual(address(mesh), smoothfem._core.address(mesh))

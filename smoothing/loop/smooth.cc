@@ -146,13 +146,14 @@ class SmoothingRun {
       quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
     }
     n_floor_reset_ = report.n_reset;
+    n_floor_invalid_ = *report.n_made_invalid;
     result_record_ = n_records_;
     observe("floor", 1, report);
   }
 
   SmoothingResult result(std::vector<StageResult> stages) const {
-    return {std::move(stages), seconds_,       preparation_seconds_,
-            quality_,          result_record_, n_floor_reset_};
+    return {std::move(stages), seconds_,       preparation_seconds_, quality_,
+            result_record_,    n_floor_reset_, n_floor_invalid_};
   }
 
  private:
@@ -244,7 +245,7 @@ class SmoothingRun {
   double mean_edge_length_ = 0.0;
   std::vector<Point<spacedim>> previous_;
   std::vector<Point<spacedim>> initial_;  ///< empty without a floor
-  std::size_t n_floor_reset_ = 0;
+  std::size_t n_floor_reset_ = 0, n_floor_invalid_ = 0;
   std::size_t n_records_ = 0, result_record_ = 0;
 };
 

@@ -50,6 +50,7 @@ struct SmoothingResult {
   MeshQuality quality;               ///< of the resulting mesh
   std::size_t result_record = 0;     ///< the record whose mesh is the result
   std::size_t n_floor_reset = 0;     ///< nodes that Method::floor has reset
+  std::size_t n_floor_invalid = 0;   ///< invalid cells before that
 
   /// Returns the iterations as in the thesis' tables, one number for each stage: "40/2800".
   std::string iterations_text() const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "smoothing/geometry/cell_size.h"
 #include "smoothing/mesh/boundary_tags.h"
@@ -55,6 +56,33 @@ void for_each_cell_of_facet(const Topology& topology, std::span<const NodeIndex>
   }
 }
 
+/// True if a cell stands upright on its facet: all other nodes have about the same height above it,
+/// and none is far off its side. Cells of a layer do; most thin cells of a distorted mesh do not.
+template <int dim>
+bool stands_upright(const Mesh<dim>& mesh, CellIndex cell, std::span<const NodeIndex> facet) {
+  constexpr double max_height_ratio = 2.0, max_offset = 0.75;
+  const auto x = mesh.coordinates();
+  Point<dim> middle = Point<dim>::Zero(), normal;
+  for (const NodeIndex i : facet) middle += x[i] / static_cast<double>(facet.size());
+  if constexpr (dim == 2)
+    normal = Point<2>(x[facet[0]].y() - x[facet[1]].y(), x[facet[1]].x() - x[facet[0]].x());
+  else
+    normal = smoothfem::area_vector(facet, x);
+  normal.normalize();
+  double width = 0.0;
+  for (const NodeIndex i : facet) width = std::max(width, 2.0 * (x[i] - middle).norm());
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+  for (const NodeIndex i : mesh.topology().cell_nodes(cell)) {
+    if (std::find(facet.begin(), facet.end(), i) != facet.end()) continue;
+    const Point<dim> offset = x[i] - middle;
+    const double height = std::abs(offset.dot(normal));
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+    if ((offset - offset.dot(normal) * normal).norm() > max_offset * width) return false;
+  }
+  return highest <= max_height_ratio * lowest;
+}
+
 }  // namespace
 
 template <int dim>
@@ -87,17 +115,27 @@ Layers find_layers(const Mesh<dim>& mesh, const std::set<int>& tags) {
     found.push_back(c);
     return true;
   };
-  constexpr double nearly_largest = 0.5;  // both bases of a prism may be slightly different
+  constexpr double nearly_largest = 0.5,  // both bases of a prism may be slightly different
+      least_share = 0.1;  // of the facets with a label; fewer thin cells are no layer
   const auto of_facets = boundary_tags(topology);
   const auto& boundary = topology.boundary_facets();
+  std::map<int, std::pair<std::size_t, std::vector<CellIndex>>> by_tag;  // facets, cells on them
   for (std::size_t f = 0; f < boundary.size(); ++f) {
     const int tag = of_facets.empty() ? 0 : of_facets[f];
     if (!tags.empty() && !tags.contains(tag)) continue;
-    for_each_cell_of_facet(topology, boundary[f], [&](CellIndex c) {
-      if (is_thin[c] &&
-          size_of_facet(mesh, boundary[f]) >= nearly_largest * largest_facet(mesh, c) && add(c))
-        layers.tags.insert(tag);
+    auto& [n_facets, cells] = by_tag[tag];
+    ++n_facets;
+    for_each_cell_of_facet(topology, boundary[f], [&, &cells = cells](CellIndex c) {
+      if (is_thin[c] && stands_upright(mesh, c, boundary[f]) &&
+          size_of_facet(mesh, boundary[f]) >= nearly_largest * largest_facet(mesh, c))
+        cells.push_back(c);
     });
+  }
+  for (const auto& [tag, on_facets] : by_tag) {
+    const auto& [n_facets, cells] = on_facets;
+    if (static_cast<double>(cells.size()) < least_share * static_cast<double>(n_facets)) continue;
+    for (const CellIndex c : cells) add(c);
+    if (!cells.empty()) layers.tags.insert(tag);
   }
   for (std::size_t k = 0; k < found.size(); ++k)
     for_each_facet_of(topology, found[k], [&](std::span<const NodeIndex> facet) {

@@ -22,9 +22,10 @@ inline constexpr double min_layer_aspect = 10.0;
 template <int dim>
 double cell_aspect(const Mesh<dim>& mesh, CellIndex cell);
 
-/// Returns the thin cells that lie with one of their largest facets on the boundary, and those
-/// that are connected with them by facets through thin cells. tags: labels of the boundary facets
-/// to begin at; empty: all.
+/// Returns the thin cells that stand upright with one of their largest facets on the boundary, and
+/// thin cells that facets connect with them through other thin cells. On a tenth of the facets with
+/// a label at least there must be such a cell. tags: labels of the boundary facets to begin at;
+/// empty: all.
 template <int dim>
 Layers find_layers(const Mesh<dim>& mesh, const std::set<int>& tags = {});
 

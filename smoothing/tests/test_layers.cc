@@ -38,6 +38,14 @@ TEST(Layers, AreThinCellsAlongTheBoundary) {
       24u);
 }
 
+TEST(Layers, FewThinCellsOfADistortedMeshAreNone) {
+  PlanarMesh mesh = test::grid_mesh(12, test::GridCells::quadrilaterals);
+  for (auto& point : mesh.coordinates())  // thins two cells at the lower boundary
+    if (point.y() == 1.0 && point.x() >= 4.0 && point.x() <= 6.0) point.y() = 0.05;
+  EXPECT_GT(cell_aspect(mesh, 4), min_layer_aspect);
+  EXPECT_TRUE(find_layers(mesh).cells.empty());
+}
+
 TEST(Layers, ThinCellsElsewhereAreNone) {
   // The thin row is in the middle: its short ends only are on the boundary.
   PlanarMesh mesh = test::grid_mesh(3, test::GridCells::quadrilaterals);

@@ -102,6 +102,8 @@ Mesh<dim, spacedim> fix_nodes_away_from_bad_cells(Mesh<dim, spacedim> mesh,
 /// The mesh with the nodes of seams fixed, whose sides would come apart. Warns about them.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_fixed_seams(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
+  // In tangled meshes boundary nodes may lie anywhere.
+  if (mesh_quality(mesh).n_invalid > 0) return mesh;
   const auto [findings, seam_nodes] = examine_boundary(mesh);
   warn_about(arguments.in, findings);
   if (seam_nodes.empty()) return mesh;
@@ -183,6 +185,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   Recorder recorder(arguments);
   const Outcome outcome =
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
+  report_floor(outcome.method_title, outcome.smoothing, mesh.n_cells(), arguments.quiet);
   warn_about_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);

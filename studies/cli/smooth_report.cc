@@ -26,14 +26,22 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
           "invalid\n",
           stage.n_last_reset, n_free_nodes);
   }
-  if (result.n_floor_reset > 0)
-    std::printf(
-        "%zu nodes are back at their initial positions, so that no cell is worse than the worst "
-        "one "
-        "before (--allow-worse leaves them)\n",
-        result.n_floor_reset);
   if (result.result_record == 0)
     std::printf("the result is the initial mesh: no iteration made a better one\n");
+}
+
+void report_floor(const std::string& method, const SmoothingResult& result, std::size_t n_cells,
+                  bool quiet) {
+  if (result.n_floor_reset == 0) return;
+  const char* rule =
+      "nodes are back at their initial positions, so that no cell is worse than the worst one "
+      "before "
+      "(--allow-worse leaves them)";
+  if (result.n_floor_invalid > 0)
+    std::fprintf(stderr, "smoothfem: warning: %s made %zu of %zu cells invalid; %zu %s\n",
+                 method.c_str(), result.n_floor_invalid, n_cells, result.n_floor_reset, rule);
+  else if (!quiet)
+    std::printf("%zu %s\n", result.n_floor_reset, rule);
 }
 
 void warn_about_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,

@@ -46,6 +46,10 @@ void print_quality(const char* when, const MeshQuality& quality);
 /// Prints why each stage ended, and a hint if its last iteration reset many nodes.
 void print_stages(const SmoothingResult& result, std::size_t n_free_nodes);
 
+/// Says how many nodes Method::floor has reset, and warns if the method had made cells invalid.
+void report_floor(const std::string& method, const SmoothingResult& result, std::size_t n_cells,
+                  bool quiet);
+
 /// Warns if a method without quality control has left invalid cells. With --fail-if-invalid it
 /// throws InputError instead.
 void warn_about_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,

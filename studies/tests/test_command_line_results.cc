@@ -35,7 +35,8 @@ class Results : public CommandLine {
 };
 
 TEST_F(Results, SmoothSaysWhyEachStageStopped) {
-  const Outcome getme = smoothfem({"smooth", "good.mesh", "-m", "getme", "-o", "o.mesh"});
+  const Outcome getme = smoothfem(
+      {"smooth", "good.mesh", "-m", "getme", "-o", "o.mesh", "--set", "sequential.perfect=0"});
   EXPECT_EQ(getme.exit_code, 0);
   EXPECT_THAT(getme.out,
               AllOf(HasSubstr("simultaneous stopped after "),
@@ -58,13 +59,13 @@ TEST_F(Results, SmoothSaysWhenNothingWasBetterThanTheInitialMesh) {
 TEST_F(Results, ReportsInvalidCellsThatSmoothingMakes) {
   ASSERT_EQ(smoothfem({"quality", "bent.vtk"}).exit_code, 0);
   const Outcome warned =
-      smoothfem({"smooth", "bent.vtk", "-m", "laplace", "-o", "o.vtk", "--quiet"});
+      smoothfem({"smooth", "bent.vtk", "-m", "laplace", "-o", "o.vtk", "--quiet", "--allow-worse"});
   EXPECT_EQ(warned.exit_code, 0);
   EXPECT_THAT(warned.err, AllOf(HasSubstr("warning: "), HasSubstr("of 36 cells of the smoothed"),
                                 HasSubstr("--fail-if-invalid")));
   EXPECT_EQ(smoothfem({"quality", "o.vtk"}).exit_code, 2);
-  const Outcome refused = smoothfem(
-      {"smooth", "bent.vtk", "-m", "laplace", "-o", "new.vtk", "--fail-if-invalid", "--quiet"});
+  const Outcome refused = smoothfem({"smooth", "bent.vtk", "-m", "laplace", "-o", "new.vtk",
+                                     "--fail-if-invalid", "--quiet", "--allow-worse"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("so new.vtk is not written"));
   EXPECT_FALSE(std::filesystem::exists(file("new.vtk")));
@@ -74,8 +75,17 @@ TEST_F(Results, ReportsInvalidCellsThatSmoothingMakes) {
             "");
 }
 
+TEST_F(Results, NoCellBecomesWorseThanTheWorstOneUnlessAllowed) {
+  const double before = mesh_quality(planar_mesh(read_mesh(file("bent.vtk")), "bent.vtk")).q_min;
+  const Outcome outcome = smoothfem({"smooth", "bent.vtk", "-m", "laplace", "-o", "o.vtk"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning: Laplace made "),
+                                 HasSubstr("of 36 cells invalid"), HasSubstr("--allow-worse")));
+  EXPECT_GE(mesh_quality(planar_mesh(read_mesh(file("o.vtk")), "o.vtk")).q_min, before);
+}
+
 TEST_F(Results, QualityMarksAndListsBadCells) {
-  smoothfem({"smooth", "bent.vtk", "-m", "laplace", "-o", "o.vtk", "--quiet"});
+  smoothfem({"smooth", "bent.vtk", "-m", "laplace", "-o", "o.vtk", "--quiet", "--allow-worse"});
   const Outcome outcome = smoothfem({"quality", "o.vtk", "--mark", "marked.vtk"});
   EXPECT_EQ(outcome.exit_code, 2) << "it has invalid cells";
   const MeshFile marked = read_mesh(file("marked.vtk"));

@@ -37,6 +37,27 @@ void search(const Tree<Shape>& tree, const Sought& sought, const Visit& visit) {
              boost::make_function_output_iterator([&](const auto& entry) { visit(entry.second); }));
 }
 
+/// Returns a point of the bilinear surface with these corners: the nearest one to p if p is near
+/// the surface. Refinement in a hexahedron makes nodes of this surface (Gauss-Newton method).
+Point<3> nearest_on_bilinear(const Point<3>& p, const std::array<Point<3>, 4>& x) {
+  constexpr int max_steps = 20;
+  double s = 0.5, t = 0.5;
+  const auto at = [&] {
+    return Point<3>((1.0 - t) * ((1.0 - s) * x[0] + s * x[1]) + t * ((1.0 - s) * x[3] + s * x[2]));
+  };
+  for (int step = 0; step < max_steps; ++step) {
+    const Point<3> along_s = (1.0 - t) * (x[1] - x[0]) + t * (x[2] - x[3]),
+                   along_t = (1.0 - s) * (x[3] - x[0]) + s * (x[2] - x[1]), left = p - at();
+    const double ss = dot<3>(along_s, along_s), st = dot<3>(along_s, along_t),
+                 tt = dot<3>(along_t, along_t), determinant = ss * tt - st * st;
+    if (!(determinant > 0.0)) break;
+    const double by_s = dot<3>(left, along_s), by_t = dot<3>(left, along_t);
+    s = std::clamp(s + (tt * by_s - st * by_t) / determinant, 0.0, 1.0);
+    t = std::clamp(t + (ss * by_t - st * by_s) / determinant, 0.0, 1.0);
+  }
+  return at();
+}
+
 /// A boundary facet and how near to it nodes hang.
 class Target {
  public:
@@ -46,21 +67,19 @@ class Target {
     for (std::size_t k = 0; k < nodes.size(); ++k)
       shortest = std::min(shortest, (corner(k) - corner((k + 1) % nodes.size())).norm());
     tolerance_ = std::min(1e-3 * shortest, 1e-6 * mesh_size);
-    if (nodes.size() == 4)
-      warp_ = 0.25 * (0.5 * (corner(0) + corner(2)) - 0.5 * (corner(1) + corner(3))).norm();
   }
 
   TreeBox box() const {
     Eigen::AlignedBox3d box;
     for (std::size_t k = 0; k < nodes_.size(); ++k) box.extend(corner(k));
-    return tree_box(box, tolerance_ + warp_);
+    return tree_box(box, tolerance_);
   }
 
   bool has_inside(NodeIndex node) const {
     const Point<3>& p = points_[node];
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       if ((p - corner(k)).norm() <= tolerance_) return false;
-    return (nearest(p) - p).norm() <= tolerance_ + warp_;
+    return (nearest(p) - p).norm() <= tolerance_;
   }
 
  private:
@@ -69,18 +88,12 @@ class Target {
   Point<3> nearest(const Point<3>& p) const {
     if (nodes_.size() == 2) return nearest_on_segment(p, corner(0), corner(1));
     if (nodes_.size() == 3) return nearest_on_triangle(p, corner(0), corner(1), corner(2));
-    const Point<3> centre = 0.25 * (corner(0) + corner(1) + corner(2) + corner(3));
-    Point<3> best = corner(0);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Point<3> other = nearest_on_triangle(p, centre, corner(k), corner((k + 1) % 4));
-      if ((other - p).norm() < (best - p).norm()) best = other;
-    }
-    return best;
+    return nearest_on_bilinear(p, {corner(0), corner(1), corner(2), corner(3)});
   }
 
   std::span<const NodeIndex> nodes_;
   std::span<const Point<3>> points_;
-  double tolerance_, warp_ = 0.0;
+  double tolerance_;
 };
 
 bool has(std::span<const NodeIndex> nodes, NodeIndex node) {

@@ -15,7 +15,7 @@ struct HangingNode {
 
 /// Returns all hanging nodes, ascending; each once. Such a node is nearer to the facet than 1e-6 of
 /// the mesh's size and 1e-3 of the facet's shortest edge. These bounds allow for files with six
-/// digits. A fourth of the warp of a face in space is added.
+/// digits. A warped face counts as bilinear.
 std::vector<HangingNode> find_hanging_nodes(const PlainCells& cells, const Skin& skin);
 
 /// Boundary nodes in one place, which belong to different cells.
