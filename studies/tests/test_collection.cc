@@ -326,7 +326,9 @@ TEST(TaskServer, DISABLED_Answers) {
     if (task == "end") std::_Exit(3);
     if (task == "throw") throw std::runtime_error("two\nlines");
     if (task == "lock") throw FolderTaken("taken");
-    if (task == "garbage") EXPECT_EQ(::write(socket_number, "garbage", 7), 7);
+    if (task == "garbage") {
+      EXPECT_EQ(::write(socket_number, "garbage", 7), 7);
+    }
     if (task == "fork") (void)::fork();
     if (task == "sleep") ::sleep(1000);
     return task + " done";

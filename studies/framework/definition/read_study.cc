@@ -288,7 +288,8 @@ MeshDimensions read_dimensions(ParameterHandler& p, const StudyText& text,
 
 template <int dim, int spacedim>
 Method<dim, spacedim> StudyMethod::make() const {
-  if (is_stand_in) return {.info = {.name = type, .title = title}, .stages = {}};
+  if (is_stand_in)
+    return {.info = {.name = type, .title = title, .description = {}, .source = {}}, .stages = {}};
   auto method = make_method<dim, spacedim>(method_name_in(folder, type));
   for (const auto& [parameter, value] : settings) method.set(parameter, value);
   return method;
