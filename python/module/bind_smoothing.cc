@@ -79,7 +79,7 @@ Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
     };
   const py::gil_scoped_release others_may_run;
   Mesh<dim, spacedim> work(mesh.shared_topology(), mesh.copied_coordinates(),
-                           mesh.shared_constraints());
+                           mesh.shared_constraints(), mesh.shared_targets());
   try {
     static_cast<SmoothingResult&>(result) = smooth(work, method, observer);
   } catch (...) {

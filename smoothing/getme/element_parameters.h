@@ -82,4 +82,11 @@ struct ElementParameters<3> {
   }
 };
 
+/// Returns the parameters for element steps that take a size.
+template <int dim>
+ElementParameters<dim> with_given_sizes(ElementParameters<dim> parameters) {
+  parameters.scaling = ElementParameters<dim>::neighbour_mean_size;
+  return parameters;
+}
+
 }  // namespace smoothfem

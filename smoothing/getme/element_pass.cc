@@ -9,7 +9,7 @@
 #include "smoothing/getme/neighbour_sizes.h"
 #include "smoothing/getme/node_sums.h"
 #include "smoothing/getme/regularize.h"
-#include "smoothing/simd/cells.h"
+#include "smoothing/quality/target_corners.h"
 
 namespace smoothfem {
 
@@ -83,6 +83,23 @@ Lanes weighted(Vector3<double> position, double weight) {
   return Lanes{weight * position.x, weight * position.y, weight * position.z, weight};
 }
 
+/// Weight of an element with a target: the inverse square of the target's width, so that deviations
+/// count in units of each element's own width. Otherwise small elements would follow large ones.
+template <int dim, class Real>
+Real target_weight(const LinearMap<dim, Real>& map) {
+  const Real root = inverse_root<dim>(map.determinant());
+  return root * root;
+}
+
+/// Maps a position back to where the cell is, if the mesh has targets.
+template <int dim, int spacedim, class Corner>
+Corner at_target(const Mesh<dim, spacedim>& mesh, CellIndex cell, Corner position) {
+  if constexpr (dim == spacedim)
+    if (mesh.targets() != nullptr)
+      return linear_map<TargetMap::to_target>(*mesh.targets(), cell)(position);
+  return position;
+}
+
 /// Fits: std::true_type or std::false_type in the plane: whether element steps take a target size.
 template <int dim, int spacedim, class Weighting, class Fits = bool>
 struct Pass {
@@ -98,12 +115,23 @@ struct Pass {
   /// element after the other, then node 1, and so on.
   template <std::size_t n, class Wanted>
   Lanes add(const CellBatch<n>& batch, const Wanted& wanted, double* sums) const {
-    const auto corners = batch.template corners<dim>(mesh.coordinates().data());
+    const Point<spacedim>* const x = mesh.coordinates().data();
+    const auto corners = target_corners<dim>(
+        mesh.targets(), batch, [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; });
     std::array<Vector<dim, Lanes>, n> transformed;
-    const Lanes quality = regularized(batch, corners, transformed);
-    const Lanes weight = weighting.weight(batch.cells, quality);
+    const Lanes quality =
+        within_size_bound<dim>(mesh.targets(), std::span<const Vector<dim, Lanes>, n>(corners),
+                               regularized(batch, corners, transformed));
+    Lanes weight = weighting.weight(batch.cells, quality);
+    unrolled<n>(
+        [&](auto k) { transformed[k] = weighting.chosen(quality, transformed[k], corners[k]); });
+    if (mesh.targets() != nullptr) [[unlikely]] {
+      const auto map = linear_map<TargetMap::to_target>(*mesh.targets(), batch.cells);
+      for (auto& node : transformed) node = map(node);
+      weight = weight * target_weight(map);
+    }
     unrolled<n>([&](auto k) {
-      const auto terms = weighted(weighting.chosen(quality, transformed[k], corners[k]), weight);
+      const auto terms = weighted(transformed[k], weight);
       batch.for_each_lane([&](std::size_t l) {
         if (wanted(batch.nodes[l][k])) NodeSums::add(sums, batch.nodes[l][k], terms[l]);
       });
@@ -134,16 +162,24 @@ struct Pass {
   template <class Wanted>
   double add_cell(CellIndex cell, const Wanted& wanted, double* sums) const {
     const auto nodes = mesh.topology().cell_nodes(cell);
+    const Point<spacedim>* const x = mesh.coordinates().data();
+    const auto at = [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; };
     double quality = 0.0;
-    with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
+    with_target_corners(mesh, cell, at, [&](auto corners) {
       with_result(corners, [&](auto transformed) {
         const double size = !fits ? 0.0 : prescribed ? prescribed[cell] : sizes.of(nodes);
         quality = regularize(element, upper_side(mesh, cell), corners, transformed, size);
-        const double weight = weighting.weight(cell, quality);
+        if constexpr (dim == spacedim)
+          quality = within_size_bound<dim>(mesh.targets(), corners, quality);
+        double weight = weighting.weight(cell, quality);
+        if constexpr (dim == spacedim)
+          if (mesh.targets() != nullptr)
+            weight *= target_weight(linear_map<TargetMap::to_target>(*mesh.targets(), cell));
         for (std::size_t k = 0; k < nodes.size(); ++k)
-          if (wanted(nodes[k]))
-            NodeSums::add(sums, nodes[k],
-                          weighted(weighting.chosen(quality, transformed[k], corners[k]), weight));
+          if (wanted(nodes[k])) {
+            const auto chosen = weighting.chosen(quality, transformed[k], corners[k]);
+            NodeSums::add(sums, nodes[k], weighted(at_target(mesh, cell, chosen), weight));
+          }
       });
     });
     return quality;
@@ -200,6 +236,7 @@ struct ElementPass<dim, spacedim>::Tables {
   std::optional<ElementRegularization<dim, spacedim>> element;
   NeighbourSizes<dim, spacedim> sizes;
   const double* prescribed = nullptr;
+  std::vector<double> unit_sizes;  ///< of all cells, if the mesh has targets
   NodeSums sums;
   std::vector<PartialQuality> qualities;   ///< of each block of cells
   std::vector<std::uint8_t> marked_nodes;  ///< nodes whose sums have to be added again
@@ -235,10 +272,12 @@ template <int dim, int spacedim>
 ElementPass<dim, spacedim>::~ElementPass() = default;
 
 template <int dim, int spacedim>
-void ElementPass<dim, spacedim>::prepare(const Topology& topology,
+void ElementPass<dim, spacedim>::prepare(const Mesh<dim, spacedim>& mesh,
                                          const ElementParameters<dim>& parameters) {
-  tables_->element.emplace(parameters);
-  tables_->prescribed = nullptr;
+  const Topology& topology = mesh.topology();
+  tables_->element.emplace(mesh.targets() ? with_given_sizes(parameters) : parameters);
+  tables_->unit_sizes.assign(mesh.targets() ? mesh.n_cells() : 0, 1.0);
+  tables_->prescribed = mesh.targets() ? tables_->unit_sizes.data() : nullptr;
   tables_->sums.prepare(topology);
   tables_->qualities.resize(topology.blocks().size());
   sums_ = tables_->sums[0];

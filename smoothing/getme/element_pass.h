@@ -33,8 +33,9 @@ class ElementPass {
   ElementPass();
   ~ElementPass();
 
-  /// Prepares a run; call it first. parameters: how elements are transformed.
-  void prepare(const Topology& topology, const ElementParameters<dim>& parameters);
+  /// Prepares a run; call it first. parameters: how elements are transformed. If the mesh has
+  /// targets, elements are transformed where these are regular, and get the targets' sizes.
+  void prepare(const Mesh<dim, spacedim>& mesh, const ElementParameters<dim>& parameters);
 
   /// Prescribes the size of each transformed element, measured by its mean node simplex as in
   /// NeighbourSizes. Applies to elements whose scaling fits the neighbours. of_cells: one positive

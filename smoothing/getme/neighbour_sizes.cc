@@ -10,7 +10,7 @@ namespace smoothfem {
 
 namespace {
 
-constexpr std::size_t grain = 1024;  ///< nodes or cells that one thread takes at a time
+constexpr std::size_t grain_of_sizes = 1024;  ///< nodes or cells that one thread takes at a time
 
 Lanes absolute(Lanes values) {
   return values < 0.0 ? -values : values;
@@ -40,7 +40,7 @@ void NeighbourSizes<dim, spacedim>::update(const Mesh<dim, spacedim>& mesh) {
   const Topology& topology = mesh.topology();
   of_cell_.resize(topology.n_cells());
   at_node_.resize(topology.n_nodes());
-  parallel_for_ranges(topology.n_cells(), grain, [&](std::size_t first, std::size_t last) {
+  parallel_for_ranges(topology.n_cells(), grain_of_sizes, [&](std::size_t first, std::size_t last) {
     for_each_batch<dim, spacedim>(
         topology, static_cast<CellIndex>(first), static_cast<CellIndex>(last),
         [&]<std::size_t n>(const CellBatch<n>& batch) {
@@ -52,7 +52,7 @@ void NeighbourSizes<dim, spacedim>::update(const Mesh<dim, spacedim>& mesh) {
         [&](CellIndex c) { of_cell_[c] = size_of(mesh, c); });
   });
   topology.build_node_cells();  // before several threads ask for it
-  parallel_for_ranges(topology.n_nodes(), grain, [&](std::size_t first, std::size_t last) {
+  parallel_for_ranges(topology.n_nodes(), grain_of_sizes, [&](std::size_t first, std::size_t last) {
     for (auto i = static_cast<NodeIndex>(first); i < last; ++i)
       at_node_[i] = mean_around(topology, i, [&](CellIndex c) { return of_cell_[c]; });
   });

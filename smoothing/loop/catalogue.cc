@@ -75,6 +75,21 @@ bool keeps_constraints(const Method<dim, spacedim>& method) {
 }
 
 template <int dim, int spacedim>
+bool takes_targets(const Method<dim, spacedim>& method) {
+  return std::all_of(method.stages.begin(), method.stages.end(),
+                     [](const auto& stage) { return stage->traits().takes_targets; });
+}
+
+template <int dim>
+std::vector<std::string> methods_with_targets() {
+  std::vector<std::string> names;
+  for (const auto& entry : registry().all())
+    if (supports_mesh_kind<dim>(entry.name) && takes_targets(make_method<dim>(entry.name)))
+      names.push_back(entry.name);
+  return names;
+}
+
+template <int dim, int spacedim>
 bool supports_mesh_kind(const std::string& method, bool with_constraints) {
   const MethodEntry found = entry(method);
   const auto& make_stages = factory_of<dim, spacedim>(found.factories);
@@ -94,6 +109,8 @@ std::vector<std::string> methods_supporting(bool with_constraints) {
 std::vector<std::string> mesh_kinds(const std::string& method) {
   std::vector<std::string> kinds;
   if (supports_mesh_kind<2>(method)) kinds.emplace_back(mesh_kind_name(2, 2));
+  if (supports_mesh_kind<2>(method, true))
+    kinds.push_back(mesh_kind_name(2, 2) + std::string(" with sliding boundary"));
   if (supports_mesh_kind<3>(method)) kinds.emplace_back(mesh_kind_name(3, 3));
   if (supports_mesh_kind<3>(method, true))
     kinds.push_back(mesh_kind_name(3, 3) + std::string(" with sliding boundary"));
@@ -135,7 +152,11 @@ void Method<dim, spacedim>::set(const std::string& name, const std::string& valu
   set_value(find_parameter(parameters(), name, owner), value, owner);
 }
 
+template std::vector<std::string> methods_with_targets<2>();
+template std::vector<std::string> methods_with_targets<3>();
+
 #define SMOOTHFEM_INSTANTIATE(...)                                         \
+  template bool takes_targets(const Method<__VA_ARGS__>&);                 \
   template bool keeps_constraints(const Method<__VA_ARGS__>&);             \
   template bool supports_mesh_kind<__VA_ARGS__>(const std::string&, bool); \
   template std::vector<std::string> methods_supporting<__VA_ARGS__>(bool); \

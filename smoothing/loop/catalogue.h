@@ -94,11 +94,19 @@ std::vector<MethodInfo> method_catalogue(bool include_special = false);
 template <int dim, int spacedim>
 bool keeps_constraints(const Method<dim, spacedim>& method);
 
+/// True if every stage moves cells towards the targets of a mesh (SmootherTraits).
+template <int dim, int spacedim>
+bool takes_targets(const Method<dim, spacedim>& method);
+
+/// Returns the names of the methods that take targets, in the order of the catalogue.
+template <int dim>
+std::vector<std::string> methods_with_targets();
+
 /// The functions below take the name of a registered method, or of a method in a file
 /// (method_scheme.h).
 
 /// True if the method supports meshes of this kind. with_constraints: also those with nodes that
-/// must stay on a surface (surface meshes, sliding boundaries of volume meshes).
+/// must stay on a surface or curve (surface meshes, sliding boundaries).
 template <int dim, int spacedim = dim>
 bool supports_mesh_kind(const std::string& method, bool with_constraints = (spacedim > dim));
 
@@ -106,8 +114,8 @@ bool supports_mesh_kind(const std::string& method, bool with_constraints = (spac
 template <int dim, int spacedim = dim>
 std::vector<std::string> methods_supporting(bool with_constraints = (spacedim > dim));
 
-/// Returns the kinds of meshes that a method supports: some of planar, volume, volume with sliding
-/// boundary, surface.
+/// Returns the kinds of meshes that a method supports: some of planar, planar with sliding
+/// boundary, volume, volume with sliding boundary, surface.
 std::vector<std::string> mesh_kinds(const std::string& method);
 
 /// Makes a method with its default parameters. Throws InputError for an unknown name; the message

@@ -12,9 +12,8 @@ namespace {
 template <int dim, int spacedim, class... Around>
 std::vector<std::uint32_t> facets_out_of_bound(const Mesh<dim, spacedim>& mesh,
                                                const Around&... around) {
-  if constexpr (spacedim == 3)
-    if (has_facet_bound(mesh))
-      return mesh.constraints()->facets_out_of_bound(mesh.coordinates(), around...);
+  if (has_facet_bound(mesh))
+    return mesh.constraints()->facets_out_of_bound(mesh.coordinates(), around...);
   return {};
 }
 

@@ -159,13 +159,14 @@ class SmoothingRun {
  private:
   /// Reorders large meshes. Small meshes fit the cache in any order, and without reordering keep
   /// the published numbers' order of sums. Constraints refer to node numbers, and problems refer to
-  /// boundary parts by labels; such meshes are not reordered.
+  /// boundary parts by labels, and targets refer to cell numbers; such meshes are not reordered.
   void reorder(const Method<dim, spacedim>& method) {
     constexpr std::size_t min_nodes = 16384;
     // Sweeps in the mesh's own order also need nodes stored in that order. With the nodes of a
     // neighbourhood stored together they took twice the time (Laplace, 580,000 tetrahedra as Gmsh
     // numbers them).
-    if (state_.mesh.constraints() || solver_ || state_.mesh.n_nodes() < min_nodes ||
+    if (state_.mesh.constraints() || state_.mesh.targets() || solver_ ||
+        state_.mesh.n_nodes() < min_nodes ||
         any_stage(method, [](const auto& stage) { return stage.traits().needs_node_order; }))
       return;
     if constexpr (dim == spacedim) {
@@ -259,6 +260,15 @@ void require_constraints_kept(const Mesh<dim, spacedim>& mesh,
 }
 
 template <int dim, int spacedim>
+void require_targets_taken(const Mesh<dim, spacedim>& mesh, const Method<dim, spacedim>& method) {
+  if constexpr (dim == spacedim)
+    if (mesh.targets() && !takes_targets(method))
+      throw InputError("method " + method.info.name +
+                       " knows regular elements only and cannot take targets; use one of " +
+                       joined(methods_with_targets<dim>()));
+}
+
+template <int dim, int spacedim>
 void require_problem(const Method<dim, spacedim>& method) {
   if (method.info.needs_problem && !method.problem)
     throw InputError("method " + method.info.name +
@@ -308,11 +318,13 @@ template <int dim, int spacedim>
 SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                        const std::type_identity_t<Observer<dim, spacedim>>& observer) {
   require_constraints_kept(mesh, method);
+  require_targets_taken(mesh, method);
   require_problem(method);
   const int own_exponent = extreme_exponent(std::as_const(mesh).coordinates());
   require_ordinary_numbers(own_exponent);
-  // Scaling would move the mesh off its constraints and its problem.
-  const int exponent = mesh.constraints() || method.info.needs_problem ? 0 : own_exponent;
+  // Scaling would move the mesh off its constraints, its targets and its problem.
+  const int exponent =
+      mesh.constraints() || mesh.targets() || method.info.needs_problem ? 0 : own_exponent;
   if (exponent == 0) return smooth_unscaled(mesh, method, observer);
   const ScaledMesh scaled(mesh, -exponent);
   Observer<dim, spacedim> rescaling_observer;

@@ -58,6 +58,9 @@ struct SmootherTraits {
   /// (smoothing/mesh/node_constraints.h) and, unless the loop evaluates the quality, only where
   /// keeps_facet_bound holds. Other methods do not support meshes with constraints.
   bool keeps_constraints = false;
+  /// True if the step moves cells towards the targets of the mesh
+  /// (smoothing/quality/cell_targets.h). Other methods do not support meshes with targets.
+  bool takes_targets = false;
 };
 
 /// Report of one step to the loop.

@@ -47,7 +47,7 @@ std::string fixed_reasons_text(const Topology& topology);
 void add_implied_reasons(const Topology& topology, std::vector<FixedReasons>& reasons);
 
 /// Returns the mesh with other fixed nodes. reasons: for each node why it stays. Corners of its
-/// surface are always fixed.
+/// constraints are always fixed.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, std::vector<FixedReasons> reasons) {
   const Topology& old = mesh.topology();
@@ -57,7 +57,9 @@ Mesh<dim, spacedim> with_fixed_nodes(Mesh<dim, spacedim> mesh, std::vector<Fixed
   auto topology = std::make_shared<const Topology>(dim, old.n_nodes(), old.cells(),
                                                    std::move(reasons), old.labels());
   auto constraints = mesh.shared_constraints();
-  return {std::move(topology), std::move(mesh).take_coordinates(), std::move(constraints)};
+  auto targets = mesh.shared_targets();
+  return {std::move(topology), std::move(mesh).take_coordinates(), std::move(constraints),
+          std::move(targets)};
 }
 
 /// As above. fixed: one flag for each node. Nodes keep their present reasons to stay; others are

@@ -2,6 +2,7 @@
 #include "smoothing/mesh/interfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string_view>
@@ -46,6 +47,62 @@ void for_each_marked_element(const Topology& topology, std::string_view name, co
     visit(labels.facets);
     for (int d = topology.dimension() - 1; d >= 0; --d) visit(labels.content->others[d].nodes);
   }
+}
+
+/// Sides of a facet, each with its direction: the nodes of an edge, or the edges of a face. Of two
+/// facets that run alike, one has their common side in the other direction.
+template <class Visit>
+void for_each_directed_side(std::span<const NodeIndex> facet, const Visit& visit) {
+  if (facet.size() == 2) {
+    visit(std::array{facet[0], facet[0]}, false);
+    visit(std::array{facet[1], facet[1]}, true);
+    return;
+  }
+  for (std::size_t k = 0; k < facet.size(); ++k) {
+    const NodeIndex a = facet[k], b = facet[k + 1 < facet.size() ? k + 1 : 0];
+    visit(std::array{std::min(a, b), std::max(a, b)}, a < b);
+  }
+}
+
+/// Turns facets over so that neighbours run alike. Neighbours have a side in common that no third
+/// facet has. The first facet of each connected part keeps its direction.
+void direct_alike(CompressedRows<NodeIndex>& facets) {
+  struct Side {
+    std::size_t facet;
+    bool forward;
+  };
+  std::map<std::array<NodeIndex, 2>, std::vector<Side>> sides;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    for_each_directed_side(facets[f], [&](const std::array<NodeIndex, 2>& side, bool forward) {
+      sides[side].push_back({f, forward});
+    });
+  std::vector<std::uint8_t> is_done(facets.size(), 0), is_turned(facets.size(), 0);
+  for (std::size_t first = 0; first < facets.size(); ++first) {
+    if (is_done[first]) continue;
+    std::vector<std::size_t> front{first};
+    is_done[first] = 1;
+    while (!front.empty()) {
+      const std::size_t f = front.back();
+      front.pop_back();
+      for_each_directed_side(facets[f], [&](const std::array<NodeIndex, 2>& side, bool forward) {
+        const auto& both = sides.at(side);
+        if (both.size() != 2) return;
+        const Side& other = both[0].facet == f ? both[1] : both[0];
+        if (is_done[other.facet]) return;
+        is_done[other.facet] = 1;
+        is_turned[other.facet] = is_turned[f] ^ static_cast<int>(other.forward == forward);
+        front.push_back(other.facet);
+      });
+    }
+  }
+  CompressedRows<NodeIndex> result;
+  std::vector<NodeIndex> row;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    row.assign(facets[f].begin(), facets[f].end());
+    if (is_turned[f]) std::reverse(row.begin(), row.end());
+    result.append(row);
+  }
+  facets = std::move(result);
 }
 
 }  // namespace
@@ -110,6 +167,7 @@ Interfaces inner_interfaces(const Topology& topology) {
       found.tags.push_back(tag == tags.end() ? 0 : tag->second);
     });
   }
+  direct_alike(found.facets);
   return found;
 }
 

@@ -14,8 +14,9 @@ std::vector<int> cell_materials(const Topology& topology);
 /// Facets that a file sets apart inside a mesh: between cells of different materials, and labelled
 /// ones.
 struct Interfaces {
-  CompressedRows<NodeIndex> facets;  ///< each in the direction of the cell with the lower material
-  std::vector<int> tags;             ///< tag of a label; 0: none
+  /// Neighbours run alike: those with a side in common that no third facet has.
+  CompressedRows<NodeIndex> facets;
+  std::vector<int> tags;  ///< tag of a label; 0: none
 };
 Interfaces inner_interfaces(const Topology& topology);
 

@@ -15,7 +15,10 @@
 
 namespace smoothfem {
 
+template <int spacedim>
 class NodeConstraints;  // smoothing/mesh/node_constraints.h
+template <int dim>
+class CellTargets;  // smoothing/quality/cell_targets.h
 
 /// Throws InputError that names the first node with a non-finite coordinate.
 template <class PointType>
@@ -29,21 +32,24 @@ void require_finite(const std::vector<PointType>& coordinates) {
 /// A mesh of dim-dimensional cells in spacedim-dimensional space. All copies share a topology,
 /// which never changes. The coordinates may change; the number of points may not. A value type:
 /// copies are independent, and a moved-from mesh may only be assigned to. Constraints may keep its
-/// nodes on a surface in space, the same one for all copies; surface meshes always have them.
+/// nodes on a surface in space or on curves in the plane, the same for all copies; surface meshes
+/// always have them. Planar and volume meshes may have a target shape and size for each cell.
 template <int dim, int spacedim = dim>
 class Mesh {
  public:
   using PointType = Point<spacedim>;
 
   /// topology: of dimension dim. coordinates: topology->n_nodes() finite points. Otherwise throws
-  /// InputError that names the node. constraints: of these nodes; required for surface meshes, null
-  /// for planar ones.
+  /// InputError that names the node. constraints: of these nodes; required for surface meshes.
+  /// targets: of these cells; null: regular elements of any size.
   Mesh(std::shared_ptr<const Topology> topology, std::vector<PointType> coordinates,
-       std::shared_ptr<const NodeConstraints> constraints = nullptr)
+       std::shared_ptr<const NodeConstraints<spacedim>> constraints = nullptr,
+       std::shared_ptr<const CellTargets<dim>> targets = nullptr)
       : topology_(std::move(topology)),
         coordinates_(std::move(coordinates)),
-        constraints_(std::move(constraints)) {
-    assert(spacedim == 3 ? dim == 3 || constraints_ : !constraints_);
+        constraints_(std::move(constraints)),
+        targets_(std::move(targets)) {
+    assert(spacedim == dim ? true : constraints_ && !targets_);
     if (topology_->dimension() != dim)
       throw InputError("a mesh of dimension " + std::to_string(dim) +
                        " cannot have cells of dimension " + std::to_string(topology_->dimension()));
@@ -57,7 +63,7 @@ class Mesh {
   /// nothing.
   static Mesh from_finite_points(std::shared_ptr<const Topology> topology,
                                  std::vector<PointType> coordinates) noexcept {
-    return Mesh(std::move(topology), std::move(coordinates), nullptr, KnownPoints{});
+    return Mesh(std::move(topology), std::move(coordinates), KnownPoints{});
   }
 
   const Topology& topology() const { return *topology_; }
@@ -86,22 +92,27 @@ class Mesh {
   std::vector<PointType> take_coordinates() && { return std::move(coordinates_); }
 
   /// Returns the constraints; null if nodes may move anywhere.
-  const NodeConstraints* constraints() const { return constraints_.get(); }
-  const std::shared_ptr<const NodeConstraints>& shared_constraints() const { return constraints_; }
+  const NodeConstraints<spacedim>* constraints() const { return constraints_.get(); }
+  const std::shared_ptr<const NodeConstraints<spacedim>>& shared_constraints() const {
+    return constraints_;
+  }
+
+  /// Returns the targets of the cells; null if these are regular elements of any size.
+  const CellTargets<dim>* targets() const { return targets_.get(); }
+  const std::shared_ptr<const CellTargets<dim>>& shared_targets() const { return targets_; }
 
  private:
   struct KnownPoints {};
   Mesh(std::shared_ptr<const Topology> topology, std::vector<PointType> coordinates,
-       std::shared_ptr<const NodeConstraints> constraints, KnownPoints) noexcept
-      : topology_(std::move(topology)),
-        coordinates_(std::move(coordinates)),
-        constraints_(std::move(constraints)) {
+       KnownPoints) noexcept
+      : topology_(std::move(topology)), coordinates_(std::move(coordinates)) {
     assert(coordinates_.size() == topology_->n_nodes());
   }
 
   std::shared_ptr<const Topology> topology_;
   std::vector<PointType> coordinates_;
-  std::shared_ptr<const NodeConstraints> constraints_;
+  std::shared_ptr<const NodeConstraints<spacedim>> constraints_;
+  std::shared_ptr<const CellTargets<dim>> targets_;
 };
 
 using PlanarMesh = Mesh<2>;

@@ -5,8 +5,7 @@
 
 #include "smoothing/mesh/parallel_rows.h"
 #include "smoothing/optimization/added_block.h"
-#include "smoothing/optimization/volume_cell_derivatives.h"
-#include "smoothing/simd/cells.h"
+#include "smoothing/optimization/target_derivatives.h"
 
 namespace smoothfem {
 
@@ -89,45 +88,94 @@ struct OtherBlockSums {
   }
 };
 
+/// The targets of a mesh's cells, if it has any, and the factor of the term for their size.
 template <int dim>
-double sum_of_block(const Topology& topology, const Point<dim>* x, const CellBlock& block) {
+struct Sizes {
+  const CellTargets<dim>* targets;
+  double weight;
+
+  /// Maps the corners of a polygon to where its target is regular.
+  void map(CellIndex cell, std::vector<Vector2<double>>& corners) const {
+    if constexpr (dim == 2)
+      if (targets != nullptr) {
+        const auto map = linear_map<TargetMap::to_regular>(*targets, cell);
+        for (auto& corner : corners) corner = map(corner);
+      }
+  }
+};
+
+/// Calls visit(corners) with a polygon's corners, mapped to where its target is regular.
+template <class Visit>
+void with_target_polygon(const Topology& topology, const Sizes<2>& sizes, const Point<2>* x,
+                         CellIndex cell, const Visit& visit) {
+  std::vector<Vector2<double>> corners;
+  corners.reserve(topology.cell_nodes(cell).size());
+  for (const NodeIndex node : topology.cell_nodes(cell)) corners.push_back(vector_of(x[node]));
+  sizes.map(cell, corners);
+  visit(std::span<const Vector2<double>>(corners));
+}
+
+/// Returns the part of the objective of one cell or of several.
+template <int dim, class Real, std::size_t extent>
+Real cell_objective(const Sizes<dim>& sizes, std::span<const Vector<dim, Real>, extent> corners) {
+  const Real mean = mean_inverse_mean_ratio(corners);
+  if (sizes.targets == nullptr) return mean * mean;
+  const Real size = node_simplex_size<dim>(corners);
+  const double bound = sizes.targets->size_bound();
+  const Real infinite = Real{} + std::numeric_limits<double>::infinity();
+  const auto is_within = (size < bound) & (size * bound > 1.0);
+  return is_within ? mean * mean + sizes.weight * size_term(size) : infinite;
+}
+
+template <int dim>
+double sum_of_block(const Topology& topology, const Sizes<dim>& sizes, const Point<dim>* x,
+                    const CellBlock& block) {
   Lanes sums{};
+  const auto at = [x](NodeIndex i) -> const Point<dim>& { return x[i]; };
   for_each_batch<dim>(
       topology, block.first, block.last,
       [&]<std::size_t n>(const CellBatch<n>& batch) {
-        const auto corners = batch.template corners<dim>(x);
-        const Lanes mean = mean_inverse_mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners));
+        const auto corners = target_corners<dim>(sizes.targets, batch, at);
+        const Lanes value = cell_objective<dim, Lanes, n>(sizes, corners);
         if (batch.count == n_lanes)
-          sums += mean * mean;
+          sums += value;
         else
-          sums[0] += mean[0] * mean[0];
+          sums[0] += value[0];
       },
       [&](CellIndex c) {
         if constexpr (dim == 2)
-          with_polygon(topology.cell_nodes(c), x, [&](auto corners) {
-            const double mean = mean_inverse_mean_ratio(corners);
-            sums[0] += mean * mean;
+          with_target_polygon(topology, sizes, x, c, [&](auto corners) {
+            sums[0] += cell_objective<2, double, std::dynamic_extent>(sizes, corners);
           });
       });
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 template <int dim, class Sums>
-void add_block_derivatives(const Topology& topology, const Point<dim>* x, const CellBlock& block,
-                           HessianModel model, Sums sums) {
+void add_block_derivatives(const Topology& topology, const Sizes<dim>& sizes, const Point<dim>* x,
+                           const CellBlock& block, HessianModel model, Sums sums) {
+  const auto at = [x](NodeIndex i) -> const Point<dim>& { return x[i]; };
   for_each_batch<dim>(
       topology, block.first, block.last,
       [&]<std::size_t n>(const CellBatch<n>& batch) {
-        const auto corners = batch.template corners<dim>(x);
+        const auto corners = target_corners<dim>(sizes.targets, batch, at);
         const std::span<const Vector<dim, Lanes>, n> nodes(corners);
-        sums.add(batch, CellDerivatives<dim, Lanes, n>(nodes, model, Sums::blocks));
+        CellDerivatives<dim, Lanes, n> derivatives(nodes, model, Sums::blocks);
+        if (sizes.targets != nullptr) [[unlikely]]
+          add_size_and_map_back<dim, Lanes, n>(
+              nodes, sizes.weight, linear_map<TargetMap::to_regular>(*sizes.targets, batch.cells),
+              model, Sums::blocks, derivatives);
+        sums.add(batch, derivatives);
       },
       [&](CellIndex c) {
         if constexpr (dim == 2)
-          with_polygon(topology.cell_nodes(c), x, [&](std::span<const Vector2<double>> nodes) {
-            using Derivatives = CellDerivatives<2, double, std::dynamic_extent>;
-            sums.add(SinglePolygon{topology.cell_nodes(c)},
-                     Derivatives(nodes, model, Sums::blocks));
+          with_target_polygon(topology, sizes, x, c, [&](std::span<const Vector2<double>> nodes) {
+            CellDerivatives<2, double, std::dynamic_extent> derivatives(nodes, model, Sums::blocks);
+            if (sizes.targets != nullptr)
+              add_size_and_map_back<2, double, std::dynamic_extent>(
+                  nodes, sizes.weight, linear_map<TargetMap::to_regular>(*sizes.targets, c), model,
+                  Sums::blocks, derivatives);
+            sums.add(SinglePolygon{topology.cell_nodes(c)}, derivatives);
           });
       });
 }
@@ -150,8 +198,12 @@ CompressedRows<std::uint32_t> coupled_unknowns(const Topology& topology,
 }  // namespace
 
 template <int dim>
-ShapeObjective<dim>::ShapeObjective(std::shared_ptr<const Topology> topology)
+ShapeObjective<dim>::ShapeObjective(std::shared_ptr<const Topology> topology,
+                                    std::shared_ptr<const CellTargets<dim>> targets,
+                                    double size_weight)
     : topology_(std::move(topology)),
+      targets_(std::move(targets)),
+      size_weight_(size_weight),
       unknown_(topology_->n_nodes(), static_cast<std::uint32_t>(n_unknown_nodes())) {
   std::uint32_t next = 0;
   for (const NodeIndex i : topology_->free_nodes()) unknown_[i] = next++;
@@ -187,9 +239,10 @@ BlockMatrix<dim> ShapeObjective<dim>::make_hessian() {
 
 template <int dim>
 double ShapeObjective<dim>::value(std::span<const Point<dim>> coordinates) const {
+  const Sizes<dim> sizes{targets_.get(), size_weight_};
   std::vector<double> parts(topology_->blocks().size());
   parallel_for(parts.size(), [&](std::size_t b) {
-    parts[b] = sum_of_block<dim>(*topology_, coordinates.data(), topology_->blocks()[b]);
+    parts[b] = sum_of_block<dim>(*topology_, sizes, coordinates.data(), topology_->blocks()[b]);
   });
   double sum = 0.0;
   for (const double part : parts) sum += part;
@@ -199,15 +252,16 @@ double ShapeObjective<dim>::value(std::span<const Point<dim>> coordinates) const
 template <int dim>
 void ShapeObjective<dim>::derivatives(std::span<const Point<dim>> coordinates, HessianModel model,
                                       BlockVector<dim>& gradient, BlockMatrix<dim>& hessian) const {
+  const Sizes<dim> sizes{targets_.get(), size_weight_};
   std::fill(gradient.begin(), gradient.end(), Point<dim>::Zero());
   auto diagonal = hessian.start_diagonal();
   for_disjoint_blocks([&](std::size_t b) {
-    add_block_derivatives<dim>(*topology_, coordinates.data(), topology_->blocks()[b], model,
+    add_block_derivatives<dim>(*topology_, sizes, coordinates.data(), topology_->blocks()[b], model,
                                DiagonalSums<dim>{unknown_, gradient, diagonal});
   });
   hessian.factor_diagonal(std::move(diagonal));
   for_disjoint_blocks([&](std::size_t b) {
-    add_block_derivatives<dim>(*topology_, coordinates.data(), topology_->blocks()[b], model,
+    add_block_derivatives<dim>(*topology_, sizes, coordinates.data(), topology_->blocks()[b], model,
                                OtherBlockSums<dim>{unknown_, positions_[b].data(), hessian});
   });
 }

@@ -10,6 +10,7 @@
 #include "smoothing/optimization/block_matrix.h"
 #include "smoothing/optimization/cell_derivatives.h"
 #include "smoothing/optimization/disjoint_groups.h"
+#include "smoothing/quality/cell_targets.h"
 
 namespace smoothfem {
 
@@ -18,12 +19,16 @@ namespace smoothfem {
 /// improvement wrapper minimizes it. The thesis (Eq. 1.3) prints the sum of 1/q, which has no
 /// barrier on quadrilaterals: one of four corners may collapse while the mean of the ratios stays
 /// away from zero. The objective is at least n_cells, and equal to it only if all elements are
-/// regular. It is infinite if an element is invalid.
+/// regular. It is infinite if an element is invalid. If cells have targets, their shapes are
+/// relative to these, and each cell adds a term for its size (target_derivatives.h).
 template <int dim>
 class ShapeObjective {
  public:
   /// The unknowns are the coordinates of the free nodes, in the order of topology.free_nodes().
-  explicit ShapeObjective(std::shared_ptr<const Topology> topology);
+  /// targets: null if there are none. size_weight: factor of the term for the size.
+  explicit ShapeObjective(std::shared_ptr<const Topology> topology,
+                          std::shared_ptr<const CellTargets<dim>> targets = nullptr,
+                          double size_weight = 1.0);
 
   std::size_t n_unknown_nodes() const { return topology_->free_nodes().size(); }
 
@@ -48,6 +53,8 @@ class ShapeObjective {
   }
 
   std::shared_ptr<const Topology> topology_;
+  std::shared_ptr<const CellTargets<dim>> targets_;
+  double size_weight_;
   DisjointGroups groups_;               ///< groups of topology_->blocks() that share no nodes
   std::vector<std::uint32_t> unknown_;  ///< number of each free node; n_unknown_nodes for fixed
   /// Positions of the blocks of each cell's pairs of nodes p < q, and of their transposes.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimization/sliding_step.h"
 
+#include <Eigen/Dense>
+
 #include "smoothing/optimization/node_objective.h"
 
 namespace smoothfem {
@@ -20,10 +22,29 @@ double mean_distance(const Topology& topology, NodeIndex node, std::span<const P
   return sum / n;
 }
 
+/// Returns the directions in which a constrained node may move, as orthonormal columns. They come
+/// from projections of points at `distance` from the node. So a kink of the boundary at the node
+/// counts as a mean of its surroundings.
+template <int dim>
+Eigen::Matrix<double, dim, Eigen::Dynamic, 0, dim, dim> sliding_directions(
+    const NodeConstraints<dim>& constraints, NodeIndex node, const Point<dim>& position,
+    double distance) {
+  Eigen::Matrix<double, dim, dim> projections;
+  for (int d = 0; d < dim; ++d) {
+    const Point<dim> offset = distance * Point<dim>::Unit(d);
+    projections.col(d) = constraints.project(node, position, Point<dim>(position + offset)) -
+                         constraints.project(node, position, Point<dim>(position - offset));
+  }
+  const Eigen::Matrix<double, dim, dim> symmetric = projections + projections.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>> solver(symmetric);
+  return solver.eigenvectors().rightCols(
+      constraints.classifications()[node].n_directions(dim));  // eigenvalues are ascending
+}
+
 }  // namespace
 
 template <int dim>
-void slide_node(const Topology& topology, const SlidingNodes<dim>& sliding, NodeIndex node,
+void slide_node(const Topology& topology, const NodeConstraints<dim>& constraints, NodeIndex node,
                 double softness, std::span<Point<dim>> x) {
   constexpr double sufficient = 1e-4, probe = 0.05;
   constexpr int max_halvings = 12, max_out_of_bound = 2;  // the bound costs more than the cells
@@ -31,7 +52,7 @@ void slide_node(const Topology& topology, const SlidingNodes<dim>& sliding, Node
   if (!(distance > 0.0)) return;
   if (softness > 0.0) softness *= mean_size<dim>(topology, x, node);
   const Point<dim> start = x[node];
-  const auto directions = sliding_directions(sliding, node, start, probe * distance);
+  const auto directions = sliding_directions(constraints, node, start, probe * distance);
   const auto here = local_objective<true, dim>(topology, x, node, start, softness);
   const Eigen::VectorXd gradient = directions.transpose() * here.gradient;
   const Eigen::MatrixXd hessian = directions.transpose() * here.hessian * directions;
@@ -42,19 +63,19 @@ void slide_node(const Topology& topology, const SlidingNodes<dim>& sliding, Node
   if (!(slope < 0.0)) return;
   double alpha = 1.0;
   for (int k = 0, n_out = 0; k < max_halvings && n_out < max_out_of_bound; ++k, alpha *= 0.5) {
-    const Point<dim> trial = sliding.project(node, start, Point<dim>(start + alpha * step));
+    const Point<dim> trial = constraints.project(node, start, Point<dim>(start + alpha * step));
     const double value = local_objective<false, dim>(topology, x, node, trial, softness).value;
     if (!(value <= here.value + sufficient * alpha * slope)) continue;
     x[node] = trial;
-    if (sliding.keeps_bound(x, node)) return;
+    if (constraints.keeps_bound(x, {&node, 1})) return;
     x[node] = start;
     ++n_out;
   }
 }
 
-template void slide_node<2>(const Topology&, const SlidingNodes<2>&, NodeIndex, double,
+template void slide_node<2>(const Topology&, const NodeConstraints<2>&, NodeIndex, double,
                             std::span<Point<2>>);
-template void slide_node<3>(const Topology&, const SlidingNodes<3>&, NodeIndex, double,
+template void slide_node<3>(const Topology&, const NodeConstraints<3>&, NodeIndex, double,
                             std::span<Point<3>>);
 
 }  // namespace smoothfem

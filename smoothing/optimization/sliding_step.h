@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "smoothing/optimization/sliding_nodes.h"
+#include "smoothing/mesh/node_constraints.h"
 
 namespace smoothfem {
 
@@ -10,7 +10,7 @@ namespace smoothfem {
 /// the nearest point of the boundary may be on another sheet of it. softness: as in
 /// VertexDescent::soft_sweep.
 template <int dim>
-void slide_node(const Topology& topology, const SlidingNodes<dim>& sliding, NodeIndex node,
+void slide_node(const Topology& topology, const NodeConstraints<dim>& constraints, NodeIndex node,
                 double softness, std::span<Point<dim>> x);
 
 }  // namespace smoothfem

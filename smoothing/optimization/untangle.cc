@@ -3,9 +3,7 @@
 
 #include <chrono>
 #include <cmath>
-#include <optional>
 
-#include "smoothing/mesh/node_constraints.h"
 #include "smoothing/optimization/vertex_descent.h"
 #include "smoothing/quality/mesh_quality.h"
 
@@ -35,42 +33,11 @@ std::vector<std::uint8_t> nodes_round(const Topology& topology, const std::vecto
   return flags;
 }
 
-/// The nodes that a volume mesh's constraints keep on its boundary.
-class ConstrainedNodes final : public SlidingNodes<3> {
- public:
-  explicit ConstrainedNodes(const NodeConstraints& constraints) : constraints_(constraints) {}
-
-  int n_directions(NodeIndex node) const override {
-    using enum GeometricClassification::Kind;
-    switch (constraints_.classifications()[node].kind) {
-      case none:
-        return 3;
-      case patch:
-        return 2;
-      case line:
-        return 1;
-      case corner:
-        return 0;  // it is fixed
-    }
-    return 3;
-  }
-  Point<3> project(NodeIndex node, const Point<3>& from, const Point<3>& wanted) const override {
-    return constraints_.project(node, from, wanted);
-  }
-  bool keeps_bound(std::span<const Point<3>> x, NodeIndex node) const override {
-    return constraints_.keeps_bound(x, {&node, 1});
-  }
-
- private:
-  const NodeConstraints& constraints_;
-};
-
 template <int dim>
 class Untangling {
  public:
-  Untangling(const Mesh<dim>& mesh, const UntangleParameters& parameters,
-             const SlidingNodes<dim>* sliding)
-      : parameters_(parameters), mesh_(mesh), descent_(mesh.topology(), sliding) {}
+  Untangling(const Mesh<dim>& mesh, const UntangleParameters& parameters)
+      : parameters_(parameters), mesh_(mesh), descent_(mesh.topology(), mesh.constraints()) {}
 
   /// Returns the invalid cells of the best mesh found.
   std::vector<CellIndex> run(std::vector<CellIndex> invalid) {
@@ -119,19 +86,15 @@ class Untangling {
 }  // namespace
 
 template <int dim>
-UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters,
-                        const SlidingNodes<dim>* sliding) {
+UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters) {
   const auto start = std::chrono::steady_clock::now();
-  std::optional<ConstrainedNodes> constrained;
-  if constexpr (dim == 3)
-    if (mesh.constraints() && !sliding) sliding = &constrained.emplace(*mesh.constraints());
   UntangleResult result;
   result.invalid_cells = invalid_cells(cell_mean_ratios(mesh));
   result.n_invalid_before = result.invalid_cells.size();
   for (const CellIndex c : result.invalid_cells)
     if (!mesh.topology().has_free_node(c)) result.fully_fixed_cells.push_back(c);
   if (!result.invalid_cells.empty() && result.fully_fixed_cells.empty()) {
-    Untangling<dim> untangling(mesh, parameters, sliding);
+    Untangling<dim> untangling(mesh, parameters);
     result.invalid_cells = untangling.run(std::move(result.invalid_cells));
     result.n_sweeps = untangling.n_sweeps();
     if (result.invalid_cells.empty()) mesh.set_coordinates(untangling.mesh().coordinates());
@@ -142,7 +105,7 @@ UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters,
   return result;
 }
 
-template UntangleResult untangle(Mesh<2>&, const UntangleParameters&, const SlidingNodes<2>*);
-template UntangleResult untangle(Mesh<3>&, const UntangleParameters&, const SlidingNodes<3>*);
+template UntangleResult untangle(Mesh<2>&, const UntangleParameters&);
+template UntangleResult untangle(Mesh<3>&, const UntangleParameters&);
 
 }  // namespace smoothfem

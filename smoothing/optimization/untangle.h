@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "smoothing/mesh/mesh.h"
-#include "smoothing/optimization/sliding_nodes.h"
 
 namespace smoothfem {
 
@@ -46,11 +45,9 @@ struct UntangleResult {
 /// initial mesh may be arbitrarily tangled. Results are bitwise identical for every number of
 /// threads, and the same at every scale.
 ///
-/// sliding: free nodes that stay on the boundary. Default for a volume mesh with constraints
-/// (with_sliding_boundary): the nodes that these constrain. They move along the boundary, and
-/// facets keep their distance from the initial boundary: steps beyond it are not taken.
+/// Nodes that the mesh's constraints (with_sliding_boundary) keep on its boundary move along it.
+/// Facets keep their distance from the initial boundary: steps beyond it are not taken.
 template <int dim>
-UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters = {},
-                        const SlidingNodes<dim>* sliding = nullptr);
+UntangleResult untangle(Mesh<dim>& mesh, const UntangleParameters& parameters = {});
 
 }  // namespace smoothfem

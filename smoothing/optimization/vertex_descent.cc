@@ -35,8 +35,8 @@ template <int dim>
 }  // namespace
 
 template <int dim>
-VertexDescent<dim>::VertexDescent(const Topology& topology, const SlidingNodes<dim>* sliding)
-    : topology_(topology), sliding_(sliding) {
+VertexDescent<dim>::VertexDescent(const Topology& topology, const NodeConstraints<dim>* constraints)
+    : topology_(topology), constraints_(constraints) {
   constexpr std::size_t grain = 1024;
   const auto& nodes = topology.free_nodes();
   std::vector<IndexRange> written, read;
@@ -67,8 +67,8 @@ void VertexDescent<dim>::sweep(std::span<Point<dim>> x, double softness,
       const IndexRange part = parts_[group[p]];
       for (std::size_t i = part.first; i < part.last; ++i)
         if (!active || active[nodes[i]]) {
-          if (sliding_ && sliding_->n_directions(nodes[i]) < dim)
-            slide_node<dim>(topology_, *sliding_, nodes[i], softness, x);
+          if (constraints_ && constraints_->classifications()[nodes[i]].n_directions(dim) < dim)
+            slide_node<dim>(topology_, *constraints_, nodes[i], softness, x);
           else
             descend_node<dim>(topology_, nodes[i], softness, x);
         }

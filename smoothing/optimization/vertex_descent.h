@@ -4,23 +4,24 @@
 #include <vector>
 
 #include "smoothing/mesh/mesh.h"
+#include "smoothing/mesh/node_constraints.h"
 #include "smoothing/optimization/disjoint_groups.h"
-#include "smoothing/optimization/sliding_nodes.h"
 
 namespace smoothfem {
 
 /// Minimizes the shape objective (shape_objective.h) node after node. Each free node in turn makes
 /// a Newton step for its cells, shortened until their objective falls. As long as these cells are
-/// valid, the objective is a convex function of the node's position. Sliding nodes step in the
-/// directions in which they may move, and then go to the nearest point of their part of the
-/// boundary. Several threads process parts of the mesh that do not touch each other. The result is
+/// valid, the objective is a convex function of the node's position. Nodes with constraints step in
+/// the directions in which they may move, and then go to the nearest point of their part of the
+/// surface. Several threads process parts of the mesh that do not touch each other. The result is
 /// the same for every number of threads.
 template <int dim>
 class VertexDescent {
  public:
-  /// sliding: constraints of free nodes; null if all move freely. topology and sliding must outlive
+  /// constraints: of free nodes; null if all move freely. topology and constraints must outlive
   /// this.
-  explicit VertexDescent(const Topology& topology, const SlidingNodes<dim>* sliding = nullptr);
+  explicit VertexDescent(const Topology& topology,
+                         const NodeConstraints<dim>* constraints = nullptr);
 
   /// Makes one sweep over the free nodes. x: coordinates of all nodes.
   void sweep(std::span<Point<dim>> x) const { sweep(x, 0.0, nullptr); }
@@ -40,7 +41,7 @@ class VertexDescent {
   void sweep(std::span<Point<dim>> x, double softness, const std::uint8_t* active) const;
 
   const Topology& topology_;
-  const SlidingNodes<dim>* sliding_;
+  const NodeConstraints<dim>* constraints_;
   std::vector<IndexRange> parts_;  ///< parts of topology.free_nodes()
   DisjointGroups groups_;
 };

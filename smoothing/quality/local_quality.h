@@ -4,7 +4,7 @@
 #include <span>
 
 #include "smoothing/quality/mean_ratio.h"
-#include "smoothing/simd/cells.h"
+#include "smoothing/quality/target_corners.h"
 
 namespace smoothfem {
 
@@ -17,8 +17,9 @@ bool for_each_mean_ratio_at(const Mesh<dim, spacedim>& mesh, std::span<const Cel
   return for_each_batch<dim, spacedim>(
       ListedCells(mesh.topology(), cells),
       [&]<std::size_t n>(const CellBatch<n>& batch) {
-        const auto corners = batch.template corners_at<dim>(coordinates_of);
-        const Lanes quality = mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners));
+        const auto corners = target_corners<dim>(mesh.targets(), batch, coordinates_of);
+        const std::span<const Vector<dim, Lanes>, n> nodes(corners);
+        const Lanes quality = within_size_bound<dim>(mesh.targets(), nodes, mean_ratio(nodes));
         bool keep_going = true;
         for (std::size_t l = 0; l < batch.count && keep_going; ++l)
           keep_going = visit(batch.first + l, quality[l]);
@@ -27,8 +28,8 @@ bool for_each_mean_ratio_at(const Mesh<dim, spacedim>& mesh, std::span<const Cel
       [&](std::size_t position) {
         bool keep_going = true;
         const CellIndex cell = cells[position];
-        with_corners_at<dim>(mesh.topology().cell_nodes(cell), coordinates_of, [&](auto corners) {
-          keep_going = visit(position, mean_ratio(upper_side(mesh, cell), corners));
+        with_target_corners(mesh, cell, coordinates_of, [&](auto corners) {
+          keep_going = visit(position, target_mean_ratio(mesh, cell, corners));
         });
         return keep_going;
       });

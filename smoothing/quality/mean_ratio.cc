@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/quality/mean_ratio.h"
 
-#include "smoothing/simd/cells.h"
+#include "smoothing/quality/target_corners.h"
 
 namespace smoothfem {
 
@@ -10,8 +10,10 @@ namespace {
 template <int dim, int spacedim>
 double mean_ratio_of(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
   double q;
-  with_corners<dim>(mesh.topology().cell_nodes(cell), mesh.coordinates().data(),
-                    [&](auto corners) { q = mean_ratio(upper_side(mesh, cell), corners); });
+  const Point<spacedim>* const x = mesh.coordinates().data();
+  with_target_corners(
+      mesh, cell, [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; },
+      [&](auto corners) { q = target_mean_ratio(mesh, cell, corners); });
   return q;
 }
 

@@ -168,7 +168,7 @@ inline auto mean_ratio(OrientedBySpace, Corners corners) {
   return mean_ratio(corners);
 }
 
-/// Mean ratio of a cell of a mesh.
+/// Mean ratio of a cell of a mesh, relative to its target if the mesh has targets.
 double cell_mean_ratio(const PlanarMesh& mesh, CellIndex cell);
 double cell_mean_ratio(const VolumeMesh& mesh, CellIndex cell);
 double cell_mean_ratio(const SurfaceMesh& mesh, CellIndex cell);

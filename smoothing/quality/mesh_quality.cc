@@ -8,7 +8,7 @@
 #include "smoothing/base/parallel.h"
 #include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mean_ratio.h"
-#include "smoothing/simd/cells.h"
+#include "smoothing/quality/target_corners.h"
 
 namespace smoothfem {
 
@@ -19,15 +19,17 @@ constexpr double none = std::numeric_limits<double>::infinity();
 template <int dim, int spacedim>
 void compute_cells(const Mesh<dim, spacedim>& mesh, const CellBlock& block, double* cell_quality) {
   const Point<spacedim>* const x = mesh.coordinates().data();
+  const auto at = [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; };
   for_each_batch<dim, spacedim>(
       mesh.topology(), block.first, block.last,
       [&]<std::size_t n>(const CellBatch<n>& batch) {
-        const auto corners = batch.template corners<dim>(x);
-        batch.store(mean_ratio(std::span<const Vector<dim, Lanes>, n>(corners)), cell_quality);
+        const auto corners = target_corners<dim>(mesh.targets(), batch, at);
+        const std::span<const Vector<dim, Lanes>, n> nodes(corners);
+        batch.store(within_size_bound<dim>(mesh.targets(), nodes, mean_ratio(nodes)), cell_quality);
       },
       [&](CellIndex c) {
-        with_corners<dim>(mesh.topology().cell_nodes(c), x, [&](auto corners) {
-          cell_quality[c] = mean_ratio(upper_side(mesh, c), corners);
+        with_target_corners(mesh, c, at, [&](auto corners) {
+          cell_quality[c] = target_mean_ratio(mesh, c, corners);
         });
       });
 }

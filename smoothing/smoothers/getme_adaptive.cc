@@ -58,7 +58,7 @@ class AdaptiveStage : public Smoother<dim> {
     if (relaxation_.back() != 0.0)
       throw InputError("method getme-adaptive: the parameter relaxation must end with 0");
     const Topology& topology = state.mesh.topology();
-    arrays_->pass.prepare(topology, element_);
+    arrays_->pass.prepare(state.mesh, element_);
     arrays_->weights.prepare(state.mesh.shared_topology());
     arrays_->moving.clear();
     arrays_->active_cells.clear();
@@ -194,7 +194,9 @@ class AdaptiveMeanStage final : public AdaptiveStage<dim> {
     return all;
   }
   SmootherTraits traits() const override {
-    return {.quality_use = QualityUse::smoother, .result = ResultMesh::best_q_mean};
+    return {.quality_use = QualityUse::smoother,
+            .result = ResultMesh::best_q_mean,
+            .takes_targets = true};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::q_mean_gain,
@@ -244,7 +246,9 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
     return all;
   }
   SmootherTraits traits() const override {
-    return {.quality_use = QualityUse::smoother, .result = ResultMesh::best_q_star_min};
+    return {.quality_use = QualityUse::smoother,
+            .result = ResultMesh::best_q_star_min,
+            .takes_targets = true};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::step_says_so,

@@ -8,6 +8,7 @@
 #include "smoothing/getme/regularize.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/quality/local_quality.h"
+#include "smoothing/quality/target_corners.h"
 #include "smoothing/quality/warpage.h"
 
 namespace smoothfem {
@@ -102,7 +103,8 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   SmootherTraits traits() const override {
     return {.quality_use = QualityUse::smoother,
             .result = Assessment::result,
-            .keeps_constraints = true};
+            .keeps_constraints = true,
+            .takes_targets = Assessment::result == ResultMesh::best_q_star_min};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::result_stall,
@@ -113,7 +115,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
 
   /// Only elements with a free node take part.
   void initialize(const SmoothingState<dim, spacedim>& state) override {
-    regularization_.emplace(element_);
+    regularization_.emplace(state.mesh.targets() ? with_given_sizes(element_) : element_);
     const auto& topology = state.mesh.topology();
     std::vector<double> keys(topology.n_cells(), MinTree::never);
     for (CellIndex c = 0; c < topology.n_cells(); ++c)
@@ -183,6 +185,7 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
   /// Returns the size that is passed to an element's step, if it needs one.
   double fitting_size(const Mesh<dim, spacedim>& mesh, std::span<const NodeIndex> nodes) {
     if (!regularization_->fits_neighbours()) return 0.0;
+    if (mesh.targets()) return 1.0;  // the corners are mapped to where the targets are regular
     neighbour_sizes_.update(mesh, nodes);
     return neighbour_sizes_.of(nodes);
   }
@@ -195,13 +198,20 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     moved_.clear();
     touched_.clear();
     ++n_transformations_;
-    with_corners<dim>(nodes, mesh.coordinates().data(), [&](auto corners) {
+    const Point<spacedim>* const x = std::as_const(mesh).coordinates().data();
+    const auto at = [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; };
+    with_target_corners(mesh, cell, at, [&](auto corners) {
       with_result(corners, [&](auto result) {
         const double size = fitting_size(mesh, nodes);
         regularize(*regularization_, upper_side(mesh, cell), corners, result, size);
+        if constexpr (dim == spacedim)
+          if (mesh.targets() != nullptr) [[unlikely]] {
+            const auto map = linear_map<TargetMap::to_target>(*mesh.targets(), cell);
+            for (auto& node : result) node = map(node);
+          }
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (topology.is_fixed(nodes[k])) continue;
-          moved_.emplace_back(nodes[k], point_of(corners[k]));
+          moved_.emplace_back(nodes[k], x[nodes[k]]);
           mesh.coordinates()[nodes[k]] = allowed_position(mesh, nodes[k], point_of(result[k]));
           for (const CellIndex c : topology.node_cells(nodes[k])) {
             if (touched_in_[c] == n_transformations_) continue;

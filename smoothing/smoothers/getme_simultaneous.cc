@@ -26,12 +26,12 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
     return all;
   }
   SmootherTraits traits() const override {
-    return {.quality_use = QualityUse::smoother, .keeps_constraints = true};
+    return {.quality_use = QualityUse::smoother, .keeps_constraints = true, .takes_targets = true};
   }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
   void initialize(const SmoothingState<dim, spacedim>& state) override {
-    pass_.prepare(state.mesh.topology(), element_);
+    pass_.prepare(state.mesh, element_);
     previous_.resize(state.mesh.n_nodes());
     is_transformed_ = false;
   }

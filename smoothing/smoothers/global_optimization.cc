@@ -7,6 +7,7 @@
 #include "smoothing/optimization/feasible_movement.h"
 #include "smoothing/optimization/shape_objective.h"
 #include "smoothing/optimization/vertex_descent.h"
+#include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
 namespace {
@@ -32,6 +33,11 @@ class GlobalOptimization final : public Smoother<dim> {
          "stop when a Newton step's model predicts that the objective falls by no more than this "
          "fraction",
          &tolerance_, 0.0, 1.0},
+        {"stall",
+         "stop when the objective has fallen by less than this fraction in the last 10 steps; not "
+         "in the thesis. On graded meshes the last steps are many, long, and change nothing that "
+         "matters",
+         &stall_, 0.0, 1.0},
         {"newton_below",
          "use the exact Hessian once a step lowers the objective by less than this fraction",
          &newton_below_, 0.0, 1.0},
@@ -42,6 +48,9 @@ class GlobalOptimization final : public Smoother<dim> {
          &determinant_fraction_, 1e-3, 0.999},
         {"max_cg_iterations", "largest number of CG iterations in a Newton step",
          &max_cg_iterations_, 1.0, 1e9},
+        {"size_weight",
+         "weight of the cells' sizes relative to their shapes, if cells have targets",
+         &size_weight_, 0.0, 1e6},
         {"start_sweeps",
          "sweeps of one-node Newton steps before the first Newton step of all nodes; on heavily "
          "distorted meshes 10 sweeps give the shortest run",
@@ -56,14 +65,18 @@ class GlobalOptimization final : public Smoother<dim> {
   SmootherTraits traits() const override {
     const bool best = result_ != 0;  // the method itself uses no mean ratio
     return {.quality_use = best ? QualityUse::loop : QualityUse::none,
-            .result = best ? ResultMesh::best_q_mean : ResultMesh::last};
+            .result = best ? ResultMesh::best_q_mean : ResultMesh::last,
+            .takes_targets = true};
   }
   StoppingRule stopping() const override {
     return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = max_iterations_};
   }
 
   void initialize(const SmoothingState<dim>& state) override {
-    objective_.emplace(state.mesh.shared_topology());
+    if (start_sweeps_ > 0 && state.mesh.targets())
+      throw InputError(
+          "method global-optimization: start_sweeps cannot be used with targets; set it to 0");
+    objective_.emplace(state.mesh.shared_topology(), state.mesh.shared_targets(), size_weight_);
     hessian_ = objective_->make_hessian();
     gradient_ = right_ = step_ = hessian_.make_vector();
     trial_.assign(state.mesh.coordinates().begin(), state.mesh.coordinates().end());
@@ -71,6 +84,7 @@ class GlobalOptimization final : public Smoother<dim> {
     value_ = objective_->value(trial_);
     model_ = HessianModel::convex;
     gradient_norm_ = 0.0;
+    values_.assign(1, value_);
   }
 
   StepReport step(SmoothingState<dim>& state) override {
@@ -86,7 +100,8 @@ class GlobalOptimization final : public Smoother<dim> {
     const bool moved = line_search(state.mesh, slope);
     const bool near = !moved || value_before - value_ < newton_below_ * value_before;
     model_ = near ? HessianModel::exact : HessianModel::convex;
-    return {.converged = exact && (!moved || -slope <= tolerance_ * value_before)};
+    return {.converged =
+                (exact && (!moved || -slope <= tolerance_ * value_before)) || has_stalled()};
   }
 
  private:
@@ -96,6 +111,14 @@ class GlobalOptimization final : public Smoother<dim> {
     for (int i = 0; i < start_sweeps_; ++i) descent.sweep(mesh.coordinates());
     trial_.assign(mesh.coordinates().begin(), mesh.coordinates().end());
     value_ = objective_->value(trial_);
+  }
+
+  /// True if the last steps together have lowered the objective too little.
+  bool has_stalled() {
+    values_.push_back(value_);
+    if (values_.size() <= n_stall_steps) return false;
+    const double before = values_[values_.size() - 1 - n_stall_steps];
+    return before - value_ < stall_ * before;
   }
 
   /// Solves with the present model; if that is the exact Hessian and it is indefinite, solves with
@@ -142,7 +165,28 @@ class GlobalOptimization final : public Smoother<dim> {
         break;
       for (std::size_t i = 0; i < free_nodes.size(); ++i) step_[i] *= limits_[free_nodes[i]];
     }
+    if (mesh.targets()) keep_sizes(mesh);
     return dot<dim>(gradient_, step_);
+  }
+
+  /// Halves the steps of nodes whose cells would get sizes beyond the targets' bound, in the end to
+  /// zero.
+  void keep_sizes(const Mesh<dim>& mesh) {
+    constexpr int max_halvings = 8;
+    const auto& free_nodes = mesh.topology().free_nodes();
+    Mesh<dim> trial = mesh;
+    std::vector<double> quality;
+    for (int k = 0; k <= max_halvings; ++k) {
+      set_trial(mesh, 1.0);
+      trial.set_coordinates(trial_);
+      if (compute_cell_mean_ratios(trial, quality).n_invalid == 0) return;
+      limits_.assign(mesh.n_nodes(), 1.0);
+      for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+        if (!(quality[c] > 0.0))
+          for (const NodeIndex i : mesh.topology().cell_nodes(c))
+            limits_[i] = k < max_halvings ? 0.5 : 0.0;
+      for (std::size_t i = 0; i < free_nodes.size(); ++i) step_[i] *= limits_[free_nodes[i]];
+    }
   }
 
   /// Halves the step until the objective falls enough (Armijo). Returns false if it never does.
@@ -162,10 +206,14 @@ class GlobalOptimization final : public Smoother<dim> {
     return false;
   }
 
+  static constexpr std::size_t n_stall_steps = 10;
+
   double tolerance_ = 1e-8;
+  double stall_ = 1e-4;
   double newton_below_ = 1e-3;
   double forcing_ = 0.3;
   double determinant_fraction_ = 0.9;
+  double size_weight_ = 30.0;
   int max_cg_iterations_ = 1000;
   int start_sweeps_ = 0;
   int max_iterations_ = 1000;
@@ -179,6 +227,7 @@ class GlobalOptimization final : public Smoother<dim> {
   std::vector<Point<dim>> trial_;
   std::vector<double> limits_;
   double value_ = 0.0;
+  std::vector<double> values_;  ///< after each step
   double gradient_norm_ = 0.0;
   bool start_ = false;  ///< true if the next step begins with the sweeps
 };

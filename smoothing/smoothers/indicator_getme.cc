@@ -47,7 +47,7 @@ class IndicatorGetme final : public SolutionDriven<dim> {
 
  private:
   void prepare(const SmoothingState<dim>& state) override {
-    pass_.prepare(state.mesh.topology(), element_);
+    pass_.prepare(state.mesh, element_);
     previous_.resize(state.mesh.n_nodes());
   }
 

@@ -18,7 +18,7 @@ class PieceIndex;  // smoothing/surface/piece_index.h
 /// mesh; a facet with more than three nodes becomes triangles around the mean of its nodes. Only
 /// the node's own smooth part or line counts, so that it cannot change over to another sheet of the
 /// surface. Facets between moved nodes cut across curved parts; their distance may be bounded, too.
-class SurfaceConstraints final : public NodeConstraints {
+class SurfaceConstraints final : public NodeConstraints<3> {
  public:
   /// facets: the initial mesh of a surface of nodes with these coordinates. facet_bound: largest
   /// distance of facets from the surface, above 0. Throws InputError as find_features does.

@@ -30,7 +30,7 @@ inline VolumeMesh shell(BoxCells kind) {
 inline VolumeMesh tangled_along_boundary(VolumeMesh mesh, int n_passes = 3) {
   constexpr double largest = 0.06, min_cosine = 0.97;
   const VolumeMesh sliding = with_sliding_boundary(mesh);
-  const NodeConstraints& constraints = *sliding.constraints();
+  const NodeConstraints<3>& constraints = *sliding.constraints();
   const auto& facets = mesh.topology().boundary_facets();
   const auto facets_of_node = rows_by_entry(facets, mesh.n_nodes());
   Random random(3);

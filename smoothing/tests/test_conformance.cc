@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 
 #include "smoothing/base/parallel.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/quality/cell_targets.h"
 #include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/volume_meshes.h"
@@ -275,11 +277,11 @@ TEST_P(EveryMethod, KeepsInterfacesBitwise) {
   });
 }
 
-TEST_P(EveryMethod, SlidesOnAPlaneInterfaceWithoutLeavingIt) {
-  const std::string name = GetParam().substr(0, GetParam().find(' '));
-  if (!supports_mesh_kind<3>(name, true)) GTEST_SKIP() << "the method keeps no constraints";
-  for (const auto kind : {BoxCells::hexahedra, BoxCells::tetrahedra, BoxCells::prisms}) {
-    VolumeMesh mesh = with_interface(box_mesh(4, 4, 4, kind), 2.0);
+/// Checks that nodes slide on the interface x = 2 of boxes or squares and do not leave it.
+template <int dim>
+void slide_on_plane_interface(const std::vector<Mesh<dim>>& meshes, const auto& make_method) {
+  for (const Mesh<dim>& box : meshes) {
+    Mesh<dim> mesh = with_interface(box, 2.0);
     std::vector<NodeIndex> on_interface;
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
       if (mesh.coordinates()[i].x() == 2.0 && !mesh.topology().on_boundary()[i])
@@ -287,9 +289,9 @@ TEST_P(EveryMethod, SlidesOnAPlaneInterfaceWithoutLeavingIt) {
     mesh = with_sliding_boundary(mesh, {}, default_slide_distance,
                                  {.boundary = false, .interfaces = true});
     for (std::size_t k = 0; k < on_interface.size(); ++k)
-      mesh.coordinates()[on_interface[k]] += Point<3>(0.0, k % 2 == 0 ? 0.2 : -0.2, 0.1);
-    const VolumeMesh before = mesh;
-    auto made = short_method<3>();
+      mesh.coordinates()[on_interface[k]][1] += k % 2 == 0 ? 0.2 : -0.2;
+    const Mesh<dim> before = mesh;
+    auto made = make_method.template operator()<dim>();
     smooth(mesh, made);
     bool any_moved = false;
     for (const NodeIndex i : on_interface) {
@@ -297,7 +299,110 @@ TEST_P(EveryMethod, SlidesOnAPlaneInterfaceWithoutLeavingIt) {
       any_moved = any_moved || mesh.coordinates()[i] != before.coordinates()[i];
     }
     EXPECT_TRUE(any_moved);
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      if (mesh.topology().on_boundary()[i]) {
+        EXPECT_EQ(mesh.coordinates()[i], before.coordinates()[i]);
+      }
   }
+}
+
+TEST_P(EveryMethod, SlidesOnAPlaneInterfaceWithoutLeavingIt) {
+  const std::string name = GetParam().substr(0, GetParam().find(' '));
+  const auto make = []<int dim>() { return short_method<dim>(); };
+  if (supports_mesh_kind<2>(name, true))
+    slide_on_plane_interface<2>(
+        {grid_mesh(4, GridCells::quadrilaterals), grid_mesh(4, GridCells::triangles)}, make);
+  if (!supports_mesh_kind<3>(name, true)) GTEST_SKIP() << "the method keeps no constraints";
+  slide_on_plane_interface<3>(
+      {box_mesh(4, 4, 4, BoxCells::hexahedra), box_mesh(4, 4, 4, BoxCells::tetrahedra),
+       box_mesh(4, 4, 4, BoxCells::prisms)},
+      make);
+}
+
+/// A mesh whose cells are stretched and sheared by a map, and the same with its inner nodes moved.
+template <int dim>
+std::pair<Mesh<dim>, Mesh<dim>> stretched_and_shaken(Mesh<dim> mesh) {
+  Eigen::Matrix<double, dim, dim> map = 0.3 * Eigen::Matrix<double, dim, dim>::Identity();
+  map(0, 0) = 2.0;
+  map(0, 1) = 0.2;
+  for (auto& x : mesh.coordinates()) x = map * x;
+  Mesh<dim> shaken = mesh;
+  const auto& free_nodes = mesh.topology().free_nodes();
+  for (std::size_t k = 0; k < free_nodes.size(); ++k)
+    shaken.coordinates()[free_nodes[k]] += map * Point<dim>::Constant(k % 2 == 0 ? 0.15 : -0.1);
+  return {mesh, shaken};
+}
+
+TEST_P(EveryMethod, ReachesItsTargetsOrRefusesThem) {
+  in_every_dimension([]<int dim>() {
+    std::vector<Mesh<dim>> meshes;
+    if constexpr (dim == 2)
+      meshes = {grid_mesh(4, GridCells::quadrilaterals), grid_mesh(4, GridCells::triangles)};
+    else
+      meshes = {box_mesh(3, 3, 3, BoxCells::hexahedra), box_mesh(3, 3, 3, BoxCells::tetrahedra)};
+    for (const auto& mesh : meshes) {
+      const auto [reference, shaken] = stretched_and_shaken<dim>(mesh);
+      Mesh<dim> result = with_targets(shaken, targets_of(reference, TargetKind::shape_and_size));
+      auto made = method<dim>();
+      if (!takes_targets(made)) {
+        EXPECT_THROW(smooth(result, made), InputError);
+        continue;
+      }
+      EXPECT_LT(mesh_quality(result).q_mean, 0.99);
+      smooth(result, made);
+      EXPECT_GT(mesh_quality(result).q_min, 0.999);
+      EXPECT_LT(farthest(reference, result), 0.15 * farthest(reference, shaken));
+    }
+  });
+}
+
+TEST_P(EveryMethod, KeepsSizesThatAreItsTargets) {
+  const std::string name = GetParam().substr(0, GetParam().find(' '));
+  if (!supports_mesh_kind<2>(name) || !takes_targets(method<2>()))
+    GTEST_SKIP() << "the method takes no targets";
+  PlanarMesh graded = grid_mesh(8, GridCells::triangles);
+  test::distort(graded, 0.2, 3);
+  for (auto& x : graded.coordinates()) x = x.cwiseProduct(x / 8.0 + Point<2>::Constant(0.05));
+  ASSERT_EQ(mesh_quality(graded).n_invalid, 0u);
+  const auto smoothed = [&](PlanarMesh mesh) {
+    auto made = method<2>();
+    smooth(mesh, made);
+    return mesh;
+  };
+  const auto mean_change = [&](const PlanarMesh& mesh) {
+    double sum = 0.0;
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+      sum += std::abs(std::log(signed_cell_size(mesh, c) / signed_cell_size(graded, c)));
+    return sum / static_cast<double>(mesh.n_cells());
+  };
+  const PlanarMesh result =
+      smoothed(with_targets(graded, targets_of(graded, TargetKind::size, initial_size_bound)));
+  EXPECT_LT(mean_change(result), mean_change(smoothed(graded)));
+  EXPECT_TRUE(mesh_quality(result).q_mean > mesh_quality(graded).q_mean ||
+              mesh_quality(result).q_min > mesh_quality(graded).q_min);
+  for (CellIndex c = 0; c < graded.n_cells(); ++c) {
+    const double factor = signed_cell_size(result, c) / signed_cell_size(graded, c);
+    EXPECT_LT(factor, initial_size_bound) << c;
+    EXPECT_GT(factor, 1.0 / initial_size_bound) << c;
+  }
+}
+
+TEST(GlobalOptimization, EndsOnPerfectLayeredAndGradedMeshes) {
+  const auto steps = [](PlanarMesh mesh, const std::string& stall = "1e-4") {
+    auto made = make_method<2>("global-optimization");
+    made.set("stall", stall);
+    return smooth(mesh, made).stages.at(0).iterations;
+  };
+  const PlanarMesh perfect = grid_mesh(16, GridCells::quadrilaterals);
+  EXPECT_LE(steps(perfect), 2u);
+  PlanarMesh layered = perfect, graded = grid_mesh(16, GridCells::triangles);
+  for (auto& x : layered.coordinates()) x.y() *= 0.01;
+  test::distort(graded, 0.2, 3);
+  for (auto& x : graded.coordinates()) x = x.cwiseProduct(x);
+  EXPECT_LT(steps(layered), 60u);
+  EXPECT_LT(steps(graded), 60u);
+  EXPECT_GT(steps(graded), 10u);
+  EXPECT_EQ(steps(graded, "1"), 10u) << "no step lowers the objective by more than itself";
 }
 
 TEST_P(EveryMethod, RefusesTangledMeshesIfItNeedsValidMeshes) {

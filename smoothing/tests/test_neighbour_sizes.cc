@@ -147,8 +147,8 @@ void expect_sums_around_as_of_all(const std::string& scaling) {
       if (parameter.name == "scaling") set_value(parameter, scaling, "the element step");
     SmoothingState<dim> state{mesh, std::vector<double>(mesh.n_cells()), {}};
     ElementPass<dim> pass, other;
-    pass.prepare(mesh.topology(), parameters);
-    other.prepare(mesh.topology(), parameters);
+    pass.prepare(mesh, parameters);
+    other.prepare(mesh, parameters);
     pass.transform_all(state, 0.5);
     const NodeIndex moved = mesh.topology().free_nodes()[0];
     state.mesh.coordinates()[moved] += Point<dim>::Constant(0.03);

@@ -109,7 +109,7 @@ TEST_P(SlidingBoundary, KeepsFacetsWithinTheirBound) {
     EXPECT_GT(n_slid_nodes(initial, mesh), 0u) << slide_distance;
     return mesh;
   };
-  const double unbounded = facet_distance(smoothed(NodeConstraints::unbounded));
+  const double unbounded = facet_distance(smoothed(NodeConstraints<3>::unbounded));
   const double edge = with_sliding_boundary(initial, {}, 1.0).constraints()->facet_bound();
   for (const double share : {0.7, 0.3}) {
     const VolumeMesh mesh = smoothed(share * unbounded / edge);

@@ -8,7 +8,7 @@
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/optimization/untangle.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/surface/boundary_lines.h"
+#include "smoothing/surface/line_constraints.h"
 #include "smoothing/tests/tangled_boundary.h"
 
 namespace smoothfem {
@@ -40,7 +40,7 @@ TEST_P(UntangleSliding, UntanglesCellsWithBoundaryNodesOnly) {
   EXPECT_TRUE(result.valid) << n_invalid << " -> " << result.n_invalid_after;
   EXPECT_EQ(result.n_invalid_before, n_invalid);
   EXPECT_TRUE(invalid_cells_of(mesh).empty());
-  const NodeConstraints& constraints = *mesh.constraints();
+  const NodeConstraints<3>& constraints = *mesh.constraints();
   EXPECT_LE(constraints.facet_distance(mesh.coordinates()), constraints.facet_bound());
   std::size_t n_lines = 0;
   constexpr double sag = 0.03;  // of chords between nodes of the tangled mesh
@@ -104,48 +104,55 @@ TEST(UntangleSlidingInThePlane, UntanglesCellsWithBoundaryNodesOnly) {
     ASSERT_GE(refused.n_invalid_before, 10u);
     EXPECT_EQ(refused.fully_fixed_cells.size(), refused.n_invalid_before);
 
-    const BoundaryLines lines(tangled, {}, 0.1);
-    std::vector<bool> stays(tangled.n_nodes());
-    for (NodeIndex i = 0; i < tangled.n_nodes(); ++i) stays[i] = lines.is_corner(i);
-    EXPECT_EQ(std::count(stays.begin(), stays.end(), true), 4);
-    PlanarMesh mesh = with_fixed_nodes(tangled, stays);
-    const auto result = untangle(mesh, {}, &lines);
+    PlanarMesh mesh = with_sliding_boundary(tangled, {}, 0.1);
+    const auto stays = [&](NodeIndex i) { return mesh.topology().is_fixed(i); };
+    std::size_t n_fixed = 0;
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) n_fixed += stays(i);
+    EXPECT_EQ(n_fixed, 4u);
+    const auto result = untangle(mesh);
     EXPECT_TRUE(result.valid) << triangles << ": " << result.n_invalid_before << " -> "
                               << result.n_invalid_after;
     EXPECT_EQ(mesh_quality(mesh).n_invalid, 0u);
-    EXPECT_LE(lines.edge_distance(mesh.coordinates()), lines.edge_bound());
+    EXPECT_LE(mesh.constraints()->facet_distance(mesh.coordinates()),
+              mesh.constraints()->facet_bound());
     for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
       const double initial = tangled.coordinates()[i].norm(), now = mesh.coordinates()[i].norm();
       EXPECT_NEAR(now, initial, 0.002) << "a chord's sag, " << i;
-      if (stays[i]) {
+      if (stays(i)) {
         EXPECT_EQ(mesh.coordinates()[i], tangled.coordinates()[i]);
       }
     }
   }
 }
 
-TEST(BoundaryLinesOfASquare, HaveItsCornersAndNoMore) {
-  const PlanarMesh mesh = test::grid_mesh(4, test::GridCells::quadrilaterals);
-  const BoundaryLines lines(mesh, {}, 0.1);
+TEST(LineConstraintsOfASquare, HaveItsCornersAndNoMore) {
+  const PlanarMesh mesh =
+      with_sliding_boundary(test::grid_mesh(4, test::GridCells::quadrilaterals), {}, 0.1);
+  const NodeConstraints<2>& lines = *mesh.constraints();
   std::size_t n_corners = 0, n_inside = 0;
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    const int n_directions = lines.classifications()[i].n_directions(2);
     n_corners += lines.is_corner(i);
-    n_inside += lines.n_directions(i) == 2;
-    EXPECT_EQ(lines.n_directions(i) < 2, static_cast<bool>(mesh.topology().on_boundary()[i]));
+    n_inside += n_directions == 2;
+    EXPECT_EQ(n_directions < 2, static_cast<bool>(mesh.topology().on_boundary()[i]));
+    EXPECT_EQ(lines.is_corner(i), mesh.topology().is_fixed(i));
   }
   EXPECT_EQ(n_corners, 4u);
   EXPECT_EQ(n_inside, 9u);
-  EXPECT_DOUBLE_EQ(lines.edge_bound(), 0.1);
+  EXPECT_DOUBLE_EQ(lines.facet_bound(), 0.1);
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
     const Point<2> p = mesh.coordinates()[i];
     if (p != Point<2>(2.0, 0.0)) continue;
     EXPECT_EQ(lines.project(i, p, Point<2>(2.7, 0.4)), Point<2>(2.7, 0.0));
     auto x = mesh.copied_coordinates();
     x[i] = {2.0, 0.19};
-    EXPECT_TRUE(lines.keeps_bound(x, i));
+    EXPECT_TRUE(lines.keeps_bound(x, {&i, 1}));
+    EXPECT_TRUE(lines.facets_out_of_bound(x).empty());
     x[i] = {2.0, 0.21};
-    EXPECT_FALSE(lines.keeps_bound(x, i));
-    EXPECT_NEAR(lines.edge_distance(x), 0.105, 1e-15);
+    EXPECT_FALSE(lines.keeps_bound(x, {&i, 1}));
+    EXPECT_EQ(lines.facets_out_of_bound(x).size(), 2u);
+    EXPECT_EQ(lines.facets_out_of_bound(x, {&i, 1}), lines.facets_out_of_bound(x));
+    EXPECT_NEAR(lines.facet_distance(x), 0.105, 1e-15);
   }
 }
 

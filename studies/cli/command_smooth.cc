@@ -12,7 +12,9 @@
 #include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/periodic/smooth_periodic.h"
 #include "smoothing/quality/bad_places.h"
+#include "smoothing/quality/cell_targets.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/mesh_notes.h"
 #include "studies/cli/smooth_notes.h"
@@ -37,49 +39,32 @@ Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
   return method;
 }
 
-template <int dim>
-bool has_interfaces(const Mesh<dim>& mesh) {
-  const auto& reasons = mesh.topology().fixed_reasons();
-  return std::any_of(reasons.begin(), reasons.end(),
-                     [](FixedReasons of_node) { return has(of_node, FixedReason::interface); });
-}
-
-/// --interfaces free: the nodes of interfaces may move, unless they stay for another reason.
-template <int dim>
-Mesh<dim> with_interface_rule(Mesh<dim> mesh, const SmoothArguments& arguments) {
-  if (arguments.interfaces != "free" || !has_interfaces(mesh)) return mesh;
-  auto reasons = without(mesh.topology().fixed_reasons(), bit(FixedReason::interface));
-  return with_fixed_nodes(std::move(mesh), std::move(reasons));
-}
-
-/// The mesh with the constraints that --boundary, --slide-distance and --feature-angle ask for.
+/// The mesh with the constraints that --boundary, --interfaces, --slide-distance and
+/// --feature-angle ask for.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
-  if (arguments.slide_distance && arguments.boundary != "slide" && arguments.interfaces != "slide")
+  const bool boundary_slides = arguments.boundary == "slide",
+             slides = boundary_slides || arguments.interfaces == "slide";
+  if (arguments.slide_distance && !slides)
     throw InputError(
         "--slide-distance is for '--boundary slide' and '--interfaces slide'; leave it out");
   const FeatureParameters features = features_of(arguments);
   if constexpr (spacedim > dim) {
-    if (arguments.feature_angle) mesh = with_features(mesh, features);
-  } else {
-    mesh = with_interface_rule(std::move(mesh), arguments);
-    if constexpr (dim == 3) {
-      const SlidingSurfaces sliding{
-          .boundary = arguments.boundary == "slide",
-          .interfaces = arguments.interfaces == "slide" && has_interfaces(mesh)};
-      if (sliding.boundary || sliding.interfaces)
-        return with_sliding_boundary(mesh, features, slide_distance_of(arguments), sliding);
-    }
-    if (arguments.feature_angle && !slides_while_untangling<dim, spacedim>(arguments))
+    if (!arguments.boundary.empty())
       throw InputError(
-          "--feature-angle is for surface meshes and '--boundary slide'; leave it out");
+          "--boundary is for planar and volume meshes, but this is a surface mesh; leave it out");
+    return arguments.feature_angle ? with_features(mesh, features) : mesh;
+  } else {
+    if (arguments.feature_angle && !slides)
+      throw InputError(
+          "--feature-angle is for surface meshes, '--boundary slide' and '--interfaces slide'; "
+          "leave it out");
+    const auto rule =
+        std::find(interface_rule_names.begin(), interface_rule_names.end(), arguments.interfaces) -
+        interface_rule_names.begin();
+    return with_interface_rule(mesh, static_cast<InterfaceRule>(rule), boundary_slides, features,
+                               slide_distance_of(arguments));
   }
-  if (slides_while_untangling<dim, spacedim>(arguments)) return mesh;
-  if (dim == 2 && !arguments.boundary.empty())
-    throw InputError("--boundary is for volume meshes, but this is a " +
-                     std::string(mesh_kind_name(dim, spacedim)) + " mesh; leave it out" +
-                     (spacedim == 2 ? ", or add --untangle" : ""));
-  return mesh;
 }
 
 /// The mesh with the nodes fixed that --fix names.
@@ -103,14 +88,45 @@ Mesh<dim, spacedim> fix_nodes_away_from_bad_cells(Mesh<dim, spacedim> mesh,
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_fixed_seams(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
   // In tangled meshes boundary nodes may lie anywhere.
-  if (mesh_quality(mesh).n_invalid > 0) return mesh;
+  const bool is_valid = mesh_quality(mesh).n_invalid == 0;
+  if (!is_valid && !(dim == 2 && mesh.constraints())) return mesh;
   const auto [findings, seam_nodes] = examine_boundary(mesh);
-  warn_about(arguments.in, findings);
+  if (is_valid) warn_about(arguments.in, findings);
   if (seam_nodes.empty()) return mesh;
   auto reasons = mesh.topology().fixed_reasons();
   for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
     if (seam_nodes[i]) reasons[i] |= bit(FixedReason::hanging);
   return with_fixed_nodes(std::move(mesh), std::move(reasons));
+}
+
+/// The mesh with the targets that --target asks for.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_target_option(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
+  if (arguments.target.empty()) return mesh;
+  if constexpr (spacedim > dim) {
+    throw InputError("--target is for planar and volume meshes; leave it out");
+  } else {
+    const auto& names = initial_target_names;
+    if (arguments.target == names[0])
+      return with_targets(mesh, targets_of(mesh, TargetKind{}, initial_size_bound));
+    if (arguments.target == names[1])
+      return with_targets(mesh, targets_of(mesh, TargetKind::size, initial_size_bound));
+    if (!std::filesystem::exists(arguments.target))
+      throw InputError("--target is '" + arguments.target +
+                       "', which is no file; give initial, initial-size or a mesh file");
+    const MeshFile file = read_mesh(arguments.target);
+    const auto* reference = std::get_if<Mesh<dim>>(&file.mesh);
+    if (reference == nullptr || !(reference->topology().cells() == mesh.topology().cells()))
+      throw InputError(arguments.target + " has other cells than " + arguments.in +
+                       "; --target needs a mesh with the same cells in the same order");
+    return with_targets(mesh, targets_of(*reference, TargetKind{}));
+  }
+}
+
+/// The mesh without targets, whose cells are measured by their own shapes.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> without_targets(const Mesh<dim, spacedim>& mesh) {
+  return {mesh.shared_topology(), mesh.copied_coordinates(), mesh.shared_constraints()};
 }
 
 struct Outcome {
@@ -140,6 +156,41 @@ void require_different_files(const SmoothArguments& arguments) {
                      "; give two file names");
 }
 
+template <int dim, int spacedim>
+bool moves_partners(const Mesh<dim, spacedim>& mesh, const SmoothArguments& arguments) {
+  if (arguments.periodic == "smooth") return true;
+  const auto& reasons = mesh.topology().fixed_reasons();
+  return dim == spacedim && arguments.boundary == "slide" &&
+         std::any_of(reasons.begin(), reasons.end(),
+                     [](FixedReasons r) { return has(r, FixedReason::periodic); });
+}
+
+/// Runs the method. Periodic partners move together if the boundary slides, or as inner nodes with
+/// --periodic smooth.
+template <int dim, int spacedim>
+SmoothingResult run_method(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                           const Observer<dim, spacedim>& observer,
+                           const SmoothArguments& arguments) {
+  if (!moves_partners(mesh, arguments)) return smooth(mesh, method, observer);
+  if constexpr (spacedim > dim) {
+    throw InputError("--periodic is for planar and volume meshes; leave it out");
+  } else {
+    PeriodicParameters<dim> parameters;
+    if (mesh.constraints()) {
+      SurfaceFacets facets = sliding_facets(mesh, {.boundary = arguments.boundary == "slide",
+                                                   .interfaces = arguments.interfaces == "slide"})
+                                 .facets;
+      if (arguments.periodic == "smooth") facets = without_periodic_facets(mesh, facets);
+      if (!facets.nodes.empty())
+        parameters.make_constraints = [facets, &arguments](std::span<const Point<dim>> x) {
+          return sliding_constraints<dim>(facets, x, features_of(arguments),
+                                          slide_distance_of(arguments));
+        };
+    }
+    return smooth_periodic(mesh, method, observer, parameters);
+  }
+}
+
 /// Smooths a mesh. The method and its tables are freed before the mesh is written: writing needs
 /// memory, too.
 template <int dim, int spacedim>
@@ -147,6 +198,14 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
                          Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines,
                          Recorder& recorder) {
   make_valid(arguments, method, mesh, cell_lines);
+  if constexpr (dim == spacedim)
+    if (arguments.untangle && mesh.constraints() && !keeps_constraints(method)) {
+      mesh = with_fixed_surfaces(mesh);
+      if (!arguments.quiet)
+        std::printf("%s keeps no nodes on surfaces: from here on the nodes that slide stay\n",
+                    method.info.name.c_str());
+    }
+  mesh = with_target_option(std::move(mesh), arguments);
   if (!arguments.allow_worse) method.floor = 1;
   Observer<dim, spacedim>
       observer;  // empty without --log and --series, because it costs a pass over all cells
@@ -154,7 +213,7 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
     observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
   use_folders(method, {});
   try {
-    return {method.info.title, smooth(mesh, method, observer)};
+    return {method.info.title, run_method(mesh, method, observer, arguments)};
   } catch (const Interrupted&) {
     recorder.write_log();
     std::fprintf(stderr, "Interrupted: no mesh is written%s%s.\n",
@@ -185,14 +244,17 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   Recorder recorder(arguments);
   const Outcome outcome =
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
+  const bool has_targets = mesh.targets() != nullptr;
+  MeshFields fields;
+  if (has_targets) fields.cell["target_mean_ratio"] = cell_mean_ratios(mesh);
+  mesh = without_targets(mesh);
   report_floor(outcome.method_title, outcome.smoothing, mesh.n_cells(), arguments.quiet);
   warn_about_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
-  MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Mesh files do not store that a boundary slides, so its nodes are fixed there.
   const bool slides = arguments.boundary == "slide" || arguments.interfaces == "slide";
   write_mesh(arguments.out,
-             slides || arguments.only_below
+             slides || arguments.only_below || arguments.periodic == "smooth"
                  ? Mesh<dim, spacedim>(topology_of_file, mesh.copied_coordinates(),
                                        mesh.shared_constraints())
                  : mesh,
@@ -205,18 +267,24 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   if (arguments.quiet) return;
   std::printf("%-8s %9s %9s %9s %9s\n", "", "q_min", "q*_min", "q_mean", "invalid");
   print_quality("before", before);
-  print_quality("after", outcome.smoothing.quality);
+  print_quality("after", has_targets ? mesh_quality(mesh) : outcome.smoothing.quality);
+  if (has_targets) print_quality("to target", outcome.smoothing.quality);
   std::printf(
       "%s: %s iterations in %.4g s, and %.4g s of preparation, on %d threads; written to %s\n",
       outcome.method_title.c_str(), outcome.smoothing.iterations_text().c_str(),
       outcome.smoothing.smoothing_seconds, outcome.smoothing.preparation_seconds, n_threads(),
       arguments.out.c_str());
   print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
+  if (moves_partners(mesh, arguments)) {
+    mesh = with_fixed_nodes(std::move(mesh),
+                            without(mesh.topology().fixed_reasons(), bit(FixedReason::periodic)));
+    std::printf("periodic partners have moved together\n");
+  }
   for (const std::string& line :
        {fixed_reasons_text(mesh.topology()), size_changes(sizes_before, sizes),
         fields_text(mesh.topology().labels().content.get())})
     if (!line.empty()) std::printf("%s\n", line.c_str());
-  if constexpr (dim == 3)
+  if constexpr (dim == spacedim)
     if (const auto* constraints = mesh.constraints())
       std::printf("distance from the initial boundary: %.3g (limit: %.3g)\n",
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
@@ -288,7 +356,7 @@ void add_smooth_command(CLI::App& app) {
   command
       ->add_option("--interfaces", arguments->interfaces,
                    "nodes between cells of different groups, and of labelled inner facets: fixed "
-                   "(default), slide on the interface (volume meshes), or free")
+                   "(default), slide on the interface, or free")
       ->check(CLI::IsMember({"fixed", "slide", "free"}));
   command
       ->add_option("--keep-layers", arguments->keep_layers,
@@ -303,14 +371,22 @@ void add_smooth_command(CLI::App& app) {
   command
       ->add_option(
           "--boundary", arguments->boundary,
-          "boundary nodes of volume meshes: fixed (default), or slide on the initial boundary, "
-          "along its edges; corners stay. Boundary nodes of planar meshes slide with "
-          "--untangle")
+          "boundary nodes: fixed (default), or slide on the initial boundary, in space along its "
+          "edges; corners stay")
       ->check(CLI::IsMember({"fixed", "slide"}));
   command->add_option(
       "--slide-distance", arguments->slide_distance,
       "maximum distance of a sliding boundary from the initial one, as a fraction of its "
       "mean edge length (default: 0.1; inf: no bound)");
+  command
+      ->add_option("--periodic", arguments->periodic,
+                   "nodes with periodic partners: fixed (default; with --boundary slide they slide "
+                   "together), or smooth as if both sides were joined")
+      ->check(CLI::IsMember({"fixed", "smooth"}));
+  command->add_option("--target", arguments->target,
+                      "ideal shape and size of each cell: those of IN (initial), the size of IN "
+                      "with a regular shape (initial-size), or those of a mesh file with the same "
+                      "cells (default: a regular shape of any size)");
   command->add_flag(
       "--untangle", arguments->untangle,
       "make a tangled mesh valid first; with --boundary slide boundary nodes slide, too");

@@ -3,11 +3,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "meshes/doctor/examine_boundary.h"
-#include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/optimization/untangle.h"
 #include "smoothing/quality/mesh_quality.h"
-#include "smoothing/surface/boundary_lines.h"
 #include "studies/cli/smooth_arguments.h"
 
 namespace smoothfem {
@@ -58,25 +55,6 @@ template <int dim>
                    where + "; " + advice + ", or repair them in the mesh generator");
 }
 
-/// Untangles a planar mesh whose nodes slide along the initial boundary. Corners and the nodes of
-/// --fix stay.
-UntangleResult untangle_with_sliding_boundary(const SmoothArguments& arguments, PlanarMesh& mesh) {
-  const BoundaryLines lines(mesh, features_of(arguments), slide_distance_of(arguments));
-  const auto on_seam = examine_boundary(mesh).seam_nodes;  // its sides would come apart
-  std::vector<bool> fixed(mesh.n_nodes());
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    fixed[i] = lines.is_corner(i) || (!on_seam.empty() && on_seam[i]) ||
-               (mesh.topology().is_fixed(i) &&
-                (!arguments.fix.empty() || !mesh.topology().on_boundary()[i]));
-  PlanarMesh sliding = with_fixed_nodes(mesh, std::move(fixed));
-  const UntangleResult result = untangle(sliding, {}, &lines);
-  mesh.set_coordinates(sliding.coordinates());
-  if (!arguments.quiet && result.valid && result.n_invalid_before > 0)
-    std::printf("distance from the initial boundary: %.3g (limit: %.3g)\n",
-                lines.edge_distance(mesh.coordinates()), lines.edge_bound());
-  return result;
-}
-
 }  // namespace
 
 template <int dim, int spacedim>
@@ -93,12 +71,7 @@ void make_valid(const SmoothArguments& arguments, const Method<dim, spacedim>& m
     throw InputError(arguments.in +
                      ": surface meshes cannot be untangled; smooth it without --untangle");
   } else {
-    const UntangleResult result = [&] {
-      if constexpr (dim == 2)
-        if (slides_while_untangling<dim, spacedim>(arguments))
-          return untangle_with_sliding_boundary(arguments, mesh);
-      return untangle(mesh);
-    }();
+    const UntangleResult result = untangle(mesh);
     if (!result.valid) refuse(arguments, mesh, result);
     if (!arguments.quiet && result.n_invalid_before > 0)
       std::printf("untangled %zu invalid cells in %.4g s\n", result.n_invalid_before,

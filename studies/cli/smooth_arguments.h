@@ -12,8 +12,8 @@ namespace smoothfem {
 
 /// The user's arguments of `smooth`.
 struct SmoothArguments {
-  std::string in, out, from, to, preset, boundary, fix, log, series, tag_field;
-  std::string interfaces = "fixed";
+  std::string in, out, from, to, preset, boundary, fix, log, series, tag_field, target;
+  std::string interfaces = "fixed", periodic = "fixed";
   std::string method = "getme";
   std::vector<std::string> settings;
   std::optional<double> feature_angle, slide_distance, only_below;
@@ -23,12 +23,6 @@ struct SmoothArguments {
   bool untangle = false, fail_if_invalid = false, quiet = false, allow_worse = false;
   bool merge = false, keep_orientation = false;
 };
-
-/// True if a planar boundary slides, which it does only while a mesh is untangled.
-template <int dim, int spacedim>
-bool slides_while_untangling(const SmoothArguments& arguments) {
-  return dim == 2 && spacedim == 2 && arguments.boundary == "slide" && arguments.untangle;
-}
 
 inline FeatureParameters features_of(const SmoothArguments& arguments) {
   FeatureParameters features;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Surface meshes, and volume meshes whose boundary slides, by the command line.
 #include "meshes/domains/catalogue.h"
+#include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "smoothing/tests/methods.h"
@@ -79,7 +80,8 @@ TEST_F(CommandLine, RefusesWhatSurfacesLack) {
   EXPECT_THAT(refusal({"-m", "global-optimization"}),
               HasSubstr("does not support surface meshes; choose one of getme, getme-sequential"));
   EXPECT_THAT(refusal({"-m", "getme", "--untangle"}), HasSubstr("cannot be untangled"));
-  EXPECT_THAT(refusal({"-m", "getme", "--boundary", "slide"}), HasSubstr("is for volume meshes"));
+  EXPECT_THAT(refusal({"-m", "getme", "--boundary", "slide"}),
+              HasSubstr("is for planar and volume meshes"));
   EXPECT_THAT(refusal({"-m", "getme", "--feature-angle", "200"}),
               HasSubstr("give one above 0, at most 180"));
 }
@@ -181,12 +183,42 @@ TEST_F(CommandLine, UntanglesPlanarCellsThatHaveNodesOfASlidingBoundaryOnly) {
     return smoothfem(options);
   };
   EXPECT_THAT(with({"--untangle"}).err, HasSubstr("--boundary slide"));
-  EXPECT_THAT(with({"--boundary", "slide"}).err, HasSubstr("or add --untangle"));
+  EXPECT_THAT(with({"--boundary", "slide"}).err, HasSubstr("untangle the mesh first (--untangle)"));
   const Outcome outcome = with({"--untangle", "--boundary", "slide"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("distance from the initial boundary: "));
   EXPECT_EQ(mesh_quality(read_planar(file("out.vtu")).mesh).n_invalid, 0u);
   EXPECT_EQ(with({"--untangle", "--boundary", "slide", "--fix", "boundary"}).exit_code, 2);
+  const Outcome then_fixed = smoothfem({"smooth", "in.vtu", "-m", "global-optimization", "-o",
+                                        "out.vtu", "--untangle", "--boundary", "slide"});
+  EXPECT_EQ(then_fixed.exit_code, 0) << then_fixed.err;
+  EXPECT_THAT(then_fixed.out, HasSubstr("from here on the nodes that slide stay"));
+}
+
+TEST_F(CommandLine, KeepsSizesThatAreTargets) {
+  PlanarMesh mesh = test::grid_mesh(4, test::GridCells::triangles);
+  for (auto& x : mesh.coordinates()) x.x() *= 0.2 + 0.2 * x.x();
+  write_mesh(file("in.vtu"), mesh);
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"smooth", "in.vtu", "-o", "out.vtu"});
+    return smoothfem(options);
+  };
+  const Outcome kept = with({"-m", "getme", "--target", "initial-size"});
+  EXPECT_EQ(kept.exit_code, 0) << kept.err;
+  EXPECT_THAT(kept.out, HasSubstr("\nto target "));
+  const PlanarMesh result = read_planar(file("out.vtu")).mesh;
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+    const double factor = signed_cell_size(result, c) / signed_cell_size(mesh, c);
+    EXPECT_TRUE(factor > 0.5 && factor < 2.0) << c << ' ' << factor;
+  }
+  EXPECT_EQ(with({"-m", "getme", "--target", "in.vtu"}).exit_code, 0);
+  EXPECT_THAT(with({"-m", "laplace", "--target", "initial"}).err, HasSubstr("use one of getme, "));
+  EXPECT_THAT(with({"-m", "getme", "--target", "none.vtu"}).err, HasSubstr("which is no file"));
+  EXPECT_THAT(with({"-m", "getme", "--periodic", "smooth"}).err,
+              HasSubstr("has no periodic partners"));
+  write_mesh(file("other.vtu"), test::grid_mesh(3, test::GridCells::triangles));
+  EXPECT_THAT(with({"-m", "getme", "--target", "other.vtu"}).err,
+              HasSubstr("has other cells than"));
 }
 
 }  // namespace

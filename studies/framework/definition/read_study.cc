@@ -85,6 +85,27 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
   return mesh;
 }
 
+/// Reads the rule for interfaces and the target of a method. Throws InputError if the method cannot
+/// follow them.
+template <int dim>
+void read_mesh_rules(const ParameterHandler& p, const Method<dim>& made, StudyMethod& method) {
+  const auto& rules = interface_rule_names;
+  method.interfaces = static_cast<InterfaceRule>(
+      std::find(rules.begin(), rules.end(), p.get("interfaces")) - rules.begin());
+  if (method.interfaces == InterfaceRule::slide && !keeps_constraints(made))
+    throw InputError("method " + method.name +
+                     " cannot slide on interfaces; fix or free them, or use one of " +
+                     joined(methods_supporting<dim>(true)));
+  const auto& targets = initial_target_names;
+  const auto target = std::find(targets.begin(), targets.end(), p.get("target"));
+  if (target == targets.end()) return;
+  method.target = static_cast<TargetKind>(target - targets.begin());
+  if (!takes_targets(made))
+    throw InputError("method " + method.name +
+                     " knows regular cells only; set its 'target = regular', or use one of " +
+                     joined(methods_with_targets<dim>()));
+}
+
 StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
                                 const std::string& name, const std::string& type,
                                 const std::filesystem::path& folder, bool is_stand_in) {
@@ -102,7 +123,10 @@ StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
     for (const auto& parameter : defaults.parameters())
       if (p.get(parameter.name) != value_text(parameter))
         method.settings.emplace_back(parameter.name, p.get(parameter.name));
-    check_parameters(method.make<dim, spacedim>());  // and throws for values out of range
+    const auto made = method.make<dim, spacedim>();
+    check_parameters(made);  // and throws for values out of range
+    if constexpr (dim == spacedim)
+      if (!is_stand_in) read_mesh_rules(p, made, method);
   });
   return method;
 }
@@ -336,7 +360,8 @@ void declare_stand_in(ParameterHandler& p, const StudyText& text, const std::str
   for (const std::string key : {"type", "title"})
     p.declare_entry(key, method, dealii::Patterns::Anything());
   p.declare_entry("threads", "0", dealii::Patterns::Integer(0));
-  p.declare_entry("smooth for", "", dealii::Patterns::Anything());
+  for (const std::string key : {"smooth for", "interfaces", "target"})
+    p.declare_entry(key, "", dealii::Patterns::Anything());
   std::istringstream lines(text.text());
   std::vector<std::string> sections;
   for (std::string line; std::getline(lines, line);) {
@@ -345,7 +370,8 @@ void declare_stand_in(ParameterHandler& p, const StudyText& text, const std::str
     if (read.kind == StudyLine::Kind::end && !sections.empty()) sections.pop_back();
     const bool is_inside = sections.size() == 1 && sections.front() == "method " + method;
     const bool is_declared = read.name == "type" || read.name == "title" ||
-                             read.name == "threads" || read.name == "smooth for";
+                             read.name == "threads" || read.name == "smooth for" ||
+                             read.name == "interfaces" || read.name == "target";
     if (read.kind == StudyLine::Kind::set && is_inside && !is_declared)
       p.declare_entry(read.name, "", dealii::Patterns::Anything());
   }

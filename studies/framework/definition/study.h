@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "meshes/distortion/distort.h"
 #include "meshes/metrics/metric.h"
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/quality/cell_targets.h"
+#include "smoothing/surface/sliding_boundary.h"
 #include "studies/framework/definition/included_files.h"
 #include "studies/framework/definition/study_header.h"
 
@@ -56,6 +59,8 @@ struct StudyMethod {
   /// Labels of the solutions that its mesh is smoothed for, with equal weight; empty: the first
   /// solution.
   std::vector<std::string> smooth_for{};
+  InterfaceRule interfaces = InterfaceRule::fixed;
+  std::optional<TargetKind> target{};  ///< taken from the initial mesh; nothing: regular cells
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
   std::filesystem::path folder{};   ///< of the study file, which a method's file is relative to
   bool is_stand_in = false;         ///< read by OnlyLook: without its code it cannot smooth

@@ -133,6 +133,25 @@ void declare_method_header(ParameterHandler& p, const std::string& title) {
       "for. Each counts by its relative error, and each needs a solve per mesh. Empty: the first.");
 }
 
+std::string selection_of(std::span<const std::string_view> names) {
+  std::string all;
+  for (const auto name : names) all += (all.empty() ? "" : "|") + std::string(name);
+  return all;
+}
+
+/// Declares the keys of methods that meshes have whose cells fill their space.
+void declare_mesh_rules(ParameterHandler& p) {
+  p.declare_entry(
+      "interfaces", std::string(interface_rule_names[0]),
+      Patterns::Selection(selection_of(interface_rule_names)),
+      "Nodes between cells of different groups and of labelled inner facets: they stay, "
+      "slide on the interface, or move freely.");
+  p.declare_entry("target", "regular",
+                  Patterns::Selection("regular|" + selection_of(initial_target_names)),
+                  "Ideal cells: regular ones of any size, those of the initial mesh, or regular "
+                  "ones with the sizes of the initial mesh.");
+}
+
 /// Declares the type and parameters of a method. Defaults are those of the preset, if it has the
 /// method, otherwise the method's own.
 void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::string& name,
@@ -147,6 +166,7 @@ void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::s
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
     auto method = make_method<dim, spacedim>(method_name_in(folder, type));
     declare_method_header(p, name == type ? method.info.title : name);
+    if (dim == spacedim) declare_mesh_rules(p);
     if (!preset.empty() && has_parameters_for(find_preset(preset), method))
       apply_preset(find_preset(preset), method);
     for (const auto& parameter : method.parameters())

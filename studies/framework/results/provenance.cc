@@ -111,6 +111,11 @@ Json describe_methods(const RunFacts& facts) {
       describe_type(entry, methods.back());
       for (const auto& file : entry.files)
         methods.back()["files"].push_back({{"name", file.name}, {"sha256", file.sha256}});
+      if (entry.interfaces != InterfaceRule::fixed)
+        methods.back()["interfaces"] =
+            interface_rule_names[static_cast<std::size_t>(entry.interfaces)];
+      if (entry.target)
+        methods.back()["target"] = initial_target_names[static_cast<std::size_t>(*entry.target)];
       if (!entry.smooth_for.empty()) methods.back()["smooth_for"] = entry.smooth_for;
       if (!entry.version.empty()) methods.back()["version"] = entry.version;
     }

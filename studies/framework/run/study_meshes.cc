@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/study_meshes.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
@@ -8,6 +9,7 @@
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "smoothing/geometry/extreme_size.h"
+#include "smoothing/mesh/fixed_nodes.h"
 #include "studies/framework/results/sha256.h"
 
 namespace smoothfem {
@@ -137,6 +139,13 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
           " wide, which is outside the range of numbers of finite elements; scale it to an "
           "ordinary size");
   }
+  constexpr auto implied =
+      static_cast<FixedReasons>(bit(FixedReason::interface) | bit(FixedReason::required) |
+                                bit(FixedReason::hanging) | bit(FixedReason::periodic));
+  const auto& reasons = mesh.topology().fixed_reasons();
+  if (std::any_of(reasons.begin(), reasons.end(),
+                  [](FixedReasons r) { return (r & implied) != 0; }))
+    changes.push_back(fixed_reasons_text(mesh.topology()));
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),
                   .n_cells = mesh.n_cells(),

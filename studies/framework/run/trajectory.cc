@@ -77,6 +77,30 @@ template MeshWarpage warpage_of(const Mesh<2>&);
 template MeshWarpage warpage_of(const Mesh<3>&);
 template MeshWarpage warpage_of(const Mesh<2, 3>&);
 
+namespace {
+
+/// Returns the mesh as the method is to see it: with its rule for interfaces and its targets.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> mesh_for(const StudyMethod& method, const Mesh<dim, spacedim>& mesh) {
+  if constexpr (dim == spacedim) {
+    const auto ruled = with_interface_rule(mesh, method.interfaces, false);
+    return method.target ? with_targets(ruled, targets_of(mesh, *method.target, initial_size_bound))
+                         : ruled;
+  } else {
+    return mesh;
+  }
+}
+
+/// Returns the quality by the cells' own shapes, so that methods with and without targets compare.
+template <int dim, int spacedim>
+MeshQuality own_quality(const Mesh<dim, spacedim>& mesh, const MeshQuality& known) {
+  if (mesh.targets() == nullptr) return known;
+  return mesh_quality(Mesh<dim, spacedim>(mesh.shared_topology(), mesh.copied_coordinates(),
+                                          mesh.shared_constraints()));
+}
+
+}  // namespace
+
 template <int dim, int spacedim>
 Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod& method,
                              const Study& study, bool only_results,
@@ -93,6 +117,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   const auto record_all = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
     watch(record);
     trajectory.records.push_back(record);
+    trajectory.records.back().quality = own_quality(now, record.quality);
     times.emplace_back().add(record);
     if (study.record_warpage) trajectory.warpage_of_records.push_back(warpage_of(now));
     if (record.record == 0) return;
@@ -103,7 +128,8 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
     if (keeps_all) last = now.copied_coordinates();
   };
   const PeakMemory memory;
-  Mesh<dim, spacedim> smoothed = mesh;
+  const Mesh<dim, spacedim> initial = mesh_for(method, mesh);
+  Mesh<dim, spacedim> smoothed = initial;
   const auto make_method = [&] {
     auto made = method.make<dim, spacedim>();
     made.problem = problem;
@@ -116,12 +142,14 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
     result = smooth(smoothed, first, record_all);
   } catch (const SmootherFailure& failure) {
     trajectory.failure = failure.what();
-    smoothed = mesh;
+    smoothed = initial;
     result.quality = trajectory.records.front().quality;
   }
   totals.add(result);
   trajectory.iterations_text = trajectory.failure.empty() ? result.iterations_text() : "0";
-  trajectory.quality = result.quality;
+  trajectory.quality = own_quality(smoothed, result.quality);
+  smoothed = Mesh<dim, spacedim>(mesh.shared_topology(), smoothed.copied_coordinates(),
+                                 mesh.shared_constraints());
   trajectory.wall_seconds = trajectory.records[result.result_record].wall_seconds;
   trajectory.cells_below = count_cells_below(smoothed, study.count_below);
   trajectory.warpage = warpage_of(smoothed);
@@ -141,7 +169,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
 
   const int timing_runs = trajectory.failure.empty() ? study.timing_runs : 1;
   for (int run = 1; run < timing_runs; ++run) {
-    Mesh<dim, spacedim> again = mesh;
+    Mesh<dim, spacedim> again = initial;
     auto made = make_method();
     totals.add(smooth(again, made, [&](const IterationRecord& record, const auto&) {
       watch(record);
