@@ -6,6 +6,7 @@
 #include <new>
 
 #include "meshes/io/atomic_file.h"
+#include "meshes/io/foreign/foreign_formats.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
 #include "smoothing/base/registry.h"
@@ -37,11 +38,12 @@ std::vector<const MeshFormat*> formats_of(const std::filesystem::path& path,
   const std::string extension = lower_case(path.extension().string());
   std::vector<std::string> known;
   std::vector<const MeshFormat*> found;
-  for (const auto& format : mesh_formats()) {
-    if (format.extension == extension) found.push_back(&format);
-    if (std::find(known.begin(), known.end(), format.extension) == known.end())
-      known.push_back(format.extension);
-  }
+  for (const auto* formats : {&mesh_formats(), &foreign_formats()})
+    for (const auto& format : *formats) {
+      if (format.extension == extension) found.push_back(&format);
+      if (std::find(known.begin(), known.end(), format.extension) == known.end())
+        known.push_back(format.extension);
+    }
   if (found.empty())
     throw InputError(prefix + ": " +
                      (extension.empty() ? "the file name has no extension"

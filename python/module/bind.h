@@ -9,6 +9,7 @@ namespace smoothfem {
 
 void bind_mesh(pybind11::module_& module);
 void bind_files(pybind11::module_& module);  ///< reads, writes, generates, distorts, measures
+void bind_grids(pybind11::module_& module);  ///< to and from objects of other packages
 void bind_smoothing(pybind11::module_& module);
 void bind_solving(pybind11::module_& module);
 

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
   pybind11::register_exception<smoothfem::InputError>(module, "InputError", PyExc_ValueError);
   smoothfem::bind_mesh(module);
   smoothfem::bind_files(module);
+  smoothfem::bind_grids(module);
   smoothfem::bind_smoothing(module);
   smoothfem::bind_solving(module);
   // Names of files in messages may have bytes that are not Unicode.

@@ -19,10 +19,12 @@ _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 from . import _core  # noqa: E402
 from ._core import InputError, Iteration, Mesh, Quality, Result, Stage  # noqa: E402
+from ._bridges import from_meshio, from_pyvista, to_meshio, to_pyvista  # noqa: E402
 from ._study import Results, Study  # noqa: E402
 
-__all__ = ["InputError", "Iteration", "Mesh", "Quality", "Result", "Results", "Stage", "Study", "distort", "domains", "generate",
-           "methods", "metrics", "parameters", "problems", "quality", "read", "smooth", "solve", "summary", "write"]
+__all__ = ["InputError", "Iteration", "Mesh", "Quality", "Result", "Results", "Stage", "Study", "distort", "domains",
+           "from_meshio", "from_pyvista", "generate", "methods", "metrics", "parameters", "problems", "quality", "read", "smooth", "solve",
+           "summary", "to_meshio", "to_pyvista", "write"]
 
 
 def read(path):

@@ -121,6 +121,100 @@ class Meshes(unittest.TestCase):
         self.assertTrue(issubclass(smoothfem.InputError, ValueError))
 
 
+class Block:
+    """A block of cells as meshio has it."""
+
+    def __init__(self, kind, data):
+        self.type, self.data = kind, np.asarray(data)
+
+
+class Foreign:
+    """Stands for a mesh of meshio, or for a grid of PyVista: an object with these attributes."""
+
+    def __init__(self, **attributes):
+        self.__dict__.update(attributes)
+
+
+# A unit cell of each type, with nodes in Gmsh's order.
+CELLS = {"tetra": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+         "pyramid": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [.5, .5, 1]],
+         "wedge": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]],
+         "hexahedron": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]}
+VOLUMES = {"tetra": 1 / 6, "pyramid": 1 / 3, "wedge": 1 / 2, "hexahedron": 1}
+
+
+class Bridges(unittest.TestCase):
+    def two_triangles(self):
+        return Foreign(points=np.array([[0., 0], [1, 0], [1, 1], [0, 1]]),
+                       cells=[Block("line", [[0, 1]]), Block("triangle", [[0, 1, 2], [0, 2, 3]])],
+                       point_data={"heat": np.array([1., 2, 3, 4], np.float32)},
+                       cell_data={"gmsh:physical": [np.array([7]), np.array([1, 2])], "flow": [np.zeros((1, 2)), np.array([[1., 2], [3, 4]])]},
+                       field_data={"steel": np.array([1, 2]), "wall": np.array([7, 1])}, cell_sets={})
+
+    def test_tags_names_and_data_come_from_meshio(self):
+        mesh = smoothfem.from_meshio(self.two_triangles())
+        self.assertEqual((mesh.kind, mesh.tags.tolist()), ("planar", [1, 2]))
+        self.assertEqual(mesh.names, {(2, 1): "steel", (1, 7): "wall"})
+        self.assertEqual(mesh.data["cell"]["flow"].tolist()[:2], [[1, 2], [3, 4]])
+        self.assertEqual(mesh.data["point"]["heat"].tolist(), [1, 2, 3, 4])
+        self.assertEqual(sorted(mesh.fixed_reasons), ["boundary", "interface"])
+
+    def test_what_a_mesh_cannot_hold_is_said(self):
+        with_sets = self.two_triangles()
+        with_sets.cell_sets = {"inlet": []}
+        with self.assertWarnsRegex(UserWarning, "cell_sets are left out"):
+            smoothfem.from_meshio(with_sets)
+        with_sets.cells = [Block("triangle6", [[0, 1, 2, 3, 0, 1]])]
+        with self.assertRaisesRegex(smoothfem.InputError, "triangle6"):
+            smoothfem.from_meshio(with_sets)
+
+    def test_nodes_of_each_type_are_in_order(self):
+        for kind, points in CELLS.items():
+            mesh = smoothfem.from_meshio(Foreign(points=np.array(points, float), cells=[Block(kind, [range(len(points))])], point_data={}, cell_data={}))
+            self.assertAlmostEqual(smoothfem.quality(mesh, "size")[0], VOLUMES[kind], places=12, msg=kind)
+
+    def test_pyvista(self):
+        class Grid(Foreign):
+            def cast_to_unstructured_grid(self):
+                return self
+        points = np.array(CELLS["wedge"], float)
+        for order in ([0, 1, 2, 3, 4, 5], [0, 2, 1, 3, 5, 4]):  # VTK's order, and Gmsh's, which many programs use
+            mesh = smoothfem.from_pyvista(Grid(points=points, offset=[0, 6], cell_connectivity=order, celltypes=[13],
+                                               point_data={}, cell_data={"MaterialID": np.array([5])}, field_data={}))
+            self.assertAlmostEqual(smoothfem.quality(mesh, "size")[0], .5, places=12)
+            self.assertEqual(mesh.tags.tolist(), [5])
+
+    def test_there_and_back_by_meshio(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("SKIPPED: python3-meshio is not installed")
+        mesh = smoothfem.from_meshio(self.two_triangles())
+        there = smoothfem.to_meshio(mesh)
+        self.assertIsInstance(there, meshio.Mesh)
+        self.assertEqual({block.type: len(block.data) for block in there.cells}, {"line": 1, "triangle": 2})
+        self.assertEqual([part.tolist() for part in there.cell_data["gmsh:physical"]], [[7], [1, 2]])
+        self.assertEqual(there.field_data["wall"].tolist(), [7, 1])
+        self.assertEqual(there.point_data["heat"].dtype, np.float32)
+        back = smoothfem.from_meshio(there)
+        self.assertEqual((back.tags.tolist(), back.names), (mesh.tags.tolist(), mesh.names))
+        np.testing.assert_array_equal(back.data["cell"]["flow"], mesh.data["cell"]["flow"])
+        for kind, points in CELLS.items():
+            solid = smoothfem.Mesh(np.array(points, float), [range(len(points))], dim=3)
+            self.assertEqual(smoothfem.to_meshio(solid).cells[0].data.tolist(), [list(range(len(points)))], kind)
+
+    def test_there_and_back_by_pyvista(self):
+        try:
+            import pyvista
+        except ImportError:
+            self.skipTest("SKIPPED: pyvista is not installed")
+        mesh = smoothfem.from_meshio(self.two_triangles())
+        there = smoothfem.to_pyvista(mesh)
+        self.assertIsInstance(there, pyvista.UnstructuredGrid)
+        back = smoothfem.from_pyvista(there)
+        self.assertEqual((back.tags.tolist(), back.names), (mesh.tags.tolist(), mesh.names))
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
