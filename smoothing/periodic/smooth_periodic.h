@@ -29,11 +29,11 @@ SurfaceFacets without_periodic_facets(const Mesh<dim>& mesh, const SurfaceFacets
 /// Smooths a periodic mesh so that partners move together. Periodic nodes are surrounded by the
 /// cells of both sides, as inner nodes of a torus. The method runs on the mesh with copies of cells
 /// beyond its periodic boundary, whose nodes stay during a run (an overlapping Schwarz iteration).
-/// After each run nodes take the images of their partners, and the copies follow. Periodic nodes
-/// that stay for another reason stay; so do those that the copies do not surround. The mesh keeps
-/// the method's promises: validity, if the method controls it, and Method::floor. The observer gets
-/// the mesh without copies. Results count the iterations and times of all runs. Throws InputError
-/// as periodic_maps and smooth do, and if the mesh has no periodic partners.
+/// After each run nodes take the images of their partners, and the copies follow. A periodic node
+/// stays if it has another reason to stay, or if copies do not surround it. Cells stay valid if the
+/// method controls validity, and Method::floor holds. The observer gets the mesh without copies.
+/// Results count the iterations and times of all runs. Throws InputError as periodic_maps and
+/// smooth do, and if the mesh has no periodic partners.
 template <int dim>
 SmoothingResult smooth_periodic(Mesh<dim>& mesh, Method<dim>& method,
                                 const std::type_identity_t<Observer<dim>>& observer = {},

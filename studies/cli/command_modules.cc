@@ -38,7 +38,7 @@ const std::vector<Command>& commands() {
       {"repair",
        "repair a mesh file: direction of cells, coincident and unused nodes, doubled cells",
        add_repair_command},
-      {"convert", "write a mesh file in another format, and say what is lost", add_convert_command},
+      {"convert", "write a mesh file in another format, and name the losses", add_convert_command},
       {"generate", "generate and distort the mesh of a domain", nullptr, generate_command},
       {"list", "list methods with parameters and sources, presets, studies, domains, formats",
        nullptr, study_commands},
