@@ -4,7 +4,7 @@
 
 translate.py read FILE MESH.vtu    translate.py write MESH.vtu FILE
 
-Lines "note: ..." of the output say what is left out. If the translation fails, the last line says why, and the exit code is 1."""
+Lines "note: ..." of the output name the losses. If the translation fails, the last line says why, and the exit code is 1."""
 
 import contextlib
 import io
