@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -37,6 +38,16 @@ std::string content_of(const fs::path& included, const std::string& position) {
 
 /// Files that include others twice grow without end.
 constexpr std::size_t max_depth = 1000, max_lines = 10'000'000, max_includes = 10'000;
+
+/// Returns the line with the group of 'set diffusivity group=NAME = FORMULA' as a part of the key,
+/// which ends at the first '=' for deal.II. Other lines are unchanged.
+std::string with_group_in_key(const std::string& line) {
+  static const std::regex of_group(
+      R"(^(\s*set\s+diffusivity\s+group)\s*=\s*([^=#]*[^=#\s])\s*=(.*)$)");
+  std::smatch parts;
+  if (!std::regex_match(line, parts, of_group)) return line;
+  return parts[1].str() + " " + parts[2].str() + " =" + parts[3].str();
+}
 
 void require_utf8(const std::string& line, const std::string& position) {
   const std::string read = line.substr(0, line.find('#'));
@@ -109,7 +120,7 @@ void StudyText::add(const std::string& text, const std::vector<fs::path>& includ
     const std::string name = included_in(line);
     if (name.empty()) {
       require_utf8(line, position);
-      text_ += line + "\n";
+      text_ += with_group_in_key(line) + "\n";
       positions_.push_back(position);
       continue;
     }
