@@ -113,8 +113,8 @@ class MaterialCheck {
       : solution_(solution), mesh_(mesh), kinds_(cell_kinds(mesh.topology())) {}
 
   void run() const {
-    for (std::uint32_t m = 0; m < solution_.materials.size(); ++m) check_material(m);
     check_interfaces();
+    for (std::uint32_t m = 0; m < solution_.materials.size(); ++m) check_material(m);
   }
 
  private:
@@ -166,7 +166,7 @@ class MaterialCheck {
             std::abs((flux(cells[0], a) - flux(cells[1], b)).dot(normal(facet, p, a, b)));
         if (jump > allowed * largest_flux)
           refuse("normal flux, diffusivity times derivative, jumps by " + std::to_string(jump), p,
-                 "use pieces with equal fluxes there");
+                 "use pieces with equal fluxes there, which meet where the groups do");
       }
     }
   }

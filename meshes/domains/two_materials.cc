@@ -34,7 +34,8 @@ AnyMesh with_two_groups(MeshCells<dim> cells, const std::string& name,
   }
   auto topology = std::make_shared<const Topology>(dim, plain.n_nodes(), plain.topology().cells(),
                                                    std::nullopt, std::move(labels));
-  auto reasons = fixed_nodes(*topology, {});
+  auto reasons = topology->fixed_reasons();
+  add_implied_reasons(*topology, reasons);
   return with_fixed_nodes(Mesh<dim>(std::move(topology), plain.copied_coordinates()),
                           std::move(reasons));
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -42,11 +41,12 @@ constexpr std::size_t max_depth = 1000, max_lines = 10'000'000, max_includes = 1
 /// Returns the line with the group of 'set diffusivity group=NAME = FORMULA' as a part of the key,
 /// which ends at the first '=' for deal.II. Other lines are unchanged.
 std::string with_group_in_key(const std::string& line) {
-  static const std::regex of_group(
-      R"(^(\s*set\s+diffusivity\s+group)\s*=\s*([^=#]*[^=#\s])\s*=(.*)$)");
-  std::smatch parts;
-  if (!std::regex_match(line, parts, of_group)) return line;
-  return parts[1].str() + " " + parts[2].str() + " =" + parts[3].str();
+  const StudyLine read = study_line(line);
+  if (read.kind != StudyLine::Kind::set || read.name != "diffusivity group") return line;
+  const auto equals = read.value.find('=');
+  const auto end = read.value.find_last_not_of(" \t", equals - 1);
+  if (equals == std::string::npos || equals == 0 || end == std::string::npos) return line;
+  return "set diffusivity group " + read.value.substr(0, end + 1) + " " + read.value.substr(equals);
 }
 
 void require_utf8(const std::string& line, const std::string& position) {
