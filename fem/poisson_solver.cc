@@ -63,7 +63,7 @@ PoissonSolver<dim>::PoissonSolver(const Mesh<dim>* mesh, const PoissonOptions& o
     : options_(options),
       work_(std::make_unique<Workspace>(
           make_finite_element_space(mesh, options.degree, options.tensor_points, ranks,
-                                    options.natural_groups),
+                                    options.natural_groups, options.ties.get()),
           mesh == nullptr ? 0 : mesh->n_nodes())) {}
 
 template <int dim>
@@ -83,6 +83,18 @@ double boundary_square_sum(const FiniteElementSpace<dim>& space, const Eigen::Ve
                              .segment(static_cast<Eigen::Index>(space.n_columns),
                                       static_cast<Eigen::Index>(space.n_own_boundary))
                              .squaredNorm());
+}
+
+/// Sets the values at tied dofs from those at the others.
+template <int dim>
+void set_tied_values(const FiniteElementSpace<dim>& space, Eigen::VectorXd& values) {
+  for (auto dof = static_cast<std::uint32_t>(space.n_local - space.ties.size());
+       dof < space.n_local; ++dof) {
+    double mean = 0.0;
+    space.for_each_master(
+        dof, [&](std::uint32_t master, double weight) { mean += weight * values[master]; });
+    values[dof] = mean;
+  }
 }
 
 void add_remark(const std::string& remark, SolutionRecord& record) {
@@ -207,6 +219,7 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
 
   work.discrete = work.system.exact;
   work.discrete.head(work.free_solution.size()) = work.free_solution;
+  set_tied_values(space, work.discrete);
   const ErrorNorms norms = error_norms(space, x, solution, work.system.exact, work.discrete);
   record_errors(norms, record);
   if (!std::isfinite(norms.l2_error) || !std::isfinite(norms.h1_error) ||

@@ -27,6 +27,7 @@ struct PoissonOptions {
   int degree = 1;              ///< of the Lagrange elements: 1 or 2
   bool galerkin_load = false;  ///< load by quadrature instead of the thesis' nodal load
   std::vector<std::string> natural_groups{};  ///< see make_finite_element_space
+  std::shared_ptr<const NodeTies> ties{};     ///< on the root; null: none
   TensorPoints tensor_points{};
   double cg_tolerance = 1e-8;  ///< for |r| / |b|
   /// Include the boundary values in |b|, as if their equations were identity rows of the full

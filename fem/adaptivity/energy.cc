@@ -170,11 +170,11 @@ void Energy<dim>::integrate_load(const std::vector<Point<dim>>& x) {
       std::vector<double> weighted_f(rules.back().n_points);
       for (std::size_t cell = first; cell < last; ++cell) {
         const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
-        CellLoad<n_dofs> integrals(rules[0], vertices, solution_, weighted_f.data());
+        CellLoad<n_dofs> integrals(rules[0], vertices, solution_.load, weighted_f.data());
         bool is_settled = false;
         std::size_t level = 0;
         while (!is_settled && level + 1 < rules.size()) {
-          const CellLoad<n_dofs> finer(rules[++level], vertices, solution_, weighted_f.data());
+          const CellLoad<n_dofs> finer(rules[++level], vertices, solution_.load, weighted_f.data());
           is_settled = integrals.is_near(finer, adaptive_quadrature::tolerance);
           integrals = finer;
         }

@@ -196,7 +196,7 @@ class RankEnergySolver final : public EnergySolver<dim> {
     if (!space_->natural_facets.empty()) {
       const auto n_own = static_cast<Eigen::Index>(space_->n_own);
       Eigen::VectorXd natural = Eigen::VectorXd::Zero(n_own);
-      add_natural_load(*space_, x_, solution_, natural);
+      add_natural_load(*space_, x_, solution_, {}, natural);
       part -= 2.0 * natural.dot(u_.head(n_own));
     }
     return ranks.sum(part);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/assembly/assembly.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "fem/assembly/cell_integrals.h"
 #include "fem/assembly/cell_load.h"
+#include "fem/materials/materials_of_mesh.h"
 #include "fem/space/natural_load.h"
 
 namespace smoothfem {
@@ -13,6 +15,34 @@ namespace {
 
 constexpr auto absent = FiniteElementSpace<2>::absent;
 
+/// Does the same as add_cell, for a cell with tied dofs: its parts go to these dofs' masters.
+template <int dim, std::size_t n_dofs>
+void add_tied_cell(const FiniteElementSpace<dim>& space, const std::uint32_t* dofs,
+                   const CellIntegrals<n_dofs, Lanes>& integrals, std::size_t lane,
+                   PoissonSystem& system) {
+  const auto add = [&](std::size_t i, std::size_t j, double stiffness) {
+    space.for_each_master(dofs[i], [&](std::uint32_t row, double of_row) {
+      if (row >= space.n_own) return;
+      space.for_each_master(dofs[j], [&](std::uint32_t column, double of_column) {
+        const double part = of_row * of_column * stiffness;
+        if (const std::uint32_t entry = space.entry(row, column); entry != absent)
+          system.matrix.valuePtr()[entry] += part;
+        else
+          system.right_hand_side[row] -= part * system.exact[column];
+      });
+    });
+  };
+  for (std::size_t i = 0, p = 0; i < n_dofs; ++i) {
+    space.for_each_master(dofs[i], [&](std::uint32_t row, double weight) {
+      if (row < space.n_own) system.right_hand_side[row] += weight * integrals.load[i][lane];
+    });
+    for (std::size_t j = i; j < n_dofs; ++j, ++p) {
+      add(i, j, integrals.stiffness[p][lane]);
+      if (i != j) add(j, i, integrals.stiffness[p][lane]);
+    }
+  }
+}
+
 /// Adds a cell's integrals to the equations of this rank that they contribute to. lane: the cell's
 /// position in the batch.
 template <int dim, std::size_t n_dofs>
@@ -20,6 +50,9 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
               const CellIntegrals<n_dofs, Lanes>& integrals, std::size_t lane,
               PoissonSystem& system) {
   const std::uint32_t* dofs = &group.dofs[cell * n_dofs];
+  if (!space.ties.empty() &&
+      std::any_of(dofs, dofs + n_dofs, [&](std::uint32_t dof) { return space.is_tied(dof); }))
+    return add_tied_cell<dim, n_dofs>(space, dofs, integrals, lane, system);
   const std::uint32_t* entries = &group.entries[cell * n_dofs * n_dofs];
   double* values = system.matrix.valuePtr();
   const auto add = [&](std::size_t i, std::size_t j, double stiffness) {
@@ -42,35 +75,33 @@ void add_cell(const FiniteElementSpace<dim>& space, const ElementCells& group, s
 
 /// Adds the integrals of the cells of one element whose rule is chosen cell by cell. The result for
 /// a cell does not depend on the others.
-template <int dim, std::size_t n_dofs, std::size_t n_vertices, class AnyDiffusivity>
+template <int dim, std::size_t n_dofs, std::size_t n_vertices, class AnyDiffusivity, class LoadAt>
 class CellAssembly {
  public:
   CellAssembly(const FiniteElementSpace<dim>& space, const ElementCells& group,
-               const std::vector<Point<dim>>& x, const Eigen::VectorXd& nodal_load,
+               const std::vector<Point<dim>>& x, const LoadAt& load_at,
                const AnyDiffusivity& diffusivity, PoissonSystem& system)
       : space_(space),
         group_(group),
         x_(x),
-        nodal_load_(nodal_load),
+        load_at_(load_at),
         diffusivity_(diffusivity),
         system_(system) {}
 
-  void run() {
-    std::vector<std::size_t> cells(group_.n_cells());
-    std::iota(cells.begin(), cells.end(), std::size_t{0});
+  void run(std::vector<std::size_t> cells) {
     for (std::size_t level = 0; !cells.empty(); ++level) cells = add_settled(cells, level);
   }
 
  private:
   using Integrals = CellIntegrals<n_dofs, Lanes>;
-  static constexpr bool is_constant = std::is_same_v<AnyDiffusivity, IdentityDiffusivity>;
+  static constexpr bool is_constant = is_constant_diffusivity<AnyDiffusivity>;
 
   /// Returns the cells that need a finer rule.
   std::vector<std::size_t> add_settled(const std::vector<std::size_t>& cells, std::size_t level) {
     std::vector<std::size_t> others;
     Integrals coarse, fine;
     for (std::size_t first = 0; first < cells.size(); first += n_lanes) {
-      const ElementBatch<dim, n_dofs, n_vertices> batch(group_, x_, nodal_load_, cells, first);
+      const ElementBatch<dim, n_dofs, n_vertices> batch(group_, x_, load_at_, cells, first);
       if (level > 0)
         coarse.template compute<dim, n_vertices>(group_.element, level - 1, batch.vertices,
                                                  batch.load, diffusivity_);
@@ -118,34 +149,101 @@ class CellAssembly {
   const FiniteElementSpace<dim>& space_;
   const ElementCells& group_;
   const std::vector<Point<dim>>& x_;
-  const Eigen::VectorXd& nodal_load_;
+  const LoadAt& load_at_;
   const AnyDiffusivity& diffusivity_;
   PoissonSystem& system_;
 };
 
-/// Computes b_i += integral of f phi_i over the cells of one element.
-template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+/// Computes b_i += integral of f phi_i over the cells of one element. f_of(cell): f as a function
+/// of the position.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices, class FunctionOf>
 void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCells& group,
-                         const std::vector<Point<dim>>& x,
-                         const ManufacturedSolution<dim>& solution, PoissonSystem& system) {
+                         const std::vector<Point<dim>>& x, const FunctionOf& f_of,
+                         PoissonSystem& system) {
   const ReferenceElement& element = group.element;
   for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
     const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
-    CellLoad<n_dofs> load(element.errors, vertices, solution);
+    const std::function<double(const Point<dim>&)>& f = f_of(cell);
+    CellLoad<n_dofs> load(element.errors, vertices, f);
     bool is_settled = element.n_rules() == 1;
     std::size_t level = 0;
     while (!is_settled && level + 1 < element.n_rules()) {
-      const CellLoad<n_dofs> finer(element.rule(++level), vertices, solution);
+      const CellLoad<n_dofs> finer(element.rule(++level), vertices, f);
       is_settled = load.is_near(finer, adaptive_quadrature::tolerance_at(level, element.n_rules()));
       load = finer;
     }
     if (element.n_rules() > 1 && cell < group.n_own) system.points.note(level, is_settled);
-    for (std::size_t i = 0; i < n_dofs; ++i) {
-      const std::uint32_t row = group.dofs[cell * n_dofs + i];
-      if (row < space.n_own) system.right_hand_side[row] += load.values[i];
-    }
+    for (std::size_t i = 0; i < n_dofs; ++i)
+      space.for_each_master(group.dofs[cell * n_dofs + i], [&](std::uint32_t row, double weight) {
+        if (row < space.n_own) system.right_hand_side[row] += weight * load.values[i];
+      });
   }
 }
+
+/// Assembly of the cells of one element whose A and f are those of their materials. f is evaluated
+/// on the cell's own side of interfaces.
+template <int dim, std::size_t n_dofs, std::size_t n_vertices>
+class MaterialAssembly {
+ public:
+  MaterialAssembly(const FiniteElementSpace<dim>& space, const ElementCells& group,
+                   const std::vector<Point<dim>>& x, const std::vector<Point<dim>>& dof_points,
+                   const std::vector<Material<dim>>& materials,
+                   const std::vector<std::uint32_t>& of_kinds, Load load, PoissonSystem& system)
+      : space_(space),
+        group_(group),
+        x_(x),
+        dof_points_(dof_points),
+        materials_(materials),
+        of_kinds_(of_kinds),
+        load_(load),
+        system_(system) {}
+
+  void run() {
+    for (const Material<dim>& material : materials_) {
+      std::vector<std::size_t> cells;
+      for (std::size_t cell = 0; cell < group_.n_cells(); ++cell)
+        if (&of_cell(cell) == &material) cells.push_back(cell);
+      if (material.constant)
+        add(cells, ConstantDiffusivity{*material.constant});
+      else
+        add(cells, VariableDiffusivity<dim>{material.diffusivity});
+    }
+    if (load_ == Load::quadrature)
+      add_quadrature_load<dim, n_dofs, n_vertices>(
+          space_, group_, x_, [&](std::size_t cell) -> auto& { return of_cell(cell).load; },
+          system_);
+  }
+
+ private:
+  const Material<dim>& of_cell(std::size_t cell) const {
+    return materials_[of_kinds_[group_.kinds[cell]]];
+  }
+
+  template <class AnyDiffusivity>
+  void add(const std::vector<std::size_t>& cells, const AnyDiffusivity& diffusivity) {
+    const auto load_at = [&](std::size_t cell, std::size_t i) {
+      if (load_ != Load::nodal) return 0.0;
+      Point<dim> mean = Point<dim>::Zero();
+      for (std::size_t v = 0; v < n_vertices; ++v)
+        mean += x_[group_.vertices[cell * n_vertices + v]];
+      mean /= static_cast<double>(n_vertices);
+      return of_cell(cell).load(
+          slightly_inside<dim>(dof_points_[group_.dofs[cell * n_dofs + i]], mean));
+    };
+    CellAssembly<dim, n_dofs, n_vertices, AnyDiffusivity, decltype(load_at)>(
+        space_, group_, x_, load_at, diffusivity, system_)
+        .run(cells);
+  }
+
+  const FiniteElementSpace<dim>& space_;
+  const ElementCells& group_;
+  const std::vector<Point<dim>>& x_;
+  const std::vector<Point<dim>>& dof_points_;
+  const std::vector<Material<dim>>& materials_;
+  const std::vector<std::uint32_t>& of_kinds_;
+  const Load load_;
+  PoissonSystem& system_;
+};
 
 }  // namespace
 
@@ -157,38 +255,59 @@ PoissonSystem make_system(const FiniteElementSpace<dim>& space) {
 }
 
 template <int dim>
+std::vector<std::uint32_t> materials_of_kinds(const Ranks& ranks,
+                                              const ManufacturedSolution<dim>& solution) {
+  auto materials = solution.material_of_kind;
+  if (!solution.materials.empty()) ranks.broadcast(materials);
+  return materials;
+}
+
+template <int dim>
 void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
               const ManufacturedSolution<dim>& solution, Load load, PoissonSystem& system) {
   const auto points = space.dof_points(x);
+  const auto materials = materials_of_kinds(space.ranks, solution);
   Eigen::VectorXd nodal_load = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.n_local));
   for (std::size_t dof = 0; dof < space.n_local; ++dof) {
     const auto i = static_cast<Eigen::Index>(dof);
     system.exact[i] = solution.value(points[dof]);
-    if (load == Load::nodal) nodal_load[i] = solution.load(points[dof]);
+    if (load == Load::nodal && materials.empty()) nodal_load[i] = solution.load(points[dof]);
   }
   system.matrix.coeffs().setZero();
   system.right_hand_side.setZero();
   system.n_folded_cells = 0;
   system.points = {};
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
-    const auto run = [&]<class AnyDiffusivity>(const AnyDiffusivity& diffusivity) {
-      CellAssembly<dim, n_dofs, n_vertices, AnyDiffusivity>(space, group, x, nodal_load,
-                                                            diffusivity, system)
+    if (!materials.empty())
+      return MaterialAssembly<dim, n_dofs, n_vertices>(space, group, x, points, solution.materials,
+                                                       materials, load, system)
           .run();
+    const auto load_at = [&](std::size_t cell, std::size_t i) {
+      return nodal_load[group.dofs[cell * n_dofs + i]];
+    };
+    std::vector<std::size_t> cells(group.n_cells());
+    std::iota(cells.begin(), cells.end(), std::size_t{0});
+    const auto run = [&]<class AnyDiffusivity>(const AnyDiffusivity& diffusivity) {
+      CellAssembly<dim, n_dofs, n_vertices, AnyDiffusivity, decltype(load_at)>(
+          space, group, x, load_at, diffusivity, system)
+          .run(cells);
     };
     if (solution.diffusivity)
       run(VariableDiffusivity<dim>{solution.diffusivity});
     else
       run(IdentityDiffusivity{});
     if (load == Load::quadrature)
-      add_quadrature_load<dim, n_dofs, n_vertices>(space, group, x, solution, system);
+      add_quadrature_load<dim, n_dofs, n_vertices>(
+          space, group, x, [&](std::size_t) -> auto& { return solution.load; }, system);
   });
-  add_natural_load(space, x, solution, system.right_hand_side);
+  add_natural_load(space, x, solution, materials, system.right_hand_side);
 }
 
-#define SMOOTHFEM_INSTANTIATE(dim)                                                       \
-  template PoissonSystem make_system(const FiniteElementSpace<dim>&);                    \
-  template void assemble(const FiniteElementSpace<dim>&, const std::vector<Point<dim>>&, \
+#define SMOOTHFEM_INSTANTIATE(dim)                                                          \
+  template PoissonSystem make_system(const FiniteElementSpace<dim>&);                       \
+  template std::vector<std::uint32_t> materials_of_kinds(const Ranks&,                      \
+                                                         const ManufacturedSolution<dim>&); \
+  template void assemble(const FiniteElementSpace<dim>&, const std::vector<Point<dim>>&,    \
                          const ManufacturedSolution<dim>&, Load, PoissonSystem&);
 SMOOTHFEM_INSTANTIATE(2)
 SMOOTHFEM_INSTANTIATE(3)

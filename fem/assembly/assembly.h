@@ -32,6 +32,12 @@ struct PoissonSystem {
 template <int dim>
 PoissonSystem make_system(const FiniteElementSpace<dim>& space);
 
+/// Returns the material of each kind of cells, on all ranks; empty if A and f are functions of the
+/// position. Collective.
+template <int dim>
+std::vector<std::uint32_t> materials_of_kinds(const Ranks& ranks,
+                                              const ManufacturedSolution<dim>& solution);
+
 /// Fills the system for a mesh whose cells are all valid. x: coordinates of the local nodes.
 template <int dim>
 void assemble(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,

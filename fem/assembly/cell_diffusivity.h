@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <type_traits>
 
 #include "fem/solutions/manufactured_solution.h"
 #include "smoothing/simd/vectors.h"
@@ -22,6 +23,27 @@ struct IdentityDiffusivity {
     return {};
   }
 };
+
+/// A number times the identity, on all cells.
+struct ConstantDiffusivity {
+  struct Tensor {
+    double factor;
+    template <class AnyVector>
+    AnyVector operator*(AnyVector v) const {
+      return factor * v;
+    }
+  };
+  double factor;
+  template <class AnyVector>
+  Tensor at(const AnyVector&) const {
+    return {factor};
+  }
+};
+
+/// True for a diffusivity that is the same at all positions.
+template <class AnyDiffusivity>
+constexpr bool is_constant_diffusivity = std::is_same_v<AnyDiffusivity, IdentityDiffusivity> ||
+                                         std::is_same_v<AnyDiffusivity, ConstantDiffusivity>;
 
 /// A diffusivity that is a function of the position.
 template <int dim>

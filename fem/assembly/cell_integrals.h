@@ -82,10 +82,15 @@ struct CellIntegrals {
                                 const std::array<Vector<dim, Real>, n_vertices>& vertices,
                                 const std::array<Real, n_dofs>& f,
                                 const AnyDiffusivity& diffusivity) {
-    if constexpr (n_vertices == dim + 1 && std::is_same_v<AnyDiffusivity, IdentityDiffusivity>)
+    if constexpr (n_vertices == dim + 1 && std::is_same_v<AnyDiffusivity, IdentityDiffusivity>) {
       compute_affine<dim>(element, vertices, f);
-    else
+    } else if constexpr (n_vertices == dim + 1 &&
+                         std::is_same_v<AnyDiffusivity, ConstantDiffusivity>) {
+      compute_affine<dim>(element, vertices, f);
+      for (Real& entry : stiffness) entry = diffusivity.factor * entry;
+    } else {
       compute_by_quadrature<dim, n_vertices>(element.rule(level), vertices, f, diffusivity);
+    }
   }
 
  private:
@@ -182,17 +187,16 @@ struct ElementBatch {
   std::array<Vector<dim, Lanes>, n_vertices> vertices;
   std::array<Lanes, n_dofs> load;  ///< f at the dofs
 
-  /// x: local nodes' coordinates. nodal_load: f at all local dofs. of_group: cells, of which the
-  /// batch takes those from `first` on.
-  ElementBatch(const ElementCells& group, const std::vector<Point<dim>>& x,
-               const Eigen::VectorXd& nodal_load, const std::vector<std::size_t>& of_group,
-               std::size_t first)
+  /// x: local nodes' coordinates. load_at(cell, i): f at a cell's i-th dof. of_group: cells, of
+  /// which the batch takes those from `first` on.
+  template <class LoadAt>
+  ElementBatch(const ElementCells& group, const std::vector<Point<dim>>& x, const LoadAt& load_at,
+               const std::vector<std::size_t>& of_group, std::size_t first)
       : cells(cells_in_lanes(of_group, first)),
         size(std::min(n_lanes, of_group.size() - first)),
         vertices(cell_vertices<dim, n_vertices>(group, cells, x)) {
     for (std::size_t i = 0; i < n_dofs; ++i)
-      for (std::size_t l = 0; l < n_lanes; ++l)
-        load[i][l] = nodal_load[group.dofs[cells[l] * n_dofs + i]];
+      for (std::size_t l = 0; l < n_lanes; ++l) load[i][l] = load_at(cells[l], i);
   }
 };
 

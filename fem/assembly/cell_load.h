@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "fem/assembly/cell_integrals.h"
 
@@ -13,15 +14,15 @@ template <std::size_t n_dofs>
 struct CellLoad {
   std::array<double, n_dofs> values{}, scales{};
 
-  /// weighted_f: receives f times the mapped weight of each of the table's points, unless it is
-  /// null.
+  /// f_at: f at a position. weighted_f: receives f times the mapped weight of each of the table's
+  /// points, unless it is null.
   template <int dim, std::size_t n_vertices>
   CellLoad(const QuadratureTable& table,
            const std::array<Vector<dim, double>, n_vertices>& vertices,
-           const ManufacturedSolution<dim>& solution, double* weighted_f = nullptr) {
+           const std::function<double(const Point<dim>&)>& f_at, double* weighted_f = nullptr) {
     for (std::size_t q = 0; q < table.n_points; ++q) {
       const auto mapped = map_point<dim, double>(table, q, vertices);
-      const double f = solution.load(point_of(mapped.position)) * mapped.weight;
+      const double f = f_at(point_of(mapped.position)) * mapped.weight;
       if (weighted_f != nullptr) weighted_f[q] = f;
       for (std::size_t i = 0; i < n_dofs; ++i) {
         values[i] += f * table.shape[q * n_dofs + i];

@@ -156,9 +156,59 @@ void add_diffusivity(const DiffusivityFormulas<dim>& formulas,
   if (!solution.conditions) add_conditions(entries, solution);
 }
 
+namespace {
+
+/// Returns -div(A grad u). value_and_gradient: u and its derivatives.
+template <int dim>
+ex load_of(const std::vector<ex>& value_and_gradient, const DiffusivityFormulas<dim>& a) {
+  const auto& x = formula_variables();
+  ex load = 0;
+  for (std::size_t i = 0; i < dim; ++i) {
+    ex flux = 0;
+    for (std::size_t j = 0; j < dim; ++j) flux += a.entries[i][j] * value_and_gradient[1 + j];
+    load -= flux.diff(x[i]);
+  }
+  return load;
+}
+
+template <int dim>
+std::function<double(const Point<dim>&)> function_of(const ex& formula) {
+  return [values = Values<dim, 1>({formula})](const Point<dim>& p) { return values.at(p)[0]; };
+}
+
+/// Returns A if it is a number times the identity.
+template <int dim>
+std::optional<double> constant_of(const DiffusivityFormulas<dim>& a) {
+  if (!GiNaC::is_a<GiNaC::numeric>(a.entries[0][0].evalf())) return std::nullopt;
+  for (std::size_t i = 0; i < dim; ++i)
+    for (std::size_t j = 0; j < dim; ++j)
+      if (!a.entries[i][j].is_equal(i == j ? a.entries[0][0] : ex(0))) return std::nullopt;
+  return GiNaC::ex_to<GiNaC::numeric>(a.entries[0][0].evalf()).to_double();
+}
+
+/// Makes a material of a group. An empty formula means the identity.
+template <int dim>
+Material<dim> material_of(const GroupDiffusivity& given, const std::vector<ex>& value_and_gradient,
+                          std::vector<ex>& formulas) {
+  const auto a =
+      given.formula.empty() ? DiffusivityFormulas<dim>() : DiffusivityFormulas<dim>(given.formula);
+  const auto entries = all_entries(a);
+  formulas.insert(formulas.end(), entries.begin(), entries.end());
+  ManufacturedSolution<dim> only_a;
+  add_diffusivity(a, only_a);
+  return {.group = given.group,
+          .diffusivity = only_a.diffusivity,
+          .constant = constant_of(a),
+          .load = on_formula("diffusivity", given.formula, one_formula(dim),
+                             [&] { return function_of<dim>(load_of(value_and_gradient, a)); })};
+}
+
+}  // namespace
+
 template <int dim>
 ManufacturedSolution<dim> derived_solution(const std::string& u, const std::string& diffusivity,
-                                           std::span<const Point<dim>> sample) {
+                                           std::span<const Point<dim>> sample,
+                                           const std::vector<GroupDiffusivity>& of_groups) {
   const ex value = read_formula("u", u, dim);
   const auto a =
       diffusivity.empty() ? DiffusivityFormulas<dim>() : DiffusivityFormulas<dim>(diffusivity);
@@ -168,22 +218,12 @@ ManufacturedSolution<dim> derived_solution(const std::string& u, const std::stri
                                      .value = {},
                                      .value_and_gradient = {},
                                      .load = {}};
+  std::vector<ex> value_and_gradient{value};
   on_formula("u", u, one_formula(dim), [&] {
     const auto& x = formula_variables();
-    std::vector<ex> value_and_gradient{value};
     for (std::size_t j = 0; j < dim; ++j) value_and_gradient.push_back(value.diff(x[j]));
-    ex load = 0;
-    for (std::size_t i = 0; i < dim; ++i) {
-      ex flux = 0;
-      for (std::size_t j = 0; j < dim; ++j) flux += a.entries[i][j] * value_and_gradient[1 + j];
-      load -= flux.diff(x[i]);
-    }
-    solution.value = [values = Values<dim, 1>({value})](const Point<dim>& p) {
-      return values.at(p)[0];
-    };
-    solution.load = [values = Values<dim, 1>({load})](const Point<dim>& p) {
-      return values.at(p)[0];
-    };
+    solution.value = function_of<dim>(value);
+    solution.load = function_of<dim>(load_of(value_and_gradient, a));
     solution.value_and_gradient = [values = Values<dim, 1 + dim>(value_and_gradient)](
                                       const Point<dim>& p) -> ValueAndGradient<dim> {
       const auto all = values.at(p);
@@ -192,7 +232,13 @@ ManufacturedSolution<dim> derived_solution(const std::string& u, const std::stri
   });
   std::vector<ex> formulas = all_entries(a);
   formulas.push_back(value);
+  for (const GroupDiffusivity& given : of_groups)
+    solution.materials.push_back(material_of<dim>(given, value_and_gradient, formulas));
+  if (!of_groups.empty())
+    solution.materials.push_back(
+        material_of<dim>({.group = {}, .formula = diffusivity}, value_and_gradient, formulas));
   add_conditions(formulas, solution);
+  if (!of_groups.empty()) return solution;
   if (!diffusivity.empty()) add_diffusivity(a, solution);
   check_solution(solution, {"'u'", "gradient, derived from 'u',", "load, derived from 'u',", true},
                  sample);
@@ -203,7 +249,8 @@ ManufacturedSolution<dim> derived_solution(const std::string& u, const std::stri
   template struct DiffusivityFormulas<dim>;                                                   \
   template void add_diffusivity(const DiffusivityFormulas<dim>&, ManufacturedSolution<dim>&); \
   template ManufacturedSolution<dim> derived_solution(const std::string&, const std::string&, \
-                                                      std::span<const Point<dim>>);
+                                                      std::span<const Point<dim>>,            \
+                                                      const std::vector<GroupDiffusivity>&);
 SMOOTHFEM_INSTANTIATE(2)
 SMOOTHFEM_INSTANTIATE(3)
 #undef SMOOTHFEM_INSTANTIATE

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,15 @@ struct ValueAndGradient {
 template <int dim>
 using Diffusivity = Eigen::Matrix<double, dim, dim>;
 
+/// A part of the domain with its own diffusivity. A mesh says by groups which cells it has.
+template <int dim>
+struct Material {
+  std::string group;  ///< tag or name in the mesh; empty: the cells of no other material
+  std::function<Diffusivity<dim>(const Point<dim>&)> diffusivity;
+  std::optional<double> constant{};  ///< A is this number times the identity everywhere
+  std::function<double(const Point<dim>&)> load;  ///< f; defined around the material, too
+};
+
 /// A known solution u of -laplace(u) = f, or of -div(A grad u) = f. Its values are the boundary
 /// data; on natural parts of the boundary these are A grad u . n.
 template <int dim>
@@ -38,6 +49,14 @@ struct ManufacturedSolution {
   /// Values that the conditions of its formulas compare with zero: where one changes its sign,
   /// another piece begins. Empty: no conditions.
   std::function<std::vector<double>(const Point<dim>&)> conditions{};
+  /// If they belong to cells (see below), A and f are those of the cell's material, and the
+  /// functions above are not used for cells. u stays a function of the position.
+  std::vector<Material<dim>> materials{};
+  /// Index of the material at a position; empty: groups of cells tell.
+  std::function<std::size_t(const Point<dim>&)> material_at{};
+  /// The material of each kind of cells (cell_materials) of one mesh, on the root: see
+  /// with_materials_of. Empty: A and f are functions of the position.
+  std::vector<std::uint32_t> material_of_kind{};
 
   /// Returns g . A g for a gradient g; its integral is the square of the energy norm.
   double energy_of(const Point<dim>& g, const Point<dim>& position) const {
@@ -71,12 +90,22 @@ ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::s
                                           std::span<const Point<dim>> sample,
                                           const std::string& diffusivity = {});
 
+/// The diffusivity of a group of cells, as given: formulas as in derived_solution.
+struct GroupDiffusivity {
+  std::string group;  ///< tag or name
+  std::string formula;
+
+  bool operator==(const GroupDiffusivity&) const = default;
+};
+
 /// Makes a solution from a formula of u alone, in x and y (in space also z); it may have
 /// conditions. gradient and f = -div(A grad u) are derived. diffusivity: A as one formula, as dim x
-/// dim formulas "a11, a12 ; a21, a22", or empty for the identity. Throws InputError if a formula
-/// cannot be read, and as check_solution does. Safe to call from several threads.
+/// dim formulas "a11, a12 ; a21, a22", or empty for the identity. of_groups: A of the cells of
+/// these groups; f is derived for each. Throws InputError if a formula cannot be read, and as
+/// check_solution does (with groups, with_materials_of does). Safe to call from several threads.
 template <int dim>
 ManufacturedSolution<dim> derived_solution(const std::string& u, const std::string& diffusivity,
-                                           std::span<const Point<dim>> sample);
+                                           std::span<const Point<dim>> sample,
+                                           const std::vector<GroupDiffusivity>& of_groups = {});
 
 }  // namespace smoothfem

@@ -5,6 +5,8 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
+#include "fem/materials/cell_kinds.h"
+
 namespace smoothfem {
 
 namespace {
@@ -17,6 +19,7 @@ void fill_triangulation(const Mesh<dim>& mesh, dealii::Triangulation<dim>& trian
     vertices.emplace_back();
     for (int d = 0; d < dim; ++d) vertices.back()[d] = p[d];
   }
+  const auto kinds = cell_kinds(mesh.topology());
   std::vector<dealii::CellData<dim>> cells;
   bool all_quadrilaterals = dim == 2;
   for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
@@ -28,6 +31,7 @@ void fill_triangulation(const Mesh<dim>& mesh, dealii::Triangulation<dim>& trian
     for (std::size_t k = 2; tensor && k < nodes.size(); k += 4)
       std::swap(cell.vertices[k], cell.vertices[k + 1]);
     all_quadrilaterals &= tensor;
+    cell.material_id = kinds[c];
     cells.push_back(cell);
   }
   if (all_quadrilaterals) dealii::GridTools::consistently_order_cells(cells);

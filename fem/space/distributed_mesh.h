@@ -24,7 +24,7 @@ constexpr unsigned int simplex_index = 0, tensor_index = 1;
 /// Makes a triangulation. mesh: on the root, with cells of these types; not used elsewhere. One
 /// process: a triangulation with the mesh's own nodes and cells. Several: a part for each, of about
 /// equal size; only the root ever has all of it. Each vertex' first coordinate is then the mesh's
-/// number of the node. Collective.
+/// number of the node. The material of a cell is its kind. Collective.
 template <int dim>
 std::unique_ptr<dealii::Triangulation<dim>> make_triangulation(const Mesh<dim>* mesh,
                                                                const Ranks& ranks);

@@ -16,6 +16,10 @@ constexpr auto absent = FiniteElementSpace<2>::absent;
 template <int dim>
 void locate_dofs(FiniteElementSpace<dim>& space) {
   std::vector<std::vector<NodeIndex>> nodes(space.n_local);
+  // Nodes of dofs are known only if these are numbered by nodes. Then some dofs may have no cell
+  // here.
+  for (NodeIndex node = 0; node < space.vertex_dof.size(); ++node)
+    if (space.vertex_dof[node] != absent) nodes[space.vertex_dof[node]] = {node};
   for (const auto& group : space.groups) {
     const auto& element = group.element;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
@@ -43,8 +47,10 @@ std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> cells_of_rows(
   for (std::uint32_t g = 0; g < space.groups.size(); ++g) {
     const auto& group = space.groups[g];
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
-      if (group.dofs[k] < space.n_own)
-        cells[group.dofs[k]].emplace_back(g, static_cast<std::uint32_t>(k / group.element.n_dofs));
+      space.for_each_master(group.dofs[k], [&](std::uint32_t dof, double) {
+        const auto cell = static_cast<std::uint32_t>(k / group.element.n_dofs);
+        if (dof < space.n_own) cells[dof].emplace_back(g, cell);
+      });
   }
   return cells;
 }
@@ -59,8 +65,10 @@ void build_pattern(FiniteElementSpace<dim>& space) {
     for (const auto& [g, c] : cells[i]) {
       const auto& group = space.groups[g];
       const auto* dofs = &group.dofs[c * group.element.n_dofs];
-      std::copy_if(dofs, dofs + group.element.n_dofs, std::back_inserter(row),
-                   [&](std::uint32_t dof) { return dof < space.n_columns; });
+      for (std::size_t k = 0; k < group.element.n_dofs; ++k)
+        space.for_each_master(dofs[k], [&](std::uint32_t dof, double) {
+          if (dof < space.n_columns) row.push_back(dof);
+        });
     }
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
@@ -75,27 +83,27 @@ void build_pattern(FiniteElementSpace<dim>& space) {
 
 template <int dim>
 void find_entries(FiniteElementSpace<dim>& space) {
-  const int* starts = space.pattern.outerIndexPtr();
-  const int* columns = space.pattern.innerIndexPtr();
   for (auto& group : space.groups) {
     const std::size_t n = group.element.n_dofs;
     group.entries.reserve(group.n_cells() * n * n);
     for (std::size_t first = 0; first < group.dofs.size(); first += n)
       for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-          const std::uint32_t row = group.dofs[first + i], column = group.dofs[first + j];
-          const bool stored = row < space.n_own && column < space.n_columns;
-          group.entries.push_back(
-              stored ? static_cast<std::uint32_t>(std::lower_bound(columns + starts[row],
-                                                                   columns + starts[row + 1],
-                                                                   static_cast<int>(column)) -
-                                                  columns)
-                     : absent);
-        }
+        for (std::size_t j = 0; j < n; ++j)
+          group.entries.push_back(space.entry(group.dofs[first + i], group.dofs[first + j]));
   }
 }
 
 }  // namespace
+
+template <int dim>
+std::uint32_t FiniteElementSpace<dim>::entry(std::uint32_t row, std::uint32_t column) const {
+  if (row >= n_own || column >= n_columns) return absent;
+  const int* starts = pattern.outerIndexPtr();
+  const int* columns = pattern.innerIndexPtr();
+  return static_cast<std::uint32_t>(
+      std::lower_bound(columns + starts[row], columns + starts[row + 1], static_cast<int>(column)) -
+      columns);
+}
 
 template <int dim>
 std::vector<Point<dim>> FiniteElementSpace<dim>::local_coordinates(
@@ -121,14 +129,14 @@ std::vector<Point<dim>> FiniteElementSpace<dim>::dof_points(
 template <int dim>
 std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
     const Mesh<dim>* mesh, int degree, const TensorPoints& tensor_points, const Ranks& ranks,
-    const std::vector<std::string>& natural_groups) {
+    const std::vector<std::string>& natural_groups, const NodeTies* ties) {
   if (degree != 1 && degree != 2)
     throw InputError("finite elements of degree " + std::to_string(degree) +
                      " are not available; choose 1 or 2");
   auto space = std::make_shared<FiniteElementSpace<dim>>();
   space->degree = degree;
   space->ranks = ranks;
-  const NaturalBoundary natural = number_dofs(mesh, tensor_points, natural_groups, *space);
+  const NaturalBoundary natural = number_dofs(mesh, tensor_points, natural_groups, ties, *space);
   if (space->n_free == 0)
     throw InputError(
         "no unknown is left for the finite element solution: every node of the mesh is on its "
@@ -144,8 +152,10 @@ std::shared_ptr<const FiniteElementSpace<dim>> make_finite_element_space(
 template struct FiniteElementSpace<2>;
 template struct FiniteElementSpace<3>;
 template std::shared_ptr<const FiniteElementSpace<2>> make_finite_element_space(
-    const Mesh<2>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&);
+    const Mesh<2>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&,
+    const NodeTies*);
 template std::shared_ptr<const FiniteElementSpace<3>> make_finite_element_space(
-    const Mesh<3>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&);
+    const Mesh<3>*, int, const TensorPoints&, const Ranks&, const std::vector<std::string>&,
+    const NodeTies*);
 
 }  // namespace smoothfem

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fem/materials/cell_kinds.h"
 #include "smoothing/mesh/fixed_nodes.h"
 
 namespace smoothfem {
@@ -35,23 +36,40 @@ std::vector<Facet> facets_of_group(const Topology& topology, const std::string& 
   return facets;
 }
 
+/// Returns the cell of a boundary facet.
+CellIndex cell_of(const Topology& topology, const Facet& facet) {
+  const auto cells = topology.node_cells(facet[0]);
+  return *std::find_if(cells.begin(), cells.end(), [&](CellIndex cell) {
+    const auto nodes = topology.cell_nodes(cell);
+    return std::all_of(facet.begin(), facet.end(), [&](NodeIndex node) {
+      return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+    });
+  });
+}
+
 }  // namespace
 
 NaturalBoundary::NaturalBoundary(const Topology* topology, const std::vector<std::string>& groups,
                                  const Ranks& ranks) {
   if (groups.empty()) return;
-  std::vector<NodeIndex> numbers;  // for all facets: number of nodes, followed by the nodes
+  const auto kinds = topology == nullptr ? std::vector<std::uint32_t>() : cell_kinds(*topology);
+  std::vector<NodeIndex> numbers;  // for all facets: kind and number of nodes, then the nodes
   if (topology != nullptr)
     for (const auto& group : groups)
       for (const auto& facet : facets_of_group(*topology, group)) {
+        numbers.push_back(kinds[cell_of(*topology, facet)]);
         numbers.push_back(static_cast<NodeIndex>(facet.size()));
         numbers.insert(numbers.end(), facet.begin(), facet.end());
       }
   ranks.broadcast(numbers);
   for (auto next = numbers.begin(); next != numbers.end();) {
+    const std::uint32_t kind = *next++;
     const auto end = next + 1 + static_cast<std::ptrdiff_t>(*next);
     Facet facet(next + 1, end);
-    if (sorted_.insert(sorted(facet)).second) facets_.push_back(std::move(facet));
+    if (sorted_.insert(sorted(facet)).second) {
+      facets_.push_back(std::move(facet));
+      kinds_.push_back(kind);
+    }
     next = end;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,9 +25,12 @@ class NaturalBoundary {
   /// Returns the nodes of each facet in the direction of its cell: counterclockwise, seen from
   /// outside.
   const std::vector<std::vector<NodeIndex>>& facets() const { return facets_; }
+  /// Returns the kind of each facet's cell (cell_kinds).
+  const std::vector<std::uint32_t>& kinds() const { return kinds_; }
 
  private:
   std::vector<std::vector<NodeIndex>> facets_;
+  std::vector<std::uint32_t> kinds_;
   std::set<std::vector<NodeIndex>> sorted_;
 };
 

@@ -46,7 +46,8 @@ void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>
   const auto nodes = local_nodes(natural, space);
   const auto dofs = dofs_by_nodes(nodes, space);
   std::map<std::size_t, NaturalFacets> groups;
-  for (const auto& facet : natural.facets()) {
+  for (std::size_t f = 0; f < natural.facets().size(); ++f) {
+    const auto& facet = natural.facets()[f];
     std::vector<NodeIndex> vertices;
     for (const NodeIndex node : facet) vertices.push_back(nodes.at(node));
     if (std::count(vertices.begin(), vertices.end(), space.absent) > 0) continue;
@@ -68,6 +69,7 @@ void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>
     if (of_facet.size() < group.element.n_dofs) continue;
     group.vertices.insert(group.vertices.end(), vertices.begin(), vertices.end());
     group.dofs.insert(group.dofs.end(), of_facet.begin(), of_facet.end());
+    group.kinds.push_back(natural.kinds()[f]);
   }
   for (auto& [n_vertices, group] : groups) space.natural_facets.push_back(std::move(group));
 }
@@ -101,19 +103,26 @@ struct FacetPoint {
 
 template <int dim>
 void add_natural_load(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
-                      const ManufacturedSolution<dim>& solution, Eigen::VectorXd& right_hand_side) {
+                      const ManufacturedSolution<dim>& solution,
+                      const std::vector<std::uint32_t>& materials,
+                      Eigen::VectorXd& right_hand_side) {
   for (const auto& group : space.natural_facets) {
     const FacetElement& element = group.element;
     for (std::size_t f = 0; f * element.n_vertices < group.vertices.size(); ++f)
       for (std::size_t q = 0; q < element.rule.n_points; ++q) {
         const FacetPoint<dim> at(element, q, &group.vertices[f * element.n_vertices], x);
         Point<dim> flux = solution.value_and_gradient(at.position).gradient;
-        if (solution.diffusivity) flux = solution.diffusivity(at.position) * flux;
+        if (!materials.empty())
+          flux = solution.materials[materials[group.kinds[f]]].diffusivity(at.position) * flux;
+        else if (solution.diffusivity)
+          flux = solution.diffusivity(at.position) * flux;
         const double weighted = element.rule.weights[q] * flux.dot(at.normal);
         for (std::size_t i = 0; i < element.n_dofs; ++i) {
-          const std::uint32_t row = group.dofs[f * element.n_dofs + i];
-          if (row < space.n_own)
-            right_hand_side[row] += weighted * element.rule.shape[q * element.n_dofs + i];
+          const double part = weighted * element.rule.shape[q * element.n_dofs + i];
+          space.for_each_master(group.dofs[f * element.n_dofs + i],
+                                [&](std::uint32_t row, double weight) {
+                                  if (row < space.n_own) right_hand_side[row] += weight * part;
+                                });
         }
       }
   }
@@ -122,7 +131,8 @@ void add_natural_load(const FiniteElementSpace<dim>& space, const std::vector<Po
 #define SMOOTHFEM_INSTANTIATE(dim)                                                               \
   template void find_natural_facets(const NaturalBoundary&, FiniteElementSpace<dim>&);           \
   template void add_natural_load(const FiniteElementSpace<dim>&, const std::vector<Point<dim>>&, \
-                                 const ManufacturedSolution<dim>&, Eigen::VectorXd&);
+                                 const ManufacturedSolution<dim>&,                               \
+                                 const std::vector<std::uint32_t>&, Eigen::VectorXd&);
 SMOOTHFEM_INSTANTIATE(2)
 SMOOTHFEM_INSTANTIATE(3)
 #undef SMOOTHFEM_INSTANTIATE

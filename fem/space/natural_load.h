@@ -14,9 +14,12 @@ template <int dim>
 void find_natural_facets(const NaturalBoundary& natural, FiniteElementSpace<dim>& space);
 
 /// Computes b_i += integral of (A grad u . n) phi_i over the facets of natural conditions, for this
-/// rank's free dofs. x: coordinates of the local nodes.
+/// rank's free dofs. x: coordinates of the local nodes. materials: of the
+/// kinds of cells; empty if A is a function of the position.
 template <int dim>
 void add_natural_load(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
-                      const ManufacturedSolution<dim>& solution, Eigen::VectorXd& right_hand_side);
+                      const ManufacturedSolution<dim>& solution,
+                      const std::vector<std::uint32_t>& materials,
+                      Eigen::VectorXd& right_hand_side);
 
 }  // namespace smoothfem

@@ -6,10 +6,13 @@
 
 namespace smoothfem {
 
-/// Does the same as number_dofs, for elements of degree 1 on volume meshes of any types of cells:
-/// dofs are nodes. topology: on the root, null elsewhere. Several ranks get parts with about as
-/// many cells; the parts follow each other in a walk over neighbours. Collective.
+/// Does the same as number_dofs, for elements of degree 1 on meshes of any types of cells: dofs are
+/// nodes. topology, ties: on the root, null elsewhere; ties may be null there, too. Several ranks
+/// get parts with about as many cells; the parts follow each other in a walk over neighbours.
+/// Collective.
+template <int dim>
 void number_nodal_dofs(const Topology* topology, const TensorPoints& tensor_points,
-                       const NaturalBoundary& natural, FiniteElementSpace<3>& space);
+                       const NaturalBoundary& natural, const NodeTies* ties,
+                       FiniteElementSpace<dim>& space);
 
 }  // namespace smoothfem

@@ -207,6 +207,7 @@ class SpaceReader {
       for (const unsigned int v : cell->vertex_indices())
         group.vertices.push_back(local_node(cell, v));
       for (const Index dof : indices) group.dofs.push_back(local_[position(dof)]);
+      group.kinds.push_back(cell->material_id());
     };
     for_each_cell(true, append);
     for (auto& group : space_.groups) group.n_own = group.n_cells();
@@ -249,18 +250,23 @@ bool is_for_deal_ii(const Mesh<dim>* mesh, const Ranks& ranks) {
 
 template <int dim>
 NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,
-                            const std::vector<std::string>& natural_groups,
+                            const std::vector<std::string>& natural_groups, const NodeTies* ties,
                             FiniteElementSpace<dim>& space) {
   require_on_all_ranks<dim>(mesh == nullptr ? nullptr : &mesh->topology(), space.degree,
                             natural_groups, space.ranks);
   NaturalBoundary natural(mesh == nullptr ? nullptr : &mesh->topology(), natural_groups,
                           space.ranks);
-  if constexpr (dim == 3)
-    if (!is_for_deal_ii(mesh, space.ranks)) {
-      number_nodal_dofs(mesh == nullptr ? nullptr : &mesh->topology(), tensor_points, natural,
-                        space);
-      return natural;
-    }
+  bool has_ties = ties != nullptr && !ties->empty();
+  space.ranks.broadcast(has_ties);
+  if (has_ties && space.degree > 1)
+    throw InputError(
+        "finite elements of degree 2 have no constraints for hanging nodes and periodic partners: "
+        "use degree 1");
+  if (has_ties || !is_for_deal_ii(mesh, space.ranks)) {
+    number_nodal_dofs(mesh == nullptr ? nullptr : &mesh->topology(), tensor_points, natural, ties,
+                      space);
+    return natural;
+  }
   const int n_points = dim == 2 ? tensor_points.quadrilateral : tensor_points.hexahedron;
   for (const ElementType type : element_types<dim>)
     space.groups.emplace_back().element = make_reference_element(type, space.degree, n_points);
@@ -272,8 +278,10 @@ NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_po
 }
 
 template NaturalBoundary number_dofs(const Mesh<2>*, const TensorPoints&,
-                                     const std::vector<std::string>&, FiniteElementSpace<2>&);
+                                     const std::vector<std::string>&, const NodeTies*,
+                                     FiniteElementSpace<2>&);
 template NaturalBoundary number_dofs(const Mesh<3>*, const TensorPoints&,
-                                     const std::vector<std::string>&, FiniteElementSpace<3>&);
+                                     const std::vector<std::string>&, const NodeTies*,
+                                     FiniteElementSpace<3>&);
 
 }  // namespace smoothfem

@@ -19,7 +19,7 @@ void require_on_all_ranks(const Topology* topology, int degree,
 /// natural conditions. Collective.
 template <int dim>
 NaturalBoundary number_dofs(const Mesh<dim>* mesh, const TensorPoints& tensor_points,
-                            const std::vector<std::string>& natural_groups,
+                            const std::vector<std::string>& natural_groups, const NodeTies* ties,
                             FiniteElementSpace<dim>& space);
 
 }  // namespace smoothfem

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "fem/adaptivity/energy_solver.h"
+#include "fem/materials/materials_of_mesh.h"
 #include "fem/poisson_solver.h"
 #include "fem/ranks/mpi_session.h"
 #include "fem/tests/unit_mesh.h"
@@ -106,6 +107,43 @@ TEST_P(SeveralRanksTest, UserProblemsEqualThoseOfOneProcess) {
         PoissonSolver<dim>(on_root(mesh), natural, all_ranks()).solve(mesh.coordinates(), solution);
     if (!all_ranks().is_root()) return;
     expect_same(record, PoissonSolver<dim>(&mesh, natural).solve(mesh.coordinates(), solution));
+  });
+}
+
+TEST_P(SeveralRanksTest, MaterialsEqualThoseOfOneProcess) {
+  with_dimension(dimension_of(GetParam().cells), [&]<int dim>() {
+    const auto mesh = two_materials<dim>(dim == 2 ? 14 : 8, GetParam().cells, 0.2);
+    auto solution = derived_solution<dim>("if(x < 0.5, x - 0.5, (x - 0.5)/4) + sin(3*y)", "", {},
+                                          {{"right", "4"}, {"1", "cos(y)/cos(y)"}});
+    // Only the root knows the mesh.
+    if (all_ranks().is_root()) solution = with_materials_of(solution, mesh);
+    auto natural = options();
+    natural.natural_groups = {"right"};
+    const auto record =
+        PoissonSolver<dim>(on_root(mesh), natural, all_ranks()).solve(mesh.coordinates(), solution);
+    if (!all_ranks().is_root()) return;
+    expect_same(record, PoissonSolver<dim>(&mesh, natural).solve(mesh.coordinates(), solution));
+  });
+}
+
+TEST_P(SeveralRanksTest, TiedNodesEqualThoseOfOneProcess) {
+  if (GetParam().degree > 1) GTEST_SKIP() << "ties are for degree 1";
+  GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
+    const auto solution = derived_solution<dim>("sin(2*pi*x + 1)*cos(y)", "", {});
+    auto periodic = options();
+    periodic.galerkin_load = true;
+    periodic.ties = std::make_shared<const NodeTies>(periodic_in_x(mesh));
+    const auto alone = periodic;
+    if (!all_ranks().is_root()) periodic.ties = nullptr;  // only the root knows the mesh
+    PoissonSolver<dim> solver(on_root(mesh), periodic, all_ranks());
+    const auto record = solver.solve(mesh.coordinates(), solution);
+    const auto errors = solver.nodal_errors();
+    if (!all_ranks().is_root()) return;
+    PoissonSolver<dim> single(&mesh, alone);
+    expect_same(record, single.solve(mesh.coordinates(), solution));
+    const auto expected = single.nodal_errors();
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(errors[i], expected[i], 1e-8 * record.e_max);
   });
 }
 

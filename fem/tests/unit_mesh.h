@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "fem/constraints/node_ties.h"
 #include "smoothing/tests/volume_meshes.h"
 
 namespace smoothfem {
@@ -98,6 +99,46 @@ Mesh<dim> with_groups(const Mesh<dim>& mesh) {
   return {std::make_shared<const Topology>(dim, mesh.n_nodes(), topology.cells(), std::nullopt,
                                            std::move(labels)),
           mesh.copied_coordinates()};
+}
+
+/// Returns the unit mesh of n cells in each direction, n even, with inner nodes moved, but those at
+/// x = 1/2 only along that plane. Its cells have the tags 1, "left", and 2, "right".
+template <int dim>
+Mesh<dim> two_materials(std::size_t n, Cells kind, double amount) {
+  const Mesh<dim> plain = unit_mesh<dim>(n, kind, 0.0), grouped = with_groups(plain);
+  MeshLabels labels = grouped.topology().labels();
+  labels.names.insert({{{dim, 1}, "left"}, {{dim, 2}, "right"}});
+  for (CellIndex c = 0; c < plain.n_cells(); ++c) {
+    double x = 0.0;
+    for (const NodeIndex node : plain.topology().cell_nodes(c)) x += plain.coordinates()[node].x();
+    const bool left = x < 0.5 * static_cast<double>(plain.topology().cell_nodes(c).size());
+    labels.cell_tags.push_back(left ? 1 : 2);
+  }
+  auto x = unit_mesh<dim>(n, kind, amount).copied_coordinates();
+  for (NodeIndex i = 0; i < x.size(); ++i)
+    if (std::abs(plain.coordinates()[i].x() - 0.5) < 1e-12) x[i].x() = 0.5;
+  return {std::make_shared<const Topology>(dim, plain.n_nodes(), plain.topology().cells(),
+                                           std::nullopt, std::move(labels)),
+          std::move(x)};
+}
+
+/// Ties the nodes at x = 1 of a unit mesh to those at x = 0.
+template <int dim>
+NodeTies periodic_in_x(const Mesh<dim>& mesh) {
+  NodeTies ties;
+  const auto& x = mesh.coordinates();
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    for (NodeIndex j = 0; x[i].x() == 1.0 && j < mesh.n_nodes(); ++j)
+      if ((x[i] - x[j] - Point<dim>::Unit(0)).norm() < 1e-12) ties.nodes.push_back({i, {{j, 1.0}}});
+  for (std::size_t f = 0; f < mesh.topology().boundary_facets().size(); ++f) {
+    const auto facet = mesh.topology().boundary_facets()[f];
+    std::vector<NodeIndex> nodes(facet.begin(), facet.end());
+    std::sort(nodes.begin(), nodes.end());
+    for (const double side : {0.0, 1.0})
+      if (std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return x[i].x() == side; }))
+        ties.inner_facets.insert(nodes);
+  }
+  return ties;
 }
 
 /// An element type and degree, as a test parameter.

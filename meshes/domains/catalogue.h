@@ -25,6 +25,7 @@ struct Domain {
   std::vector<std::string> elements;  ///< supported names of element_names(); the default first
   std::vector<std::string> random_elements{};  ///< elements whose meshes depend on the seed
   bool is_surface = false;                     ///< its meshes are surfaces in space
+  bool has_groups = false;                     ///< its cells have groups
   AnyMesh (*make)(
       const DomainParameters&);  ///< its parameter `elements` is a name of the domain's list
 

@@ -5,6 +5,7 @@
 
 #include "meshes/domains/catalogue.h"
 #include "meshes/tests/mesh_tests.h"
+#include "smoothing/geometry/cell_size.h"
 
 namespace smoothfem {
 namespace {
@@ -14,11 +15,12 @@ using ::testing::HasSubstr;
 TEST(Domains, AllAreRegisteredAndSortedByName) {
   std::vector<std::string> names;
   for (const Domain& domain : domains()) names.push_back(domain.name);
-  EXPECT_THAT(names, ::testing::ElementsAre("aorta", "axle", "bridge", "car", "cube", "fichera",
-                                            "flange", "gear", "l-shape", "nonuniform-grid",
-                                            "nonuniform-grid-sinh", "nonuniform-grid-z", "piston",
-                                            "plate", "prosthesis", "pump", "random-planar", "ring",
-                                            "roof", "sphere", "square", "subdivision", "sweep"));
+  EXPECT_THAT(
+      names, ::testing::ElementsAre(
+                 "aorta", "axle", "bridge", "car", "cube", "cube-halves", "fichera", "flange",
+                 "gear", "l-shape", "nonuniform-grid", "nonuniform-grid-sinh", "nonuniform-grid-z",
+                 "piston", "plate", "prosthesis", "pump", "random-planar", "ring", "roof", "sphere",
+                 "square", "square-disc", "square-halves", "subdivision", "sweep"));
 }
 
 TEST(Domains, HaveDescriptions) {
@@ -33,6 +35,46 @@ TEST(Domains, HaveDescriptions) {
     EXPECT_EQ(domain.elements_named(domain.elements.back()), domain.elements.back());
     EXPECT_EQ(&find_domain(domain.name), &domain);
   }
+}
+
+/// Domains of two materials: every node between groups stays and lies on the interface.
+TEST(Domains, OfTwoMaterialsHaveGroupsUpToTheInterface) {
+  const auto expect_interface = [](const std::string& name, const std::string& elements,
+                                   double first_size, const auto& distance) {
+    SCOPED_TRACE(name + " of " + elements);
+    std::visit(
+        [&]<int dim, int spacedim>(const Mesh<dim, spacedim>& mesh) {
+          const Topology& topology = mesh.topology();
+          const auto& tags = topology.labels().cell_tags;
+          ASSERT_EQ(tags.size(), mesh.n_cells());
+          double size_of_first = 0.0;
+          for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+            if (tags[c] == 1) size_of_first += signed_cell_size(mesh, c);
+          EXPECT_NEAR(size_of_first, first_size, 0.01);
+          std::size_t n_between = 0;
+          for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+            bool has_first = false, has_second = false;
+            for (const CellIndex c : topology.node_cells(i))
+              (tags[c] == 1 ? has_first : has_second) = true;
+            const bool between = has_first && has_second;
+            n_between += between;
+            EXPECT_EQ(topology.is_fixed(i), between || topology.on_boundary()[i]);
+            if (between) {
+              EXPECT_LT(distance(mesh.coordinates()[i]), 1e-12);
+            }
+          }
+          EXPECT_GT(n_between, 8U);
+        },
+        find_domain(name).generate({.elements = elements, .edge_scale = 4.0}));
+  };
+  const auto from_plane = [](const auto& p) { return std::abs(p.x() - 0.5); };
+  expect_interface("square-halves", "triangles", 0.5, from_plane);
+  expect_interface("square-halves", "quadrilaterals", 0.5, from_plane);
+  expect_interface("cube-halves", "tetrahedra", 0.5, from_plane);
+  expect_interface("cube-halves", "hexahedra", 0.5, from_plane);
+  expect_interface("square-disc", "triangles", 0.28274, [](const auto& p) {
+    return std::abs(std::hypot(p.x() - 0.5, p.y() - 0.5) - 0.3);
+  });
 }
 
 /// Coordinates of all nodes.

@@ -23,8 +23,25 @@ void check_names(const Study& study) {
     if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
 }
 
+/// Throws InputError if positions do not tell the materials of a solution.
+void check_piecewise_by_tag(const StudySolution& solution, int dimension) {
+  std::vector<std::string> known;
+  with_dimension(dimension, [&]<int dim>() {
+    for (const auto& possible : manufactured_solutions<dim>())
+      if (possible.material_at) known.push_back(possible.name);
+  });
+  if (std::find(known.begin(), known.end(), solution.name) == known.end())
+    throw InputError(
+        "'diffusivity = piecewise by tag' is for the program's solutions with an interface; " +
+        choose_one_of(known, solution.name) +
+        " as 'name', or give 'diffusivity group=NAME' for each group of cells");
+  if (!solution.of_groups.empty())
+    throw InputError("the solution has 'diffusivity = piecewise by tag' and one for the group '" +
+                     solution.of_groups.front().group + "'; take one of them out");
+}
+
 /// Throws InputError if a solution is given in more than one way.
-void check_solution(const StudySolution& solution) {
+void check_solution(const StudySolution& solution, int dimension) {
   if (!solution.u.empty() && solution.name != "expression")
     throw InputError("the solution has the name '" + solution.name +
                      "' and the formula 'u'; take one of them out");
@@ -34,6 +51,11 @@ void check_solution(const StudySolution& solution) {
     if (!solution.u.empty() && !text.empty())
       throw InputError("the solution has both 'u' and '" + std::string(key) +
                        "'; the program derives it from 'u', so take '" + key + "' out");
+  if (solution.is_piecewise_by_tag()) return check_piecewise_by_tag(solution, dimension);
+  if (!solution.of_groups.empty() && solution.u.empty())
+    throw InputError("the solution has a diffusivity for the group '" +
+                     solution.of_groups.front().group +
+                     "', from which the load is derived; give the solution as a formula 'u'");
   if (!solution.diffusivity.empty() && solution.name != "expression")
     throw InputError("the solution '" + solution.name +
                      "' has no diffusivity; give its formula as 'u' instead");
@@ -65,6 +87,21 @@ void check_problem(const Study& study) {
       throw InputError("method " + method.name +
                        " moves nodes by the solution of the study's problem, but the study "
                        "solves none; write 'set degrees = 1', or leave the method out");
+}
+
+/// Throws InputError if a method moves nodes by a solution whose diffusivity belongs to groups of
+/// cells.
+void check_materials(const Study& study) {
+  const auto solutions = solutions_of(study);
+  if (std::none_of(solutions.begin(), solutions.end(),
+                   [](const StudySolution* solution) { return solution->has_materials(); }))
+    return;
+  for (const auto& method : study.methods)
+    if (!method.is_stand_in && method.needs_problem(study.dimensions))
+      throw InputError("method " + method.name +
+                       " moves nodes by the solution, for which it needs the diffusivity as a "
+                       "function of the position; give 'diffusivity' as one formula with "
+                       "conditions, or leave the method out");
 }
 
 /// Throws InputError if a mesh is smoothed for a solution that the study does not have.
@@ -122,9 +159,11 @@ void check_labels(std::vector<std::string> labels, const std::string& what,
 
 void check_study(const Study& study) {
   check_names(study);
-  for (const StudySolution* solution : solutions_of(study)) check_solution(*solution);
+  for (const StudySolution* solution : solutions_of(study))
+    check_solution(*solution, study.dimensions.cells);
   check_stages(study);
   check_problem(study);
+  check_materials(study);
   check_smooth_for(study);
   check_refined(study);
   check_thresholds(study);

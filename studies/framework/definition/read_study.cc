@@ -152,6 +152,10 @@ void read_solutions(ParameterHandler& p, const std::vector<std::string>& labels,
             "the study has both a list 'solutions' and, in the subsection 'solution', '" + key +
             "'; take one of them out");
   }
+  if (!read_group_diffusivities(p, "solution").empty())
+    throw InputError(
+        "the study has a list 'solutions', but also a diffusivity of a group in the subsection "
+        "'solution'; move it to the subsection of a solution");
   study.solution = read_solution(p, labels.front());
   for (std::size_t s = 1; s < labels.size(); ++s)
     study.further_solutions.push_back(read_solution(p, labels[s]));
@@ -189,6 +193,8 @@ std::vector<const Metric*> read_metrics(const std::string& list, const std::stri
 void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
   study.degrees = read_degrees(p.get("degrees"), file);
   study.refined_degrees = read_degrees(p.get("refined degrees"), file);
+  study.constrain_hanging_nodes = p.get("hanging nodes") == "constrain";
+  study.constrain_periodic_nodes = p.get("periodic") == "constrain";
   study.only_results_of_seeds = p.get("record seeds") == "results";
   study.timing_runs = static_cast<int>(p.get_integer("timing runs"));
   study.record_warpage = p.get_bool("record warpage");
@@ -196,11 +202,13 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
     study.count_below.push_back(std::stod(item));
   study.metrics = read_metrics(p.get("metrics"), file);
   study.write_series = p.get_bool("write series");
+  auto of_groups = read_group_diffusivities(p, "solution");
   {
     const Subsection subsection(p, "solution");
     if (study.solution.label.empty())
       study.solution = {p.get("name"), p.get("value"), p.get("gradient"),
                         p.get("load"), p.get("u"),     p.get("diffusivity")};
+    if (study.solution.label.empty()) study.solution.of_groups = std::move(of_groups);
     study.finite_elements.natural_groups = read_groups(p.get("natural"));
   }
   {
@@ -237,13 +245,15 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
 }
 
 /// Parameters without the study's kind and without newer keys that have their default. So results
-/// resume that are older than kinds, surfaces, derived solutions, diffusivities, natural conditions
-/// and several solutions.
+/// resume that are older than kinds, surfaces, derived solutions, diffusivities, natural
+/// conditions, several solutions and constraints.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
   std::erase_if(parameters, [](const auto& entry) {
     return entry.first == "kind" ||
            entry == std::pair<std::string, std::string>{"surface", "false"} ||
+           entry == std::pair<std::string, std::string>{"hanging nodes", "refuse"} ||
+           entry == std::pair<std::string, std::string>{"periodic", "prescribe"} ||
            (entry.second.empty() &&
             (entry.first == "solution/u" || entry.first == "solution/diffusivity" ||
              entry.first == "solution/natural" || entry.first == "solutions" ||
@@ -438,6 +448,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
       });
     type_of[method] = type;
   }
+  declare_group_diffusivities(p, text);
   parse_study(p, text, false);
   p.set("dimension", std::to_string(dimensions.cells));
   p.set("surface", dimensions.space > dimensions.cells);

@@ -79,9 +79,14 @@ struct StudyMethod {
 struct StudySolution {
   std::string name;  ///< "expression": given by the other fields
   std::string value, gradient, load;
-  std::string u;            ///< instead of value, gradient and load
-  std::string diffusivity;  ///< empty: the identity
-  std::string label{};      ///< in results; empty: the study has one solution
+  std::string u;                              ///< instead of value, gradient and load
+  std::string diffusivity;                    ///< empty: the identity
+  std::string label{};                        ///< in results; empty: the study has one solution
+  std::vector<GroupDiffusivity> of_groups{};  ///< of groups of cells
+
+  bool is_piecewise_by_tag() const { return diffusivity == "piecewise by tag"; }
+  /// True if the diffusivity is that of the cells' groups, not of the position.
+  bool has_materials() const { return is_piecewise_by_tag() || !of_groups.empty(); }
 };
 
 /// Settings for error thresholds (thesis, Table 6.4).
@@ -109,7 +114,9 @@ struct Study {
   /// Solutions that are also solved on initial and resulting meshes, and that methods may smooth
   /// for.
   std::vector<StudySolution> further_solutions{};
-  PoissonOptions finite_elements;  ///< its degree is not used
+  PoissonOptions finite_elements;         ///< its degree and its ties are not used
+  bool constrain_hanging_nodes = false;   ///< otherwise meshes with hanging nodes are refused
+  bool constrain_periodic_nodes = false;  ///< otherwise u is given on periodic boundaries
   StudyThresholds thresholds;
   bool only_results_of_seeds = false;  ///< of StudyMesh::repeats: initial, resulting, last meshes
   RecordEvery record_every;     ///< also always: initial, resulting and last mesh of each method

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <sstream>
 
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
@@ -181,6 +182,12 @@ void declare_problem(ParameterHandler& p) {
   p.declare_entry("refined degrees", "", Patterns::Anything(),
                   "Degrees, of those above, at which initial and resulting meshes are solved once "
                   "more with every cell split: refined.csv. Empty: none.");
+  p.declare_entry("hanging nodes", "refuse", Patterns::Selection("refuse|constrain"),
+                  "Meshes with hanging nodes: refuse, or constrain: the value at a hanging node is "
+                  "that of the edge or face in which it lies. Elements of degree 1 only.");
+  p.declare_entry("periodic", "prescribe", Patterns::Selection("prescribe|constrain"),
+                  "Boundaries with periodic partners in the mesh file: prescribe u there, or "
+                  "constrain: partners have the same unknown. Elements of degree 1 only.");
   p.declare_entry(
       "record every", "1", Patterns::Integer(1),
       "Solve at every k-th iteration, and always on the initial, the resulting and the last mesh.");
@@ -217,7 +224,10 @@ void declare_problem(ParameterHandler& p) {
                     "gradient and f are derived.");
     p.declare_entry("diffusivity", "", Patterns::Anything(),
                     "A of -div(A grad u) = f: one formula, or 'a11, a12 ; a21, a22' (in space 3 "
-                    "rows of 3), symmetric and positive definite; empty: 1.");
+                    "rows of 3), symmetric and positive definite; empty: 1. 'set diffusivity "
+                    "group=NAME = FORMULA' is A of the cells with this group, by name or tag. "
+                    "'piecewise by tag', for the program's solutions with an interface: A of the "
+                    "cells' groups instead of their positions.");
     p.declare_entry("natural", "", Patterns::Anything(),
                     "Parts of the boundary where A grad u . n is given instead of u: 'group NAME, "
                     "...', with the names or tags of the mesh file; empty: none.");
@@ -271,7 +281,39 @@ void declare_solution(ParameterHandler& p, const std::string& name,
                   "A of -div(A grad u) = f, as in the subsection 'solution'.");
 }
 
+namespace {
+
+constexpr std::string_view group_key = "diffusivity group ";
+
+}  // namespace
+
+void declare_group_diffusivities(ParameterHandler& p, const StudyText& text) {
+  std::istringstream lines(text.text());
+  std::vector<std::string> sections;
+  for (std::string line; std::getline(lines, line);) {
+    const StudyLine read = study_line(line);
+    if (read.kind == StudyLine::Kind::subsection) sections.push_back(read.name);
+    if (read.kind == StudyLine::Kind::end && !sections.empty()) sections.pop_back();
+    if (read.kind != StudyLine::Kind::set || sections.size() != 1 ||
+        !read.name.starts_with(group_key) ||
+        !(sections[0] == "solution" || sections[0].starts_with("solution ")))
+      continue;
+    const Subsection subsection(p, sections[0]);
+    p.declare_entry(read.name, "", Patterns::Anything());
+  }
+}
+
+std::vector<GroupDiffusivity> read_group_diffusivities(ParameterHandler& p,
+                                                       const std::string& section) {
+  std::vector<GroupDiffusivity> of_groups;
+  const std::string start = section + "/" + std::string(group_key);
+  for (const auto& [key, value] : all_parameters(p))
+    if (key.starts_with(start)) of_groups.push_back({key.substr(start.size()), value});
+  return of_groups;
+}
+
 StudySolution read_solution(ParameterHandler& p, const std::string& name) {
+  auto of_groups = read_group_diffusivities(p, "solution " + name);
   const Subsection subsection(p, "solution " + name);
   const std::string formula = p.get("u"), named = p.get("name");
   if (!formula.empty() && !named.empty())
@@ -285,7 +327,8 @@ StudySolution read_solution(ParameterHandler& p, const std::string& name) {
           .load = {},
           .u = formula,
           .diffusivity = p.get("diffusivity"),
-          .label = name};
+          .label = name,
+          .of_groups = std::move(of_groups)};
 }
 
 void declare_scale(ParameterHandler& p, const std::string& name) {

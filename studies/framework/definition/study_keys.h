@@ -25,6 +25,11 @@ void declare_problem(dealii::ParameterHandler& p);
 /// Declares the subsection of one of several solutions. formula_help: help text of its formula.
 void declare_solution(dealii::ParameterHandler& p, const std::string& name,
                       const std::string& formula_help);
+/// Declares the keys 'diffusivity group NAME' that the text has in subsections of solutions.
+void declare_group_diffusivities(dealii::ParameterHandler& p, const StudyText& text);
+/// Reads the keys 'diffusivity group NAME' of the subsection "solution" or "solution LABEL".
+std::vector<GroupDiffusivity> read_group_diffusivities(dealii::ParameterHandler& p,
+                                                       const std::string& section);
 /// Reads that subsection: its formula, or the program's solution of its name. Throws InputError if
 /// it has both.
 StudySolution read_solution(dealii::ParameterHandler& p, const std::string& name);

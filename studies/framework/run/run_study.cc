@@ -8,6 +8,7 @@
 
 #include "fem/adaptivity/poisson_problem.h"
 #include "fem/elements/adaptive_quadrature.h"
+#include "fem/materials/materials_of_mesh.h"
 #include "fem/solutions/check_pieces.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
@@ -17,6 +18,7 @@
 #include "studies/framework/results/method_files.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
+#include "studies/framework/run/constraints/periodic_nodes.h"
 #include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
 #include "studies/framework/run/solve_workers.h"
@@ -50,7 +52,10 @@ class StudyRun {
     times_.measure("meshes", [&] {
       prepare_meshes();
       check_settings_match(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
-      if (!study_.degrees.empty()) make_solutions();
+      if (!study_.degrees.empty()) {
+        require_support_of_ties();
+        make_solutions();
+      }
     });
     if (earlier_.status == "complete") {
       data_.checkpoint.remove();  // of a run that was killed at its very end
@@ -92,22 +97,63 @@ class StudyRun {
     progress_.end();
   }
 
+  /// Throws InputError if a mesh has constraints that the study's degrees or methods do not
+  /// support.
+  void require_support_of_ties() const {
+    for (const auto& mesh : data_.meshes) {
+      if (!mesh.ties) continue;
+      const std::string what =
+          "mesh " + mesh.description.name + " has constraints of " +
+          (study_.constrain_hanging_nodes ? "hanging nodes" : "periodic nodes");
+      if (study_.degrees != std::vector{1})
+        throw InputError(what +
+                         ", which finite elements of degree 2 do not support; write 'set "
+                         "degrees = 1'");
+      if (!study_.refined_degrees.empty())
+        throw InputError(what +
+                         ", which refined meshes do not support; leave 'refined degrees' out");
+      for (const auto& method : study_.methods)
+        if (method.needs_problem(study_.dimensions))
+          throw InputError(
+              what + ", which method " + method.name +
+              " does not support, because it moves nodes by the solution; leave it out");
+    }
+  }
+
   /// Makes the solutions. Expressions are checked at nodes of the first mesh.
   void make_solutions() {
     const auto& points = data_.meshes.front().mesh.coordinates();
     std::vector<Point<spacedim>> sample;
     for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
       sample.push_back(points[i]);
-    for (const StudySolution* solution : solutions_of(study_)) {
-      data_.solutions.push_back(study_solution<spacedim>(*solution, sample));
+    data_.solutions.resize(data_.meshes.size());
+    for (const StudySolution* given : solutions_of(study_)) {
+      const auto solution = study_solution<spacedim>(*given, sample);
       if constexpr (dim == spacedim)
-        for (const auto& prepared : data_.meshes)
-          check_pieces(data_.solutions.back(), prepared.mesh);
+        if (study_.constrain_periodic_nodes)
+          for (const auto& mesh : data_.meshes) require_periodic(solution, mesh.mesh);
+      for (std::size_t m = 0; m < data_.meshes.size(); ++m)
+        data_.solutions[m].push_back(solution_on(data_.meshes[m], *given, solution));
     }
   }
 
+  /// Returns the solution on one of the meshes.
+  static ManufacturedSolution<spacedim> solution_on(
+      const PreparedMesh<dim, spacedim>& prepared, const StudySolution& given,
+      const ManufacturedSolution<spacedim>& solution) {
+    if constexpr (dim == spacedim) {
+      if (given.has_materials()) try {
+          return with_materials_of(solution, prepared.mesh);
+        } catch (const InputError& error) {
+          throw InputError("mesh " + prepared.description.name + ": " + error.what());
+        }
+      check_pieces(solution, prepared.mesh);
+    }
+    return solution;
+  }
+
   /// Returns the problem that a method moves nodes by; null if the study solves nothing.
-  std::shared_ptr<const Problem<spacedim>> problem_of(const StudyMethod& method) {
+  std::shared_ptr<const Problem<spacedim>> problem_of(std::size_t m, const StudyMethod& method) {
     if constexpr (dim == spacedim) {
       if (data_.solutions.empty()) return nullptr;
       std::vector<std::size_t> chosen;  // indices of the study's solutions
@@ -117,16 +163,16 @@ class StudyRun {
           if (all[s]->label == label) chosen.push_back(s);
       if (chosen.empty()) chosen.push_back(0);
       std::vector<ManufacturedSolution<dim>> solutions;
-      for (const std::size_t s : chosen) solutions.push_back(data_.solutions[s]);
+      for (const std::size_t s : chosen) solutions.push_back(data_.solutions[m][s]);
       if constexpr (dim == 2)
         return make_poisson_problem(std::move(solutions), study_.finite_elements.natural_groups);
       else
         return make_poisson_problem<3>(
             std::move(solutions),
-            [this, chosen](const Mesh<3>& mesh, int degree, std::size_t number) {
+            [this, m, chosen](const Mesh<3>& mesh, int degree, std::size_t number) {
               PoissonOptions options = study_.finite_elements;
               options.degree = degree;
-              return team_.make_energy_solver(mesh, options, data_.solutions, chosen[number]);
+              return team_.make_energy_solver(mesh, options, data_.solutions[m], chosen[number]);
             });
     }
     return nullptr;
@@ -197,7 +243,8 @@ class StudyRun {
     set_n_threads(method.threads > 0 ? method.threads
                                      : static_cast<int>(options_.smoothing_threads));
     const Trajectory trajectory = record_trajectory(
-        prepared.mesh, method, study_, is_of_results_only(prepared), problem_of(method),
+        prepared.mesh, method, study_, is_of_results_only(prepared),
+        problem_of(static_cast<std::size_t>(&prepared - data_.meshes.data()), method),
         folders_of(name),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));

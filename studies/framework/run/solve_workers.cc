@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "fem/materials/cell_kinds.h"
 #include "meshes/refinement/split_cells.h"
 #include "smoothing/base/scoped_timer.h"
 #include "smoothing/quality/mesh_quality.h"
@@ -15,6 +16,7 @@ template <int dim>
 PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
   PoissonOptions options = data.study.finite_elements;
   options.degree = data.study.degrees[job.degree];
+  options.ties = data.meshes[job.mesh].ties;
   return options;
 }
 
@@ -23,13 +25,26 @@ bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
   return !task.job.is_refined && task.job.solution == 0 && (task.is_result || study.write_series);
 }
 
+/// Returns the topology with its kinds of cells as their only groups. Refined cells have tags only,
+/// but kinds may differ in further groups.
+std::shared_ptr<const Topology> with_kinds_as_tags(std::shared_ptr<const Topology> topology) {
+  const MeshLabels& given = topology->labels();
+  if (!given.content || given.content->cell_entities.empty()) return topology;
+  MeshLabels labels{.facets = given.facets, .facet_tags = given.facet_tags, .names = given.names};
+  for (const auto kind : cell_kinds(*topology)) labels.cell_tags.push_back(static_cast<int>(kind));
+  return std::make_shared<const Topology>(topology->dimension(), topology->n_nodes(),
+                                          topology->cells(), topology->fixed_reasons(),
+                                          std::move(labels));
+}
+
 /// Splits the cells of a task's mesh, and calls `solve` with the result. Splitting may make
 /// hexahedra invalid; then `solve` is not called.
 template <int dim, class Solve>
 SolutionRecord solve_refined(const StudyData<dim>& data, const SolveTask& task,
                              const Solve& solve) {
   const Mesh<dim> refined = with_split_cells(
-      Mesh<dim>(data.meshes[task.job.mesh].mesh.shared_topology(), data.coordinates_of(task)));
+      Mesh<dim>(with_kinds_as_tags(data.meshes[task.job.mesh].mesh.shared_topology()),
+                data.coordinates_of(task)));
   if (mesh_quality(refined).n_invalid == 0) return solve(refined);
   SolutionRecord record;
   record.status = invalid_mesh;
@@ -69,13 +84,14 @@ class PlanarWorker {
     SolutionRecord solution;
     {
       const ScopedTimer timer(seconds);
-      solution = job.is_refined
-                     ? solve_refined(data_, task,
-                                     [&](const Mesh<2>& mesh) {
-                                       return PoissonSolver<2>(&mesh, options_of(data_, job))
-                                           .solve(mesh.coordinates(), data_.solutions.front());
-                                     })
-                     : solve(task);
+      solution =
+          job.is_refined
+              ? solve_refined(data_, task,
+                              [&](const Mesh<2>& mesh) {
+                                return PoissonSolver<2>(&mesh, options_of(data_, job))
+                                    .solve(mesh.coordinates(), data_.solutions[job.mesh].front());
+                              })
+              : solve(task);
       if (keeps_nodal_errors(data_.study, task))
         data_.checkpoint.save_numbers(job.name, task.record, solver_->nodal_errors());
     }
@@ -90,7 +106,7 @@ class PlanarWorker {
       mesh_ = job.mesh;
       degree_ = job.degree;
     }
-    return solver_->solve(data_.coordinates_of(task), data_.solutions[job.solution],
+    return solver_->solve(data_.coordinates_of(task), data_.solutions[job.mesh][job.solution],
                           task.is_result);
   }
 
@@ -112,15 +128,15 @@ class TeamWorker {
     SolutionRecord solution;
     {
       const ScopedTimer timer(seconds);
-      solution =
-          job.is_refined
-              ? solve_refined(data_, task,
-                              [&](const Mesh<3>& mesh) {
-                                job_ = nullptr;  // the team has another solver now
-                                team_.make_solver(mesh, options_of(data_, job));
-                                return team_.solve(mesh.coordinates(), data_.solutions, 0, true);
-                              })
-              : solve(task);
+      solution = job.is_refined
+                     ? solve_refined(data_, task,
+                                     [&](const Mesh<3>& mesh) {
+                                       job_ = nullptr;  // the team has another solver now
+                                       team_.make_solver(mesh, options_of(data_, job));
+                                       return team_.solve(mesh.coordinates(),
+                                                          data_.solutions[job.mesh], 0, true);
+                                     })
+                     : solve(task);
       if (keeps_nodal_errors(data_.study, task))
         data_.checkpoint.save_numbers(job.name, task.record, team_.nodal_errors());
     }
@@ -136,7 +152,8 @@ class TeamWorker {
     if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
     if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
     job_ = &job;
-    return team_.solve(data_.coordinates_of(task), data_.solutions, job.solution, task.is_result);
+    return team_.solve(data_.coordinates_of(task), data_.solutions[job.mesh], job.solution,
+                       task.is_result);
   }
 
   StudyData<3>& data_;
@@ -150,7 +167,8 @@ template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
                                          std::span<const Point<dim>> sample) {
   if (solution.name != "expression") return manufactured_solution<dim>(solution.name);
-  if (!solution.u.empty()) return derived_solution<dim>(solution.u, solution.diffusivity, sample);
+  if (!solution.u.empty())
+    return derived_solution<dim>(solution.u, solution.diffusivity, sample, solution.of_groups);
   return parsed_solution<dim>(solution.value, solution.gradient, solution.load, sample,
                               solution.diffusivity);
 }

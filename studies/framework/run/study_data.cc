@@ -83,13 +83,13 @@ Mesh<dim, spacedim> mesh_of(const StudyData<dim, spacedim>& data, std::size_t m,
 }
 
 template <int dim, int spacedim>
-MeshFields fields_of(const StudyData<dim, spacedim>& data, const Mesh<dim, spacedim>& mesh,
-                     const Tasks& tasks) {
+MeshFields fields_of(const StudyData<dim, spacedim>& data, std::size_t m,
+                     const Mesh<dim, spacedim>& mesh, const Tasks& tasks) {
   MeshFields fields;
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   if (data.solutions.empty()) return fields;
   auto& exact = fields.point["exact_solution"];
-  for (const auto& p : mesh.coordinates()) exact.push_back(data.solutions.front().value(p));
+  for (const auto& p : mesh.coordinates()) exact.push_back(data.solutions[m].front().value(p));
   for (std::size_t d = 0; d < tasks.size(); ++d)
     fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
         data.checkpoint.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
@@ -101,12 +101,12 @@ void write_series(const StudyData<dim, spacedim>& data, std::size_t m, std::size
                   const std::filesystem::path& out) {
   const PreparedMesh<dim, spacedim>& prepared = data.meshes[m];
   VtuSeries series(mesh_path(out, prepared.description.name, data.study.methods[k].name, ".pvd"));
-  series.add(0.0, prepared.mesh, fields_of(data, prepared.mesh, data.mesh_tasks[m].initial));
+  series.add(0.0, prepared.mesh, fields_of(data, m, prepared.mesh, data.mesh_tasks[m].initial));
   const auto& snapshots = data.trajectories[m][k].snapshots;
   for (std::size_t s = 0; s < snapshots.size(); ++s) {
     const Mesh<dim, spacedim> mesh = mesh_of(data, m, k, snapshots[s]);
     series.add(static_cast<double>(snapshots[s]), mesh,
-               fields_of(data, mesh, data.mesh_tasks[m].methods[k][s]));
+               fields_of(data, m, mesh, data.mesh_tasks[m].methods[k][s]));
   }
 }
 
@@ -403,11 +403,11 @@ void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::p
     const PreparedMesh<dim, spacedim>& prepared = data.meshes[m];
     const std::string& name = prepared.description.name;
     write_mesh(mesh_path(out, name, "initial", ".vtu"), prepared.mesh,
-               fields_of(data, prepared.mesh, data.mesh_tasks[m].initial));
+               fields_of(data, m, prepared.mesh, data.mesh_tasks[m].initial));
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
       const Mesh<dim, spacedim> result = mesh_of(data, m, k, data.trajectories[m][k].result_record);
       write_mesh(mesh_path(out, name, data.study.methods[k].name, ".vtu"), result,
-                 fields_of(data, result, result_tasks(data, m, k)));
+                 fields_of(data, m, result, result_tasks(data, m, k)));
       if (data.study.write_series) write_series(data, m, k, out);
     }
   }

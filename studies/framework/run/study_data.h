@@ -78,10 +78,11 @@ struct StudyData {
   const Study& study;
   Checkpoint checkpoint;
   std::vector<PreparedMesh<dim, spacedim>> meshes{};
-  std::vector<ManufacturedSolution<spacedim>> solutions{};  ///< empty: the study solves none
-  std::vector<std::vector<Trajectory>> trajectories{};      ///< [mesh][method]
-  std::list<SolveJob> jobs{};    ///< addresses of jobs and tasks stay valid
-  std::list<SolveTask> tasks{};  ///< by mesh, degree, job, record
+  /// [mesh][solution]; empty: the study solves none.
+  std::vector<std::vector<ManufacturedSolution<spacedim>>> solutions{};
+  std::vector<std::vector<Trajectory>> trajectories{};  ///< [mesh][method]
+  std::list<SolveJob> jobs{};                           ///< addresses of jobs and tasks stay valid
+  std::list<SolveTask> tasks{};                         ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
 
   /// Returns the coordinates of a task's mesh, before its cells are split (if they are).

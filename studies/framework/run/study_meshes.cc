@@ -11,6 +11,8 @@
 #include "smoothing/geometry/extreme_size.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "studies/framework/results/sha256.h"
+#include "studies/framework/run/constraints/hanging_nodes.h"
+#include "studies/framework/run/constraints/periodic_nodes.h"
 
 namespace smoothfem {
 
@@ -84,8 +86,23 @@ Source source_of(const StudyMesh& description, const std::filesystem::path& mesh
           .distortion = distortion_text(description)};
 }
 
+/// Moves the nodes to where an earlier run has written them. Throws InputError if its file has
+/// other cells.
+template <int dim, int spacedim>
+void move_nodes_as_in(const std::filesystem::path& path, Mesh<dim, spacedim>& mesh) {
+  std::vector<std::string> ignored;
+  const auto moved = read_valid_mesh<dim, spacedim>(path, ignored);
+  if (moved.n_nodes() != mesh.n_nodes() || !(moved.topology().cells() == mesh.topology().cells()))
+    throw InputError(path.string() +
+                     " has other cells than the mesh that it was made of; start anew with --force, "
+                     "which keeps the folder under another name");
+  mesh.set_coordinates(moved.coordinates());
+}
+
+/// distorted: file of an earlier run that has the nodes after distortion, or empty.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale,
+                              const std::filesystem::path& distorted,
                               std::vector<std::string>& changes) {
   Mesh<dim, spacedim> mesh =
       source.file.empty() ? of_kind<dim, spacedim>(find_domain(description.domain)
@@ -95,6 +112,10 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
                                                    "the domain " + description.domain)
                           : read_valid_mesh<dim, spacedim>(source.file, changes);
   if (source.published || !is_distorted(description)) return mesh;
+  if (!distorted.empty()) {
+    move_nodes_as_in(distorted, mesh);
+    return mesh;
+  }
   DistortionParameters parameters;
   parameters.kind = description.distortion;
   parameters.n_candidates = description.distortion_candidates;
@@ -110,6 +131,47 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
   return mesh;
 }
 
+/// Throws InputError for hanging nodes, unless they are constrained, and for seams of coincident
+/// nodes: the solution on both sides would not fit together.
+template <int dim>
+void require_no_seams(const Mesh<dim>& mesh, const std::string& path, bool constrain) {
+  for (const Finding& finding : examine_boundary(mesh).findings) {
+    const bool hangs = finding.kind == FindingKind::hanging_nodes;
+    if ((hangs && !constrain) || finding.kind == FindingKind::coincident_nodes)
+      throw InputError(
+          path + ": " + finding.sentence + "; a study needs a mesh that conforms" +
+          (hangs ? ", or 'set hanging nodes = constrain' with elements of degree 1" : ""));
+  }
+}
+
+/// Returns the constraints that the study wants; null if the mesh has none. Nodes on seams stay.
+/// notes: gets a sentence about them, or about partners that are not constrained.
+template <int dim>
+std::shared_ptr<const NodeTies> ties_of(Mesh<dim>& mesh, const Study& study,
+                                        std::vector<std::string>& notes) {
+  NodeTies hanging, periodic;
+  if (study.constrain_hanging_nodes) hanging = hanging_ties(mesh);
+  if (!hanging.empty()) {
+    auto reasons = mesh.topology().fixed_reasons();
+    const auto seam = examine_boundary(mesh).seam_nodes;
+    for (std::size_t i = 0; i < seam.size(); ++i)
+      if (seam[i]) reasons[i] |= bit(FixedReason::hanging);
+    mesh = with_fixed_nodes(std::move(mesh), std::move(reasons));
+    notes.push_back("the values at " + count_of(hanging.nodes.size(), "hanging node") +
+                    " follow from those of the edge or face around");
+  }
+  if (const std::size_t n = n_periodic_nodes(mesh.topology()); n > 0) {
+    if (study.constrain_periodic_nodes) periodic = periodic_ties(mesh.topology());
+    notes.push_back(count_of(n, "node") +
+                    (study.constrain_periodic_nodes
+                         ? " with periodic partners: partners have the same unknown"
+                         : " with periodic partners: u is prescribed there as on the rest of the "
+                           "boundary; 'set periodic = constrain' gives partners the same unknown"));
+  }
+  if (hanging.empty() && periodic.empty()) return nullptr;
+  return std::make_shared<const NodeTies>(joined_ties(std::move(hanging), periodic));
+}
+
 }  // namespace
 
 template <int dim, int spacedim>
@@ -120,17 +182,24 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   // The text format of planar and volume meshes does not store surfaces.
   const std::string initial =
       "meshes/" + description.name + "_initial" + (dim == spacedim ? ".mesh" : ".vtk");
-  // The format does not store groups of the boundary either.
-  const bool again = (!source.file.empty() && (source.published || !is_distorted(description))) ||
-                     !study.finite_elements.natural_groups.empty();
+  // It does not store what a mesh says besides its cells either.
+  const bool has_more = !source.file.empty() ||
+                        (!description.domain.empty() && find_domain(description.domain).has_groups);
+  const bool is_there =
+      dim == spacedim && !earlier.empty() && std::filesystem::exists(earlier / initial);
   std::vector<std::string> changes;
   Mesh<dim, spacedim> mesh =
-      dim == spacedim && !again && !earlier.empty() && std::filesystem::exists(earlier / initial)
-          ? read_valid_mesh<dim, spacedim>(earlier / initial, changes)
-          : make_mesh<dim, spacedim>(description, source, study.edge_scale * description.edge_scale,
-                                     changes);
+      is_there && !has_more ? read_valid_mesh<dim, spacedim>(earlier / initial, changes)
+                            : make_mesh<dim, spacedim>(
+                                  description, source, study.edge_scale * description.edge_scale,
+                                  is_there ? earlier / initial : std::filesystem::path(), changes);
+  std::shared_ptr<const NodeTies> ties;
   if (!study.degrees.empty()) {
-    if (!source.file.empty()) require_conforming(mesh, source.file.string());
+    if constexpr (dim == spacedim)
+      if (!source.file.empty()) {
+        require_no_seams(mesh, source.file.string(), study.constrain_hanging_nodes);
+        ties = ties_of(mesh, study, changes);
+      }
     for (const int degree : study.degrees)
       require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
     if (const int exponent = extreme_exponent(std::as_const(mesh).coordinates()); exponent != 0)
@@ -157,7 +226,7 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                   .changes = std::move(changes),
                   .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file),
                   .sha256 = {}};
-  return {std::move(facts), std::move(mesh)};
+  return {std::move(facts), std::move(mesh), std::move(ties)};
 }
 
 template <int dim, int spacedim>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "fem/constraints/node_ties.h"
 #include "studies/framework/results/mesh_facts.h"
 #include "studies/framework/results/provenance.h"
 
@@ -13,6 +15,7 @@ namespace smoothfem {
 template <int dim, int spacedim = dim>
 struct PreparedMesh : MeshFacts {
   Mesh<dim, spacedim> mesh;
+  std::shared_ptr<const NodeTies> ties{};  ///< constraints of the finite elements; null: none
 };
 
 /// Reads or generates one mesh, and distorts it if the study says so. mesh_dir: folder of published
@@ -22,7 +25,6 @@ struct PreparedMesh : MeshFacts {
 /// the initial surface.
 /// Throws InputError for files and meshes that cannot be used. The returned mesh is valid. If
 /// finite elements are to be solved on it, they support its cells.
-/// can have.
 template <int dim, int spacedim = dim>
 PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Study& study,
                                          const std::filesystem::path& mesh_dir,

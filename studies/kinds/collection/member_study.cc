@@ -70,6 +70,8 @@ StudySolution solution_of(const Collection& collection, const Member& member, co
   StudySolution solution = collection.solutions.at(member.solution);
   solution.u = in_box(solution.u, outline.box);
   solution.diffusivity = in_box(solution.diffusivity, outline.box);
+  for (auto& of_group : solution.of_groups)
+    of_group.formula = in_box(of_group.formula, outline.box);
   return solution;
 }
 
@@ -79,14 +81,17 @@ StudyParameters own_parameters(const Study& study) {
   const std::string section = "mesh " + mesh.name + "/";
   char scale[32];
   std::snprintf(scale, sizeof(scale), "%.17g", mesh.edge_scale);
-  return {{"dimension", std::to_string(study.dimensions.cells)},
-          {"meshes", mesh.name},
-          {section + "domain", mesh.domain},
-          {section + "elements", mesh.elements},
-          {section + "edge scale", scale},
-          {"solution/name", study.solution.name},
-          {"solution/u", study.solution.u},
-          {"solution/diffusivity", study.solution.diffusivity}};
+  StudyParameters parameters{{"dimension", std::to_string(study.dimensions.cells)},
+                             {"meshes", mesh.name},
+                             {section + "domain", mesh.domain},
+                             {section + "elements", mesh.elements},
+                             {section + "edge scale", scale},
+                             {"solution/name", study.solution.name},
+                             {"solution/u", study.solution.u},
+                             {"solution/diffusivity", study.solution.diffusivity}};
+  for (const auto& [group, formula] : study.solution.of_groups)
+    parameters.emplace_back("solution/diffusivity group " + group, formula);
+  return parameters;
 }
 
 }  // namespace

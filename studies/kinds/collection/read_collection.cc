@@ -96,6 +96,7 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
     check_label(name, "solution", file.string());
     declare_collection_solution(p, name);
   }
+  declare_group_diffusivities(p, text);
   parse_study(p, text, true);
   const StudyParameters said = all_parameters(p);
   apply_scale(p, scale, file.string(), {}, collection_lists);
