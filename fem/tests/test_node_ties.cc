@@ -27,7 +27,8 @@ TEST(NodeTies, JoinedOnesHaveMastersThatAreNotTied) {
   EXPECT_EQ(both.nodes[1].node, 7U);
   EXPECT_THAT(both.nodes[1].masters, ElementsAre(Pair(2, 1.0)));
   EXPECT_EQ(both.inner_facets.size(), 2U);
-  const NodeTies circle{.nodes = {{4, {{5, 1.0}}}}};
+  NodeTies circle;
+  circle.nodes = {{4, {{5, 1.0}}}};
   EXPECT_THAT([&] { (void)joined_ties(hanging, circle); },
               ThrowsMessage<InputError>(HasSubstr("tied to itself")));
 }

@@ -16,7 +16,8 @@ namespace {
 class Losses {
  public:
   Losses(const MeshView& mesh, const MeshFormat& format)
-      : labels_(mesh.topology().labels()),
+      : topology_(mesh.topology()),
+        labels_(mesh.topology().labels()),
         content_(mesh.content()),
         elements_(mesh),
         format_(format) {}
@@ -27,6 +28,7 @@ class Losses {
     add(!format_.holds_physical_names && !labels_.names.empty(), "names of groups");
     add(!format_.holds_numbers && !(labels_.node_ids.empty() && labels_.cell_ids.empty()),
         "the numbers of nodes and cells");
+    add(!format_.holds_fixed_nodes && loses_fixed_nodes(), "which nodes are fixed");
     if (!content_) return std::move(found_);
     find_groups();
     find_elements();
@@ -41,6 +43,18 @@ class Losses {
  private:
   void add(bool is_lost, std::string what) {
     if (is_lost) found_.push_back(std::move(what));
+  }
+
+  /// True if the fixed nodes are not those of the boundary, which files without flags have, or more
+  /// than these where the format can add some.
+  bool loses_fixed_nodes() const {
+    for (NodeIndex i = 0; i < topology_.n_nodes(); ++i) {
+      const FixedReasons reasons = topology_.fixed_reasons(i);
+      const bool is_marked = has(reasons, FixedReason::marked);
+      if (topology_.on_boundary()[i] ? reasons == 0 : is_marked && !format_.adds_fixed_nodes)
+        return true;
+    }
+    return false;
   }
 
   /// Groups beyond the first one of an element.
@@ -77,6 +91,7 @@ class Losses {
     add(!names.empty(), (names.size() == 1 ? "the field " : "the fields ") + joined(names));
   }
 
+  const Topology& topology_;
   const MeshLabels& labels_;
   const FileContent* content_;
   AllElements elements_;

@@ -82,6 +82,7 @@ struct MeshFormat {
   bool holds_polygons = false;        ///< cells with five or more nodes
   bool holds_tags = true;             ///< tags of cells
   bool holds_fixed_nodes = false;     ///< otherwise boundary nodes are fixed after reading
+  bool adds_fixed_nodes = false;      ///< to those of the boundary
   bool holds_facets = false;          ///< labelled facets
   bool holds_physical_names = false;  ///< labelled facets, and names of tags
   bool holds_numbers = false;         ///< numbers of nodes and cells

@@ -10,6 +10,8 @@
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/python_methods.h"
 #include "smoothing/loop/smooth.h"
+#include "smoothing/periodic/mesh_rules.h"
+#include "smoothing/quality/cell_targets.h"
 
 namespace smoothfem {
 
@@ -58,10 +60,60 @@ class Threads {
   int before_;
 };
 
+/// What a user wants for the nodes that stay by default, and for the ideal cells.
+struct Rules {
+  MeshRules nodes;
+  std::optional<TargetKind> target;
+
+  template <int dim, int spacedim>
+  Mesh<dim, spacedim> apply(const Mesh<dim, spacedim>& mesh) const {
+    if constexpr (dim == spacedim) {
+      const auto ruled = with_rules(mesh, nodes);
+      return target ? with_targets(ruled, targets_of(mesh, *target, initial_size_bound)) : ruled;
+    } else {
+      if (target || nodes.boundary_slides || nodes.joins_periodic ||
+          nodes.interfaces != InterfaceRule::fixed)
+        throw InputError(
+            "interfaces, boundary, periodic and target are for planar and volume meshes; leave "
+            "them out");
+      return mesh;
+    }
+  }
+  template <int dim, int spacedim>
+  SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                         const Observer<dim, spacedim>& observer) const {
+    if constexpr (dim == spacedim)
+      return smooth_by_rules(mesh, method, nodes, observer);
+    else
+      return smoothfem::smooth(mesh, method, observer);
+  }
+};
+
+/// words: the arguments interfaces, boundary, periodic and target.
+Rules rules_of(const std::map<std::string, std::string>& words) {
+  const auto position = [&](const std::string& key, const std::vector<std::string>& known) {
+    const std::string& word = find_named(key, words.at(key), known);
+    return std::find(known.begin(), known.end(), word) - known.begin();
+  };
+  const auto texts = [](const auto& names) {
+    return std::vector<std::string>(names.begin(), names.end());
+  };
+  Rules rules;
+  rules.nodes.interfaces =
+      static_cast<InterfaceRule>(position("interfaces", texts(interface_rule_names)));
+  rules.nodes.boundary_slides = position("boundary", {"fixed", "slide"}) == 1;
+  rules.nodes.joins_periodic = position("periodic", {"fixed", "smooth"}) == 1;
+  auto targets = texts(initial_target_names);
+  targets.insert(targets.begin(), "regular");
+  if (const auto kind = position("target", targets); kind > 0)
+    rules.target = static_cast<TargetKind>(kind - 1);
+  return rules;
+}
+
 /// The GIL must be held; others may run meanwhile. Python's arrays look at the memory of `mesh`, so
 /// that another one is smoothed, whose points come back into it.
 template <int dim, int spacedim>
-Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method, const Rules& rules,
                        const std::function<void(const IterationRecord&)>& callback,
                        bool keep_history) {
   Result result;
@@ -78,10 +130,10 @@ Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
       callback(record);
     };
   const py::gil_scoped_release others_may_run;
-  Mesh<dim, spacedim> work(mesh.shared_topology(), mesh.copied_coordinates(),
-                           mesh.shared_constraints(), mesh.shared_targets());
+  auto work = rules.apply(Mesh<dim, spacedim>(mesh.shared_topology(), mesh.copied_coordinates(),
+                                              mesh.shared_constraints()));
   try {
-    static_cast<SmoothingResult&>(result) = smooth(work, method, observer);
+    static_cast<SmoothingResult&>(result) = rules.smooth(work, method, observer);
   } catch (...) {
     mesh.set_coordinates(work.coordinates());
     throw;
@@ -91,17 +143,19 @@ Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
 }
 
 Result smooth_mesh(const py::object& object, const py::object& method, const py::object& callback,
-                   const std::string& preset, const Settings& settings, bool history, int threads) {
+                   const std::string& preset, const Settings& settings, bool history, int threads,
+                   const std::map<std::string, std::string>& words) {
   if (threads < 0 || threads > 1024)
     throw InputError("threads is " + std::to_string(threads) +
                      ", but has to be from 1 to 1024, or 0 for all cores");
   const Threads of_this_call(threads);
+  const Rules rules = rules_of(words);
   std::function<void(const IterationRecord&)> call;
   if (!callback.is_none()) call = [&](const IterationRecord& record) { callback(record, object); };
   return object.cast<PythonMesh&>().visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& mesh) {
     auto configured = configured_method<dim, spacedim>(method, preset, settings);
     check_parameters(configured);
-    return smooth_in_place(mesh, configured, call, history);
+    return smooth_in_place(mesh, configured, rules, call, history);
   });
 }
 

@@ -108,7 +108,8 @@ def parameters(method, kind="planar"):
     return {name: dict(zip(keys, entry)) for name, entry in _core.parameters(_method(method), kind).items()}
 
 
-def smooth(mesh, method, callback=None, *, preset="", history=False, threads=0, **parameters):
+def smooth(mesh, method, callback=None, *, preset="", history=False, threads=0, interfaces="fixed", boundary="fixed", periodic="fixed",
+           target="regular", **parameters):
     """Smooths a mesh in place, and returns a Result: stages, iterations, times, quality, history.
 
     method: a name of methods(), "python:FILE:CLASS", or a class with step(self, mesh). callback(iteration,
@@ -119,6 +120,10 @@ def smooth(mesh, method, callback=None, *, preset="", history=False, threads=0, 
     cores); the result does not depend on it. parameters: parameters of the method, for example rho=0.5, with _
     for -. Parameters of a stage are a dict: sequential={"patience": 5}.
 
+    interfaces: "fixed", "slide" or "free": nodes between cells of different tags. boundary: "fixed" or "slide". periodic: "fixed", or
+    "smooth" as inner nodes. target: "regular" cells, or cells with the shape and size ("initial") or the size ("initial-size") that they
+    have now; Result.quality is then relative to the target.
+
     After an exception, and after Ctrl-C (between two iterations), the mesh is partially smoothed. Other threads
     of Python run during smoothing; they see new points after callbacks and at the end. Raises InputError for
     invalid cells if the method needs a valid mesh, for unknown parameters and invalid values, and for smoothers
@@ -126,7 +131,8 @@ def smooth(mesh, method, callback=None, *, preset="", history=False, threads=0, 
     """
     method = _method(method)
     settings = _settings(parameters, _core.parameters(method, mesh.kind)) if parameters else []
-    return _core.smooth(mesh, method, callback, preset, settings, history, threads)
+    words = {"interfaces": interfaces, "boundary": boundary, "periodic": periodic, "target": target}
+    return _core.smooth(mesh, method, callback, preset, settings, history, threads, words)
 
 
 def problems(dim=2):

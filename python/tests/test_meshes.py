@@ -215,6 +215,34 @@ class Bridges(unittest.TestCase):
         self.assertEqual((back.tags.tolist(), back.names), (mesh.tags.tolist(), mesh.names))
 
 
+class Rules(unittest.TestCase):
+    """Rules for nodes that by default stay, and ideal cells, in smooth()."""
+
+    def test_interfaces_boundaries_and_targets(self):
+        x, y = np.meshgrid(np.arange(5.), np.arange(5.))
+        points = np.c_[x.ravel(), y.ravel()]
+        corner = (np.arange(4)[:, None] * 5 + np.arange(4)).ravel()
+        cells = np.c_[corner, corner + 1, corner + 6, corner + 5]
+        points[12] += .3
+        points[2, 0] += .3
+        tags = np.where(points[cells].mean(axis=1)[:, 0] < 2, 1, 2)
+        mesh = smoothfem.from_meshio(Foreign(points=points, cells=[Block("quad", cells)], point_data={}, cell_data={"gmsh:physical": [tags]}))
+        moved = {}
+        for rules in ({}, {"interfaces": "free"}, {"boundary": "slide"}, {"target": "initial-size"}):
+            copy = mesh.copy()
+            smoothfem.smooth(copy, "getme", **rules)
+            moved[tuple(rules)] = np.flatnonzero((copy.points != mesh.points).any(axis=1)).tolist()
+        self.assertNotIn(12, moved[()])
+        self.assertIn(12, moved["interfaces",])
+        self.assertNotIn(2, moved["interfaces",])
+        self.assertIn(1, moved["boundary",])
+        self.assertTrue(moved["target",])
+        with self.assertRaisesRegex(smoothfem.InputError, "no periodic partners"):
+            smoothfem.smooth(mesh, "getme", periodic="smooth")
+        with self.assertRaisesRegex(smoothfem.InputError, "slide"):
+            smoothfem.smooth(mesh, "getme", boundary="sldie")
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

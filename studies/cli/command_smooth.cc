@@ -12,7 +12,7 @@
 #include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/mesh/fixed_nodes.h"
-#include "smoothing/periodic/smooth_periodic.h"
+#include "smoothing/periodic/mesh_rules.h"
 #include "smoothing/quality/bad_places.h"
 #include "smoothing/quality/cell_targets.h"
 #include "studies/cli/commands.h"
@@ -39,6 +39,16 @@ Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
   return method;
 }
 
+MeshRules rules_of(const SmoothArguments& arguments) {
+  const auto& names = interface_rule_names;
+  const auto rule = std::find(names.begin(), names.end(), arguments.interfaces) - names.begin();
+  return {.interfaces = static_cast<InterfaceRule>(rule),
+          .boundary_slides = arguments.boundary == "slide",
+          .joins_periodic = arguments.periodic == "smooth",
+          .features = features_of(arguments),
+          .slide_distance = slide_distance_of(arguments)};
+}
+
 /// The mesh with the constraints that --boundary, --interfaces, --slide-distance and
 /// --feature-angle ask for.
 template <int dim, int spacedim>
@@ -48,22 +58,19 @@ Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const SmoothArgum
   if (arguments.slide_distance && !slides)
     throw InputError(
         "--slide-distance is for '--boundary slide' and '--interfaces slide'; leave it out");
-  const FeatureParameters features = features_of(arguments);
   if constexpr (spacedim > dim) {
+    if (arguments.interfaces != "fixed")
+      throw InputError("--interfaces is for planar and volume meshes; leave it out");
     if (!arguments.boundary.empty())
       throw InputError(
           "--boundary is for planar and volume meshes, but this is a surface mesh; leave it out");
-    return arguments.feature_angle ? with_features(mesh, features) : mesh;
+    return arguments.feature_angle ? with_features(mesh, features_of(arguments)) : mesh;
   } else {
     if (arguments.feature_angle && !slides)
       throw InputError(
           "--feature-angle is for surface meshes, '--boundary slide' and '--interfaces slide'; "
           "leave it out");
-    const auto rule =
-        std::find(interface_rule_names.begin(), interface_rule_names.end(), arguments.interfaces) -
-        interface_rule_names.begin();
-    return with_interface_rule(mesh, static_cast<InterfaceRule>(rule), boundary_slides, features,
-                               slide_distance_of(arguments));
+    return with_rules(mesh, rules_of(arguments));
   }
 }
 
@@ -156,38 +163,18 @@ void require_different_files(const SmoothArguments& arguments) {
                      "; give two file names");
 }
 
-template <int dim, int spacedim>
-bool moves_partners(const Mesh<dim, spacedim>& mesh, const SmoothArguments& arguments) {
-  if (arguments.periodic == "smooth") return true;
-  const auto& reasons = mesh.topology().fixed_reasons();
-  return dim == spacedim && arguments.boundary == "slide" &&
-         std::any_of(reasons.begin(), reasons.end(),
-                     [](FixedReasons r) { return has(r, FixedReason::periodic); });
-}
-
 /// Runs the method. Periodic partners move together if the boundary slides, or as inner nodes with
 /// --periodic smooth.
 template <int dim, int spacedim>
 SmoothingResult run_method(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
                            const Observer<dim, spacedim>& observer,
                            const SmoothArguments& arguments) {
-  if (!moves_partners(mesh, arguments)) return smooth(mesh, method, observer);
-  if constexpr (spacedim > dim) {
-    throw InputError("--periodic is for planar and volume meshes; leave it out");
+  if constexpr (spacedim == dim) {
+    return smooth_by_rules(mesh, method, rules_of(arguments), observer);
   } else {
-    PeriodicParameters<dim> parameters;
-    if (mesh.constraints()) {
-      SurfaceFacets facets = sliding_facets(mesh, {.boundary = arguments.boundary == "slide",
-                                                   .interfaces = arguments.interfaces == "slide"})
-                                 .facets;
-      if (arguments.periodic == "smooth") facets = without_periodic_facets(mesh, facets);
-      if (!facets.nodes.empty())
-        parameters.make_constraints = [facets, &arguments](std::span<const Point<dim>> x) {
-          return sliding_constraints<dim>(facets, x, features_of(arguments),
-                                          slide_distance_of(arguments));
-        };
-    }
-    return smooth_periodic(mesh, method, observer, parameters);
+    if (arguments.periodic == "smooth")
+      throw InputError("--periodic is for planar and volume meshes; leave it out");
+    return smooth(mesh, method, observer);
   }
 }
 
@@ -275,7 +262,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
       outcome.smoothing.smoothing_seconds, outcome.smoothing.preparation_seconds, n_threads(),
       arguments.out.c_str());
   print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
-  if (moves_partners(mesh, arguments)) {
+  if (dim == spacedim && moves_partners(mesh.topology(), rules_of(arguments))) {
     mesh = with_fixed_nodes(std::move(mesh),
                             without(mesh.topology().fixed_reasons(), bit(FixedReason::periodic)));
     std::printf("periodic partners have moved together\n");

@@ -205,7 +205,8 @@ void write_periodic(const fs::path& path, bool everywhere) {
   const auto plain = unit_square(8, Cells::triangles, 0.15);
   auto content = std::make_shared<FileContent>();
   for (const int d : everywhere ? std::vector{0, 1} : std::vector{0}) {
-    PeriodicEntity entity{.dimension = 1, .entity = 2 + 10 * d, .partner = 1 + 10 * d};
+    PeriodicEntity entity{
+        .dimension = 1, .entity = 2 + 10 * d, .partner = 1 + 10 * d, .affine = {}, .nodes = {}};
     for (NodeIndex i = 0; i < plain.n_nodes(); ++i)
       for (NodeIndex j = 0; j < plain.n_nodes(); ++j)
         if ((plain.coordinates()[i] - plain.coordinates()[j] - Point<2>::Unit(d)).norm() < 1e-12)

@@ -391,9 +391,11 @@ class MeditWriter {
     const Topology& topology = mesh_.topology();
     std::vector<std::size_t> required, corners;
     const MeshField* is_corner = field(true, corner_field);
+    const MeshField* is_marked = field(true, required_field);
     for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
       const FixedReasons reasons = topology.fixed_reasons(i);
-      if (is_of_medit_ ? has(reasons, FixedReason::marked) : reasons != 0)
+      const bool is_required = is_marked && is_marked->number(i) != 0.0;
+      if (is_required || (is_of_medit_ ? has(reasons, FixedReason::marked) : reasons != 0))
         required.push_back(std::size_t{i} + 1);
       if (is_corner && is_corner->number(i) != 0.0) corners.push_back(std::size_t{i} + 1);
     }
@@ -457,6 +459,7 @@ const RegisteredFormat medit({.name = "medit",
                               .extension = ".mesh",
                               .description = "Medit, text; written for volume meshes",
                               .holds_volume_meshes = true,
+                              .adds_fixed_nodes = true,
                               .holds_facets = true,
                               .min_element_dimension = 1,
                               .holds_field = holds_field,

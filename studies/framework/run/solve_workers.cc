@@ -30,7 +30,10 @@ bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
 std::shared_ptr<const Topology> with_kinds_as_tags(std::shared_ptr<const Topology> topology) {
   const MeshLabels& given = topology->labels();
   if (!given.content || given.content->cell_entities.empty()) return topology;
-  MeshLabels labels{.facets = given.facets, .facet_tags = given.facet_tags, .names = given.names};
+  MeshLabels labels;
+  labels.facets = given.facets;
+  labels.facet_tags = given.facet_tags;
+  labels.names = given.names;
   for (const auto kind : cell_kinds(*topology)) labels.cell_tags.push_back(static_cast<int>(kind));
   return std::make_shared<const Topology>(topology->dimension(), topology->n_nodes(),
                                           topology->cells(), topology->fixed_reasons(),

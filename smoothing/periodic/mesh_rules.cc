@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "smoothing/periodic/mesh_rules.h"
+
+#include <algorithm>
+
+#include "smoothing/periodic/smooth_periodic.h"
+
+namespace smoothfem {
+
+bool moves_partners(const Topology& topology, const MeshRules& rules) {
+  const auto& reasons = topology.fixed_reasons();
+  return rules.joins_periodic ||
+         (rules.boundary_slides && std::any_of(reasons.begin(), reasons.end(), [](FixedReasons r) {
+            return has(r, FixedReason::periodic);
+          }));
+}
+
+template <int dim>
+SmoothingResult smooth_by_rules(Mesh<dim>& mesh, Method<dim>& method, const MeshRules& rules,
+                                const std::type_identity_t<Observer<dim>>& observer) {
+  if (!moves_partners(mesh.topology(), rules)) return smooth(mesh, method, observer);
+  PeriodicParameters<dim> parameters;
+  if (mesh.constraints()) {
+    const SlidingSurfaces sliding{.boundary = rules.boundary_slides,
+                                  .interfaces = rules.interfaces == InterfaceRule::slide};
+    SurfaceFacets facets = sliding_facets(mesh, sliding).facets;
+    if (rules.joins_periodic) facets = without_periodic_facets(mesh, facets);
+    if (!facets.nodes.empty())
+      parameters.make_constraints = [facets, rules](std::span<const Point<dim>> x) {
+        return sliding_constraints<dim>(facets, x, rules.features, rules.slide_distance);
+      };
+  }
+  return smooth_periodic(mesh, method, observer, parameters);
+}
+
+template SmoothingResult smooth_by_rules(Mesh<2>&, Method<2>&, const MeshRules&,
+                                         const Observer<2>&);
+template SmoothingResult smooth_by_rules(Mesh<3>&, Method<3>&, const MeshRules&,
+                                         const Observer<3>&);
+
+}  // namespace smoothfem
