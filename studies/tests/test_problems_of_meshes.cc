@@ -89,6 +89,23 @@ TEST_F(ProblemOfMesh, GroupsHaveTheirDiffusivity) {
             "");
 }
 
+/// A facet approximates the circle with an error of the order 2, like the elements.
+TEST_F(ProblemOfMesh, DiffusivityByTagConvergesAroundADisc) {
+  std::vector<double> l2;
+  for (const std::string scale : {"8", "4"}) {
+    const auto study = read_study(file_with(
+        "disc.prm",
+        "set meshes = disc\nset methods = laplace\nset timing runs = 1\nset degrees = 1\n"
+        "subsection mesh disc\n set domain = square-disc\n set edge scale = " +
+            scale +
+            "\n set distort within = 0.2\nend\nsubsection solution\n set name = interface-circle\n"
+            " set diffusivity = piecewise by tag\nend\n"));
+    run_study(study, {.out = file(scale), .mesh_dir = {}, .quiet = true, .n_threads = 2});
+    l2.push_back(largest(scale, "l2_error"));
+  }
+  EXPECT_NEAR(std::log2(l2[0] / l2[1]), 2.0, 0.4);
+}
+
 TEST_F(ProblemOfMesh, WrongGroupsAreRefused) {
   write_two_groups(file("mesh.msh"));
   const auto with = [&](const std::string& solution) {
