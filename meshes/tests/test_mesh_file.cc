@@ -18,8 +18,8 @@ TEST_F(MeshFiles, ReportsPathsThatCannotBeRead) {
   std::filesystem::create_symlink("/dev/zero", file("endless.vtk"));
   EXPECT_THAT(input_error_of([&] { read_planar(file("endless.vtk")); }), HasSubstr("is a device"));
   EXPECT_THAT(
-      input_error_of([&] { read_planar(file_with("a.stl", "solid")); }),
-      HasSubstr("the extension .stl is not known; choose one of .inp, .msh, .mesh, .vtk, .vtu"));
+      input_error_of([&] { read_planar(file_with("a.step", "solid")); }),
+      HasSubstr("the extension .step is not known; choose one of .inp, .msh, .mesh, .vtk, .vtu"));
   EXPECT_THAT(input_error_of([&] { read_planar(file("mesh")); }), HasSubstr("has no extension"));
 }
 

@@ -119,9 +119,9 @@ TEST_F(BadInput, MissingFile) {
 }
 
 TEST_F(BadInput, UnknownFormat) {
-  fs::copy_file(file("good.mesh"), file("good.stl"));
-  expect_mesh_refused("good.stl", {"good.stl"});
-  expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "out.stl"}, {"out.stl"});
+  fs::copy_file(file("good.mesh"), file("good.step"));
+  expect_mesh_refused("good.step", {"good.step"});
+  expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "out.step"}, {"out.step"});
   expect_refused({"smooth", "good.mesh", "-m", "laplace", "-o", "out.mesh", "--series", "a.vtu"},
                  {"a.vtu"});
 }
