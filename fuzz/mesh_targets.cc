@@ -50,13 +50,14 @@ bool run(Bytes bytes) {
 }
 
 constexpr char abaqus[] = "abaqus", gmsh[] = "gmsh", medit[] = "medit", polygonal[] = "polygonal",
-               vtk[] = "vtk", vtu[] = "vtu";
+               ucd[] = "ucd", vtk[] = "vtk", vtu[] = "vtu";
 
 }  // namespace
 
 std::vector<Target> mesh_targets() {
-  return {{abaqus, run<abaqus>},       {gmsh, run<gmsh>}, {medit, run<medit>},
-          {polygonal, run<polygonal>}, {vtk, run<vtk>},   {vtu, run<vtu>}};
+  return {
+      {abaqus, run<abaqus>}, {gmsh, run<gmsh>}, {medit, run<medit>}, {polygonal, run<polygonal>},
+      {ucd, run<ucd>},       {vtk, run<vtk>},   {vtu, run<vtu>}};
 }
 
 }  // namespace smoothfem::fuzz

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <fstream>
 #include <new>
 
 #include "meshes/io/atomic_file.h"
@@ -32,24 +33,47 @@ const std::vector<MeshFormat>& mesh_formats() {
 
 namespace {
 
-/// Returns the formats of the path's extension: one or more.
-std::vector<const MeshFormat*> formats_of(const std::filesystem::path& path,
-                                          const std::string& prefix) {
-  const std::string extension = lower_case(path.extension().string());
-  std::vector<std::string> known;
+bool has_extension(const MeshFormat& format, const std::string& extension) {
+  const auto& others = format.other_extensions;
+  return format.extension == extension ||
+         std::find(others.begin(), others.end(), extension) != others.end();
+}
+
+std::vector<const MeshFormat*> formats_of(const std::string& extension) {
   std::vector<const MeshFormat*> found;
   for (const auto* formats : {&mesh_formats(), &foreign_formats()})
-    for (const auto& format : *formats) {
-      if (format.extension == extension) found.push_back(&format);
-      if (std::find(known.begin(), known.end(), format.extension) == known.end())
-        known.push_back(format.extension);
-    }
-  if (found.empty())
-    throw InputError(prefix + ": " +
-                     (extension.empty() ? "the file name has no extension"
-                                        : "the extension " + extension + " is not known") +
-                     "; " + choose_one_of(known, extension));
+    for (const auto& format : *formats)
+      if (has_extension(format, extension)) found.push_back(&format);
   return found;
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
+
+[[noreturn]] void refuse_extension(const std::string& prefix, const std::string& extension,
+                                   bool is_to_write) {
+  std::vector<std::string> known;
+  for (const auto* formats : {&mesh_formats(), &foreign_formats()})
+    for (const auto& format : *formats)
+      if ((format.write || !is_to_write) &&
+          std::find(known.begin(), known.end(), format.extension) == known.end())
+        known.push_back(format.extension);
+  throw InputError(prefix + ": " +
+                   (extension.empty() ? "the file name has no extension"
+                                      : "the extension " + extension + " is not known") +
+                   "; " + choose_one_of(known, extension));
+}
+
+/// Returns the formats in which a file of this extension can be written: one or more.
+std::vector<const MeshFormat*> formats_to_write(const std::string& extension,
+                                                const std::string& prefix) {
+  auto formats = formats_of(extension);
+  if (formats.empty()) refuse_extension(prefix, extension, true);
+  std::erase_if(formats, [](const MeshFormat* format) { return !format->write; });
+  if (formats.empty())
+    throw InputError(prefix + ": files " + extension + " are only read; use .vtu or another one");
+  return formats;
 }
 
 void require_sizes(const std::string& path, const std::string& kind,
@@ -61,20 +85,47 @@ void require_sizes(const std::string& path, const std::string& kind,
                        std::to_string(n));
 }
 
-/// Returns the format that recognizes the content, if several share an extension; otherwise the
+/// Returns the first bytes of a file. Pipes give none: they can be read only once.
+std::string beginning_of(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::string text(n_recognized, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+struct FoundFormat {
+  const MeshFormat* format;
+  std::string note;  ///< empty if the extension is one of the format
+};
+
+/// Returns the format that recognizes the content; one of the extension comes first, and is the
 /// fallback.
-const MeshFormat& format_of_content(const std::filesystem::path& path) {
-  const auto formats = formats_of(path, path.string());
-  if (formats.size() == 1) return *formats.front();
-  const std::string content = read_whole_file(path);
-  const MeshFormat* other = formats.front();
-  for (const MeshFormat* format : formats) {
-    if (!format->recognizes)
-      other = format;
-    else if (format->recognizes(content))
-      return *format;
-  }
-  return *other;
+FoundFormat format_to_read(const std::filesystem::path& path) {
+  const std::string beginning = beginning_of(path), extension = extension_of(path);
+  const auto formats = formats_of(extension);
+  const auto recognizes = [&](const MeshFormat& format) {
+    return format.recognizes && format.recognizes(beginning);
+  };
+  for (const MeshFormat* format : formats)
+    if (recognizes(*format)) return {format, {}};
+  for (const MeshFormat& format : mesh_formats())
+    if (recognizes(format))
+      return {&format, "the file does not have the format that its name says; it is read as " +
+                           format.name + " (" + format.description + ")"};
+  if (formats.empty()) refuse_extension(path.string(), extension, false);
+  for (const MeshFormat* format : formats)
+    if (!format->recognizes) return {format, {}};
+  return {formats.front(), {}};
+}
+
+MeshParts read_parts(const std::filesystem::path& path, const MeshReadOptions& options) {
+  const FoundFormat found = format_to_read(path);
+  MeshParts parts = found.format->read(path, options);
+  if (!found.note.empty()) parts.notes.insert(parts.notes.begin(), found.note);
+  return parts;
 }
 
 /// Returns the result of work(), whose foreign exceptions become InputErrors about the file.
@@ -94,13 +145,11 @@ auto read_safely(const std::filesystem::path& path, const Work& work) {
 }  // namespace
 
 MeshParts read_mesh_parts(const std::filesystem::path& path) {
-  return read_safely(path, [&] { return format_of_content(path).read(path, {}); });
+  return read_safely(path, [&] { return read_parts(path, {}); });
 }
 
 MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& options) {
-  return read_safely(path, [&] {
-    return assemble_mesh(path, format_of_content(path).read(path, options), options);
-  });
+  return read_safely(path, [&] { return assemble_mesh(path, read_parts(path, options), options); });
 }
 
 const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path& path) {
@@ -114,7 +163,7 @@ const MeshFormat& format_for(const std::filesystem::path& path, const MeshView& 
   const auto holds = mesh.planar()       ? &MeshFormat::holds_planar_meshes
                      : mesh.is_surface() ? &MeshFormat::holds_surface_meshes
                                          : &MeshFormat::holds_volume_meshes;
-  const auto formats = formats_of(path, prefix);
+  const auto formats = formats_to_write(extension_of(path), prefix);
   for (const MeshFormat* format : formats)
     if (mesh.content() && mesh.content()->format == format->name) return *format;
   for (const MeshFormat* format : formats)
@@ -146,16 +195,23 @@ WriteTarget parse_write_target(const std::string& text) {
     name = "msh";
   }
   target.extension = "." + name;
-  (void)formats_of("mesh" + target.extension, "--to " + text);
-  if (target.options.binary && name != "msh")
-    throw InputError("--to " + text + ": only .msh files are written as text or binary; use --to " +
+  const auto formats = formats_to_write(target.extension, "--to " + text);
+  if (target.options.binary && !formats.front()->has_two_encodings)
+    throw InputError("--to " + text + ": files ." + name + " have one encoding only; use --to " +
                      name);
   return target;
 }
 
 void require_mesh_path(const std::filesystem::path& path) {
-  (void)formats_of(path, "cannot write " + path.string());
+  (void)formats_to_write(extension_of(path), "cannot write " + path.string());
   require_writable_file(path);
+}
+
+std::string extension_to_write(const std::filesystem::path& path) {
+  const auto formats = formats_of(extension_of(path));
+  const bool is_written = std::any_of(formats.begin(), formats.end(),
+                                      [](const MeshFormat* format) { return format->write; });
+  return is_written || formats.empty() ? path.extension().string() : ".vtu";
 }
 
 }  // namespace smoothfem

@@ -28,9 +28,10 @@ struct MeshReadOptions {
   std::string tag_field{};  ///< name of the cell array with tags, in VTK files; empty: a known one
 };
 
-/// Reads a mesh. The format follows from the extension (mesh_formats()); if two formats share one,
-/// from the content. Surface cells of volume meshes become labelled facets if they have a tag.
-/// Throws InputError "path:line: message"; the line may be missing.
+/// Reads a mesh. The format follows from the extension and from how the file begins: a file under
+/// the name of another format is read as what it is, with a note. Surface cells of volume meshes
+/// become labelled facets if they have a tag. Throws InputError "path:line: message"; the line may
+/// be missing.
 MeshFile read_mesh(const std::filesystem::path& path, const MeshReadOptions& options = {});
 
 /// Returns the planar mesh of a file. Throws InputError that names `path` for any other mesh.
@@ -43,8 +44,8 @@ struct MeshFields {
 
 enum class MshVersion { v2_2, v4_1 };
 
-/// Version and encoding of a file. Default: those of the file that the mesh comes from, if it has
-/// the same format; otherwise binary .msh files of version 4.1.
+/// Version and encoding of .msh, .vtk and .vtu files. Default: those of the file that the mesh
+/// comes from, if it has the same format; otherwise binary files, .msh of version 4.1.
 struct MeshWriteOptions {
   std::optional<MshVersion> msh_version{};
   /// Both keep every bit of the coordinates; text is three times as large.
@@ -56,8 +57,9 @@ struct WriteTarget {
   std::string extension;  ///< with the dot; empty: as the file's name says
   MeshWriteOptions options;
 };
-/// Parses a user's wish: an extension with or without the dot, or msh22 or msh41, both also with
-/// "-text" or "-binary"; for example "msh22-text". Empty text: no wish. Throws InputError.
+/// Parses a user's wish: an extension with or without the dot, or msh22 or msh41. Formats with two
+/// encodings may end with "-text" or "-binary"; for example "msh22-text". Empty text: no wish.
+/// Throws InputError.
 WriteTarget parse_write_target(const std::string& text);
 
 /// Writes a mesh in the format of the extension. If two formats share it, the first one that holds
@@ -71,6 +73,10 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
 /// Checks a name before long work: throws InputError if write_mesh could not write this file.
 void require_mesh_path(const std::filesystem::path& path);
 
+/// Returns the extension for a changed mesh of a file, with the dot: its own one if such files are
+/// written, otherwise ".vtu".
+std::string extension_to_write(const std::filesystem::path& path);
+
 struct MeshParts;  // mesh_assembly.h
 
 /// A format: its description for `smoothfem list`, its reader and its writer.
@@ -78,6 +84,7 @@ struct MeshFormat {
   std::string name;
   std::string extension;  ///< with the dot
   std::string description;
+  std::vector<std::string> other_extensions{};
   bool holds_planar_meshes = false, holds_volume_meshes = false, holds_surface_meshes = false;
   bool holds_polygons = false;        ///< cells with five or more nodes
   bool holds_tags = true;             ///< tags of cells
@@ -89,16 +96,21 @@ struct MeshFormat {
   bool holds_several_groups = false;  ///< elements in more than one group
   bool holds_periodic = false;        ///< periodic partners
   bool holds_points_in_space = true;  ///< planar meshes in any plane
+  bool has_two_encodings = false;     ///< text and binary
   int min_element_dimension = 2;      ///< of elements without a label
   /// True if the format can hold a field, at nodes or elements or of the whole file; null: none.
   bool (*holds_field)(const MeshField&, bool is_of_file) = nullptr;
-  /// True if content has this format; needed if formats share an extension. At most one may be
-  /// null: the fallback.
-  bool (*recognizes)(std::string_view content) = nullptr;
+  /// True if a file of this format begins so (n_recognized bytes, or the whole file). If several
+  /// formats share an extension, it may be null for one of them: the fallback.
+  bool (*recognizes)(std::string_view beginning) = nullptr;
   MeshParts (*read)(const std::filesystem::path&, const MeshReadOptions&);
+  /// Null for formats that are only read.
   void (*write)(const std::filesystem::path&, const MeshView&, const MeshFields&,
-                const MeshWriteOptions&);
+                const MeshWriteOptions&) = nullptr;
 };
+
+/// Number of bytes by which a format is recognized.
+constexpr std::size_t n_recognized = 4096;
 
 /// Returns the format in which write_mesh writes a mesh to a file of this name: the one that the
 /// mesh was read from if it has the same extension, otherwise the first one that can hold it.

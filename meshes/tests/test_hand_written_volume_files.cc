@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(
                   abaqus_head + "*INSTANCE, NAME=a, PART=b\n0,0\n*END INSTANCE\n",
                   ":8: the place of the instance has 2 numbers"},
         BadVolume{"abaqus_include", ".inp", "*INCLUDE, INPUT=mesh.inp\n",
-                  ":1: *INCLUDE is not supported"},
+                  ":1: the included file 'mesh.inp' does not exist"},
         BadVolume{"abaqus_range", ".inp", abaqus_head + "*ELSET, ELSET=a, GENERATE\n5,1\n",
                   ":7: the labels from 5 to 1 in steps of 1 are not a range"}),
     [](const auto& info) { return info.param.name; });

@@ -19,7 +19,8 @@ TEST_F(MeshFiles, ReportsPathsThatCannotBeRead) {
   EXPECT_THAT(input_error_of([&] { read_planar(file("endless.vtk")); }), HasSubstr("is a device"));
   EXPECT_THAT(
       input_error_of([&] { read_planar(file_with("a.step", "solid")); }),
-      HasSubstr("the extension .step is not known; choose one of .inp, .msh, .mesh, .vtk, .vtu"));
+      HasSubstr("the extension .step is not known; choose one of .inp, .msh, .mesh, .pvtu, .vtk, "
+                ".vtu"));
   EXPECT_THAT(input_error_of([&] { read_planar(file("mesh")); }), HasSubstr("has no extension"));
 }
 

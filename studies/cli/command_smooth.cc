@@ -282,7 +282,7 @@ std::string default_output(const std::string& in, const std::string& extension) 
   if (in == "-") return in;
   std::filesystem::path path = in;
   const std::string name = path.stem().string() + "_smoothed" +
-                           (extension.empty() ? path.extension().string() : extension);
+                           (extension.empty() ? extension_to_write(path) : extension);
   return path.replace_filename(name);
 }
 

@@ -15,17 +15,21 @@ namespace smoothfem {
 ///
 /// C3D4, C3D5, C3D6, C3D8 and their variants (C3D8R, DC3D8, ...) make a volume mesh. Without them
 /// CPS3, CPS4, S3, S4 and similar types make a planar mesh. Elements of one dimension less in a set
-/// are labelled facets. An element belongs to the set that *ELEMENT names, otherwise to the first
-/// *ELSET with it. Sets become physical names with tags 1, 2, ... in the order of appearance. A
-/// comment "** physical_name dimension tag name" sets the tag; a set PHYSICAL_n means tag n without
-/// a name. Nodes of the set SMOOTHFEM_FIXED are fixed; without it the boundary is fixed.
+/// are labelled facets. The tag of an element is that of the set that *ELEMENT names, otherwise of
+/// the first *ELSET with it; it belongs to the groups of all its sets. Sets become physical names
+/// with tags 1, 2, ... in the order of appearance. A comment "** physical_name dimension tag name"
+/// sets the tag; a set PHYSICAL_n means tag n without a name. Nodes of the set SMOOTHFEM_FIXED are
+/// fixed; without it the boundary is fixed. Included files (*INCLUDE, INPUT=) are read if they are
+/// in the folder of the file or below.
 ///
-/// Throws InputError for several parts, instances that are moved, nodes and elements that Abaqus
-/// would generate or include, and elements with mid-nodes.
+/// Throws InputError for nodes and elements that Abaqus would generate, and elements with
+/// mid-nodes.
 MeshParts read_abaqus(const std::filesystem::path& path, const MeshReadOptions& = {});
 
-/// Writes an Abaqus input file. Throws InputError for polygons with five or more nodes. Facets are
-/// written as S3, S4 or T2D2 elements with labels after those of the cells.
+/// Writes an Abaqus input file. A mesh that was read from one gets its text, with that of included
+/// files in place, so that the file is complete in whatever folder. Throws InputError for polygons
+/// with five or more nodes. Facets of other meshes are written as S3, S4 or T2D2 elements with
+/// labels after those of the cells.
 void write_abaqus(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
                   const MeshWriteOptions& options);
 

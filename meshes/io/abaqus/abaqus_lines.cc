@@ -2,8 +2,9 @@
 #include "meshes/io/abaqus/abaqus_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <charconv>
+#include <utility>
 
 #include "meshes/io/abaqus/abaqus_file.h"
 
@@ -48,14 +49,29 @@ std::string capitals(std::string_view text) {
   return result;
 }
 
-bool AbaqusLines::next_line() {
-  while (reader_.next_line()) {
-    const std::string_view text = reader_.text();
+bool AbaqusLines::next_line_of_files() {
+  while (sources_.next_line()) {
+    const std::string_view text = sources_.reader().text();
     if (text.starts_with(abaqus_name_comment))
       name_comments_.emplace_back(trimmed(text.substr(abaqus_name_comment.size())));
     if (!text.starts_with("**")) return true;
     if (trimmed(text) == abaqus_first_comment) is_open_ = true;
     if (trimmed(text) == abaqus_last_comment) is_open_ = false;
+  }
+  return false;
+}
+
+/// Follows *INCLUDE wherever it stands, also between the data lines of a keyword.
+bool AbaqusLines::next_line() {
+  while (next_line_of_files()) {
+    const std::string_view text = trimmed(sources_.reader().text());
+    if (capitals(trimmed(text.substr(0, text.find(',')))) != "*INCLUDE") return true;
+    const auto keyword = std::exchange(keyword_, {});
+    const auto parameters = std::exchange(parameters_, {});
+    read_keyword_line();
+    sources_.include(parameter("INPUT"), "");
+    keyword_ = keyword;
+    parameters_ = parameters;
   }
   return false;
 }
@@ -66,16 +82,36 @@ bool AbaqusLines::next_keyword() {
       if (is_open_) fail("the last line that smoothfem writes is missing; the file is truncated");
       return false;
     }
-    at_keyword_ = trimmed(reader_.text()).starts_with('*');
+    at_keyword_ = trimmed(sources_.reader().text()).starts_with('*');
   }
   at_keyword_ = false;
-  std::string text(trimmed(reader_.text()));
+  read_keyword_line();
+  constexpr std::array of_mesh{"NODE", "ELEMENT", "NSET", "ELSET"};
+  if (has_parameter("INPUT") &&
+      std::find(of_mesh.begin(), of_mesh.end(), keyword_) != of_mesh.end())
+    sources_.include(parameter("INPUT"), keyword_line_without_input());
+  return true;
+}
+
+void AbaqusLines::read_keyword_line() {
+  sources_.mark_keyword();
+  std::string text(trimmed(sources_.reader().text()));
   while (text.ends_with(',')) {
-    if (!next_line()) fail("the keyword line ends with a comma, but nothing follows");
-    text += trimmed(reader_.text());
+    if (!next_line_of_files()) fail("the keyword line ends with a comma, but nothing follows");
+    text += trimmed(sources_.reader().text());
   }
   split_keyword_line(std::move(text));
-  return true;
+}
+
+std::string AbaqusLines::keyword_line_without_input() const {
+  std::string text = "*" + keyword_;
+  for (const auto& [name, value] : parameters_) {
+    if (name == "INPUT") continue;
+    text += ", " + name;
+    if (!value.empty())
+      text += "=" + (value.find_first_of(", ") == value.npos ? value : '"' + value + '"');
+  }
+  return text + "\n";
 }
 
 void AbaqusLines::split_keyword_line(std::string text) {
@@ -103,20 +139,12 @@ std::string AbaqusLines::parameter(std::string_view key, const std::string& fall
 
 bool AbaqusLines::next_data() {
   if (at_keyword_ || !next_line()) return false;
-  at_keyword_ = trimmed(reader_.text()).starts_with('*');
+  at_keyword_ = trimmed(sources_.reader().text()).starts_with('*');
   return !at_keyword_;
 }
 
-std::optional<std::size_t> AbaqusLines::label_if_number() {
-  const std::string_view field = reader_.word();
-  std::size_t label = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), label);
-  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
-  return label;
-}
-
 void AbaqusLines::require_no_empty_field() const {
-  const auto fields = split_at_commas(reader_.text());
+  const auto fields = split_at_commas(sources_.reader().text());
   for (std::size_t i = 0; i + 1 < fields.size(); ++i)
     if (fields[i].empty()) fail("field " + std::to_string(i + 1) + " of the line is empty");
 }

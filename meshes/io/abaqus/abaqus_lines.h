@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "meshes/io/abaqus/abaqus_sources.h"
 #include "meshes/io/line_reader.h"
 
 namespace smoothfem {
@@ -15,11 +15,12 @@ namespace smoothfem {
 std::string capitals(std::string_view text);
 
 /// The lines of an Abaqus input file: keyword lines "*NAME, KEY=VALUE, KEY" that may continue after
-/// a comma, data lines of fields between commas, comments "**".
+/// a comma, data lines of fields between commas, comments "**". The lines of included files
+/// (*INCLUDE, and INPUT= of nodes, elements and sets) are in place.
 class AbaqusLines {
  public:
   AbaqusLines(const std::filesystem::path& path, std::string_view content)
-      : reader_(path, content, ", \t\r\v\f") {}
+      : sources_(path, content) {}
 
   /// Goes to the next keyword line, past unread data lines; false at the end of the file.
   bool next_keyword();
@@ -32,28 +33,40 @@ class AbaqusLines {
 
   /// Goes to the next data line of the keyword; false if there is no further one.
   bool next_data();
-  bool has_field() const { return reader_.has_word(); }
-  std::size_t label(std::string_view what) { return reader_.integer(what); }
-  double number(std::string_view what) { return reader_.number(what); }
-  /// Returns the next field, or nothing if it is not a number.
-  std::optional<std::size_t> label_if_number();
+  bool has_field() const { return sources_.reader().has_word(); }
+  std::size_t label(std::string_view what) { return sources_.reader().integer(what); }
+  double number(std::string_view what) { return sources_.reader().number(what); }
+  /// Returns the next field, a label or a name.
+  std::string_view entry() { return sources_.reader().word(); }
   /// Throws InputError if the data line has an empty field, which would shift the later ones.
   void require_no_empty_field() const;
 
   /// Returns the contents of all comments so far that begin with abaqus_name_comment.
   const std::vector<std::string>& name_comments() const { return name_comments_; }
 
-  std::size_t line() const { return reader_.line(); }
-  [[noreturn]] void fail(const std::string& message) const { reader_.fail(message); }
+  /// Returns the number of the line in the main file; for lines of an included file, of that which
+  /// includes it.
+  std::size_t line() const { return sources_.line(); }
+  [[noreturn]] void fail(const std::string& message) const { sources_.reader().fail(message); }
+  /// line: of the main file.
   [[noreturn]] void fail_at(std::size_t line, const std::string& message) const {
-    reader_.fail_at(line, message);
+    sources_.main_reader().fail_at(line, message);
+  }
+
+  std::size_t n_included() const { return sources_.n_included(); }
+  /// Returns the text of all files as one, after the last line; empty if no file is included.
+  std::string whole_text() && {
+    return sources_.n_included() == 0 ? std::string() : std::move(sources_).whole_text();
   }
 
  private:
   bool next_line();
+  bool next_line_of_files();
+  void read_keyword_line();
   void split_keyword_line(std::string text);
+  std::string keyword_line_without_input() const;
 
-  LineReader reader_;
+  AbaqusSources sources_;
   bool at_keyword_ = false;  ///< the current line is an unread keyword line
   bool is_open_ = false;     ///< the first comment of a file was found, but not yet the last one
   std::string keyword_;

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <limits>
 #include <map>
@@ -9,10 +10,10 @@
 #include <numeric>
 #include <set>
 #include <string>
-#include <unordered_map>
 
 #include "meshes/io/abaqus/abaqus_file.h"
 #include "meshes/io/abaqus/abaqus_lines.h"
+#include "meshes/io/abaqus/abaqus_sets.h"
 #include "meshes/io/label_range.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
@@ -34,8 +35,8 @@ struct LabelledMesh {
   std::vector<Point<3>> coordinates;
   std::array<LabelledElements, 4> elements;
   std::vector<LabelRange> fixed;
-  std::unordered_map<std::size_t, std::size_t> set_of;
   std::vector<std::pair<LabelRange, std::size_t>> set_ranges;
+  std::vector<std::pair<std::size_t, std::size_t>> nested_sets{};  ///< a set, and one in it
 };
 
 /// A part of the file at its place in the assembly.
@@ -71,6 +72,8 @@ class AbaqusReader {
   MeshParts parts() {
     while (lines_.next_keyword()) read_block();
     for (const std::string& comment : lines_.name_comments()) add_physical_name(comment, parts_);
+    for (auto& [name, part] : parts_of_file_) open_nested_sets(part);
+    open_nested_sets(whole_);
     place_instances();
     sort_nodes();
     for (int dimension = 1; dimension <= 3; ++dimension) add_elements(dimension);
@@ -95,9 +98,10 @@ class AbaqusReader {
     else if (keyword == "ELSET")
       read_element_set();
     else if (keyword == "NSET" && capitals(lines_.parameter("NSET")) == abaqus_fixed_set)
-      for_each_range([&](const LabelRange& range) { mesh_->fixed.push_back(range); });
-    else if (keyword == "INCLUDE" || keyword == "SYSTEM" || keyword == "NGEN" ||
-             keyword == "NFILL" || keyword == "NCOPY" || keyword == "ELGEN" || keyword == "ELCOPY")
+      for_each_range([&](const LabelRange& range) { mesh_->fixed.push_back(range); },
+                     [](const std::string&) {});
+    else if (keyword == "SYSTEM" || keyword == "NGEN" || keyword == "NFILL" || keyword == "NCOPY" ||
+             keyword == "ELGEN" || keyword == "ELCOPY")
       lines_.fail("*" + keyword +
                   " is not supported; save the mesh with all nodes and elements listed in global "
                   "coordinates");
@@ -106,8 +110,6 @@ class AbaqusReader {
   void read_mesh_block(const std::string& keyword) {
     // Reference points of an assembly have separate labels and are not part of the mesh.
     if (in_assembly_ && mesh_ == &whole_) return;
-    if (lines_.has_parameter("INPUT"))
-      lines_.fail("*" + keyword + " with INPUT is not supported; put the lines of that file here");
     keyword == "NODE" ? read_nodes() : read_elements();
   }
 
@@ -193,8 +195,6 @@ class AbaqusReader {
           last_element = std::max(last_element, to.list.ids.back());
         }
       }
-      for (const auto& [label, set] : part.set_of)
-        whole_.set_of.try_emplace(label + element_base, set_of(set));
       for (const auto& [range, set] : part.set_ranges)
         whole_.set_ranges.emplace_back(shifted(range, element_base), set_of(set));
       for (const auto& [range, name] : instance.sets)
@@ -217,12 +217,19 @@ class AbaqusReader {
       parts_.notes.push_back(std::to_string(n_left_out_) + " elements of types " +
                              joined({types_left_out_.begin(), types_left_out_.end()}) +
                              " are left out, as they are no cells");
-    if (are_in_several_sets_)
-      parts_.notes.emplace_back("elements in several sets have the tag of one of them");
+    if (!has_all_sets_)
+      parts_.notes.emplace_back(
+          "the file has too many sets of elements, and the last ones are left out");
+    if (lines_.n_included() > 0)
+      parts_.notes.push_back(
+          "the file includes " + std::to_string(lines_.n_included()) +
+          (lines_.n_included() == 1 ? " other, whose text is" : " others, whose text is") +
+          " in place in written .inp files");
     const bool is_placed =
         instances_.size() > 1 || (instances_.size() == 1 && instances_[0].is_moved());
-    if (!is_placed && !content_.starts_with(abaqus_first_comment))
-      content.sections.emplace_back(content_);
+    if (is_placed || content_.starts_with(abaqus_first_comment)) return;
+    std::string whole = std::move(lines_).whole_text();
+    content.sections.push_back(whole.empty() ? std::string(content_) : std::move(whole));
   }
 
   void read_nodes() {
@@ -275,6 +282,13 @@ class AbaqusReader {
     }
   }
 
+  static std::optional<std::size_t> label_of(std::string_view entry) {
+    std::size_t label = 0;
+    const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), label);
+    if (error != std::errc() || end != entry.data() + entry.size()) return std::nullopt;
+    return label;
+  }
+
   /// Returns the number of a set; 0 without a name.
   std::size_t set_number(const std::string& name) {
     if (name.empty()) return 0;
@@ -283,14 +297,19 @@ class AbaqusReader {
     return set->second;
   }
 
-  /// Calls `use` with the labels of a set as ranges. Entries that are not numbers name other sets,
-  /// whose members have a set already.
-  template <class Use>
-  void for_each_range(const Use& use) {
+  /// Calls `use` with the labels of a set as ranges, and `use_name` with entries that are no
+  /// numbers but names of other sets.
+  template <class Use, class UseName>
+  void for_each_range(const Use& use, const UseName& use_name) {
     const bool generate = lines_.has_parameter("GENERATE");
     while (lines_.next_data()) {
-      while (!generate && lines_.has_field())
-        if (const auto label = lines_.label_if_number()) use(LabelRange{*label, *label, 1});
+      while (!generate && lines_.has_field()) {
+        const std::string_view entry = lines_.entry();
+        if (const auto label = label_of(entry))
+          use(LabelRange{*label, *label, 1});
+        else
+          use_name(std::string(entry));
+      }
       if (!generate) continue;
       LabelRange range{lines_.label("the first label"), lines_.label("the last label"), 1};
       if (lines_.has_field()) range.step = lines_.label("the step");
@@ -302,7 +321,9 @@ class AbaqusReader {
     }
   }
 
+  /// Sets that CAE makes for itself (INTERNAL), for example below surfaces, are no groups.
   void read_element_set() {
+    if (lines_.has_parameter("INTERNAL")) return;
     const std::string name = lines_.parameter("ELSET");
     const std::string of_instance = capitals(lines_.parameter("INSTANCE"));
     const auto instance =
@@ -310,15 +331,40 @@ class AbaqusReader {
                      [&](const Instance& other) { return capitals(other.name) == of_instance; });
     if (instance != instances_.end())
       return for_each_range(
-          [&](const LabelRange& range) { instance->sets.emplace_back(range, name); });
+          [&](const LabelRange& range) { instance->sets.emplace_back(range, name); },
+          [](const std::string&) {});
     const std::size_t set = set_number(name);
-    for_each_range([&](const LabelRange& range) {
-      if (range.first == range.last)
-        are_in_several_sets_ =
-            !mesh_->set_of.try_emplace(range.first, set).second || are_in_several_sets_;
-      else
-        mesh_->set_ranges.emplace_back(range, set);
-    });
+    auto& ranges = mesh_->set_ranges;
+    for_each_range(
+        [&](const LabelRange& range) {
+          const bool continues = !ranges.empty() && ranges.back().second == set &&
+                                 ranges.back().first.step == 1 && range.step == 1 &&
+                                 ranges.back().first.last + 1 == range.first;
+          if (continues)
+            ranges.back().first.last = range.last;
+          else
+            ranges.emplace_back(range, set);
+        },
+        [&](const std::string& member) {
+          mesh_->nested_sets.emplace_back(set, set_number(member));
+        });
+  }
+
+  /// Gives a set of sets the elements of all sets that come before it, as Abaqus does.
+  void open_nested_sets(LabelledMesh& mesh) {
+    constexpr std::size_t most = 1'000'000;
+    for (const auto& [set, member] : mesh.nested_sets) {
+      const std::size_t n = mesh.set_ranges.size();
+      for (std::size_t i = 0; i < n && mesh.set_ranges.size() < most; ++i)
+        if (mesh.set_ranges[i].second == member)
+          mesh.set_ranges.emplace_back(mesh.set_ranges[i].first, set);
+      for (const LabelledElements& elements : mesh.elements)
+        for (std::size_t e = 0; e < elements.sets.size() && mesh.set_ranges.size() < most; ++e)
+          if (elements.sets[e] == member)
+            mesh.set_ranges.emplace_back(LabelRange{elements.list.ids[e], elements.list.ids[e], 1},
+                                         set);
+      if (mesh.set_ranges.size() >= most) has_all_sets_ = false;
+    }
   }
 
   void sort_nodes() {
@@ -381,28 +427,25 @@ class AbaqusReader {
       to.lines.push_back(line);
       sets.push_back(from.sets[e]);
     }
-    find_sets(to.ids, sets);
-    for (const std::size_t set : sets) to.tags.push_back(set == 0 ? 0 : tag_of(dimension, set));
+    add_groups(dimension, combine_sets(to.ids, sets, whole_.set_ranges));
   }
 
-  /// Gives elements without a set (0) the first *ELSET that contains them. Sets are numbered in the
-  /// order of appearance.
-  void find_sets(const std::vector<std::size_t>& ids, std::vector<std::size_t>& sets) {
-    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> first(ids.size(), none);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      if (const auto found = whole_.set_of.find(ids[i]); found != whole_.set_of.end())
-        first[i] = found->second;
-    for (const auto& [range, set] : whole_.set_ranges)
-      for_each_in_range(ids, range, [&, set = set](std::size_t i) {
-        are_in_several_sets_ = are_in_several_sets_ || first[i] != none;
-        first[i] = std::min(first[i], set);
-      });
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      if (first[i] == none) continue;
-      are_in_several_sets_ = are_in_several_sets_ || (sets[i] != 0 && sets[i] != first[i]);
-      if (sets[i] == 0) sets[i] = first[i];
-    }
+  /// Gives elements the tag of the first of their sets. Elements in several sets belong to an
+  /// entity with all their groups.
+  void add_groups(int dimension, const SetCombinations& combinations) {
+    ElementList& to = parts_.elements[dimension];
+    const auto& sets = combinations.sets;
+    has_all_sets_ = has_all_sets_ && combinations.is_complete;
+    for (const std::uint32_t c : combinations.of_element)
+      to.tags.push_back(sets[c].empty() ? 0 : tag_of(dimension, sets[c].front()));
+    const bool any_several =
+        std::any_of(sets.begin(), sets.end(), [](const auto& of_one) { return of_one.size() > 1; });
+    if (!any_several) return;
+    to.entities.assign(combinations.of_element.begin(), combinations.of_element.end());
+    for (std::size_t c = 1; c < sets.size(); ++c)
+      for (const std::size_t set : sets[c])
+        parts_.content.entities[{dimension, static_cast<int>(c)}].groups.push_back(
+            tag_of(dimension, set));
   }
 
   /// Returns the tag that a comment gave to the set's name, or a new one.
@@ -437,7 +480,7 @@ class AbaqusReader {
   std::map<std::pair<int, std::size_t>, int> tags_;
   std::set<std::string> types_left_out_;
   std::size_t n_left_out_ = 0;
-  bool are_in_several_sets_ = false;
+  bool has_all_sets_ = true;
   bool in_assembly_ = false;
 };
 
@@ -450,6 +493,17 @@ MeshParts read_abaqus(const std::filesystem::path& path, const MeshReadOptions&)
 
 namespace {
 
+/// True if the first line that is no comment is a keyword.
+bool is_abaqus(std::string_view beginning) {
+  LineReader reader({}, beginning);
+  while (reader.next_line()) {
+    const std::string_view word = reader.word();
+    if (word.starts_with("**")) continue;
+    return word.size() > 1 && word[0] == '*' && std::isalpha(static_cast<unsigned char>(word[1]));
+  }
+  return false;
+}
+
 const RegisteredFormat abaqus({.name = "abaqus",
                                .extension = ".inp",
                                .description = "Abaqus and CalculiX input",
@@ -459,6 +513,8 @@ const RegisteredFormat abaqus({.name = "abaqus",
                                .holds_facets = true,
                                .holds_physical_names = true,
                                .holds_numbers = true,
+                               .holds_several_groups = true,
+                               .recognizes = is_abaqus,
                                .read = read_abaqus,
                                .write = write_abaqus});
 

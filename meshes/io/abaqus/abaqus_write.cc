@@ -106,6 +106,11 @@ class AbaqusWriter {
     for (std::size_t c = 0; c < topology.n_cells(); ++c) first = std::max(first, cell_label(c) + 1);
     write_elements(dim - 1, labels_.facets, labels_.facet_tags,
                    [&](std::size_t f) { return first + f; });
+    if (const FileContent* content = mesh_.content()) {
+      write_further_sets(dim, content->cell_entities, [&](std::size_t c) { return cell_label(c); });
+      write_further_sets(dim - 1, content->facet_entities,
+                         [&](std::size_t f) { return first + f; });
+    }
     write_fixed();
     text_.append(abaqus_last_comment).append("\n");
     return std::move(text_);
@@ -154,14 +159,31 @@ class AbaqusWriter {
     }
   }
 
+  /// Writes the sets of elements in several groups, but for the first one.
+  template <class LabelOf>
+  void write_further_sets(int dim, const std::vector<int>& entities, const LabelOf& label_of) {
+    std::map<int, std::vector<std::size_t>> members;
+    for (std::size_t i = 0; i < entities.size(); ++i) {
+      const auto groups = groups_of(mesh_.content(), dim, entities[i], 0);
+      for (std::size_t k = 1; k < groups.size(); ++k) members[groups[k]].push_back(label_of(i));
+    }
+    for (const auto& [group, labels] : members)
+      write_set("*ELSET, ELSET=" + set_name({dim, group}, labels_.names), labels);
+  }
+
   void write_fixed() {
-    constexpr int n_a_line = 16;  // as many as Abaqus reads
-    text_ += "*NSET, NSET=" + std::string(abaqus_fixed_set);
-    int n_written = 0;
-    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i) {
-      if (!mesh_.topology().is_fixed(i)) continue;
-      text_ += n_written++ % n_a_line == 0 ? "\n" : ", ";
-      append_number(text_, node_label(i));
+    std::vector<std::size_t> labels;
+    for (NodeIndex i = 0; i < mesh_.n_nodes(); ++i)
+      if (mesh_.topology().is_fixed(i)) labels.push_back(node_label(i));
+    write_set("*NSET, NSET=" + std::string(abaqus_fixed_set), labels);
+  }
+
+  void write_set(const std::string& keyword, const std::vector<std::size_t>& labels) {
+    constexpr std::size_t n_a_line = 16;  // as many as Abaqus reads
+    text_ += keyword;
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+      text_ += k % n_a_line == 0 ? "\n" : ", ";
+      append_number(text_, labels[k]);
     }
     text_ += '\n';
   }

@@ -7,8 +7,8 @@
 
 namespace smoothfem {
 
-/// Reads a Gmsh file: version 2.2 or 4.1, text or binary in either byte order, or version 4.0 as
-/// text, Gmsh's only form of it (reference manual of Gmsh, "MSH file format"). Nodes and cells come
+/// Reads a Gmsh file: version 2.2 or 4.1, text or binary in either byte order, or version 1 or 4.0
+/// as text, their only form (reference manual of Gmsh, "MSH file format"). Nodes and cells come
 /// in the order of their tags; nodes that no element uses are dropped. Kept are elements of all
 /// dimensions, node and element tags, physical groups and their names, the entities of the model,
 /// periodic nodes, node and element data, and the text of other sections. The first of several

@@ -10,7 +10,8 @@ namespace smoothfem {
 namespace {
 
 std::string end_of(const std::string& section) {
-  return "$End" + section.substr(1);
+  // Version 1 has capitals.
+  return (section == "$NOD" || section == "$ELM" ? "$END" : "$End") + section.substr(1);
 }
 
 }  // namespace
@@ -20,7 +21,7 @@ std::string end_of(const std::string& section) {
 std::string MshTextInput::next_section() {
   if (!reader_.next_line()) return {};
   std::string section(reader_.word());
-  if (section.front() != '$' || section.starts_with("$End"))
+  if (section.front() != '$' || section.starts_with("$End") || section.starts_with("$END"))
     fail("expected the beginning of a section; the previous section has more lines than announced");
   return section;
 }

@@ -73,12 +73,12 @@ void join_repeated_elements(MeshParts& parts) {
 template <class Input>
 class MshReader {
  public:
-  /// version: nothing for version 2.
+  /// version: nothing for versions 1 and 2.
   MshReader(Input input, std::optional<MshVersion4> version)
       : in_(std::move(input)), version_4_(version) {}
 
+  /// Reads all sections that follow.
   MeshParts parts() {
-    in_.require_end("$MeshFormat");
     for (std::string section = in_.next_section(); !section.empty(); section = in_.next_section())
       read(section);
     for (const std::string section : {"$Nodes", "$Elements"})
@@ -102,16 +102,23 @@ class MshReader {
 
  private:
   void read(const std::string& section) {
-    const bool is_read_once = section == "$Nodes" || section == "$Elements";
-    if (!seen_.insert(section).second && is_read_once)
+    const bool is_nodes = section == "$Nodes" || section == "$NOD",
+               is_elements = section == "$Elements" || section == "$ELM";
+    const bool is_new = seen_.insert(is_nodes      ? "$Nodes"
+                                     : is_elements ? "$Elements"
+                                                   : section)
+                            .second;
+    if (!is_new && (is_nodes || is_elements))
       in_.refuse("there is a second section " + section + "; save the mesh as one");
     if (section == "$PhysicalNames")
       groups_.read_names(in_);
     else if (version_4_ && (section == "$Entities" || section == "$PartitionedEntities"))
       groups_.read_entities(in_, section == "$PartitionedEntities",
                             *version_4_ == MshVersion4::v4_0);
-    else if (section == "$Nodes")
+    else if (is_nodes)
       read_nodes();
+    else if (section == "$ELM")
+      read_elements_1();
     else if (section == "$Elements")
       version_4_ ? read_elements_4(*version_4_) : read_elements_2();
     else if (section == "$ParametricNodes")
@@ -208,6 +215,19 @@ class MshReader {
         ", but only points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms "
         "and pyramids without nodes other than their corners can be read; save it with element "
         "order 1");
+  }
+
+  void read_elements_1() {
+    const std::uint64_t n_elements = msh_count_in_text(in_, "the number of elements");
+    for (std::uint64_t i = 0; i < n_elements; ++i) {
+      in_.begin("element", i, n_elements);
+      const std::uint64_t tag = in_.tag("the element's tag");
+      const MshElementType& type = known_type(in_.integer("element"));
+      const int group = in_.integer("element"), entity = in_.integer("element");
+      if (in_.count("the number of nodes") != type.n_nodes)
+        in_.fail("element " + std::to_string(tag) + " has another number of nodes than its type");
+      add_element(tag, type, group, entity);
+    }
   }
 
   void read_elements_2() {
@@ -321,6 +341,25 @@ class MshReader {
   MeshParts parts_;
 };
 
+constexpr std::string_view msh_first_line = "$MeshFormat", msh_first_line_1 = "$NOD";
+
+bool is_msh(std::string_view beginning) {
+  LineReader reader({}, beginning);
+  if (!reader.next_line()) return false;
+  const std::string_view word = reader.word();
+  return word == msh_first_line || word == msh_first_line_1;
+}
+
+/// Reads version 1, which is text and has no section with its version.
+MeshParts read_msh_1(const std::filesystem::path& path, std::string_view content) {
+  MeshParts parts = MshReader(MshTextInput(LineReader(path, content)), std::nullopt).parts();
+  parts.content.version = "2.2";
+  parts.leaves_out_unused_nodes = true;
+  parts.notes.emplace_back(
+      "the file has version 1 of Gmsh's format; .msh files are written in 2.2");
+  return parts;
+}
+
 /// Returns nothing for version 2.
 std::optional<MshVersion4> version_of(const LineReader& reader, const std::string& word) {
   if (word == "2.2" || word == "2.1" || word == "2.0" || word == "2") return std::nullopt;
@@ -335,7 +374,9 @@ MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
   reader.require_line("the first line");
-  if (reader.word() != "$MeshFormat")
+  const std::string_view first = reader.word();
+  if (first == msh_first_line_1) return read_msh_1(path, content);
+  if (first != msh_first_line)
     reader.fail("the first line is not '$MeshFormat'; this is not a Gmsh mesh file");
   reader.require_line("the format's version");
   const std::string word(reader.word());
@@ -353,9 +394,12 @@ MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
   if (is_binary) {
     MshBinaryInput input(path.string(), content, content.size() - reader.rest().size(),
                          version_4.has_value());
+    input.require_end("$MeshFormat");
     parts = MshReader(std::move(input), version_4).parts();
   } else {
-    parts = MshReader(MshTextInput(reader), version_4).parts();
+    MshTextInput input(reader);
+    input.require_end("$MeshFormat");
+    parts = MshReader(std::move(input), version_4).parts();
   }
   parts.content.version = version_4 ? "4.1" : "2.2";
   parts.content.is_binary = is_binary;
@@ -368,7 +412,7 @@ namespace {
 const RegisteredFormat gmsh_format(
     {.name = "gmsh",
      .extension = ".msh",
-     .description = "Gmsh 4.1 and 2.2, text or binary; reads 4.0 as text",
+     .description = "Gmsh 4.1 and 2.2, text or binary; reads 1 and 4.0 as text",
      .holds_planar_meshes = true,
      .holds_volume_meshes = true,
      .holds_surface_meshes = true,
@@ -377,11 +421,13 @@ const RegisteredFormat gmsh_format(
      .holds_numbers = true,
      .holds_several_groups = true,
      .holds_periodic = true,
+     .has_two_encodings = true,
      .min_element_dimension = 0,
      .holds_field =
          [](const MeshField& field, bool is_of_file) {
            return !is_of_file && msh_components(field.n_components) > 0;
          },
+     .recognizes = is_msh,
      .read = read_msh,
      .write = write_msh});
 

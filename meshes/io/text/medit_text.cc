@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/line_reader.h"
 #include "meshes/io/mesh_assembly.h"
+#include "meshes/io/text/medit_solution.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/text.h"
 #include "smoothing/mesh/interfaces.h"
@@ -59,7 +61,7 @@ class SkippedSection {
 class MeditReader {
  public:
   MeditReader(const std::filesystem::path& path, std::string_view content)
-      : reader_(path, content), content_(content) {}
+      : path_(path), reader_(path, content), content_(content) {}
 
   MeshParts parts() {
     if (word("the first word") != medit_title)
@@ -73,6 +75,7 @@ class MeditReader {
     parts_.content.format = "medit";
     parts_.content.version = std::to_string(dimension_);
     make_fields();
+    add_solution();
     return std::move(parts_);
   }
 
@@ -249,6 +252,52 @@ class MeditReader {
     }
   }
 
+  /// Adds the fields of the file with the solution, if there is one beside the mesh.
+  void add_solution() {
+    const auto path = medit_solution_path(path_);
+    const std::string name = path.filename().string();
+    std::error_code error;
+    if (std::filesystem::exists(path.string() + "b", error))
+      parts_.notes.push_back(name + "b beside the mesh is left out, as it is binary; save it as " +
+                             name);
+    if (!std::filesystem::is_regular_file(path, error)) return;
+    try {
+      MeditSolution solution = read_medit_solution(path);
+      for (MeditSolutionSection& section : solution.sections) add_section(section);
+      parts_.notes.push_back("the solution " + name + " beside the mesh is read with it");
+    } catch (const InputError& failure) {
+      parts_.notes.push_back("the solution beside the mesh is left out: " +
+                             std::string(failure.what()));
+    }
+  }
+
+  void add_section(MeditSolutionSection& section) {
+    const bool is_of_nodes = section.of == "Vertices";
+    const auto found = positions_.find(section.of);
+    const Range range = is_of_nodes                 ? Range{0, parts_.coordinates.size()}
+                        : found == positions_.end() ? Range{}
+                                                    : found->second;
+    if (section.n_rows != range.n)
+      throw InputError("it has " + std::to_string(section.n_rows) + " rows for " +
+                       std::to_string(range.n) + " " + section.of);
+    auto& fields = is_of_nodes ? parts_.content.node_fields : parts_.content.element_fields;
+    for (MeshField& field : section.fields) {
+      const std::size_t n = field.n_components,
+                        n_rows = is_of_nodes ? range.n : std::size_t{n_elements_};
+      auto same = std::find_if(fields.begin(), fields.end(), [&](const MeshField& other) {
+        return other.name == field.name && other.n_components == n;
+      });
+      if (same == fields.end()) {
+        fields.push_back({.name = field.name, .n_components = n, .values = {}});
+        same = std::prev(fields.end());
+        same->values = std::vector<double>(n_rows * n, std::numeric_limits<double>::quiet_NaN());
+      }
+      std::ranges::copy(std::get<std::vector<double>>(field.values),
+                        std::get<std::vector<double>>(same->values).begin() +
+                            static_cast<std::ptrdiff_t>(range.first * n));
+    }
+  }
+
   /// Some programs use references beyond the integers for "none".
   int reference() {
     const double value = number("the reference");
@@ -266,6 +315,7 @@ class MeditReader {
     std::size_t first = 0, n = 0;
   };
 
+  std::filesystem::path path_;
   LineReader reader_;
   std::string_view content_;
   std::uint64_t dimension_ = 0;
@@ -327,6 +377,18 @@ class MeditWriter {
     return std::move(text_) + "End\n";
   }
 
+  /// Returns the fields that a solution beside the mesh holds, after text().
+  MeditSolution solution() const {
+    MeditSolution solution{.dimension = dimension_, .sections = {}};
+    if (!mesh_.content()) return solution;
+    std::vector<std::uint32_t> all(mesh_.n_nodes());
+    std::iota(all.begin(), all.end(), std::uint32_t{0});
+    add_section(solution, "Vertices", mesh_.content()->node_fields, all);
+    for (const auto& [name, members] : members_)
+      add_section(solution, name, mesh_.content()->element_fields, members);
+    return solution;
+  }
+
  private:
   void write_vertices() {
     const MeshField* references = field(true, medit_reference_field);
@@ -367,6 +429,25 @@ class MeditWriter {
     for (std::size_t f = 0; has_more && f < more_facets_.size(); ++f)
       if (more_facets_[f].size() == section.n_nodes) append_row(more_facets_[f], 0);
     members_[std::string(section.keyword)] = std::move(members);
+  }
+
+  /// Adds the rows of fields that belong to a section of the mesh, unless none has a value there.
+  static void add_section(MeditSolution& solution, const std::string& name,
+                          const std::vector<MeshField>& fields,
+                          const std::vector<std::uint32_t>& rows) {
+    MeditSolutionSection section{.of = name, .n_rows = rows.size(), .fields = {}};
+    for (const MeshField& field : fields) {
+      if (!is_medit_solution(field)) continue;
+      const std::size_t n = field.n_components;
+      std::vector<double> values;
+      for (const std::uint32_t row : rows)
+        for (std::size_t k = 0; k < n; ++k) values.push_back(field.number(row * n + k));
+      if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+        continue;
+      section.fields.push_back({.name = field.name, .n_components = n, .values = {}});
+      section.fields.back().values = std::move(values);
+    }
+    if (!section.fields.empty()) solution.sections.push_back(std::move(section));
   }
 
   /// Returns null if the mesh has no such field.
@@ -433,7 +514,11 @@ class MeditWriter {
 void write_medit_text(const std::filesystem::path& path, const MeshView& mesh, const MeshFields&,
                       const MeshWriteOptions&) {
   require_no_polygons(path, mesh);
-  write_atomically(path, MeditWriter(mesh, {}).text());
+  const CompressedRows<NodeIndex> no_facets;
+  MeditWriter writer(mesh, no_facets);
+  write_atomically(path, writer.text());
+  if (const MeditSolution solution = writer.solution(); !solution.sections.empty())
+    write_medit_solution(medit_solution_path(path), solution);
 }
 
 void write_medit_with_boundary(const std::filesystem::path& path, const MeshView& mesh) {
@@ -452,7 +537,7 @@ namespace {
 bool holds_field(const MeshField& field, bool is_of_file) {
   const auto& name = field.name;
   return !is_of_file && (name == medit_reference_field || name == corner_field ||
-                         name == required_field || name == ridge_field);
+                         name == required_field || name == ridge_field || is_medit_solution(field));
 }
 
 const RegisteredFormat medit({.name = "medit",

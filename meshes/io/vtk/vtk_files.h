@@ -23,11 +23,16 @@ namespace smoothfem {
 MeshParts read_legacy_vtk(const std::filesystem::path& path, const MeshReadOptions& options = {});
 MeshParts read_vtu(const std::filesystem::path& path, const MeshReadOptions& options = {});
 
+/// Reads the .vtu files that a .pvtu file lists as one mesh. They must be in its folder or below.
+/// Ghost cells, which another piece has as well, are left out. Nodes on the seams of pieces stay
+/// apart.
+MeshParts read_pvtu(const std::filesystem::path& path, const MeshReadOptions& options = {});
+
 /// Writes cells, followed by the labelled facets, the arrays that the readers use (tags, names and
 /// numbers if the mesh has them), and the fields; a facet has the value of its cell. Both formats
-/// keep every bit of coordinates and fields. .vtk is binary of version 4.2, which external programs
-/// still read better than 5.1 (VTK's text files have 11 digits). .vtu has inline base64 data,
-/// 64-bit headers and no compression.
+/// keep every bit of coordinates and fields. .vtk has version 4.2, which external programs still
+/// read better than 5.1. A binary .vtu file has inline base64 data, 64-bit headers and no
+/// compression.
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options);
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,

@@ -125,6 +125,8 @@ class GridParts {
     parts_.content.node_fields = std::move(grid_.point_fields);
     parts_.content.element_fields = std::move(grid_.cell_fields);
     parts_.content.file_fields = std::move(grid_.file_fields);
+    parts_.content.is_binary = grid_.is_binary;
+    parts_.leaves_out_unused_nodes = grid_.has_unused_points;
     parts_.notes.insert(parts_.notes.end(), grid_.notes.begin(), grid_.notes.end());
     return std::move(parts_);
   }

@@ -42,7 +42,9 @@ struct VtkGrid {
   std::vector<Point<3>> points;
   VtkCells cells;
   std::vector<MeshField> point_fields, cell_fields, file_fields;
-  std::string physical_names;      ///< lines "dimension tag name"
+  std::string physical_names;  ///< lines "dimension tag name"
+  bool is_binary = false;
+  bool has_unused_points = false;  ///< that the mesh leaves out
   std::vector<std::string> notes;  ///< arrays that are left out, and why
 };
 

@@ -24,6 +24,8 @@ class LegacyVtkInput {
   /// Returns the first number of the format's version.
   int version() const { return version_; }
 
+  bool is_binary() const { return is_binary_; }
+
   /// Goes to the next word, the name of a section; false at the end of the file.
   bool next_keyword();
   /// In lower case.

@@ -43,6 +43,7 @@ class LegacyVtkReader {
     read_data_set();
     while (in_.next_keyword()) read_section(in_.keyword());
     for (VtkCells& cells : cells_) grid_.cells.append(std::move(cells));
+    grid_.is_binary = in_.is_binary();
     return std::move(grid_);
   }
 

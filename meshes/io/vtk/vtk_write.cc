@@ -28,6 +28,7 @@
 #include "meshes/io/mesh_assembly.h"
 #include "meshes/io/node_order.h"
 #include "meshes/io/vtk/vtk_files.h"
+#include "meshes/io/vtk/vtk_legacy_text.h"
 #include "meshes/io/vtk/vtk_messages.h"
 #include "meshes/io/vtk/xml_tags.h"
 #include "smoothing/base/input_error.h"
@@ -260,9 +261,21 @@ void escape_names(vtkFieldData& attributes) {
 
 }  // namespace
 
+namespace {
+
+/// As the user wishes, otherwise as in the file that the mesh comes from.
+bool writes_binary(const MeshView& mesh, const MeshWriteOptions& options, std::string_view format) {
+  const FileContent* content = mesh.content();
+  return options.binary.value_or(!content || content->format != format || content->is_binary);
+}
+
+}  // namespace
+
 /// Writes to memory first: VTK does not notice every failed write; write_atomically does.
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
-                      const MeshFields& fields, const MeshWriteOptions&) {
+                      const MeshFields& fields, const MeshWriteOptions& options) {
+  if (!writes_binary(mesh, options, "vtk"))
+    return write_atomically(path, legacy_vtk_text(*grid_of(mesh, fields)));
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
   writer->SetFileTypeToBinary();
@@ -274,9 +287,12 @@ void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
 }
 
 void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const MeshFields& fields,
-               const MeshWriteOptions&) {
+               const MeshWriteOptions& options) {
   vtkNew<StreamingWriter> writer;
-  writer->SetDataModeToBinary();
+  if (writes_binary(mesh, options, "vtu"))
+    writer->SetDataModeToBinary();
+  else
+    writer->SetDataModeToAscii();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToNone();
   const auto grid = grid_of(mesh, fields);

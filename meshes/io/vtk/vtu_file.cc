@@ -137,6 +137,14 @@ void VtuFile::read_appended() {
   tags_.go_to(end);
 }
 
+bool VtuFile::has_binary_array() const {
+  for (const VtuPiece& piece : pieces_)
+    for (const auto& [name, section] : piece.sections)
+      for (const VtuArray& array : section)
+        if (array.format != "ascii") return true;
+  return false;
+}
+
 bool VtuFile::has_numbers(const VtuArray& array) const {
   return vtk_number(type_names, array.type).has_value();
 }

@@ -54,6 +54,8 @@ class VtuFile {
 
   const std::vector<VtuPiece>& pieces() const { return pieces_; }
   const VtuSection& field_data() const { return field_data_; }
+  /// True if an array of a piece is not text.
+  bool has_binary_array() const;
 
   /// Calls use(number) for the n numbers that the array must have, each as Value: double,
   /// AnyNumber, or std::int64_t, for which the array must hold integers. Calls start() before, when
