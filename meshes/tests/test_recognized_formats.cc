@@ -206,7 +206,7 @@ TEST_F(RecognizedFormats, MeditSolutionsAreReadAndWrittenBeside) {
             "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n4\n2 1 3\n1 2 0 2\n2 2 0 2\n"
             "3 2 0 2\n4 2 0.5 2\nSolAtQuadrilaterals\n1\n1 2\n7 8\nEnd\n");
   const MeshFile read = read_mesh(in);
-  EXPECT_THAT(read.notes, ElementsAre("the solution a.sol beside the mesh is read with it"));
+  EXPECT_THAT(read.notes, ElementsAre("the solution a.sol next to the mesh is read with it"));
   const FileContent& content = *topology(read).labels().content;
   ASSERT_EQ(content.node_fields.size(), 2u);
   EXPECT_EQ(content.node_fields[1].n_components, 3u);
@@ -220,7 +220,7 @@ TEST_F(RecognizedFormats, MeditSolutionsAreReadAndWrittenBeside) {
   file_with("a.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n3\n1 1\n1\n2\n3\nEnd\n");
   file_with("a.solb", "x");
   EXPECT_THAT(read_mesh(in).notes,
-              ElementsAre(HasSubstr("a.solb beside the mesh is left out, as it is binary"),
+              ElementsAre(HasSubstr("a.solb next to the mesh is left out, as it is binary"),
                           HasSubstr("is left out: it has 3 rows for 4 Vertices")));
 }
 

@@ -252,21 +252,21 @@ class MeditReader {
     }
   }
 
-  /// Adds the fields of the file with the solution, if there is one beside the mesh.
+  /// Adds the fields of the file with the solution, if there is one next to the mesh.
   void add_solution() {
     const auto path = medit_solution_path(path_);
     const std::string name = path.filename().string();
     std::error_code error;
     if (std::filesystem::exists(path.string() + "b", error))
-      parts_.notes.push_back(name + "b beside the mesh is left out, as it is binary; save it as " +
+      parts_.notes.push_back(name + "b next to the mesh is left out, as it is binary; save it as " +
                              name);
     if (!std::filesystem::is_regular_file(path, error)) return;
     try {
       MeditSolution solution = read_medit_solution(path);
       for (MeditSolutionSection& section : solution.sections) add_section(section);
-      parts_.notes.push_back("the solution " + name + " beside the mesh is read with it");
+      parts_.notes.push_back("the solution " + name + " next to the mesh is read with it");
     } catch (const InputError& failure) {
-      parts_.notes.push_back("the solution beside the mesh is left out: " +
+      parts_.notes.push_back("the solution next to the mesh is left out: " +
                              std::string(failure.what()));
     }
   }
@@ -377,7 +377,7 @@ class MeditWriter {
     return std::move(text_) + "End\n";
   }
 
-  /// Returns the fields that a solution beside the mesh holds, after text().
+  /// Returns the fields that a solution next to the mesh holds, after text().
   MeditSolution solution() const {
     MeditSolution solution{.dimension = dimension_, .sections = {}};
     if (!mesh_.content()) return solution;

@@ -12,7 +12,7 @@ namespace smoothfem {
 /// mesh visualization software, 2001). Tetrahedra, Hexahedra, Prisms and Pyramids make a volume
 /// mesh, in this order. Without them Triangles and Quadrilaterals make a planar mesh. References
 /// are the physical tags (0: none) of cells and facets. References of vertices, required elements,
-/// corners, ridges and the solution beside the mesh (.sol) become fields. RequiredVertices are
+/// corners, ridges and the solution next to the mesh (.sol) become fields. RequiredVertices are
 /// fixed in addition to the boundary nodes. All nodes are kept. Each section may end with End. A
 /// file without a final End is accepted if it ends after a complete section and a line's end.
 /// Throws InputError for elements with mid-nodes.
@@ -23,7 +23,7 @@ bool is_medit_text(std::string_view content);
 
 /// Writes volume meshes only. Coordinates keep every bit. Cells are written type by type, which
 /// changes the order of mixed meshes. Names and numbers are not written, and
-/// boundary nodes are fixed after reading. Fields of a solution are written beside the mesh.
+/// boundary nodes are fixed after reading. Fields of a solution are written next to the mesh.
 void write_medit_text(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options);
 
