@@ -11,7 +11,7 @@ std::filesystem::path without_links(const std::filesystem::path& path);
 
 /// Returns the path of a file that a mesh file names. It must be in the folder of that file, or
 /// below it: a mesh from somebody else must not read other files of the user. Throws InputError,
-/// which begins with `what`, for other files and for those that do not exist.
+/// which begins with `what`, for other files and for missing ones.
 std::filesystem::path nearby_file(const std::filesystem::path& of_file, const std::string& name,
                                   const std::string& what);
 
