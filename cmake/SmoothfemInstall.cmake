@@ -55,14 +55,14 @@ install(DIRECTORY launcher/new_smoother DESTINATION ${CMAKE_INSTALL_DATADIR}/smo
   USE_SOURCE_PERMISSIONS)
 
 # Headers for users' smoothers, and for reading and generating meshes and for solving.
-foreach(folder base geometry getme laplacian loop mesh optimization polygons quality simd surface transformations)
+foreach(folder base geometry getme laplacian loop mesh optimization periodic polygons quality simd surface transformations)
   file(GLOB headers CONFIGURE_DEPENDS smoothing/${folder}/*.h)
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/smoothing/${folder}
     COMPONENT development)
 endforeach()
 foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/mesh_file.h
         meshes/io/mesh_view.h meshes/io/vtu_series.h fem/space/finite_element_space.h fem/solutions/manufactured_solution.h
-        fem/poisson_solver.h fem/solution_record.h fem/ranks/ranks.h fem/elements/reference_element.h)
+        fem/constraints/node_ties.h fem/poisson_solver.h fem/solution_record.h fem/ranks/ranks.h fem/elements/reference_element.h)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)
 endforeach()

@@ -42,6 +42,7 @@ class Distortion {
   Distortion(const Mesh<dim, spacedim>& mesh, const DistortionParameters& parameters)
       : moves_(mesh, parameters),
         n_sweeps_(parameters.n_sweeps),
+        grain_(parameters.n_candidates < many_candidates ? min_nodes_per_thread(dim) : 1),
         levels_(dependency_levels(mesh.topology())) {}
 
   /// Moves all nodes within a radius. Returns the resulting mean quality.
@@ -49,14 +50,14 @@ class Distortion {
     moves_.undo_all();
     for (int sweep = 0; sweep < n_sweeps_; ++sweep)
       for (std::size_t level = 0; level < levels_.size(); ++level) {
-        let_interrupt();
+        moves_.throw_if_interrupted();
         const auto nodes = levels_[level];
-        parallel_for_ranges(
-            nodes.size(), min_nodes_per_thread(dim), [&](std::size_t first, std::size_t last) {
-              for (const NodeIndex node : nodes.subspan(first, last - first))
-                moves_.mesh().coordinates()[node] = moves_.moved(node, sweep, radius);
-            });
+        parallel_for_ranges(nodes.size(), grain_, [&](std::size_t first, std::size_t last) {
+          for (const NodeIndex node : nodes.subspan(first, last - first))
+            moves_.mesh().coordinates()[node] = moves_.moved(node, sweep, radius);
+        });
       }
+    moves_.throw_if_interrupted();
     return mesh_quality(moves_.mesh()).q_mean;
   }
 
@@ -125,7 +126,11 @@ class Distortion {
   }
 
   NodeMoves<dim, spacedim> moves_;
+  /// With so many candidates a thread takes one node at a time, so that interruptions do not wait.
+  static constexpr int many_candidates = 10000;
+
   int n_sweeps_;
+  std::size_t grain_;
   CompressedRows<NodeIndex> levels_;
 };
 

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "meshes/distortion/counter_random.h"
 #include "meshes/distortion/distort.h"
+#include "smoothing/base/interruption.h"
 #include "smoothing/geometry/unit_normal.h"
 #include "smoothing/quality/hexahedron_mapping.h"
 #include "smoothing/quality/mean_ratio.h"
@@ -14,6 +19,33 @@
 #include "smoothing/simd/cells.h"
 
 namespace smoothfem {
+
+/// Looks for an interruption inside of parallel loops, whose threads must not throw. The thread
+/// that made this object asks; the others see its answer.
+class InterruptionInLoops {
+ public:
+  /// True if the loop is to end.
+  bool has_come() {
+    if (!ends_ && std::this_thread::get_id() == owner_) try {
+        let_interrupt();
+      } catch (...) {
+        error_ = std::current_exception();
+        ends_ = true;
+      }
+    return ends_;
+  }
+  /// Call it outside of the loops: throws the interruption.
+  void rethrow() {
+    ends_ = false;
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    let_interrupt();
+  }
+
+ private:
+  std::thread::id owner_ = std::this_thread::get_id();
+  std::atomic<bool> ends_ = false;
+  std::exception_ptr error_;
+};
 
 /// Returns a point that is uniform in the unit ball, by rejection: sine and cosine differ between
 /// machines.
@@ -57,6 +89,8 @@ class NodeMoves {
 
   Mesh<dim, spacedim>& mesh() { return mesh_; }
   const Mesh<dim, spacedim>& mesh() const { return mesh_; }
+  /// Throws what an interruption during the moves raised.
+  void throw_if_interrupted() { interruption_.rethrow(); }
   void undo_all() { std::copy(original_.begin(), original_.end(), mesh_.coordinates().begin()); }
 
   /// Returns a node's position after a sweep; its present position if there is no valid one.
@@ -81,6 +115,8 @@ class NodeMoves {
   }
 
  private:
+  static constexpr int tries_between_checks = 4096;
+
   SplitMix64 random_for(NodeIndex node, int sweep) const {
     return counter_random(parameters_.seed, node, static_cast<std::uint64_t>(sweep));
   }
@@ -94,6 +130,7 @@ class NodeMoves {
     SplitMix64 random = random_for(node, sweep);
     const int n_tries = tries_per_candidate * parameters_.n_candidates;
     for (int i = 0, n_valid = 0; i < n_tries && n_valid < parameters_.n_candidates; ++i) {
+      if (i % tries_between_checks == tries_between_checks - 1 && interruption_.has_come()) break;
       x = allowed_position<dim, spacedim>(
           mesh_, node,
           original_[node] + radius * edge_length_[node] * point_in_unit_ball<spacedim>(random));
@@ -151,6 +188,7 @@ class NodeMoves {
   std::vector<double> edge_length_;  ///< mean over the edges at a node, in the original mesh
   std::vector<double> min_quality_;  ///< of each cell
   DistortionParameters parameters_;
+  InterruptionInLoops interruption_;
 };
 
 }  // namespace smoothfem
