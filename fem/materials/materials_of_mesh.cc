@@ -15,13 +15,6 @@ namespace smoothfem {
 namespace {
 
 template <int dim>
-std::string at_point(const Point<dim>& p) {
-  std::string text = "(" + std::to_string(p[0]);
-  for (int d = 1; d < dim; ++d) text += ", " + std::to_string(p[d]);
-  return text + ")";
-}
-
-template <int dim>
 Point<dim> mean_of_nodes(const Mesh<dim>& mesh, CellIndex cell) {
   Point<dim> sum = Point<dim>::Zero();
   const auto nodes = mesh.topology().cell_nodes(cell);
@@ -55,7 +48,7 @@ class MaterialFinder {
         throw InputError(
             "the solution's diffusivity is 'piecewise by tag', but cells of " +
             text_of(groups_[kinds_[c]]) + " lie on both sides of its interface, one of them at " +
-            at_point<dim>(centre) +
+            point_text<dim>(centre) +
             ": give the cells of each side a group of their own, or leave 'diffusivity' out");
       known = here;
     }
@@ -214,7 +207,7 @@ class MaterialCheck {
 
   [[noreturn]] static void refuse(const std::string& what, const Point<dim>& p,
                                   const std::string& advice) {
-    throw InputError("the solution's " + what + " at " + at_point<dim>(p) +
+    throw InputError("the solution's " + what + " at " + point_text<dim>(p) +
                      ", a node between two materials: " + advice);
   }
 

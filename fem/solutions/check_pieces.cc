@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fem/solutions/check_solution.h"
 #include "smoothing/mesh/volume_elements.h"
 
 namespace smoothfem {
@@ -82,10 +83,8 @@ class PieceCheck {
 
   [[noreturn]] static void refuse(const std::string& what, const Point<dim>& p,
                                   const std::string& advice) {
-    std::string at = "(" + std::to_string(p[0]);
-    for (int d = 1; d < dim; ++d) at += ", " + std::to_string(p[d]);
-    throw InputError("the solution's " + what + " at " + at +
-                     "), where a condition of its formulas changes: " + advice);
+    throw InputError("the solution's " + what + " at " + point_text<dim>(p) +
+                     ", where a condition of its formulas changes: " + advice);
   }
 
   const ManufacturedSolution<dim>& s_;

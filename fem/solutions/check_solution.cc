@@ -8,13 +8,6 @@ namespace smoothfem {
 
 namespace {
 
-template <int dim>
-std::string point_text(const Point<dim>& p) {
-  std::string text;
-  for (int d = 0; d < dim; ++d) text += (d == 0 ? "(" : ", ") + std::to_string(p[d]);
-  return text + ")";
-}
-
 /// Checks that all values are finite; outside of a formula's domain its derivatives are
 /// meaningless.
 template <int dim>

@@ -7,6 +7,14 @@
 
 namespace smoothfem {
 
+/// Returns "(0.500000, 1.000000)" for messages.
+template <int dim>
+std::string point_text(const Point<dim>& p) {
+  std::string text;
+  for (int d = 0; d < dim; ++d) text += (d == 0 ? "(" : ", ") + std::to_string(p[d]);
+  return text + ")";
+}
+
 /// Names of the parts of a solution in a study, for messages.
 struct SolutionKeys {
   const char *value, *gradient, *load;

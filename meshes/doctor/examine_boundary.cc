@@ -50,41 +50,32 @@ std::vector<bool> add_seams(Findings& findings, const Skin& skin) {
   return seam_flags(cells, skin, hanging, coincident);
 }
 
-namespace {
-
-/// Calls visit(points) with the nodes of a mesh in space.
-template <int dim, int spacedim, class Visit>
-auto with_points_in_space(const Mesh<dim, spacedim>& mesh, const Visit& visit) {
-  if constexpr (spacedim == 3) return visit(mesh.coordinates());
-  std::vector<Point<3>> points(mesh.n_nodes(), Point<3>::Zero());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i].template head<spacedim>() = mesh.coordinates()[i];
-  return visit(std::span<const Point<3>>(points));
-}
-
-}  // namespace
-
 template <int dim, int spacedim>
 BoundaryExamination examine_boundary(const Mesh<dim, spacedim>& mesh) {
-  return with_points_in_space(mesh, [&](std::span<const Point<3>> points) {
-    const Topology& topology = mesh.topology();
-    const PlainCells cells{dim, topology.cells(), points, dim == spacedim && dim == 2};
+  return with_plain_cells(mesh, [&](const PlainCells& cells) {
     Findings findings(cells);
-    auto seam_nodes = add_seams(findings, skin_of(topology));
+    auto seam_nodes = add_seams(findings, skin_of(mesh.topology()));
     return BoundaryExamination{std::move(findings).take(), std::move(seam_nodes)};
   });
 }
 
 template <int dim, int spacedim>
-void require_conforming(const Mesh<dim, spacedim>& mesh, const std::string& path) {
-  for (const Finding& finding : examine_boundary(mesh).findings)
-    if (finding.kind == FindingKind::hanging_nodes || finding.kind == FindingKind::coincident_nodes)
-      throw InputError(path + ": " + finding.sentence + "; a study needs a mesh that conforms");
+std::vector<bool> require_conforming(const Mesh<dim, spacedim>& mesh, const std::string& path,
+                                     bool hanging_is_constrained) {
+  auto seen = examine_boundary(mesh);
+  for (const Finding& finding : seen.findings) {
+    const bool hangs = finding.kind == FindingKind::hanging_nodes;
+    if ((hangs && !hanging_is_constrained) || finding.kind == FindingKind::coincident_nodes)
+      throw InputError(
+          path + ": " + finding.sentence + "; a study needs a mesh that conforms" +
+          (hangs ? ", or 'set hanging nodes = constrain' with elements of degree 1" : ""));
+  }
+  return std::move(seen.seam_nodes);
 }
 
 #define SMOOTHFEM_INSTANTIATE(MESH)                           \
   template BoundaryExamination examine_boundary(const MESH&); \
-  template void require_conforming(const MESH&, const std::string&);
+  template std::vector<bool> require_conforming(const MESH&, const std::string&, bool);
 SMOOTHFEM_INSTANTIATE(PlanarMesh)
 SMOOTHFEM_INSTANTIATE(VolumeMesh)
 SMOOTHFEM_INSTANTIATE(SurfaceMesh)

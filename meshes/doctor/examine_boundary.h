@@ -26,9 +26,11 @@ BoundaryExamination examine_boundary(const Mesh<dim, spacedim>& mesh);
 /// Adds the findings of examine_boundary(). Returns its flags.
 std::vector<bool> add_seams(Findings& findings, const Skin& skin);
 
-/// Throws InputError if the mesh has hanging nodes or seams of coincident nodes: the solution on
-/// both sides of the seam would not fit together. The message names the first place and a remedy.
+/// Throws InputError for hanging nodes, unless they are constrained, and for seams of coincident
+/// nodes: the solution on both sides would not fit together. The message names the first place and
+/// a remedy. Returns the flags of examine_boundary().
 template <int dim, int spacedim>
-void require_conforming(const Mesh<dim, spacedim>& mesh, const std::string& path);
+std::vector<bool> require_conforming(const Mesh<dim, spacedim>& mesh, const std::string& path,
+                                     bool hanging_is_constrained);
 
 }  // namespace smoothfem

@@ -2,6 +2,7 @@
 #include "meshes/metrics/metric.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "meshes/metrics/cell_sizes.h"
 #include "meshes/metrics/verdict.h"
@@ -9,6 +10,7 @@
 #include "smoothing/base/text.h"
 #include "smoothing/quality/dihedral_angles.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "smoothing/quality/target_corners.h"
 
 namespace smoothfem {
 
@@ -26,6 +28,28 @@ std::function<std::vector<double>(const MeshReference&)> of_any_mesh(Values valu
     return std::visit([&](const auto* mesh) -> std::vector<double> { return values(*mesh); },
                       reference);
   };
+}
+
+/// Wraps a function of planar and volume meshes with targets; other meshes have no values.
+template <class Values>
+auto of_targets(Values values) {
+  return of_any_mesh([values]<int dim, int spacedim>(const Mesh<dim, spacedim>& mesh) {
+    if constexpr (dim == spacedim)
+      if (mesh.targets() != nullptr) return values(mesh);
+    return std::vector<double>(mesh.n_cells(), std::numeric_limits<double>::quiet_NaN());
+  });
+}
+
+/// Returns for each cell t or 1 / t, which is at most 1, with its size t relative to its target.
+template <int dim>
+std::vector<double> sizes_to_target(const Mesh<dim>& mesh) {
+  std::vector<double> values(mesh.n_cells());
+  for (CellIndex c = 0; c < mesh.n_cells(); ++c)
+    with_target_corners(mesh, c, coordinates_at(mesh.coordinates().data()), [&](auto corners) {
+      const double t = node_simplex_size<dim>(corners);
+      values[c] = t > 0.0 ? std::min(t, 1.0 / t) : 0.0;
+    });
+  return values;
 }
 
 /// Returns one end of the range of each cell's angles.
@@ -69,7 +93,24 @@ std::vector<Metric> make_catalogue() {
        .larger_is_better = false,
        .ideal = 1.0,
        .types = all_types,
-       .values = of_any_mesh([](const auto& mesh) { return size_gradations(mesh); })}};
+       .values = of_any_mesh([](const auto& mesh) { return size_gradations(mesh); })},
+      {.name = "initial_shape",
+       .meaning =
+           "mean ratio with the linear image of a regular cell that is closest to the initial cell "
+           "as the ideal shape; in studies only",
+       .larger_is_better = true,
+       .ideal = 1.0,
+       .types = all_types,
+       .compares_with_initial = true,
+       .values = of_targets([](const auto& mesh) { return cell_mean_ratios(mesh); })},
+      {.name = "initial_size",
+       .meaning = "size over the cell's initial size, or its inverse if that is less; 0 if turned "
+                  "over; in studies only",
+       .larger_is_better = true,
+       .ideal = 1.0,
+       .types = all_types,
+       .compares_with_initial = true,
+       .values = of_targets([](const auto& mesh) { return sizes_to_target(mesh); })}};
   for (const VerdictMetric& of_verdict : verdict_metrics())
     metrics.push_back({.name = of_verdict.name,
                        .meaning = of_verdict.meaning,

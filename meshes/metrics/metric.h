@@ -26,6 +26,8 @@ struct Metric {
   std::optional<double> ideal{};
   /// Supported types of cells.
   std::vector<ElementType> types{};
+  /// True if the mesh must have targets (cell_targets.h), which are the cells of its initial mesh.
+  bool compares_with_initial = false;
   /// Returns the value of each cell, at most infinite_metric; NaN for unsupported cells. Results
   /// are the same for every number of threads.
   std::function<std::vector<double>(const MeshReference&)> values{};

@@ -367,7 +367,8 @@ TEST(Doctor, NodesOfSeamsAreMarked) {
   EXPECT_THAT(seen.findings[0].sentence, HasSubstr("1 hanging node lies inside an edge"));
   EXPECT_EQ(seen.seam_nodes,
             (std::vector<bool>{false, true, true, false, false, true, false, false}));
-  EXPECT_THROW(require_conforming(std::get<PlanarMesh>(file.mesh), "m"), InputError);
+  EXPECT_THROW(require_conforming(std::get<PlanarMesh>(file.mesh), "m", false), InputError);
+  EXPECT_EQ(require_conforming(std::get<PlanarMesh>(file.mesh), "m", true), seen.seam_nodes);
   const auto octree_mesh = assemble_mesh("m", octree(2, test::BoxCells::tetrahedra)).mesh;
   EXPECT_EQ(examine_boundary(std::get<VolumeMesh>(octree_mesh)).findings.size(), 1u);
 }

@@ -69,7 +69,7 @@ struct Rules {
   Mesh<dim, spacedim> apply(const Mesh<dim, spacedim>& mesh) const {
     if constexpr (dim == spacedim) {
       const auto ruled = with_rules(mesh, nodes);
-      return target ? with_targets(ruled, targets_of(mesh, *target, initial_size_bound)) : ruled;
+      return target ? with_initial_targets(ruled, *target) : ruled;
     } else {
       if (target || nodes.boundary_slides || nodes.joins_periodic ||
           nodes.interfaces != InterfaceRule::fixed)
@@ -91,22 +91,16 @@ struct Rules {
 
 /// words: the arguments interfaces, boundary, periodic and target.
 Rules rules_of(const std::map<std::string, std::string>& words) {
-  const auto position = [&](const std::string& key, const std::vector<std::string>& known) {
-    const std::string& word = find_named(key, words.at(key), known);
-    return std::find(known.begin(), known.end(), word) - known.begin();
+  const auto word = [&](const std::string& key, const std::vector<std::string>& known) {
+    return find_named(key, words.at(key), known);
   };
-  const auto texts = [](const auto& names) {
-    return std::vector<std::string>(names.begin(), names.end());
-  };
+  std::vector<std::string> targets{"regular"};
+  targets.insert(targets.end(), initial_target_names.begin(), initial_target_names.end());
   Rules rules;
-  rules.nodes.interfaces =
-      static_cast<InterfaceRule>(position("interfaces", texts(interface_rule_names)));
-  rules.nodes.boundary_slides = position("boundary", {"fixed", "slide"}) == 1;
-  rules.nodes.joins_periodic = position("periodic", {"fixed", "smooth"}) == 1;
-  auto targets = texts(initial_target_names);
-  targets.insert(targets.begin(), "regular");
-  if (const auto kind = position("target", targets); kind > 0)
-    rules.target = static_cast<TargetKind>(kind - 1);
+  rules.nodes.interfaces = interface_rule(words.at("interfaces"));
+  rules.nodes.boundary_slides = word("boundary", {"fixed", "slide"}) == "slide";
+  rules.nodes.joins_periodic = word("periodic", {"fixed", "smooth"}) == "smooth";
+  rules.target = initial_target(word("target", targets));
   return rules;
 }
 

@@ -91,15 +91,6 @@ Real target_weight(const LinearMap<dim, Real>& map) {
   return root * root;
 }
 
-/// Maps a position back to where the cell is, if the mesh has targets.
-template <int dim, int spacedim, class Corner>
-Corner at_target(const Mesh<dim, spacedim>& mesh, CellIndex cell, Corner position) {
-  if constexpr (dim == spacedim)
-    if (mesh.targets() != nullptr)
-      return linear_map<TargetMap::to_target>(*mesh.targets(), cell)(position);
-  return position;
-}
-
 /// Fits: std::true_type or std::false_type in the plane: whether element steps take a target size.
 template <int dim, int spacedim, class Weighting, class Fits = bool>
 struct Pass {
@@ -116,8 +107,7 @@ struct Pass {
   template <std::size_t n, class Wanted>
   Lanes add(const CellBatch<n>& batch, const Wanted& wanted, double* sums) const {
     const Point<spacedim>* const x = mesh.coordinates().data();
-    const auto corners = target_corners<dim>(
-        mesh.targets(), batch, [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; });
+    const auto corners = target_corners<dim>(mesh.targets(), batch, coordinates_at(x));
     std::array<Vector<dim, Lanes>, n> transformed;
     const Lanes quality =
         within_size_bound<dim>(mesh.targets(), std::span<const Vector<dim, Lanes>, n>(corners),
@@ -163,9 +153,8 @@ struct Pass {
   double add_cell(CellIndex cell, const Wanted& wanted, double* sums) const {
     const auto nodes = mesh.topology().cell_nodes(cell);
     const Point<spacedim>* const x = mesh.coordinates().data();
-    const auto at = [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; };
     double quality = 0.0;
-    with_target_corners(mesh, cell, at, [&](auto corners) {
+    with_target_corners(mesh, cell, coordinates_at(x), [&](auto corners) {
       with_result(corners, [&](auto transformed) {
         const double size = !fits ? 0.0 : prescribed ? prescribed[cell] : sizes.of(nodes);
         quality = regularize(element, upper_side(mesh, cell), corners, transformed, size);
@@ -176,10 +165,10 @@ struct Pass {
           if (mesh.targets() != nullptr)
             weight *= target_weight(linear_map<TargetMap::to_target>(*mesh.targets(), cell));
         for (std::size_t k = 0; k < nodes.size(); ++k)
-          if (wanted(nodes[k])) {
-            const auto chosen = weighting.chosen(quality, transformed[k], corners[k]);
-            NodeSums::add(sums, nodes[k], weighted(at_target(mesh, cell, chosen), weight));
-          }
+          transformed[k] = weighting.chosen(quality, transformed[k], corners[k]);
+        map_to_target(mesh, cell, transformed);
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          if (wanted(nodes[k])) NodeSums::add(sums, nodes[k], weighted(transformed[k], weight));
       });
     });
     return quality;

@@ -129,6 +129,12 @@ std::vector<FixedReasons> fixed_nodes(const Topology& topology, const FixedNodes
   return reasons;
 }
 
+bool any_node_has(const Topology& topology, FixedReasons reasons) {
+  const auto& of_nodes = topology.fixed_reasons();
+  return std::any_of(of_nodes.begin(), of_nodes.end(),
+                     [&](FixedReasons of_node) { return (of_node & reasons) != 0; });
+}
+
 std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology& topology) {
   std::array<std::size_t, fixed_reasons.size()> counts{};
   for (const FixedReasons of_node : topology.fixed_reasons())

@@ -34,6 +34,9 @@ std::vector<FixedReasons> fixed_nodes(const Topology& topology, const FixedNodes
 /// Returns the reasons of a topology without some of them.
 std::vector<FixedReasons> without(const std::vector<FixedReasons>& reasons, FixedReasons removed);
 
+/// True if some node stays for one of these reasons.
+bool any_node_has(const Topology& topology, FixedReasons reasons);
+
 /// Number of nodes that stay for each reason, in the order of fixed_reasons. Nodes with several
 /// reasons count for each.
 std::array<std::size_t, fixed_reasons.size()> count_fixed_reasons(const Topology& topology);

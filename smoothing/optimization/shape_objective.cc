@@ -93,15 +93,6 @@ template <int dim>
 struct Sizes {
   const CellTargets<dim>* targets;
   double weight;
-
-  /// Maps the corners of a polygon to where its target is regular.
-  void map(CellIndex cell, std::vector<Vector2<double>>& corners) const {
-    if constexpr (dim == 2)
-      if (targets != nullptr) {
-        const auto map = linear_map<TargetMap::to_regular>(*targets, cell);
-        for (auto& corner : corners) corner = map(corner);
-      }
-  }
 };
 
 /// Calls visit(corners) with a polygon's corners, mapped to where its target is regular.
@@ -111,7 +102,10 @@ void with_target_polygon(const Topology& topology, const Sizes<2>& sizes, const 
   std::vector<Vector2<double>> corners;
   corners.reserve(topology.cell_nodes(cell).size());
   for (const NodeIndex node : topology.cell_nodes(cell)) corners.push_back(vector_of(x[node]));
-  sizes.map(cell, corners);
+  if (sizes.targets != nullptr) {
+    const auto map = linear_map<TargetMap::to_regular>(*sizes.targets, cell);
+    for (auto& corner : corners) corner = map(corner);
+  }
   visit(std::span<const Vector2<double>>(corners));
 }
 
@@ -131,11 +125,10 @@ template <int dim>
 double sum_of_block(const Topology& topology, const Sizes<dim>& sizes, const Point<dim>* x,
                     const CellBlock& block) {
   Lanes sums{};
-  const auto at = [x](NodeIndex i) -> const Point<dim>& { return x[i]; };
   for_each_batch<dim>(
       topology, block.first, block.last,
       [&]<std::size_t n>(const CellBatch<n>& batch) {
-        const auto corners = target_corners<dim>(sizes.targets, batch, at);
+        const auto corners = target_corners<dim>(sizes.targets, batch, coordinates_at(x));
         const Lanes value = cell_objective<dim, Lanes, n>(sizes, corners);
         if (batch.count == n_lanes)
           sums += value;
@@ -154,11 +147,10 @@ double sum_of_block(const Topology& topology, const Sizes<dim>& sizes, const Poi
 template <int dim, class Sums>
 void add_block_derivatives(const Topology& topology, const Sizes<dim>& sizes, const Point<dim>* x,
                            const CellBlock& block, HessianModel model, Sums sums) {
-  const auto at = [x](NodeIndex i) -> const Point<dim>& { return x[i]; };
   for_each_batch<dim>(
       topology, block.first, block.last,
       [&]<std::size_t n>(const CellBatch<n>& batch) {
-        const auto corners = target_corners<dim>(sizes.targets, batch, at);
+        const auto corners = target_corners<dim>(sizes.targets, batch, coordinates_at(x));
         const std::span<const Vector<dim, Lanes>, n> nodes(corners);
         CellDerivatives<dim, Lanes, n> derivatives(nodes, model, Sums::blocks);
         if (sizes.targets != nullptr) [[unlikely]]

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/periodic/mesh_rules.h"
 
-#include <algorithm>
-
+#include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/periodic/smooth_periodic.h"
 
 namespace smoothfem {
 
 bool moves_partners(const Topology& topology, const MeshRules& rules) {
-  const auto& reasons = topology.fixed_reasons();
   return rules.joins_periodic ||
-         (rules.boundary_slides && std::any_of(reasons.begin(), reasons.end(), [](FixedReasons r) {
-            return has(r, FixedReason::periodic);
-          }));
+         (rules.boundary_slides && any_node_has(topology, bit(FixedReason::periodic)));
 }
 
 template <int dim>

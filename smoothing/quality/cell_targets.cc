@@ -117,6 +117,12 @@ std::shared_ptr<const CellTargets<dim>> targets_of(const Mesh<dim>& reference, T
   return std::make_shared<const CellTargets<dim>>(maps, size_bound);
 }
 
+std::optional<TargetKind> initial_target(std::string_view name) {
+  for (std::size_t k = 0; k < initial_target_names.size(); ++k)
+    if (initial_target_names[k] == name) return static_cast<TargetKind>(k);
+  return {};
+}
+
 template <int dim>
 Mesh<dim> with_targets(const Mesh<dim>& mesh, std::shared_ptr<const CellTargets<dim>> targets) {
   if (targets && targets->n_cells() != mesh.n_cells())

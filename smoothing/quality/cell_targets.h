@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -59,9 +60,24 @@ std::shared_ptr<const CellTargets<dim>> targets_of(
     const Mesh<dim>& reference, TargetKind kind,
     double size_bound = std::numeric_limits<double>::infinity());
 
+/// Returns the kind with this user's name; none for other names.
+std::optional<TargetKind> initial_target(std::string_view name);
+
 /// Returns the mesh with other targets; null: regular elements of any size. Throws InputError if
 /// their number is not that of the cells.
 template <int dim>
 Mesh<dim> with_targets(const Mesh<dim>& mesh, std::shared_ptr<const CellTargets<dim>> targets);
+
+/// Returns the mesh with targets that are its present cells.
+template <int dim>
+Mesh<dim> with_initial_targets(const Mesh<dim>& mesh, TargetKind kind) {
+  return with_targets(mesh, targets_of(mesh, kind, initial_size_bound));
+}
+
+/// Returns the mesh without targets, whose cells are measured by their own shapes.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> without_targets(const Mesh<dim, spacedim>& mesh) {
+  return {mesh.shared_topology(), mesh.copied_coordinates(), mesh.shared_constraints()};
+}
 
 }  // namespace smoothfem

@@ -40,8 +40,7 @@ template <int dim, int spacedim, class Visit>
 bool for_each_mean_ratio(const Mesh<dim, spacedim>& mesh, std::span<const CellIndex> cells,
                          const Visit& visit) {
   const Point<spacedim>* const x = mesh.coordinates().data();
-  return for_each_mean_ratio_at(
-      mesh, cells, [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; }, visit);
+  return for_each_mean_ratio_at(mesh, cells, coordinates_at(x), visit);
 }
 
 }  // namespace smoothfem

@@ -11,9 +11,8 @@ template <int dim, int spacedim>
 double mean_ratio_of(const Mesh<dim, spacedim>& mesh, CellIndex cell) {
   double q;
   const Point<spacedim>* const x = mesh.coordinates().data();
-  with_target_corners(
-      mesh, cell, [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; },
-      [&](auto corners) { q = target_mean_ratio(mesh, cell, corners); });
+  with_target_corners(mesh, cell, coordinates_at(x),
+                      [&](auto corners) { q = target_mean_ratio(mesh, cell, corners); });
   return q;
 }
 

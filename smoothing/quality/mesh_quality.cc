@@ -19,7 +19,7 @@ constexpr double none = std::numeric_limits<double>::infinity();
 template <int dim, int spacedim>
 void compute_cells(const Mesh<dim, spacedim>& mesh, const CellBlock& block, double* cell_quality) {
   const Point<spacedim>* const x = mesh.coordinates().data();
-  const auto at = [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; };
+  const auto at = coordinates_at(x);
   for_each_batch<dim, spacedim>(
       mesh.topology(), block.first, block.last,
       [&]<std::size_t n>(const CellBatch<n>& batch) {

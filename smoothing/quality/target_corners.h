@@ -101,6 +101,17 @@ inline void with_target_corners(const Mesh<dim, spacedim>& mesh, CellIndex cell,
   });
 }
 
+/// Maps a cell's corners back from where its target is regular, if the mesh has targets.
+template <int dim, int spacedim, class Corner, std::size_t extent>
+inline void map_to_target(const Mesh<dim, spacedim>& mesh, CellIndex cell,
+                          std::span<Corner, extent> corners) {
+  if constexpr (dim == spacedim)
+    if (mesh.targets() != nullptr) [[unlikely]] {
+      const auto map = linear_map<TargetMap::to_target>(*mesh.targets(), cell);
+      for (auto& corner : corners) corner = map(corner);
+    }
+}
+
 /// Returns the mean ratio of a cell with these corners of with_target_corners, or 0 if its size is
 /// beyond the bound of the targets.
 template <int dim, int spacedim, class Corners>

@@ -31,6 +31,12 @@ inline Vector<dim, Lanes> gather_corner(const CoordinatesOf& coordinates_of,
             Lanes{a.z(), b.z(), c.z(), d.z()}};
 }
 
+/// Returns the function that returns a node's coordinates, by reference.
+template <class Point>
+inline auto coordinates_at(const Point* x) {
+  return [x](NodeIndex node) -> const Point& { return x[node]; };
+}
+
 /// Up to n_lanes cells of one type with n nodes each, one in each lane. If there are fewer, the
 /// last cell fills the lanes from `count` on.
 template <std::size_t n>
@@ -51,7 +57,7 @@ struct CellBatch {
   /// Returns their corners from the coordinates of all nodes.
   template <int dim>
   std::array<Vector<dim, Lanes>, n> corners(const Point<dim>* x) const {
-    return corners_at<dim>([x](NodeIndex node) -> const Point<dim>& { return x[node]; });
+    return corners_at<dim>(coordinates_at(x));
   }
 
   /// Calls visit(l) for the lanes in use, in their order.
@@ -138,8 +144,7 @@ inline void with_corners_at(std::span<const NodeIndex> nodes, const CoordinatesO
 template <int dim, int spacedim, class Visit>
 inline void with_corners(std::span<const NodeIndex> nodes, const Point<spacedim>* x,
                          const Visit& visit) {
-  with_corners_at<dim>(
-      nodes, [x](NodeIndex node) -> const Point<spacedim>& { return x[node]; }, visit);
+  with_corners_at<dim>(nodes, coordinates_at(x), visit);
 }
 
 /// Calls visit(corners) with the corners of a planar polygon of any number of nodes.

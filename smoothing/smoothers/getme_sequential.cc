@@ -199,16 +199,11 @@ class GetmeSequential final : public Smoother<dim, spacedim> {
     touched_.clear();
     ++n_transformations_;
     const Point<spacedim>* const x = std::as_const(mesh).coordinates().data();
-    const auto at = [x](NodeIndex i) -> const Point<spacedim>& { return x[i]; };
-    with_target_corners(mesh, cell, at, [&](auto corners) {
+    with_target_corners(mesh, cell, coordinates_at(x), [&](auto corners) {
       with_result(corners, [&](auto result) {
         const double size = fitting_size(mesh, nodes);
         regularize(*regularization_, upper_side(mesh, cell), corners, result, size);
-        if constexpr (dim == spacedim)
-          if (mesh.targets() != nullptr) [[unlikely]] {
-            const auto map = linear_map<TargetMap::to_target>(*mesh.targets(), cell);
-            for (auto& node : result) node = map(node);
-          }
+        map_to_target(mesh, cell, result);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (topology.is_fixed(nodes[k])) continue;
           moved_.emplace_back(nodes[k], x[nodes[k]]);

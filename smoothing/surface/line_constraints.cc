@@ -76,7 +76,7 @@ std::vector<std::uint32_t> LineConstraints::facets_out_of_bound(
   std::vector<std::uint32_t> found;
   if (facet_bound_ == unbounded) return found;
   for (std::uint32_t e = 0; e < edges_.size(); ++e)
-    if (!(distance_of(e, coordinates) <= facet_bound_)) found.push_back(e);
+    if (is_out_of_bound(e, coordinates)) found.push_back(e);
   return found;
 }
 
@@ -86,7 +86,7 @@ std::vector<std::uint32_t> LineConstraints::facets_out_of_bound(
   if (facet_bound_ == unbounded) return found;
   for (const NodeIndex node : around)
     for (const std::uint32_t e : node_edges_[node])
-      if (!(distance_of(e, coordinates) <= facet_bound_)) found.push_back(e);
+      if (is_out_of_bound(e, coordinates)) found.push_back(e);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
@@ -96,9 +96,8 @@ bool LineConstraints::keeps_bound(std::span<const Point<2>> coordinates,
                                   std::span<const NodeIndex> around) const {
   if (facet_bound_ == unbounded) return true;
   return std::all_of(around.begin(), around.end(), [&](NodeIndex node) {
-    return std::all_of(node_edges_[node].begin(), node_edges_[node].end(), [&](std::uint32_t e) {
-      return distance_of(e, coordinates) <= facet_bound_;
-    });
+    return std::none_of(node_edges_[node].begin(), node_edges_[node].end(),
+                        [&](std::uint32_t e) { return is_out_of_bound(e, coordinates); });
   });
 }
 

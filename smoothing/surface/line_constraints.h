@@ -43,6 +43,9 @@ class LineConstraints final : public NodeConstraints<2> {
 
  private:
   double distance_of(std::uint32_t edge, std::span<const Point<2>> coordinates) const;
+  bool is_out_of_bound(std::uint32_t edge, std::span<const Point<2>> coordinates) const {
+    return !(distance_of(edge, coordinates) <= facet_bound_);
+  }
 
   CompressedRows<NodeIndex> edges_;
   CompressedRows<std::uint32_t> node_edges_;

@@ -5,6 +5,7 @@
 #include <set>
 #include <type_traits>
 
+#include "smoothing/base/find_named.h"
 #include "smoothing/mesh/boundary_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/mesh/interfaces.h"
@@ -121,16 +122,20 @@ Mesh<dim> with_fixed_surfaces(const Mesh<dim>& mesh) {
       std::move(reasons));
 }
 
+InterfaceRule interface_rule(const std::string& name) {
+  const auto& names = interface_rule_names;
+  const auto& found = find_named("interfaces", name, names, [](std::string_view n) { return n; });
+  return static_cast<InterfaceRule>(&found - names.data());
+}
+
 template <int dim>
 Mesh<dim> with_interface_rule(const Mesh<dim>& mesh, InterfaceRule rule, bool boundary_slides,
                               const FeatureParameters& parameters, double slide_distance) {
-  const auto& reasons = mesh.topology().fixed_reasons();
-  const bool has_interfaces = std::any_of(reasons.begin(), reasons.end(), [](FixedReasons r) {
-    return has(r, FixedReason::interface);
-  });
+  const bool has_interfaces = any_node_has(mesh.topology(), bit(FixedReason::interface));
   Mesh<dim> result = mesh;
   if (rule == InterfaceRule::free && has_interfaces)
-    result = with_fixed_nodes(std::move(result), without(reasons, bit(FixedReason::interface)));
+    result = with_fixed_nodes(
+        std::move(result), without(mesh.topology().fixed_reasons(), bit(FixedReason::interface)));
   const SlidingSurfaces sliding{.boundary = boundary_slides,
                                 .interfaces = rule == InterfaceRule::slide && has_interfaces};
   if (!sliding.boundary && !sliding.interfaces) return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "smoothing/surface/surface_constraints.h"
@@ -55,6 +56,8 @@ Mesh<dim> with_fixed_surfaces(const Mesh<dim>& mesh);
 enum class InterfaceRule { fixed, slide, free };
 /// Users' names, in the order of the values.
 inline constexpr std::array<std::string_view, 3> interface_rule_names{"fixed", "slide", "free"};
+/// Returns the rule with this name. Throws InputError if there is none.
+InterfaceRule interface_rule(const std::string& name);
 
 /// Returns the mesh with this rule for its interfaces, and with a boundary that slides if asked
 /// for. Throws InputError as with_sliding_boundary does.

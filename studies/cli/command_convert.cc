@@ -23,9 +23,7 @@ void convert(ConvertArguments arguments) {
   const auto output = file_for_standard_output(arguments.out, target.extension);
   if (input) arguments.in = input->path();
   if (output) arguments.out = output->path();
-  if (!target.extension.empty() && !arguments.out.ends_with(target.extension))
-    throw InputError("--to " + arguments.to + " makes a file '" + target.extension + "', but " +
-                     arguments.out + " has another extension; change one of them");
+  require_extension(arguments.out, arguments.to, target);
   require_mesh_path(arguments.out);
   const MeshFile file = read_mesh(
       arguments.in, {.turns_over = !arguments.keep_orientation, .tag_field = arguments.tag_field});

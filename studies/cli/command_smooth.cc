@@ -40,9 +40,7 @@ Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
 }
 
 MeshRules rules_of(const SmoothArguments& arguments) {
-  const auto& names = interface_rule_names;
-  const auto rule = std::find(names.begin(), names.end(), arguments.interfaces) - names.begin();
-  return {.interfaces = static_cast<InterfaceRule>(rule),
+  return {.interfaces = interface_rule(arguments.interfaces),
           .boundary_slides = arguments.boundary == "slide",
           .joins_periodic = arguments.periodic == "smooth",
           .features = features_of(arguments),
@@ -113,11 +111,8 @@ Mesh<dim, spacedim> with_target_option(Mesh<dim, spacedim> mesh, const SmoothArg
   if constexpr (spacedim > dim) {
     throw InputError("--target is for planar and volume meshes; leave it out");
   } else {
-    const auto& names = initial_target_names;
-    if (arguments.target == names[0])
-      return with_targets(mesh, targets_of(mesh, TargetKind{}, initial_size_bound));
-    if (arguments.target == names[1])
-      return with_targets(mesh, targets_of(mesh, TargetKind::size, initial_size_bound));
+    if (const auto kind = initial_target(arguments.target))
+      return with_initial_targets(mesh, *kind);
     if (!std::filesystem::exists(arguments.target))
       throw InputError("--target is '" + arguments.target +
                        "', which is no file; give initial, initial-size or a mesh file");
@@ -126,14 +121,8 @@ Mesh<dim, spacedim> with_target_option(Mesh<dim, spacedim> mesh, const SmoothArg
     if (reference == nullptr || !(reference->topology().cells() == mesh.topology().cells()))
       throw InputError(arguments.target + " has other cells than " + arguments.in +
                        "; --target needs a mesh with the same cells in the same order");
-    return with_targets(mesh, targets_of(*reference, TargetKind{}));
+    return with_targets(mesh, targets_of(*reference, TargetKind::shape_and_size));
   }
-}
-
-/// The mesh without targets, whose cells are measured by their own shapes.
-template <int dim, int spacedim>
-Mesh<dim, spacedim> without_targets(const Mesh<dim, spacedim>& mesh) {
-  return {mesh.shared_topology(), mesh.copied_coordinates(), mesh.shared_constraints()};
 }
 
 struct Outcome {
@@ -297,9 +286,7 @@ void smooth_file(SmoothArguments arguments) {
     arguments.out = output->path();
     arguments.quiet = true;  // standard output is the mesh
   }
-  if (!target.extension.empty() && !arguments.out.ends_with(target.extension))
-    throw InputError("--to " + arguments.to + " makes a file '" + target.extension + "', but " +
-                     arguments.out + " has another extension; change one of them");
+  require_extension(arguments.out, arguments.to, target);
   require_different_files(arguments);
   require_mesh_path(arguments.out);
   if (!arguments.log.empty()) require_writable_file(arguments.log);

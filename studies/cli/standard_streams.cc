@@ -53,6 +53,12 @@ std::unique_ptr<TemporaryFile> file_for_standard_output(const std::string& name,
   return nullptr;
 }
 
+void require_extension(const std::string& out, const std::string& to, const WriteTarget& target) {
+  if (!target.extension.empty() && !out.ends_with(target.extension))
+    throw InputError("--to " + to + " makes a file '" + target.extension + "', but " + out +
+                     " has another extension; change one of them");
+}
+
 void print_content(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> buffer(1 << 16);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "meshes/external/child_process.h"
+#include "meshes/io/mesh_file.h"
 
 namespace smoothfem {
 
@@ -30,6 +31,9 @@ std::unique_ptr<TemporaryFile> copy_of_standard_input(const std::string& name,
                                                       const std::string& format);
 std::unique_ptr<TemporaryFile> file_for_standard_output(const std::string& name,
                                                         const std::string& format);
+
+/// Throws InputError if a file's name does not have the extension that --to asks for.
+void require_extension(const std::string& out, const std::string& to, const WriteTarget& target);
 
 /// Writes a file's content to standard output.
 void print_content(const std::filesystem::path& path);

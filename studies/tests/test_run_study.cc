@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "meshes/distortion/distort.h"
+#include "meshes/metrics/metric_statistics.h"
+#include "smoothing/quality/cell_targets.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/framework/results/sha256.h"
@@ -172,6 +174,23 @@ TEST_F(RunStudy, MetricsNeedNoSolution) {
   const auto rows = table(out, "metrics.csv").rows;
   ASSERT_EQ(rows.size(), table(out, "iterations.csv").rows.size());
   EXPECT_EQ(rows[0].at("better"), "smaller");
+}
+
+TEST_F(RunStudy, MetricsCompareWithTheInitialMesh) {
+  const fs::path out = run(study("set degrees =\nset metrics = initial_shape, initial_size\n"));
+  const auto targets =
+      targets_of(read_planar(out / "meshes/grid_initial.vtu").mesh, TargetKind::shape_and_size);
+  const PlanarMesh result = with_targets(read_planar(out / "meshes/grid_getme.vtu").mesh, targets);
+  for (const Metric* metric : metrics_named("initial_shape, initial_size")) {
+    const auto rows =
+        table(out, "metrics.csv").select({{"method", "getme"}, {"metric", metric->name}});
+    ASSERT_GT(rows.size(), 1u);
+    EXPECT_NEAR(std::stod(rows.back().at("mean")), metric_statistics(*metric, &result).mean, 1e-12);
+    EXPECT_LT(std::stod(rows.back().at("min")), 0.99);
+    if (metric->name == "initial_size") {  // shapes of quadrilaterals are approximated
+      EXPECT_NEAR(std::stod(rows.front().at("min")), 1.0, 1e-13);
+    }
+  }
 }
 
 TEST_F(RunStudy, TheSummaryHasTheRowOfTheResultingMesh) {

@@ -3,13 +3,11 @@
 
 #include <array>
 #include <cstdint>
-
 #include <span>
 #include <vector>
 
 #include "meshes/io/mesh_assembly.h"
-#include "smoothing/mesh/point.h"
-#include "smoothing/mesh/topology.h"
+#include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
 
@@ -21,6 +19,17 @@ struct PlainCells {
   std::span<const Point<3>> points;
   bool planar;  ///< cells of dimension 2 lie in a plane z = const
 };
+
+/// Returns visit(cells) with those of a mesh, whose nodes are given in space.
+template <int dim, int spacedim, class Visit>
+auto with_plain_cells(const Mesh<dim, spacedim>& mesh, const Visit& visit) {
+  const auto& cells = mesh.topology().cells();
+  if constexpr (spacedim == 3) return visit(PlainCells{dim, cells, mesh.coordinates(), false});
+  std::vector<Point<3>> points(mesh.n_nodes(), Point<3>::Zero());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].template head<spacedim>() = mesh.coordinates()[i];
+  return visit(PlainCells{dim, cells, points, true});
+}
 
 /// A facet (side of a cell of dimension 2, face of a volume cell) as one of its cells has it.
 struct CellFacet {

@@ -37,27 +37,6 @@ void search(const Tree<Shape>& tree, const Sought& sought, const Visit& visit) {
              boost::make_function_output_iterator([&](const auto& entry) { visit(entry.second); }));
 }
 
-/// Returns a point of the bilinear surface with these corners: the nearest one to p if p is near
-/// the surface. Refinement in a hexahedron makes nodes of this surface (Gauss-Newton method).
-Point<3> nearest_on_bilinear(const Point<3>& p, const std::array<Point<3>, 4>& x) {
-  constexpr int max_steps = 20;
-  double s = 0.5, t = 0.5;
-  const auto at = [&] {
-    return Point<3>((1.0 - t) * ((1.0 - s) * x[0] + s * x[1]) + t * ((1.0 - s) * x[3] + s * x[2]));
-  };
-  for (int step = 0; step < max_steps; ++step) {
-    const Point<3> along_s = (1.0 - t) * (x[1] - x[0]) + t * (x[2] - x[3]),
-                   along_t = (1.0 - s) * (x[3] - x[0]) + s * (x[2] - x[1]), left = p - at();
-    const double ss = dot<3>(along_s, along_s), st = dot<3>(along_s, along_t),
-                 tt = dot<3>(along_t, along_t), determinant = ss * tt - st * st;
-    if (!(determinant > 0.0)) break;
-    const double by_s = dot<3>(left, along_s), by_t = dot<3>(left, along_t);
-    s = std::clamp(s + (tt * by_s - st * by_t) / determinant, 0.0, 1.0);
-    t = std::clamp(t + (ss * by_t - st * by_s) / determinant, 0.0, 1.0);
-  }
-  return at();
-}
-
 /// A boundary facet and how near to it nodes hang.
 class Target {
  public:
@@ -88,7 +67,8 @@ class Target {
   Point<3> nearest(const Point<3>& p) const {
     if (nodes_.size() == 2) return nearest_on_segment(p, corner(0), corner(1));
     if (nodes_.size() == 3) return nearest_on_triangle(p, corner(0), corner(1), corner(2));
-    return nearest_on_bilinear(p, {corner(0), corner(1), corner(2), corner(3)});
+    const std::array corners{corner(0), corner(1), corner(2), corner(3)};
+    return nearest_on_bilinear(p, corners).point(corners);
   }
 
   std::span<const NodeIndex> nodes_;

@@ -96,16 +96,10 @@ MeshFormat volume_format(const std::string& name, const std::string& extension,
 
 MeshFormat surface_format(const std::string& name, const std::string& extension,
                           const std::string& description) {
-  return {.name = name,
-          .extension = extension,
-          .description = description,
-          .holds_planar_meshes = true,
-          .holds_surface_meshes = true,
-          .holds_polygons = false,
-          .holds_tags = false,
-          .holds_points_in_space = true,
-          .read = read_foreign,
-          .write = write_foreign};
+  MeshFormat format = volume_format(name, extension, description);
+  format.holds_volume_meshes = format.holds_polygons = format.holds_tags = false;
+  format.holds_field = nullptr;
+  return format;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "meshes/domains/catalogue.h"
@@ -89,18 +90,13 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 /// follow them.
 template <int dim>
 void read_mesh_rules(const ParameterHandler& p, const Method<dim>& made, StudyMethod& method) {
-  const auto& rules = interface_rule_names;
-  method.interfaces = static_cast<InterfaceRule>(
-      std::find(rules.begin(), rules.end(), p.get("interfaces")) - rules.begin());
+  method.interfaces = interface_rule(p.get("interfaces"));
   if (method.interfaces == InterfaceRule::slide && !keeps_constraints(made))
     throw InputError("method " + method.name +
                      " cannot slide on interfaces; fix or free them, or use one of " +
                      joined(methods_supporting<dim>(true)));
-  const auto& targets = initial_target_names;
-  const auto target = std::find(targets.begin(), targets.end(), p.get("target"));
-  if (target == targets.end()) return;
-  method.target = static_cast<TargetKind>(target - targets.begin());
-  if (!takes_targets(made))
+  method.target = initial_target(p.get("target"));
+  if (method.target && !takes_targets(made))
     throw InputError("method " + method.name +
                      " knows regular cells only; set its 'target = regular', or use one of " +
                      joined(methods_with_targets<dim>()));
@@ -246,7 +242,7 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
 
 /// Parameters without the study's kind and without newer keys that have their default. So results
 /// resume that are older than kinds, surfaces, derived solutions, diffusivities, natural
-/// conditions, several solutions and constraints.
+/// conditions, several solutions, constraints, rules for interfaces and targets.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
   std::erase_if(parameters, [](const auto& entry) {
@@ -254,6 +250,8 @@ StudyParameters said_parameters(ParameterHandler& p) {
            entry == std::pair<std::string, std::string>{"surface", "false"} ||
            entry == std::pair<std::string, std::string>{"hanging nodes", "refuse"} ||
            entry == std::pair<std::string, std::string>{"periodic", "prescribe"} ||
+           (entry.first.ends_with("/interfaces") && entry.second == "fixed") ||
+           (entry.first.ends_with("/target") && entry.second == "regular") ||
            (entry.second.empty() &&
             (entry.first == "solution/u" || entry.first == "solution/diffusivity" ||
              entry.first == "solution/natural" || entry.first == "solutions" ||
@@ -372,19 +370,11 @@ void declare_stand_in(ParameterHandler& p, const StudyText& text, const std::str
   p.declare_entry("threads", "0", dealii::Patterns::Integer(0));
   for (const std::string key : {"smooth for", "interfaces", "target"})
     p.declare_entry(key, "", dealii::Patterns::Anything());
-  std::istringstream lines(text.text());
-  std::vector<std::string> sections;
-  for (std::string line; std::getline(lines, line);) {
-    const StudyLine read = study_line(line);
-    if (read.kind == StudyLine::Kind::subsection) sections.push_back(read.name);
-    if (read.kind == StudyLine::Kind::end && !sections.empty()) sections.pop_back();
-    const bool is_inside = sections.size() == 1 && sections.front() == "method " + method;
-    const bool is_declared = read.name == "type" || read.name == "title" ||
-                             read.name == "threads" || read.name == "smooth for" ||
-                             read.name == "interfaces" || read.name == "target";
-    if (read.kind == StudyLine::Kind::set && is_inside && !is_declared)
-      p.declare_entry(read.name, "", dealii::Patterns::Anything());
-  }
+  const std::set<std::string> declared{"type",       "title",      "threads",
+                                       "smooth for", "interfaces", "target"};
+  for (const auto& [section, key] : keys_of_sections(text))
+    if (section == "method " + method && !declared.contains(key))
+      p.declare_entry(key, "", dealii::Patterns::Anything());
 }
 
 }  // namespace

@@ -122,6 +122,20 @@ StudyLine study_line(std::string_view line) {
           std::string(trimmed(rest.substr(equals + 1)))};
 }
 
+std::vector<std::pair<std::string, std::string>> keys_of_sections(const StudyText& text) {
+  std::vector<std::pair<std::string, std::string>> keys;
+  std::vector<std::string> sections;
+  std::istringstream lines(text.text());
+  for (std::string line; std::getline(lines, line);) {
+    const StudyLine read = study_line(line);
+    if (read.kind == StudyLine::Kind::subsection) sections.push_back(read.name);
+    if (read.kind == StudyLine::Kind::end && !sections.empty()) sections.pop_back();
+    if (read.kind == StudyLine::Kind::set && sections.size() == 1)
+      keys.emplace_back(sections[0], read.name);
+  }
+  return keys;
+}
+
 StudyParameters all_parameters(ParameterHandler& p) {
   StudyParameters result;
   std::ostringstream text;

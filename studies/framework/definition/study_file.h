@@ -63,6 +63,9 @@ struct StudyLine {
 /// Reads a line of any length, as deal.II does.
 StudyLine study_line(std::string_view line);
 
+/// Returns the keys that a text sets in subsections of its top level: subsection and key.
+std::vector<std::pair<std::string, std::string>> keys_of_sections(const StudyText& text);
+
 /// Returns all keys with their present values.
 StudyParameters all_parameters(dealii::ParameterHandler& p);
 

@@ -288,18 +288,11 @@ constexpr std::string_view group_key = "diffusivity group ";
 }  // namespace
 
 void declare_group_diffusivities(ParameterHandler& p, const StudyText& text) {
-  std::istringstream lines(text.text());
-  std::vector<std::string> sections;
-  for (std::string line; std::getline(lines, line);) {
-    const StudyLine read = study_line(line);
-    if (read.kind == StudyLine::Kind::subsection) sections.push_back(read.name);
-    if (read.kind == StudyLine::Kind::end && !sections.empty()) sections.pop_back();
-    if (read.kind != StudyLine::Kind::set || sections.size() != 1 ||
-        !read.name.starts_with(group_key) ||
-        !(sections[0] == "solution" || sections[0].starts_with("solution ")))
+  for (const auto& [section, key] : keys_of_sections(text)) {
+    if (!key.starts_with(group_key) || !(section == "solution" || section.starts_with("solution ")))
       continue;
-    const Subsection subsection(p, sections[0]);
-    p.declare_entry(read.name, "", Patterns::Anything());
+    const Subsection subsection(p, section);
+    p.declare_entry(key, "", Patterns::Anything());
   }
 }
 

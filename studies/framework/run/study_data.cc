@@ -5,6 +5,7 @@
 
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtu_series.h"
+#include "smoothing/quality/cell_targets.h"
 
 namespace smoothfem {
 
@@ -363,6 +364,40 @@ std::vector<RefinedRow> refined_rows(const StudyData<dim, spacedim>& data) {
   return rows;
 }
 
+namespace {
+
+/// Returns the statistics of each metric. targets: the initial cells; null for surface meshes.
+template <int dim, int spacedim>
+std::vector<MetricStatistics> statistics_of(
+    const std::vector<const Metric*>& metrics, const Mesh<dim, spacedim>& mesh,
+    const std::shared_ptr<const CellTargets<dim>>& targets) {
+  std::vector<MetricStatistics> statistics;
+  for (const Metric* metric : metrics) {
+    if constexpr (dim == spacedim)
+      if (metric->compares_with_initial) {
+        const Mesh<dim> compared = with_targets(mesh, targets);
+        statistics.push_back(metric_statistics(*metric, &compared));
+        continue;
+      }
+    statistics.push_back(metric_statistics(*metric, &mesh));
+  }
+  return statistics;
+}
+
+/// Returns the cells of a mesh as targets if some metric needs them; null otherwise, and if cells
+/// are invalid.
+template <int dim, int spacedim>
+std::shared_ptr<const CellTargets<dim>> targets_for(const std::vector<const Metric*>& metrics,
+                                                    const PreparedMesh<dim, spacedim>& initial) {
+  if constexpr (dim == spacedim)
+    for (const Metric* metric : metrics)
+      if (metric->compares_with_initial && initial.quality.n_invalid == 0)
+        return targets_of(initial.mesh, TargetKind::shape_and_size);
+  return nullptr;
+}
+
+}  // namespace
+
 template <int dim, int spacedim>
 std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
                                    const std::function<void()>& watch) {
@@ -371,7 +406,8 @@ std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
   if (metrics.empty()) return rows;
   for (std::size_t m = 0; m < data.meshes.size(); ++m) {
     const std::string& name = data.meshes[m].description.name;
-    const auto initial = metric_statistics(metrics, &data.meshes[m].mesh);
+    const auto targets = targets_for(metrics, data.meshes[m]);
+    const auto initial = statistics_of(metrics, data.meshes[m].mesh, targets);
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
       const Trajectory& trajectory = data.trajectories[m][k];
       const auto append = [&](std::size_t record, const std::vector<MetricStatistics>& values) {
@@ -385,7 +421,7 @@ std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
       append(0, initial);
       for (const std::size_t record : trajectory.snapshots) {
         const Mesh<dim, spacedim> mesh = mesh_of(data, m, k, record);
-        append(record, metric_statistics(metrics, &mesh));
+        append(record, statistics_of(metrics, mesh, targets));
       }
     }
   }

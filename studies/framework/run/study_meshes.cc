@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/study_meshes.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
@@ -131,29 +130,16 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
   return mesh;
 }
 
-/// Throws InputError for hanging nodes, unless they are constrained, and for seams of coincident
-/// nodes: the solution on both sides would not fit together.
-template <int dim>
-void require_no_seams(const Mesh<dim>& mesh, const std::string& path, bool constrain) {
-  for (const Finding& finding : examine_boundary(mesh).findings) {
-    const bool hangs = finding.kind == FindingKind::hanging_nodes;
-    if ((hangs && !constrain) || finding.kind == FindingKind::coincident_nodes)
-      throw InputError(
-          path + ": " + finding.sentence + "; a study needs a mesh that conforms" +
-          (hangs ? ", or 'set hanging nodes = constrain' with elements of degree 1" : ""));
-  }
-}
-
 /// Returns the constraints that the study wants; null if the mesh has none. Nodes on seams stay.
-/// notes: gets a sentence about them, or about partners that are not constrained.
+/// seam: their flags; may be empty. notes: gets a sentence about them, or about partners that are
+/// not constrained.
 template <int dim>
-std::shared_ptr<const NodeTies> ties_of(Mesh<dim>& mesh, const Study& study,
-                                        std::vector<std::string>& notes) {
+std::shared_ptr<const NodeTies> ties_of(Mesh<dim>& mesh, const std::vector<bool>& seam,
+                                        const Study& study, std::vector<std::string>& notes) {
   NodeTies hanging, periodic;
   if (study.constrain_hanging_nodes) hanging = hanging_ties(mesh);
   if (!hanging.empty()) {
     auto reasons = mesh.topology().fixed_reasons();
-    const auto seam = examine_boundary(mesh).seam_nodes;
     for (std::size_t i = 0; i < seam.size(); ++i)
       if (seam[i]) reasons[i] |= bit(FixedReason::hanging);
     mesh = with_fixed_nodes(std::move(mesh), std::move(reasons));
@@ -197,8 +183,9 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   if (!study.degrees.empty()) {
     if constexpr (dim == spacedim)
       if (!source.file.empty()) {
-        require_no_seams(mesh, source.file.string(), study.constrain_hanging_nodes);
-        ties = ties_of(mesh, study, changes);
+        const auto seam =
+            require_conforming(mesh, source.file.string(), study.constrain_hanging_nodes);
+        ties = ties_of(mesh, seam, study, changes);
       }
     for (const int degree : study.degrees)
       require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
@@ -211,9 +198,7 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   constexpr auto implied =
       static_cast<FixedReasons>(bit(FixedReason::interface) | bit(FixedReason::required) |
                                 bit(FixedReason::hanging) | bit(FixedReason::periodic));
-  const auto& reasons = mesh.topology().fixed_reasons();
-  if (std::any_of(reasons.begin(), reasons.end(),
-                  [](FixedReasons r) { return (r & implied) != 0; }))
+  if (any_node_has(mesh.topology(), implied))
     changes.push_back(fixed_reasons_text(mesh.topology()));
   MeshFacts facts{.description = description,
                   .n_nodes = mesh.n_nodes(),

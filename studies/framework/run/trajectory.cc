@@ -84,8 +84,7 @@ template <int dim, int spacedim>
 Mesh<dim, spacedim> mesh_for(const StudyMethod& method, const Mesh<dim, spacedim>& mesh) {
   if constexpr (dim == spacedim) {
     const auto ruled = with_interface_rule(mesh, method.interfaces, false);
-    return method.target ? with_targets(ruled, targets_of(mesh, *method.target, initial_size_bound))
-                         : ruled;
+    return method.target ? with_initial_targets(ruled, *method.target) : ruled;
   } else {
     return mesh;
   }
@@ -95,8 +94,7 @@ Mesh<dim, spacedim> mesh_for(const StudyMethod& method, const Mesh<dim, spacedim
 template <int dim, int spacedim>
 MeshQuality own_quality(const Mesh<dim, spacedim>& mesh, const MeshQuality& known) {
   if (mesh.targets() == nullptr) return known;
-  return mesh_quality(Mesh<dim, spacedim>(mesh.shared_topology(), mesh.copied_coordinates(),
-                                          mesh.shared_constraints()));
+  return mesh_quality(without_targets(mesh));
 }
 
 }  // namespace

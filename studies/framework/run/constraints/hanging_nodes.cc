@@ -7,25 +7,18 @@
 #include <map>
 
 #include "meshes/doctor/examinations/seams.h"
+#include "smoothing/surface/nearest_point.h"
 
 namespace smoothfem {
 
 namespace {
 
-using Points = std::vector<Point<3>>;
+using Points = std::span<const Point<3>>;
 using Masters = std::vector<std::pair<NodeIndex, double>>;
 using Facet = std::span<const NodeIndex>;
 
-template <int dim>
-Points points_in_space(const Mesh<dim>& mesh) {
-  Points points(mesh.n_nodes(), Point<3>::Zero());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i].template head<dim>() = mesh.coordinates()[i];
-  return points;
-}
-
 /// Returns the ends of the facet's edge that a point lies on, with weights; empty if there is none.
-Masters on_edge(Facet facet, const Points& x, const Point<3>& p) {
+Masters on_edge(Facet facet, Points x, const Point<3>& p) {
   constexpr double allowed = 1e-3;  // of the edge's length
   for (std::size_t k = 0; k < facet.size(); ++k) {
     const NodeIndex a = facet[k], b = facet[(k + 1) % facet.size()];
@@ -39,7 +32,7 @@ Masters on_edge(Facet facet, const Points& x, const Point<3>& p) {
 
 /// Returns the corners of a triangle with the barycentric coordinates of the nearest point of its
 /// plane.
-Masters in_triangle(Facet facet, const Points& x, const Point<3>& p) {
+Masters in_triangle(Facet facet, Points x, const Point<3>& p) {
   Eigen::Matrix<double, 3, 2> edges;
   edges << x[facet[1]] - x[facet[0]], x[facet[2]] - x[facet[0]];
   const Eigen::Vector2d t =
@@ -47,27 +40,17 @@ Masters in_triangle(Facet facet, const Points& x, const Point<3>& p) {
   return {{facet[0], 1.0 - t.sum()}, {facet[1], t[0]}, {facet[2], t[1]}};
 }
 
-/// Returns the corners of a quadrilateral with the values of their bilinear functions at the point
-/// that is mapped nearest to p: by Newton's method, which converges at once for parallelograms.
-Masters in_quadrilateral(Facet facet, const Points& x, const Point<3>& p) {
-  constexpr int n_steps = 20;
-  const Point<3>&a = x[facet[0]], &b = x[facet[1]], &c = x[facet[2]], &d = x[facet[3]];
-  const Point<3> twist = a - b + c - d;
-  Eigen::Vector2d t(0.5, 0.5);
-  for (int step = 0; step < n_steps; ++step) {
-    const Point<3> missing = p - (a + t[0] * (b - a) + t[1] * (d - a) + t[0] * t[1] * twist);
-    Eigen::Matrix<double, 3, 2> slopes;
-    slopes << b - a + t[1] * twist, d - a + t[0] * twist;
-    t += (slopes.transpose() * slopes).inverse() * (slopes.transpose() * missing);
-  }
-  const double s = t[0], r = t[1];
-  return {{facet[0], (1.0 - s) * (1.0 - r)},
-          {facet[1], s * (1.0 - r)},
-          {facet[2], s * r},
-          {facet[3], (1.0 - s) * r}};
+/// Returns the corners of a quadrilateral with the values of their bilinear functions at the
+/// nearest point.
+Masters in_quadrilateral(Facet facet, Points x, const Point<3>& p) {
+  const auto weights =
+      nearest_on_bilinear(p, {x[facet[0]], x[facet[1]], x[facet[2]], x[facet[3]]}).weights();
+  Masters masters;
+  for (std::size_t k = 0; k < weights.size(); ++k) masters.emplace_back(facet[k], weights[k]);
+  return masters;
 }
 
-Masters masters_of(Facet facet, const Points& x, const Point<3>& p) {
+Masters masters_of(Facet facet, Points x, const Point<3>& p) {
   if (auto masters = on_edge(facet, x, p); !masters.empty()) return masters;
   return facet.size() == 4 ? in_quadrilateral(facet, x, p) : in_triangle(facet, x, p);
 }
@@ -122,15 +105,15 @@ std::set<std::vector<NodeIndex>> facets_of_seams(const Skin& skin,
 
 template <int dim>
 NodeTies hanging_ties(const Mesh<dim>& mesh) {
-  const Topology& topology = mesh.topology();
-  const Points points = points_in_space(mesh);
-  const PlainCells cells{dim, topology.cells(), points, dim == 2};
-  const Skin skin = skin_of(topology);
-  NodeTies ties;
-  for (const auto& [node, facet] : find_hanging_nodes(cells, skin))
-    ties.nodes.push_back({node, masters_of(skin.facets[facet], points, points[node])});
-  ties.inner_facets = facets_of_seams(skin, ties.nodes);
-  return ties;
+  return with_plain_cells(mesh, [&](const PlainCells& cells) {
+    const Skin skin = skin_of(mesh.topology());
+    NodeTies ties;
+    for (const auto& [node, facet] : find_hanging_nodes(cells, skin))
+      ties.nodes.push_back(
+          {node, masters_of(skin.facets[facet], cells.points, cells.points[node])});
+    ties.inner_facets = facets_of_seams(skin, ties.nodes);
+    return ties;
+  });
 }
 template NodeTies hanging_ties(const Mesh<2>&);
 template NodeTies hanging_ties(const Mesh<3>&);

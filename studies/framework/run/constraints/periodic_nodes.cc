@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "fem/solutions/check_solution.h"
+#include "meshes/doctor/examinations/disjoint_sets.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/mesh/mesh.h"
 
@@ -25,17 +26,12 @@ void for_each_pair(const Topology& topology, const Visit& visit) {
 
 /// Returns the first node of each node's class of partners: for most nodes the node itself.
 std::vector<NodeIndex> first_partners(const Topology& topology) {
-  std::vector<NodeIndex> first(topology.n_nodes());
-  std::iota(first.begin(), first.end(), NodeIndex{0});
-  const auto find = [&](NodeIndex node) {
-    while (first[node] != node) node = first[node] = first[first[node]];
-    return node;
-  };
+  DisjointSets classes(topology.n_nodes());
   for_each_pair(topology, [&](const PeriodicEntity&, NodeIndex node, NodeIndex partner) {
-    const NodeIndex a = find(node), b = find(partner);
-    first[std::max(a, b)] = std::min(a, b);
+    classes.join(node, partner);
   });
-  for (NodeIndex node = 0; node < first.size(); ++node) first[node] = find(node);
+  std::vector<NodeIndex> first(topology.n_nodes());
+  for (NodeIndex node = 0; node < first.size(); ++node) first[node] = classes.first_of(node);
   return first;
 }
 
@@ -44,13 +40,6 @@ bool is_translation(const PeriodicEntity& entity) {
   for (std::size_t k = 0; k < entity.affine.size() && k < 11; ++k)
     if (k % 4 != 3 && std::abs(entity.affine[k] - (k % 5 == 0 ? 1.0 : 0.0)) > 1e-9) return false;
   return true;
-}
-
-template <int dim>
-std::string place(const Point<dim>& p) {
-  std::string text = "(" + std::to_string(p[0]);
-  for (int d = 1; d < dim; ++d) text += ", " + std::to_string(p[d]);
-  return text + ")";
 }
 
 }  // namespace
@@ -109,8 +98,8 @@ void require_periodic(const ManufacturedSolution<dim>& solution, const Mesh<dim>
         !is_translation(entity) || (at_a.gradient - at_b.gradient).norm() <= allowed * steepest;
     if (!has_same_value || !has_same_slope)
       throw InputError(std::string("the solution's ") + (has_same_value ? "gradient" : "u") +
-                       " at " + place<dim>(a) + " is not that at its periodic partner " +
-                       place<dim>(b) +
+                       " at " + point_text<dim>(a) + " is not that at its periodic partner " +
+                       point_text<dim>(b) +
                        ": choose a periodic solution, or leave out 'set periodic = constrain'");
   });
 }
