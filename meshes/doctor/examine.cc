@@ -120,38 +120,6 @@ void add_unused_nodes(Findings& findings) {
                "'smoothfem repair' drops such nodes");
 }
 
-/// Adds a finding if all nodes lie in one plane, but not in a plane z = const.
-void add_plane(Findings& findings) {
-  const PlainCells& cells = findings.cells();
-  if (cells.dim != 2 || cells.planar) return;
-  Eigen::AlignedBox3d box;
-  for (const auto& p : cells.points) box.extend(p);
-  const double bound = 1e-9 * box.diagonal().norm();
-  Point<3> normal(0.0, 0.0, 1.0);
-  const bool noise = box.sizes().z() <= bound;
-  if (!noise) {
-    const Point<3> centre = box.center();
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    for (const auto& p : cells.points) moments += (p - centre) * (p - centre).transpose();
-    Point<3> mean = Point<3>::Zero();
-    for (const auto& p : cells.points) mean += (p - centre) / double(cells.points.size());
-    moments -= double(cells.points.size()) * mean * mean.transpose();
-    normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().col(0);
-    double low = 0.0, high = 0.0;
-    for (const auto& p : cells.points) {
-      const double height = normal.dot(p - cells.points[0]);
-      low = std::min(low, height);
-      high = std::max(high, height);
-    }
-    if (high - low > bound) return;
-  }
-  findings.add(findings.at_node(FindingKind::other_plane, 1, 0),
-               noise ? "the mesh is planar but for noise in z"
-                     : "the mesh is planar, but not in a plane z = const: its normal is " +
-                           place_text(normal, false),
-               "set z to one value, or turn the mesh");
-}
-
 /// Cells of which a mesh can be made, with their numbers.
 struct UsableCells {
   CompressedRows<NodeIndex> nodes;
@@ -199,7 +167,8 @@ Examination examine(const MeshParts& parts) {
   require_readable_cells(parts);
   const ElementList& list = parts.elements[dim];
   PlainCells cells{dim, list.nodes, parts.coordinates, dim == 2 && is_planar(parts)};
-  FileNumbers numbers{true, parts.node_ids, list.ids};
+  const PlaneInSpace* plane = parts.content.plane ? &*parts.content.plane : nullptr;
+  FileNumbers numbers{true, parts.node_ids, list.ids, plane};
   Examination result{.mesh_kind = mesh_kind_name(dim, dim == 3 || cells.planar ? dim : 3),
                      .n_nodes = parts.coordinates.size(),
                      .n_cells = list.nodes.size(),
@@ -208,13 +177,12 @@ Examination examine(const MeshParts& parts) {
   Findings findings(cells, numbers);
   const auto usable = add_unusable_cells(findings);
   add_unused_nodes(findings);
-  add_plane(findings);
   std::vector<Finding> more;
   if (std::find(usable.begin(), usable.end(), false) == usable.end()) {
     more = examine_usable(cells, numbers);
   } else if (const auto rest = usable_cells(findings, usable); !rest.nodes.empty()) {
     more = examine_usable({dim, rest.nodes, parts.coordinates, cells.planar},
-                          {true, parts.node_ids, rest.numbers});
+                          {true, parts.node_ids, rest.numbers, plane});
   }
   result.findings = std::move(findings).take();
   result.findings.insert(result.findings.end(), more.begin(), more.end());

@@ -29,8 +29,6 @@ const char* name_of(FindingKind kind) {
       return "touching-edges";
     case FindingKind::unused_nodes:
       return "unused-nodes";
-    case FindingKind::other_plane:
-      return "other-plane";
   }
   return "unknown";
 }

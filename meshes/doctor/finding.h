@@ -23,7 +23,6 @@ enum class FindingKind {
   touching_nodes,    ///< nothing but the node joins the pieces around it
   touching_edges,    ///< nothing but the edge joins the pieces around it
   unused_nodes,      ///< belong to no cell
-  other_plane,       ///< a planar mesh that does not lie in a plane z = const
 };
 
 /// Returns the name of a kind in JSON, for example "hanging-nodes".

@@ -12,11 +12,17 @@
 
 namespace smoothfem {
 
-/// Numbers of nodes and cells in the file, or from 0 where it has none. Default: none are shown.
+/// Numbers of nodes and cells in the file, or from 0 where it has none, and the plane in space if
+/// points have the coordinates of one. Default: no numbers are shown.
 struct FileNumbers {
   bool are_shown = false;
   std::span<const std::size_t> nodes{}, cells{};
+  const PlaneInSpace* plane = nullptr;
 
+  /// Returns a point as the file has it.
+  Point<3> place(const Point<3>& p) const {
+    return plane ? plane->origin + p.x() * plane->x_axis + p.y() * plane->y_axis : p;
+  }
   std::optional<std::size_t> node(NodeIndex i) const { return number(nodes, i); }
   std::optional<std::size_t> cell(CellIndex c) const { return number(cells, c); }
 
@@ -39,10 +45,11 @@ class Findings {
 
   /// Returns a finding without a sentence whose first place is a node, or a cell.
   Finding at_node(FindingKind kind, std::size_t count, NodeIndex node) const {
-    return {kind, count, cells_.points[node], std::nullopt, numbers_.node(node), {}, false};
+    const Point<3> at = numbers_.place(cells_.points[node]);
+    return {kind, count, at, std::nullopt, numbers_.node(node), {}, false};
   }
   Finding at_cell(FindingKind kind, std::size_t count, CellIndex cell) const {
-    const Point<3>& at = cells_.points[cells_.cells[cell][0]];
+    const Point<3> at = numbers_.place(cells_.points[cells_.cells[cell][0]]);
     return {kind, count, at, numbers_.cell(cell), std::nullopt, {}, false};
   }
 
@@ -53,7 +60,7 @@ class Findings {
       place += "node " + std::to_string(*finding.node) + " ";
     else if (finding.cell)
       place += "cell " + std::to_string(*finding.cell) + " ";
-    place += "at " + place_text(finding.at, cells_.planar);
+    place += "at " + place_text(finding.at, cells_.planar && !numbers_.plane);
     finding.sentence = fault + "; " + place + "; " + remedy;
     all_.push_back(std::move(finding));
   }

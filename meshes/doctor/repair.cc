@@ -2,11 +2,13 @@
 #include "meshes/doctor/repair.h"
 
 #include <algorithm>
+#include <map>
 
 #include "meshes/doctor/examinations/orientation.h"
 #include "meshes/doctor/examinations/same_cells.h"
 #include "meshes/doctor/examinations/seams.h"
 #include "meshes/doctor/examine.h"
+#include "smoothing/mesh/sorted_nodes.h"
 
 namespace smoothfem {
 
@@ -103,13 +105,33 @@ void merge_coincident(MeshParts& parts, std::vector<std::string>& done) {
                  " nodes instead of " + std::to_string(n_before));
 }
 
+/// Number of doubled cells whose tag is not that of the first cell with these nodes.
+std::size_t n_of_other_tags(const ElementList& list, const std::vector<CellIndex>& doubled) {
+  if (list.tags.empty()) return 0;
+  std::map<std::vector<NodeIndex>, int> tags;
+  std::vector<bool> is_doubled(list.nodes.size(), false);
+  for (const CellIndex c : doubled) is_doubled[c] = true;
+  for (const CellIndex c : doubled) tags.try_emplace(sorted_nodes(list.nodes[c]), 0);
+  for (CellIndex c = 0; c < list.nodes.size(); ++c)
+    if (!is_doubled[c])
+      if (const auto found = tags.find(sorted_nodes(list.nodes[c])); found != tags.end())
+        found->second = list.tags[c];
+  return static_cast<std::size_t>(std::count_if(doubled.begin(), doubled.end(), [&](CellIndex c) {
+    return tags[sorted_nodes(list.nodes[c])] != list.tags[c];
+  }));
+}
+
 void remove_doubled_cells(MeshParts& parts, std::vector<std::string>& done) {
   const auto doubled = doubled_cells(cells_of(parts).cells);
   if (doubled.empty()) return;
   done.push_back("removed " + count_of(doubled.size(), "cell") +
                  " with the same nodes as an earlier cell: " +
                  (doubled.size() == 1 ? "" : "the first is ") + cell_text(parts, doubled.front()));
-  remove_elements(parts.elements[dimension_of(parts)], doubled);
+  ElementList& list = parts.elements[dimension_of(parts)];
+  if (const std::size_t n = n_of_other_tags(list, doubled); n > 0)
+    done.push_back(std::to_string(n) + " of the removed cells " + (n == 1 ? "has" : "have") +
+                   " another tag than the cell that stays");
+  remove_elements(list, doubled);
 }
 
 void remove_unused_nodes(MeshParts& parts, std::vector<std::string>& done) {

@@ -106,7 +106,10 @@ bool is_own_field(const MeshField& field) {
 }
 
 std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh) {
-  return Losses(mesh, format_for(path, mesh)).find();
+  return losses(format_for(path, mesh), mesh);
+}
+std::vector<std::string> losses(const MeshFormat& format, const MeshView& mesh) {
+  return Losses(mesh, format).find();
 }
 
 }  // namespace smoothfem

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "meshes/io/mesh_file.h"
 #include "meshes/io/mesh_view.h"
 
 namespace smoothfem {
@@ -16,5 +17,8 @@ bool is_own_field(const MeshField& field);
 /// for example "the names and labels of facets". Throws InputError as write_mesh does if the format
 /// cannot hold the mesh.
 std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh);
+
+/// Returns the same for a format that can hold the mesh.
+std::vector<std::string> losses(const MeshFormat& format, const MeshView& mesh);
 
 }  // namespace smoothfem

@@ -135,12 +135,15 @@ class LabelParts {
 
 std::vector<FixedReasons> reasons_of(const MeshParts& parts, const Topology& topology) {
   std::vector<FixedReasons> reasons(topology.n_nodes(), 0);
-  for (NodeIndex i = 0; i < topology.n_nodes(); ++i) {
-    if (parts.fixed && (*parts.fixed)[i]) reasons[i] |= bit(FixedReason::marked);
-    if (topology.on_boundary()[i] && (!parts.fixed || parts.fixes_boundary_as_well))
-      reasons[i] |= bit(FixedReason::boundary);
-  }
+  const auto& on_boundary = topology.on_boundary();
+  bool fixes_boundary = true;
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
+    if (parts.fixed && !parts.fixes_boundary_as_well && on_boundary[i] && !(*parts.fixed)[i])
+      fixes_boundary = false;
+  for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
+    if (on_boundary[i] && fixes_boundary) reasons[i] |= bit(FixedReason::boundary);
   add_implied_reasons(topology, reasons);
+  if (parts.fixed) add_marks(*parts.fixed, reasons);
   return reasons;
 }
 
@@ -173,18 +176,6 @@ AnyMesh make_mesh(MeshParts& parts, int dim) {
   return PlanarMesh(std::move(topology), std::move(points));
 }
 
-/// Gives the points of a planar mesh in space the coordinates of their plane, which is kept.
-void lay_into_plane(MeshParts& parts, int dim) {
-  if (dim == 3) return;
-  auto plane = plane_of(parts.coordinates);
-  if (!plane || *plane == PlaneInSpace()) return;
-  for (Point<3>& point : parts.coordinates) {
-    const Point<2> in_plane = plane->in_plane(point);
-    point = {in_plane.x(), in_plane.y(), 0.0};
-  }
-  parts.content.plane = std::move(plane);
-}
-
 /// Largest coordinate: its sixth powers (squares of volumes) do not overflow.
 constexpr double largest_coordinate = 1e50;
 
@@ -211,6 +202,17 @@ int dimension_of(const MeshParts& parts) {
   return parts.elements[3].nodes.empty() ? 2 : 3;
 }
 
+void lay_into_plane(MeshParts& parts) {
+  if (dimension_of(parts) == 3) return;
+  auto plane = plane_of(parts.coordinates);
+  if (!plane || *plane == PlaneInSpace()) return;
+  for (Point<3>& point : parts.coordinates) {
+    const Point<2> in_plane = plane->in_plane(point);
+    point = {in_plane.x(), in_plane.y(), 0.0};
+  }
+  parts.content.plane = std::move(plane);
+}
+
 bool is_planar(const MeshParts& parts) {
   const auto& points = parts.coordinates;
   return std::all_of(points.begin(), points.end(),
@@ -229,7 +231,7 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
           std::to_string(n) +
           (n == 1 ? " node that no cell uses is" : " nodes that no cell uses are") + " left out");
     require_usable_coordinates(parts);
-    lay_into_plane(parts, dim);
+    lay_into_plane(parts);
     auto notes = std::move(parts.notes);
     for (std::string& done : repair_while_reading(parts, options)) notes.push_back(std::move(done));
     lines = std::move(parts.elements[dim].lines);

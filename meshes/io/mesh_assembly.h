@@ -53,6 +53,9 @@ int dimension_of(const MeshParts& parts);
 /// True if all nodes have the same z.
 bool is_planar(const MeshParts& parts);
 
+/// Gives the points of a planar mesh in space the coordinates of their plane, which is kept.
+void lay_into_plane(MeshParts& parts);
+
 /// Throws InputError that names the first node with a coordinate that is not finite or too large.
 void require_usable_coordinates(const MeshParts& parts);
 

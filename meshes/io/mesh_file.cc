@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <exception>
 #include <fstream>
+#include <iterator>
 #include <new>
+#include <tuple>
 
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/foreign/foreign_formats.h"
 #include "meshes/io/line_reader.h"
+#include "meshes/io/losses.h"
 #include "meshes/io/mesh_assembly.h"
 #include "smoothing/base/registry.h"
 
@@ -124,6 +127,9 @@ FoundFormat format_to_read(const std::filesystem::path& path) {
 MeshParts read_parts(const std::filesystem::path& path, const MeshReadOptions& options) {
   const FoundFormat found = format_to_read(path);
   MeshParts parts = found.format->read(path, options);
+  if (!options.tag_field.empty() && !found.format->takes_tag_field)
+    throw InputError(path.string() + ": files of the format " + found.format->name +
+                     " have no cell arrays for --tag-field; leave it out");
   if (!found.note.empty()) parts.notes.insert(parts.notes.begin(), found.note);
   return parts;
 }
@@ -158,6 +164,16 @@ const PlanarMesh& planar_mesh(const MeshFile& file, const std::filesystem::path&
                    " mesh, but a planar one is needed here; give another file");
 }
 
+namespace {
+
+bool has_polygons(const Topology& topology) {
+  for (CellIndex c = 0; topology.dimension() == 2 && c < topology.n_cells(); ++c)
+    if (topology.cell_nodes(c).size() > 4) return true;
+  return false;
+}
+
+}  // namespace
+
 const MeshFormat& format_for(const std::filesystem::path& path, const MeshView& mesh) {
   const std::string prefix = "cannot write " + path.string();
   const auto holds = mesh.planar()       ? &MeshFormat::holds_planar_meshes
@@ -166,8 +182,18 @@ const MeshFormat& format_for(const std::filesystem::path& path, const MeshView& 
   const auto formats = formats_to_write(extension_of(path), prefix);
   for (const MeshFormat* format : formats)
     if (mesh.content() && mesh.content()->format == format->name) return *format;
-  for (const MeshFormat* format : formats)
-    if (format->*holds) return *format;
+  std::vector<const MeshFormat*> able;
+  std::copy_if(formats.begin(), formats.end(), std::back_inserter(able),
+               [&](const MeshFormat* format) { return format->*holds; });
+  if (able.size() == 1) return *able.front();
+  const bool is_polygonal = has_polygons(mesh.topology());
+  const auto n_lost = [&](const MeshFormat* format) {
+    return std::tuple(is_polygonal && !format->holds_polygons, losses(*format, mesh).size(),
+                      !format->holds_fixed_nodes);
+  };
+  if (!able.empty())
+    return **std::min_element(able.begin(), able.end(),
+                              [&](const auto* a, const auto* b) { return n_lost(a) < n_lost(b); });
   throw InputError(prefix + ": the format cannot hold " +
                    mesh_kind_name(mesh.dimension(), mesh.planar() ? 2 : 3) +
                    " meshes; use .vtu or another extension");

@@ -97,6 +97,7 @@ struct MeshFormat {
   bool holds_periodic = false;        ///< periodic partners
   bool holds_points_in_space = true;  ///< planar meshes in any plane
   bool has_two_encodings = false;     ///< text and binary
+  bool takes_tag_field = false;       ///< MeshReadOptions::tag_field
   int min_element_dimension = 2;      ///< of elements without a label
   /// True if the format can hold a field, at nodes or elements or of the whole file; null: none.
   bool (*holds_field)(const MeshField&, bool is_of_file) = nullptr;
@@ -113,7 +114,7 @@ struct MeshFormat {
 constexpr std::size_t n_recognized = 4096;
 
 /// Returns the format in which write_mesh writes a mesh to a file of this name: the one that the
-/// mesh was read from if it has the same extension, otherwise the first one that can hold it.
+/// mesh was read from if it has the same extension, otherwise the one that can hold most of it.
 /// Throws InputError if there is none.
 const MeshFormat& format_for(const std::filesystem::path& path, const MeshView& mesh);
 

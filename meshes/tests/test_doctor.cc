@@ -329,15 +329,26 @@ TEST(Doctor, RefusesDataThatNoCellsHave) {
   EXPECT_THAT(input_error_of([&] { repair(parts); }), HasSubstr("not a finite number"));
 }
 
-TEST(Doctor, SaysThatAMeshIsPlanarInAnotherPlane) {
+TEST(Doctor, TakesPlanarMeshesInAnyPlane) {
   MeshParts parts = sick_parts(test::grid_mesh(3, test::GridCells::quadrilaterals));
-  parts.coordinates[5].z() = 1e-12;
-  EXPECT_EQ(only_finding(parts).kind, FindingKind::other_plane);
-  EXPECT_THAT(only_finding(parts).sentence, HasSubstr("noise in z"));
   for (auto& p : parts.coordinates) p = Point<3>(p.x(), 0.3 * p.x() + 2.0, p.y());
-  EXPECT_THAT(only_finding(parts).sentence, HasSubstr("its normal is"));
-  parts.coordinates[5].y() += 0.1;
-  EXPECT_THAT(kinds_in(parts), ::testing::IsEmpty());
+  parts.coordinates.emplace_back(1, 2.3, 9);  // belongs to no cell
+  lay_into_plane(parts);
+  EXPECT_EQ(examine(parts).mesh_kind, "planar");
+  const Finding unused = only_finding(parts);
+  EXPECT_EQ(unused.kind, FindingKind::unused_nodes);
+  EXPECT_LT((unused.at - Point<3>(1, 2.3, 9)).norm(), 1e-14);
+  EXPECT_THAT(unused.sentence, HasSubstr("at (1, 2.3, 9)"));
+  parts.coordinates[5].z() += 0.1;
+  EXPECT_EQ(examine(parts).mesh_kind, "surface");
+}
+
+TEST(Doctor, SaysIfADoubledCellHasAnotherTag) {
+  MeshParts parts = sick_parts(2, unit_square, {{0, 1, 2}, {0, 2, 3}, {1, 2, 0}, {3, 0, 2}});
+  parts.elements[2].tags = {1, 1, 1, 7};
+  EXPECT_THAT(repair(parts),
+              ::testing::ElementsAre(HasSubstr("removed 2 cells"),
+                                     HasSubstr("1 of the removed cells has another tag")));
 }
 
 TEST(Doctor, RepairsAllAtOnceAndKeepsWhatTheFileSays) {
@@ -350,7 +361,7 @@ TEST(Doctor, RepairsAllAtOnceAndKeepsWhatTheFileSays) {
   parts.elements[1].nodes = test::rows_of({{1, 2}, {8, 5}, {6, 7}});
   parts.elements[1].tags = {4, 4, 5};
   parts.fixed = std::vector<bool>{true, false, false, false, false, true, false, false, false};
-  EXPECT_EQ(repair(parts).size(), 4u);
+  EXPECT_EQ(repair(parts).size(), 5u);
   EXPECT_EQ(parts.node_ids, (std::vector<std::size_t>{10, 11, 12, 13, 16, 17}));
   EXPECT_EQ(*parts.fixed, (std::vector<bool>{true, true, false, false, false, false}));
   EXPECT_EQ(parts.elements[2].tags, (std::vector<int>{1, 3}));

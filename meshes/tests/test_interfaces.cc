@@ -66,6 +66,44 @@ TEST(Interfaces, CellsThatShareANodeOnlyMeetThere) {
             (std::vector<bool>{false, true, false, true, true, true, false, true, false}));
 }
 
+TEST(Interfaces, OfSurfacesStayOrSlideOrAreNone) {
+  const PlanarMesh flat = test::grid_mesh(4, test::GridCells::triangles);
+  std::vector<Point<3>> points;
+  for (const auto& p : flat.coordinates()) points.emplace_back(p.x(), p.y(), 0.1 * p.x() * p.y());
+  MeshLabels labels = with_two_materials(flat, 2.0).topology().labels();
+  const SurfaceMesh mesh = make_surface_mesh(flat.topology().cells(), points, labels);
+  constexpr NodeIndex inner = 12;  // at (2, 2)
+  ASSERT_EQ(flat.coordinates()[inner], Point<2>(2, 2));
+  const auto reasons = [](const SurfaceMesh& m) { return m.topology().fixed_reasons(inner); };
+  const auto kind = [](const SurfaceMesh& m) {
+    return m.constraints()->classifications()[inner].kind;
+  };
+  EXPECT_EQ(reasons(mesh), bit(FixedReason::interface));
+  EXPECT_EQ(reasons(with_interface_rule(mesh, InterfaceRule::fixed)), reasons(mesh));
+  const SurfaceMesh sliding = with_interface_rule(mesh, InterfaceRule::slide);
+  EXPECT_EQ(reasons(sliding), 0);
+  EXPECT_EQ(kind(sliding), GeometricClassification::line);
+  const SurfaceMesh free = with_interface_rule(mesh, InterfaceRule::free);
+  EXPECT_EQ(reasons(free), 0);
+  EXPECT_EQ(kind(free), GeometricClassification::patch);
+  EXPECT_NE(free.topology().fixed_reasons(0), 0);  // a corner of the boundary
+}
+
+TEST(Interfaces, MarksOfAllTheirNodesSayNoMore) {
+  const FixedReasons boundary = bit(FixedReason::boundary), interface = bit(FixedReason::interface),
+                     marked = bit(FixedReason::marked);
+  const std::vector<FixedReasons> of_mesh{boundary, boundary, interface, interface, 0, 0};
+  auto reasons = of_mesh;
+  add_marks({true, true, true, true, false, true}, reasons);
+  EXPECT_EQ(reasons,
+            (std::vector<FixedReasons>{boundary, boundary, interface, interface, 0, marked}));
+  reasons = of_mesh;
+  add_marks({true, true, true, false, false, false}, reasons);
+  EXPECT_EQ(reasons, (std::vector<FixedReasons>{boundary, boundary,
+                                                static_cast<FixedReasons>(interface | marked),
+                                                interface, 0, 0}));
+}
+
 TEST(Interfaces, NothingIsImpliedWithoutLabels) {
   const PlanarMesh mesh = test::grid_mesh(2, test::GridCells::quadrilaterals);
   MeshLabels labels;

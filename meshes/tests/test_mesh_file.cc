@@ -70,7 +70,8 @@ TEST_P(EveryFormat, RoundTripKeepsLabels) {
 
 TEST_P(EveryFormat, KeepsOrRefusesPolygons) {
   const std::string message = input_error_of([&] { write_mesh(target("a"), mixed_mesh(true)); });
-  if (GetParam().holds_polygons)
+  // Medit shares its extension with a format that holds polygons, which is taken then.
+  if (GetParam().holds_polygons || GetParam().name == "medit")
     EXPECT_EQ(message, "");
   else
     EXPECT_THAT(message, HasSubstr("cell 3 has 5 nodes, and " + GetParam().extension +

@@ -69,6 +69,8 @@ std::vector<double> cell_numbers(const Mesh<dim, spacedim>& mesh, const std::str
   const auto metrics = metrics_named(metric);
   if (metrics.size() != 1)
     throw InputError("quality takes one metric, not '" + metric + "'; call it once for each");
+  if (metrics[0]->compares_with_initial)
+    throw InputError("the metric " + metric + " is for studies, which know the initial mesh");
   return metrics[0]->values(&mesh);
 }
 
@@ -76,8 +78,9 @@ std::vector<double> cell_numbers(const Mesh<dim, spacedim>& mesh, const std::str
 py::dict metric_facts() {
   py::dict facts;
   for (const Metric& metric : metric_catalogue())
-    facts[metric.name.c_str()] =
-        py::make_tuple(metric.meaning, metric.larger_is_better, metric.ideal);
+    if (!metric.compares_with_initial)
+      facts[metric.name.c_str()] =
+          py::make_tuple(metric.meaning, metric.larger_is_better, metric.ideal);
   return facts;
 }
 

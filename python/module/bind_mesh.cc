@@ -139,11 +139,14 @@ std::string description(const PythonMesh& mesh) {
   });
 }
 
+/// Returns a copy that Python cannot change: changes would not reach the mesh.
 template <class Value>
 py::array array_of(const std::vector<Value>& values, std::size_t n_rows, std::size_t n_columns) {
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(n_rows)};
   if (n_columns > 1) shape.push_back(static_cast<py::ssize_t>(n_columns));
-  return py::array_t<Value>(shape, values.data());
+  py::array_t<Value> array(shape, values.data());
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
 }
 
 /// The physical tag of each cell, 0 without one.

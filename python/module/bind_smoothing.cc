@@ -71,12 +71,10 @@ struct Rules {
       const auto ruled = with_rules(mesh, nodes);
       return target ? with_initial_targets(ruled, *target) : ruled;
     } else {
-      if (target || nodes.boundary_slides || nodes.joins_periodic ||
-          nodes.interfaces != InterfaceRule::fixed)
+      if (target || nodes.boundary_slides || nodes.joins_periodic)
         throw InputError(
-            "interfaces, boundary, periodic and target are for planar and volume meshes; leave "
-            "them out");
-      return mesh;
+            "boundary, periodic and target are for planar and volume meshes; leave them out");
+      return with_interface_rule(mesh, nodes.interfaces);
     }
   }
   template <int dim, int spacedim>

@@ -254,9 +254,10 @@ template <int dim, int spacedim>
 void require_constraints_kept(const Mesh<dim, spacedim>& mesh,
                               const Method<dim, spacedim>& method) {
   if (mesh.constraints() && !keeps_constraints(method))
-    throw InputError("method " + method.info.name +
-                     " cannot keep boundary nodes on the boundary; fix them, or use one of " +
-                     joined(methods_supporting<dim, spacedim>(true)));
+    throw InputError(
+        "method " + method.info.name +
+        " cannot keep nodes on the boundary or on interfaces; fix them, or use one of " +
+        joined(methods_supporting<dim, spacedim>(true)));
 }
 
 template <int dim, int spacedim>

@@ -154,6 +154,14 @@ std::string fixed_reasons_text(const Topology& topology) {
   return std::to_string(n_fixed) + (n_fixed == 1 ? " node stays: " : " nodes stay: ") + text;
 }
 
+void add_marks(const std::vector<bool>& flags, std::vector<FixedReasons>& reasons) {
+  FixedReasons said_by_mesh = bit(FixedReason::boundary) | bit(FixedReason::interface);
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (!flags[i]) said_by_mesh &= static_cast<FixedReasons>(~reasons[i]);
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (flags[i] && (reasons[i] & said_by_mesh) == 0) reasons[i] |= bit(FixedReason::marked);
+}
+
 void add_implied_reasons(const Topology& topology, std::vector<FixedReasons>& reasons) {
   const auto add = [&](const std::vector<bool>& flags, FixedReason reason) {
     for (std::size_t i = 0; i < flags.size(); ++i)

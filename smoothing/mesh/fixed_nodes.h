@@ -49,6 +49,10 @@ std::string fixed_reasons_text(const Topology& topology);
 /// periodic partners.
 void add_implied_reasons(const Topology& topology, std::vector<FixedReasons>& reasons);
 
+/// Adds the marks of a file, one flag for each node. Marks of all nodes of the boundary, or of all
+/// those of interfaces, say no more than the mesh itself: these nodes are not marked in addition.
+void add_marks(const std::vector<bool>& flags, std::vector<FixedReasons>& reasons);
+
 /// Returns the mesh with other fixed nodes. reasons: for each node why it stays. Corners of its
 /// constraints are always fixed.
 template <int dim, int spacedim>

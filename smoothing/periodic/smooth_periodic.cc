@@ -134,18 +134,30 @@ class PeriodicMesh {
   std::vector<bool> is_periodic_;
 };
 
-void add_round(const SmoothingResult& round, SmoothingResult& all) {
-  if (all.stages.empty()) {
-    all = round;
-    return;
+/// A method of one stage, which is taken from another method during its lifetime.
+template <int dim>
+class StageAlone {
+ public:
+  StageAlone(Method<dim>& method, std::size_t stage)
+      : owner_(method.stages[stage]), alone_{method.info, {}, method.problem, method.floor} {
+    alone_.stages.push_back(std::move(owner_));
   }
-  for (std::size_t s = 0; s < all.stages.size(); ++s) {
-    const std::size_t iterations = all.stages[s].iterations;
-    all.stages[s] = round.stages[s];
-    all.stages[s].iterations += iterations;
-  }
-  all.smoothing_seconds += round.smoothing_seconds;
-  all.preparation_seconds += round.preparation_seconds;
+  ~StageAlone() { owner_ = std::move(alone_.stages.front()); }
+  StageAlone(const StageAlone&) = delete;
+
+  Method<dim>& method() { return alone_; }
+  ResultMesh result() const { return alone_.stages.front()->traits().result; }
+
+ private:
+  std::unique_ptr<Smoother<dim>>& owner_;
+  Method<dim> alone_;
+};
+
+/// True if a stage that chooses its result in this way prefers the first quality.
+bool is_better(ResultMesh result, const MeshQuality& a, const MeshQuality& b) {
+  if (result == ResultMesh::last) return true;
+  if (a.n_invalid != b.n_invalid) return a.n_invalid < b.n_invalid;
+  return result == ResultMesh::best_q_mean ? a.q_mean > b.q_mean : a.q_star_min > b.q_star_min;
 }
 
 }  // namespace
@@ -191,24 +203,47 @@ SmoothingResult smooth_periodic(Mesh<dim>& mesh, Method<dim>& method,
   SmoothingResult result;
   std::size_t n_records = 0;
   Mesh<dim> seen = mesh;
-  for (int round = 0; round < parameters.max_rounds; ++round) {
-    const auto before = mesh.copied_coordinates();
-    Mesh<dim> extended(topology, halo.coordinates(mesh.coordinates()), constraints);
-    Observer<dim> of_mesh;
-    if (observer)
-      of_mesh = [&](const IterationRecord& record, const Mesh<dim>& now) {
-        if (round > 0 && record.record == 0) return;
-        seen.set_coordinates(now.coordinates().first(mesh.n_nodes()));
-        IterationRecord of_round = record;
-        of_round.record = n_records++;
-        of_round.quality = mesh_quality(seen);
-        of_round.smoothing_seconds += result.smoothing_seconds;
-        observer(of_round, seen);
-      };
-    add_round(smooth(extended, method, of_mesh), result);
-    mesh.set_coordinates(std::as_const(extended).coordinates().first(mesh.n_nodes()));
-    periodic.join_partners(*topology, mesh.coordinates());
-    if (periodic.movement(mesh, before) <= parameters.tolerance) break;
+  // All rounds of a stage come before the next stage: in turn, stages would undo each other's work.
+  for (std::size_t s = 0; s < method.stages.size(); ++s) {
+    StageAlone<dim> stage(method, s);
+    StageResult total;
+    auto best = mesh.copied_coordinates();
+    MeshQuality best_quality = mesh_quality(mesh);
+    int n_not_better = 0;
+    for (int round = 0; round < parameters.max_rounds; ++round) {
+      const auto before = mesh.copied_coordinates();
+      Mesh<dim> extended(topology, halo.coordinates(mesh.coordinates()), constraints);
+      Observer<dim> of_mesh;
+      if (observer)
+        of_mesh = [&](const IterationRecord& record, const Mesh<dim>& now) {
+          if (n_records > 0 && record.record == 0) return;
+          seen.set_coordinates(now.coordinates().first(mesh.n_nodes()));
+          IterationRecord of_round = record;
+          of_round.record = n_records++;
+          of_round.quality = mesh_quality(seen);
+          of_round.smoothing_seconds += result.smoothing_seconds;
+          observer(of_round, seen);
+        };
+      const SmoothingResult of_round = smooth(extended, stage.method(), of_mesh);
+      result.smoothing_seconds += of_round.smoothing_seconds;
+      result.preparation_seconds += of_round.preparation_seconds;
+      const std::size_t earlier = total.iterations;
+      total = of_round.stages.front();
+      total.iterations += earlier;
+      mesh.set_coordinates(std::as_const(extended).coordinates().first(mesh.n_nodes()));
+      periodic.join_partners(*topology, mesh.coordinates());
+      const MeshQuality quality = mesh_quality(mesh);
+      if (is_better(stage.result(), quality, best_quality)) {
+        best = mesh.copied_coordinates();
+        best_quality = quality;
+        n_not_better = 0;
+      } else if (++n_not_better == parameters.patience) {
+        break;
+      }
+      if (periodic.movement(mesh, before) <= parameters.tolerance) break;
+    }
+    mesh.set_coordinates(best);
+    result.stages.push_back(std::move(total));
   }
   // A method without quality control may leave invalid cells.
   const bool is_controlled = std::all_of(
@@ -218,7 +253,9 @@ SmoothingResult smooth_periodic(Mesh<dim>& mesh, Method<dim>& method,
     result.n_floor_reset +=
         periodic.keep_floor(mesh, initial, method.floor != 0 ? initial_quality.q_min : 0.0);
   result.quality = mesh_quality(mesh);
-  result.result_record = n_records > 0 ? n_records - 1 : 0;
+  const bool has_moved =
+      !std::equal(initial.begin(), initial.end(), std::as_const(mesh).coordinates().begin());
+  result.result_record = has_moved ? std::max<std::size_t>(n_records, 2) - 1 : 0;
   return result;
 }
 

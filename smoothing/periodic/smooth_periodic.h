@@ -14,7 +14,8 @@ namespace smoothfem {
 template <int dim>
 struct PeriodicParameters {
   int n_layers = 3;         ///< layers of copied cells at each periodic part of the boundary
-  int max_rounds = 50;      ///< of the method, each with new copies
+  int max_rounds = 50;      ///< of each stage of the method, each with new copies
+  int patience = 3;         ///< rounds without a better mesh, if the stage keeps the best one
   double tolerance = 1e-4;  ///< ends when no periodic node moves by more, relative to its edges
   /// Makes the constraints of the mesh with its copies from the coordinates of all nodes, for a
   /// boundary that slides; empty: none.
@@ -29,7 +30,8 @@ SurfaceFacets without_periodic_facets(const Mesh<dim>& mesh, const SurfaceFacets
 /// Smooths a periodic mesh so that partners move together. Periodic nodes are surrounded by the
 /// cells of both sides, as inner nodes of a torus. The method runs on the mesh with copies of cells
 /// beyond its periodic boundary, whose nodes stay during a run (an overlapping Schwarz iteration).
-/// After each run nodes take the images of their partners, and the copies follow. A periodic node
+/// After each run nodes take the images of their partners, and the copies follow. Stages follow
+/// each other, each with its own rounds, and keep their best mesh as in smooth(). A periodic node
 /// stays if it has another reason to stay, or if copies do not surround it. Cells stay valid if the
 /// method controls validity, and Method::floor holds. The observer gets the mesh without copies.
 /// Results count the iterations and times of all runs. Throws InputError as periodic_maps and

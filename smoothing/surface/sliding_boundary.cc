@@ -128,6 +128,25 @@ InterfaceRule interface_rule(const std::string& name) {
   return static_cast<InterfaceRule>(&found - names.data());
 }
 
+SurfaceMesh with_interface_rule(const SurfaceMesh& mesh, InterfaceRule rule,
+                                const FeatureParameters& parameters) {
+  const Topology& topology = mesh.topology();
+  if (rule == InterfaceRule::fixed || !any_node_has(topology, bit(FixedReason::interface)))
+    return mesh;
+  auto reasons = without(topology.fixed_reasons(), bit(FixedReason::interface));
+  if (rule == InterfaceRule::slide) {
+    const auto points = labelled_points(topology);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i]) reasons[i] |= bit(FixedReason::interface);
+    return with_fixed_nodes(mesh, std::move(reasons));
+  }
+  auto constraints = std::make_shared<const SurfaceConstraints>(
+      SurfaceFacets{topology.cells(), {}, {}}, mesh.coordinates(), parameters);
+  return with_fixed_nodes(
+      SurfaceMesh(mesh.shared_topology(), mesh.copied_coordinates(), std::move(constraints)),
+      without(reasons, bit(FixedReason::corner)));
+}
+
 template <int dim>
 Mesh<dim> with_interface_rule(const Mesh<dim>& mesh, InterfaceRule rule, bool boundary_slides,
                               const FeatureParameters& parameters, double slide_distance) {

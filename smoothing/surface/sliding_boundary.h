@@ -59,6 +59,11 @@ inline constexpr std::array<std::string_view, 3> interface_rule_names{"fixed", "
 /// Returns the rule with this name. Throws InputError if there is none.
 InterfaceRule interface_rule(const std::string& name);
 
+/// Returns a surface mesh with this rule for its interfaces, which are lines on the surface. Lines
+/// of free interfaces are no features. Throws InputError as find_features does.
+SurfaceMesh with_interface_rule(const SurfaceMesh& mesh, InterfaceRule rule,
+                                const FeatureParameters& parameters = {});
+
 /// Returns the mesh with this rule for its interfaces, and with a boundary that slides if asked
 /// for. Throws InputError as with_sliding_boundary does.
 template <int dim>

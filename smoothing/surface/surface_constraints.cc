@@ -169,19 +169,12 @@ SurfaceMesh make_surface_mesh(CompressedRows<NodeIndex> cells, std::vector<Point
     facets.marked_edges.push_back({labels.facets[f][0], labels.facets[f][1]});
   auto constraints = std::make_shared<const SurfaceConstraints>(facets, coordinates, parameters);
   std::vector<FixedReasons> reasons(n_nodes, 0);
-  for (NodeIndex i = 0; i < n_nodes; ++i) {
-    if (fixed && (*fixed)[i]) reasons[i] |= bit(FixedReason::marked);
+  for (NodeIndex i = 0; i < n_nodes; ++i)
     if (constraints->is_corner(i)) reasons[i] |= bit(FixedReason::corner);
-  }
   auto topology =
       std::make_shared<const Topology>(dim, n_nodes, std::move(cells), reasons, std::move(labels));
-  // Interfaces are features already, on whose lines nodes slide.
   add_implied_reasons(*topology, reasons);
-  for (FixedReasons& of_node : reasons)
-    of_node &= static_cast<FixedReasons>(~bit(FixedReason::interface));
-  if (const auto points = labelled_points(*topology); !points.empty())
-    for (NodeIndex i = 0; i < n_nodes; ++i)
-      if (points[i]) reasons[i] |= bit(FixedReason::interface);
+  if (fixed) add_marks(*fixed, reasons);
   for (NodeIndex i = 0; i < n_nodes; ++i)
     reasons[i] |= topology->fixed_reasons(i) & bit(FixedReason::unused);
   if (reasons != topology->fixed_reasons())

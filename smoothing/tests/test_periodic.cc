@@ -176,6 +176,21 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMethodOnATorus, testing::ValuesIn(all_m
                            return name;
                          });
 
+TEST(SmoothPeriodic, LaterStagesDoNotUndoEarlierOnes) {
+  for (const PlanarMesh& mesh : shaken_tori<2>()) {
+    const auto q_of = [&](const std::string& name) {
+      PlanarMesh result = mesh;
+      auto method = make_method<2>(name);
+      method.floor = 1;
+      const auto report = smooth_periodic(result, method);
+      EXPECT_EQ(report.n_floor_reset, 0u) << name;
+      EXPECT_GT(report.result_record, 0u) << name;  // 0 is the initial mesh
+      return mesh_quality(result).q_star_min;
+    };
+    EXPECT_GE(q_of("getme"), q_of("getme-simultaneous"));
+  }
+}
+
 TEST(SmoothPeriodic, SlidesPartnersInTheirSides) {
   VolumeMesh mesh = with_periodic_sides(test::box_mesh(n, n, n, test::BoxCells::hexahedra), n, {0});
   const SlidingFacets sliding = sliding_facets(mesh, {});

@@ -177,8 +177,9 @@ TEST(SlidingBoundaries, AreRefusedByMethodsWithoutConstraints) {
       smooth(mesh, made);
       taken.insert(info.name);
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("cannot keep boundary nodes on the boundary; "
-                                                   "fix them, or use one of getme, getme-qgamma"));
+      EXPECT_THAT(error.what(),
+                  testing::HasSubstr("cannot keep nodes on the boundary or on interfaces; "
+                                     "fix them, or use one of getme, getme-qgamma"));
     }
   }
   EXPECT_THAT(taken, testing::ElementsAreArray(methods_supporting<3>(true)));

@@ -34,8 +34,9 @@ void convert(ConvertArguments arguments) {
   if (output)
     print_content(output->path());
   else if (!arguments.quiet)
-    std::printf("%s mesh, %zu nodes, %zu cells; written to %s\n", kind_name(file.mesh),
-                mesh.n_nodes(), mesh.n_cells(), arguments.out.c_str());
+    std::printf("%s mesh, %s, %s; written to %s\n", kind_name(file.mesh),
+                count_of(mesh.n_nodes(), "node").c_str(), count_of(mesh.n_cells(), "cell").c_str(),
+                arguments.out.c_str());
 }
 
 }  // namespace

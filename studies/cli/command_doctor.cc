@@ -81,9 +81,12 @@ void show_text(const std::string& path, const Examination& seen) {
 
 void check(const DoctorArguments& arguments) {
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
-  const MeshParts parts =
-      read_mesh_parts(input ? input->path() : std::filesystem::path(arguments.in));
-  const Examination seen = about_file(arguments.in, [&] { return examine(parts); });
+  MeshParts parts = read_mesh_parts(input ? input->path() : std::filesystem::path(arguments.in));
+  const Examination seen = about_file(arguments.in, [&] {
+    require_usable_coordinates(parts);
+    lay_into_plane(parts);
+    return examine(parts);
+  });
   (arguments.json ? show_json : show_text)(arguments.in, seen);
   if (!seen.findings.empty()) throw ExitCode{something_found};
 }
@@ -92,6 +95,8 @@ void repair_file(const DoctorArguments& arguments) {
   require_mesh_path(arguments.out);
   MeshParts parts = read_mesh_parts(arguments.in);
   const auto [done, left] = about_file(arguments.in, [&] {
+    require_usable_coordinates(parts);
+    lay_into_plane(parts);
     auto changes = repair(parts);
     return std::pair(std::move(changes), examine(parts));
   });

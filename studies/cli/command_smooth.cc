@@ -57,12 +57,14 @@ Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const SmoothArgum
     throw InputError(
         "--slide-distance is for '--boundary slide' and '--interfaces slide'; leave it out");
   if constexpr (spacedim > dim) {
-    if (arguments.interfaces != "fixed")
-      throw InputError("--interfaces is for planar and volume meshes; leave it out");
+    if (arguments.slide_distance)
+      throw InputError("--slide-distance is for planar and volume meshes; leave it out");
     if (!arguments.boundary.empty())
       throw InputError(
           "--boundary is for planar and volume meshes, but this is a surface mesh; leave it out");
-    return arguments.feature_angle ? with_features(mesh, features_of(arguments)) : mesh;
+    const FeatureParameters features = features_of(arguments);
+    return with_interface_rule(arguments.feature_angle ? with_features(mesh, features) : mesh,
+                               interface_rule(arguments.interfaces), features);
   } else {
     if (arguments.feature_angle && !slides)
       throw InputError(
@@ -200,6 +202,24 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
   }
 }
 
+/// The mesh without reasons to stay for periodic nodes that have moved. Says whether any has.
+template <int dim, int spacedim>
+Mesh<dim, spacedim> with_moved_partners(Mesh<dim, spacedim> mesh,
+                                        const std::vector<Point<spacedim>>& initial) {
+  auto reasons = mesh.topology().fixed_reasons();
+  std::size_t n_moved = 0;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+    if (has(reasons[i], FixedReason::periodic) &&
+        std::as_const(mesh).coordinates()[i] != initial[i]) {
+      reasons[i] = 0;
+      ++n_moved;
+    }
+  std::printf(n_moved == 0 ? "no periodic partner has moved\n"
+                           : "%zu periodic nodes have moved together with their partners\n",
+              n_moved);
+  return with_fixed_nodes(std::move(mesh), std::move(reasons));
+}
+
 template <int dim, int spacedim>
 void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
                  const std::vector<std::size_t>& cell_lines, const MeshWriteOptions& options) {
@@ -217,6 +237,9 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   mesh = fix_nodes_away_from_bad_cells(std::move(mesh), arguments);
   const MeshQuality before = mesh_quality(mesh);
   const std::vector<double> sizes_before = cell_sizes(mesh);
+  std::vector<Point<spacedim>> initial;  // empty if periodic partners stay
+  if (dim == spacedim && moves_partners(mesh.topology(), rules_of(arguments)))
+    initial = mesh.copied_coordinates();
   Recorder recorder(arguments);
   const Outcome outcome =
       smooth_by_method(std::move(method), arguments, mesh, cell_lines, recorder);
@@ -251,18 +274,15 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
       outcome.smoothing.smoothing_seconds, outcome.smoothing.preparation_seconds, n_threads(),
       arguments.out.c_str());
   print_stages(outcome.smoothing, mesh.topology().free_nodes().size());
-  if (dim == spacedim && moves_partners(mesh.topology(), rules_of(arguments))) {
-    mesh = with_fixed_nodes(std::move(mesh),
-                            without(mesh.topology().fixed_reasons(), bit(FixedReason::periodic)));
-    std::printf("periodic partners have moved together\n");
-  }
+  if (!initial.empty()) mesh = with_moved_partners(std::move(mesh), initial);
   for (const std::string& line :
        {fixed_reasons_text(mesh.topology()), size_changes(sizes_before, sizes),
         fields_text(mesh.topology().labels().content.get())})
     if (!line.empty()) std::printf("%s\n", line.c_str());
   if constexpr (dim == spacedim)
     if (const auto* constraints = mesh.constraints())
-      std::printf("distance from the initial boundary: %.3g (limit: %.3g)\n",
+      std::printf("distance from the initial %s: %.3g (limit: %.3g)\n",
+                  arguments.boundary == "slide" ? "boundary" : "interfaces",
                   constraints->facet_distance(mesh.coordinates()), constraints->facet_bound());
 }
 
@@ -276,6 +296,11 @@ std::string default_output(const std::string& in, const std::string& extension) 
 }
 
 void smooth_file(SmoothArguments arguments) {
+  // The option may have taken the mesh for its value.
+  if (arguments.in.empty() && arguments.keep_layers &&
+      !arguments.keep_layers->starts_with("group="))
+    std::swap(arguments.in, *arguments.keep_layers);
+  if (arguments.in.empty()) throw CLI::RequiredError("in");
   const WriteTarget target = parse_write_target(arguments.to);
   if (arguments.out.empty()) arguments.out = default_output(arguments.in, target.extension);
   if (arguments.n_threads > 0) set_n_threads(arguments.n_threads);
@@ -305,7 +330,7 @@ void smooth_file(SmoothArguments arguments) {
 void add_smooth_command(CLI::App& app) {
   auto arguments = std::make_shared<SmoothArguments>();
   auto* command = add_subcommand(app, "smooth");
-  command->add_option("in", arguments->in, "mesh to read; - for standard input")->required();
+  command->add_option("in", arguments->in, "mesh to read (required); - for standard input");
   command->add_option("-m,--method", arguments->method,
                       "method (see 'list'), or python:FILE:CLASS");
   command->add_option("-o,--out", arguments->out,

@@ -97,8 +97,11 @@ Mesh<dim> with_layer_rule(Mesh<dim> mesh, const SmoothArguments& arguments) {
     n_free += topology.has_free_node(c);
     for (const NodeIndex i : topology.cell_nodes(c)) reasons[i] |= bit(FixedReason::layer);
   }
+  if (keeps && layers.cells.empty())
+    print_notes(arguments.in,
+                {"--keep-layers holds no cell: the mesh has no layers of thin cells"});
   if (keeps) return with_fixed_nodes(std::move(mesh), std::move(reasons));
-  if (n_free > 0)
+  if (n_free > 0 && arguments.target.empty())
     std::fprintf(stderr,
                  "smoothfem: warning: %zu cells with aspect ratios above %g lie in layers %s; most "
                  "methods make them isotropic; keep them by --keep-layers\n",

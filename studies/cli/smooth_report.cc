@@ -22,8 +22,8 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
     const bool many = 20 * stage.n_last_reset > n_free_nodes;
     if (many)
       std::printf(
-          "  its last iteration reset %zu of %zu free nodes, because cells around them became "
-          "invalid\n",
+          "  its last iteration reset nodes %zu times (%zu are free), because cells around them "
+          "became invalid\n",
           stage.n_last_reset, n_free_nodes);
   }
   if (result.result_record == 0)

@@ -107,7 +107,7 @@ TEST_F(CommandLine, SlidesTheBoundaryOfAVolumeMesh) {
   const Outcome refused =
       smoothfem({"smooth", "in.msh", "-m", "getme-adaptive", "-o", "x.msh", "--boundary", "slide"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("cannot keep boundary nodes on the boundary"));
+  EXPECT_THAT(refused.err, HasSubstr("cannot keep nodes on the boundary or on interfaces"));
 }
 
 TEST_F(CommandLine, BoundsHowFarASlidingBoundaryComesOffACurvedOne) {
@@ -212,6 +212,9 @@ TEST_F(CommandLine, KeepsSizesThatAreTargets) {
     EXPECT_TRUE(factor > 0.5 && factor < 2.0) << c << ' ' << factor;
   }
   EXPECT_EQ(with({"-m", "getme", "--target", "in.vtu"}).exit_code, 0);
+  const Outcome no_layers = smoothfem({"smooth", "-o", "out.vtu", "--keep-layers", "in.vtu"});
+  EXPECT_EQ(no_layers.exit_code, 0);  // the option does not take the mesh for its value
+  EXPECT_THAT(no_layers.err, HasSubstr("--keep-layers holds no cell"));
   EXPECT_THAT(with({"-m", "laplace", "--target", "initial"}).err, HasSubstr("use one of getme, "));
   EXPECT_THAT(with({"-m", "getme", "--target", "none.vtu"}).err, HasSubstr("which is no file"));
   EXPECT_THAT(with({"-m", "getme", "--periodic", "smooth"}).err,

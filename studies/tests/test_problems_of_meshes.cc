@@ -253,6 +253,10 @@ TEST_F(ProblemOfMesh, PeriodicPartnersHaveTheSameUnknown) {
   EXPECT_THAT(refused("set degrees = 1\nset periodic = constrain\n"
                       "subsection solution\n set u = x*(1-x)*y\nend\n"),
               HasSubstr("the solution's gradient at"));
+  write_mesh(file("mesh.msh"), unit_square(8, Cells::triangles, 0.15));
+  run("plain", "set degrees = 1\nset periodic = constrain\n" + wave);
+  EXPECT_THAT(content_of(file("plain") / "provenance.json"),
+              HasSubstr("the mesh has no periodic partners"));
   write_periodic(file("mesh.msh"), true);
   EXPECT_THAT(refused("set degrees = 1\nset periodic = constrain\n" + wave),
               HasSubstr("whole boundary is periodic"));

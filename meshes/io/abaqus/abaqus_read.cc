@@ -119,23 +119,28 @@ class AbaqusReader {
     Instance& instance = instances_.emplace_back();
     instance.name = lines_.parameter("NAME");
     instance.part = capitals(lines_.parameter("PART"));
-    std::vector<double> numbers;
-    while (lines_.next_data())
+    std::vector<std::vector<double>> numbers;  // of each line
+    while (lines_.next_data()) {
+      auto& of_line = numbers.emplace_back();
       while (lines_.has_field())
-        numbers.push_back(lines_.number("a number of the instance's place"));
-    if (numbers.size() != 0 && numbers.size() != 3 && numbers.size() != 10)
-      lines_.fail(
-          "the place of the instance has " + std::to_string(numbers.size()) +
-          " numbers; give a translation (3), and for a turn two points and an angle (7 more)");
-    if (numbers.size() >= 3) instance.translation = {numbers[0], numbers[1], numbers[2]};
-    if (numbers.size() == 10) {
-      instance.axis_point = {numbers[3], numbers[4], numbers[5]};
-      const Point<3> axis = Point<3>(numbers[6], numbers[7], numbers[8]) - instance.axis_point;
-      if (axis.isZero(0.0)) lines_.fail("the two points of the instance's axis are equal");
-      instance.rotation =
-          Eigen::AngleAxisd(numbers[9] * std::numbers::pi / 180.0, axis.normalized());
+        of_line.push_back(lines_.number("a number of the instance's place"));
     }
-    if (parts_of_file_.contains(instance.part)) {
+    if (numbers.size() > 2 || (!numbers.empty() && numbers[0].size() > 3) ||
+        (numbers.size() == 2 && numbers[1].size() != 7))
+      lines_.fail(
+          "the place of the instance is not a line with a translation (3 numbers) and, for a turn, "
+          "a line with two points and an angle (7 numbers)");
+    for (std::size_t d = 0; !numbers.empty() && d < numbers[0].size(); ++d)
+      instance.translation[static_cast<Eigen::Index>(d)] = numbers[0][d];
+    if (numbers.size() == 2) {
+      const auto& turn = numbers[1];
+      instance.axis_point = {turn[0], turn[1], turn[2]};
+      const Point<3> axis = Point<3>(turn[3], turn[4], turn[5]) - instance.axis_point;
+      if (axis.isZero(0.0)) lines_.fail("the two points of the instance's axis are equal");
+      instance.rotation = Eigen::AngleAxisd(turn[6] * std::numbers::pi / 180.0, axis.normalized());
+    }
+    const auto part = parts_of_file_.find(instance.part);
+    if (part != parts_of_file_.end() && !part->second.node_ids.empty()) {
       mesh_ = &whole_;
     } else {  // its nodes and elements follow
       instance.part = "*" + std::to_string(instances_.size());

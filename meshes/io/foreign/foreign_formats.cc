@@ -89,6 +89,7 @@ MeshFormat volume_format(const std::string& name, const std::string& extension,
           .holds_volume_meshes = true,
           .holds_surface_meshes = true,
           .holds_points_in_space = true,
+          .takes_tag_field = true,
           .holds_field = any_field,
           .read = read_foreign,
           .write = write_foreign};
@@ -107,13 +108,17 @@ MeshFormat surface_format(const std::string& name, const std::string& extension,
 const std::vector<MeshFormat>& foreign_formats() {
   static const std::vector<MeshFormat> formats = [] {
     std::vector<MeshFormat> all;
-    for (const std::string extension : {".exo", ".e", ".ex2"})
+    for (const std::string extension : {".exo", ".e", ".ex2"}) {
       all.push_back(volume_format("exodus", extension, "Exodus II, by VTK"));
+      all.back().holds_fixed_nodes = all.back().holds_numbers = true;  // as fields
+    }
     for (const std::string extension : {".xdmf", ".xmf"}) {
       all.push_back(volume_format("xdmf", extension, "XDMF, by meshio"));
+      all.back().holds_fixed_nodes = all.back().holds_numbers = true;  // as fields
       all.back().holds_facets = true;
+      all.back().min_element_dimension = 1;
     }
-    all.push_back(volume_format("cgns", ".cgns", "CGNS, by VTK (read) and meshio (written)"));
+    all.push_back(volume_format("cgns", ".cgns", "CGNS, by VTK (read) and h5py (written)"));
     all.back().holds_tags = false;
     all.back().holds_field = nullptr;
     all.push_back(surface_format("stl", ".stl", "STL surface, by VTK; 7 digits"));

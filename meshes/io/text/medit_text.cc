@@ -540,17 +540,19 @@ bool holds_field(const MeshField& field, bool is_of_file) {
                          name == required_field || name == ridge_field || is_medit_solution(field));
 }
 
-const RegisteredFormat medit({.name = "medit",
-                              .extension = ".mesh",
-                              .description = "Medit, text; written for volume meshes",
-                              .holds_volume_meshes = true,
-                              .adds_fixed_nodes = true,
-                              .holds_facets = true,
-                              .min_element_dimension = 1,
-                              .holds_field = holds_field,
-                              .recognizes = is_medit_text,
-                              .read = read_medit_text,
-                              .write = write_medit_text});
+const RegisteredFormat medit(
+    {.name = "medit",
+     .extension = ".mesh",
+     .description = "Medit, text; written for planar meshes that have labels",
+     .holds_planar_meshes = true,
+     .holds_volume_meshes = true,
+     .adds_fixed_nodes = true,
+     .holds_facets = true,
+     .min_element_dimension = 1,
+     .holds_field = holds_field,
+     .recognizes = is_medit_text,
+     .read = read_medit_text,
+     .write = write_medit_text});
 
 }  // namespace
 

@@ -19,6 +19,7 @@ MeshFormat vtk_format(const std::string& name, const std::string& description,
           .holds_physical_names = true,
           .holds_numbers = true,
           .has_two_encodings = true,
+          .takes_tag_field = true,
           .min_element_dimension = 0,
           .holds_field = [](const MeshField&, bool) { return true; },
           .recognizes = recognizes,
@@ -52,6 +53,7 @@ const RegisteredFormat xml(vtk_format("vtu", "VTK XML unstructured grid, text or
 const RegisteredFormat parallel({.name = "pvtu",
                                  .extension = ".pvtu",
                                  .description = "list of .vtu files that make one mesh; only read",
+                                 .takes_tag_field = true,
                                  .recognizes = is_pvtu,
                                  .read = read_pvtu});
 

@@ -17,6 +17,7 @@
 #include "meshes/io/line_reader.h"
 #include "meshes/io/node_order.h"
 #include "smoothing/base/input_error.h"
+#include "smoothing/base/text.h"
 
 namespace smoothfem {
 
@@ -224,6 +225,17 @@ class GridParts {
              ", which is not 'dimension tag name'");
   }
 
+  /// Refuses an array that a user takes for tags, but that has other numbers than tags.
+  void require_tags(const MeshField& field) const {
+    if (field.n_components != 1)
+      fail("the cell array '" + field.name + "' has " + std::to_string(field.n_components) +
+           " components, but tags are single integers; give another --tag-field");
+    for (std::size_t i = 0; i < field.n_rows(); ++i)
+      if (const double value = field.number(i); static_cast<double>(tag_of(value)) != value)
+        fail("the cell array '" + field.name + "' has the number " + number_text(value) +
+             ", but tags are integers; give another --tag-field");
+  }
+
   /// Returns the array with the tags, null if there is none.
   const MeshField* tags() {
     auto& fields = grid_.cell_fields;
@@ -231,6 +243,7 @@ class GridParts {
       const auto found = find(fields, tag_field_);
       if (found == fields.end())
         fail("the file has no cell array '" + tag_field_ + "'; give another --tag-field");
+      require_tags(*found);
       return &*found;
     }
     for (const std::string_view name : vtk_tag_fields)

@@ -88,15 +88,20 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
 
 /// Reads the rule for interfaces and the target of a method. Throws InputError if the method cannot
 /// follow them.
-template <int dim>
-void read_mesh_rules(const ParameterHandler& p, const Method<dim>& made, StudyMethod& method) {
+template <int dim, int spacedim>
+void read_mesh_rules(const ParameterHandler& p, const Method<dim, spacedim>& made,
+                     StudyMethod& method) {
   method.interfaces = interface_rule(p.get("interfaces"));
   if (method.interfaces == InterfaceRule::slide && !keeps_constraints(made))
     throw InputError("method " + method.name +
                      " cannot slide on interfaces; fix or free them, or use one of " +
-                     joined(methods_supporting<dim>(true)));
+                     joined(methods_supporting<dim, spacedim>(true)));
   method.target = initial_target(p.get("target"));
-  if (method.target && !takes_targets(made))
+  if (!method.target) return;
+  if (spacedim > dim)
+    throw InputError("method " + method.name +
+                     " has a target, which is for planar and volume meshes; leave it out");
+  if (!takes_targets(made))
     throw InputError("method " + method.name +
                      " knows regular cells only; set its 'target = regular', or use one of " +
                      joined(methods_with_targets<dim>()));
@@ -121,8 +126,7 @@ StudyMethod read_method_section(ParameterHandler& p, MeshDimensions dimensions,
         method.settings.emplace_back(parameter.name, p.get(parameter.name));
     const auto made = method.make<dim, spacedim>();
     check_parameters(made);  // and throws for values out of range
-    if constexpr (dim == spacedim)
-      if (!is_stand_in) read_mesh_rules(p, made, method);
+    if (!is_stand_in) read_mesh_rules(p, made, method);
   });
   return method;
 }

@@ -140,7 +140,7 @@ std::string selection_of(std::span<const std::string_view> names) {
   return all;
 }
 
-/// Declares the keys of methods that meshes have whose cells fill their space.
+/// Declares what a method does with interfaces, and its ideal cells.
 void declare_mesh_rules(ParameterHandler& p) {
   p.declare_entry(
       "interfaces", std::string(interface_rule_names[0]),
@@ -149,8 +149,8 @@ void declare_mesh_rules(ParameterHandler& p) {
       "slide on the interface, or move freely.");
   p.declare_entry("target", "regular",
                   Patterns::Selection("regular|" + selection_of(initial_target_names)),
-                  "Ideal cells: regular ones of any size, those of the initial mesh, or regular "
-                  "ones with the sizes of the initial mesh.");
+                  "Ideal cells of planar and volume meshes: regular ones of any size, those of the "
+                  "initial mesh, or regular ones with the sizes of the initial mesh.");
 }
 
 /// Declares the type and parameters of a method. Defaults are those of the preset, if it has the
@@ -167,7 +167,7 @@ void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::s
   with_dimensions(dimensions, [&]<int dim, int spacedim>() {
     auto method = make_method<dim, spacedim>(method_name_in(folder, type));
     declare_method_header(p, name == type ? method.info.title : name);
-    if (dim == spacedim) declare_mesh_rules(p);
+    declare_mesh_rules(p);
     if (!preset.empty() && has_parameters_for(find_preset(preset), method))
       apply_preset(find_preset(preset), method);
     for (const auto& parameter : method.parameters())
@@ -349,6 +349,7 @@ std::string study_template() {
     const Subsection subsection(p, "method LABEL");
     p.declare_entry("type", "LABEL", Patterns::Anything(), method_type_help);
     declare_method_header(p, "LABEL");
+    declare_mesh_rules(p);
   }
   return commented_keys(p);
 }

@@ -154,6 +154,9 @@ std::shared_ptr<const NodeTies> ties_of(Mesh<dim>& mesh, const std::vector<bool>
                          : " with periodic partners: u is prescribed there as on the rest of the "
                            "boundary; 'set periodic = constrain' gives partners the same unknown"));
   }
+  if (study.constrain_periodic_nodes && periodic.empty())
+    notes.push_back(
+        "'set periodic = constrain' changes nothing: the mesh has no periodic partners");
   if (hanging.empty() && periodic.empty()) return nullptr;
   return std::make_shared<const NodeTies>(joined_ties(std::move(hanging), periodic));
 }

@@ -86,7 +86,7 @@ Mesh<dim, spacedim> mesh_for(const StudyMethod& method, const Mesh<dim, spacedim
     const auto ruled = with_interface_rule(mesh, method.interfaces, false);
     return method.target ? with_initial_targets(ruled, *method.target) : ruled;
   } else {
-    return mesh;
+    return with_interface_rule(mesh, method.interfaces);
   }
 }
 
