@@ -21,7 +21,7 @@ constexpr double time_limit_seconds = 3600.0;
 /// Runs the translator. Returns the lines of its output that begin with "note: ", without these
 /// words. Throws InputError with its last line if it fails.
 std::vector<std::string> translate(const std::string& direction, const fs::path& from,
-                                   const fs::path& to, const fs::path& named) {
+                                   const fs::path& to, const std::string& named) {
   const char* const chosen = std::getenv("SMOOTHFEM_PYTHON");
   const std::string python = chosen && *chosen ? chosen : SMOOTHFEM_PYTHON_EXECUTABLE;
   const fs::path script = data_folder() / "meshes/io/foreign/translate.py";
@@ -38,11 +38,16 @@ std::vector<std::string> translate(const std::string& direction, const fs::path&
     if (line.starts_with(mark)) notes.push_back(line.substr(mark.size()));
     if (!line.empty()) last = line;
   }
-  if (end.timed_out) throw InputError(named.string() + ": the translation took more than an hour");
+  if (end.timed_out) throw InputError(named + ": the translation took more than an hour");
   if (end.signal != 0)
-    throw InputError(named.string() + ": the library for this format crashed (signal " +
-                     std::to_string(end.signal) + "); the file is damaged");
-  if (end.exit_code != 0) throw InputError(named.string() + ": " + last);
+    throw InputError(
+        named + ": the library for this format crashed (signal " + std::to_string(end.signal) +
+        "); " +
+        (direction == "read" ? "the file is damaged" : "use another format, for example .vtu"));
+  if (end.exit_code != 0)
+    throw InputError(
+        named + ": " +
+        (last.empty() ? "the translator says nothing; it was stopped from outside" : last));
   return notes;
 }
 
@@ -50,7 +55,7 @@ MeshParts read_foreign(const fs::path& path, const MeshReadOptions& options) {
   if (!fs::exists(path)) throw InputError(path.string() + ": there is no such file");
   const ScratchFolder folder;
   const fs::path translated = folder.path() / "mesh.vtu";
-  auto notes = translate("read", path, translated, path);
+  auto notes = translate("read", path, translated, path.string());
   MeshParts parts = [&] {
     try {
       return read_vtu(translated, options);
