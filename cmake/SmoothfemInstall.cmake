@@ -47,8 +47,8 @@ install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem COMPONENT
   FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.css" PATTERN "*.js"
   PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)
 
-install(FILES meshes/io/foreign/translate.py
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/meshes/io/foreign COMPONENT program)
+install(DIRECTORY meshes/io/foreign DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/meshes/io COMPONENT program
+  FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY adapters DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem COMPONENT program
   USE_SOURCE_PERMISSIONS)
 install(DIRECTORY launcher/new_smoother DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/launcher COMPONENT program

@@ -120,9 +120,68 @@ CELL_TYPES 3
 14
 """
 
+# Two steps of a field on one triangle.
+SERIES = """<Xdmf Version="3.0"><Domain><Grid GridType="Collection" CollectionType="Temporal">
+<Grid GridType="Uniform">
+<Topology TopologyType="Triangle"><DataItem Dimensions="1 3" NumberType="UInt" Format="XML">0 1 2</DataItem></Topology>
+<Geometry GeometryType="XY"><DataItem Dimensions="3 2" Format="XML">0 0 1 0 0 1</DataItem></Geometry>
+<Time Value="0"/>
+<Attribute Name="u" Center="Node"><DataItem Dimensions="3" Format="XML">1 2 3</DataItem></Attribute>
+</Grid>
+<Grid GridType="Uniform">
+<Topology TopologyType="Triangle"><DataItem Dimensions="1 3" NumberType="UInt" Format="XML">0 1 2</DataItem></Topology>
+<Geometry GeometryType="XY"><DataItem Dimensions="3 2" Format="XML">0 0 2 0 0 2</DataItem></Geometry>
+<Attribute Name="u" Center="Node"><DataItem Dimensions="3" Format="XML">4 5 6</DataItem></Attribute>
+<Attribute Name="w" Center="Other"><DataItem Dimensions="1" Format="XML">7</DataItem></Attribute>
+</Grid>
+</Grid></Domain></Xdmf>
+"""
+
 
 def has_meshio():
     return importlib.util.find_spec("meshio") is not None
+
+
+def write_exodus(path, n_dimensions, kind, elements, side_sets=(), node_sets=()):
+    """Writes a file with one block 0. A set of sides has a number, a name, elements and sides. A set of nodes has a number, a
+    name and nodes."""
+    from scipy.io import netcdf_file
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0, 0], [0.5, 0.5, 0], [0, 0.5, 0], [0.3, 0.3, 0]], float)
+    with netcdf_file(path, "w") as file:
+        file.api_version = file.version = np.float32(5.1)
+        file.floating_point_word_size, file.file_size, file.title = np.int32(8), np.int32(1), "test"
+
+        def add(name, values, *dimensions):
+            values = np.asarray(values)
+            for dimension, size in zip(dimensions, values.shape):
+                if dimension not in file.dimensions:
+                    file.createDimension(dimension, size)
+            variable = file.createVariable(name, "c" if values.dtype.kind == "S" else values.dtype.str[1:], dimensions)
+            variable[:] = values
+            return variable
+
+        def add_groups(letters, dimension, groups):
+            add(f"{letters}_status", np.ones(len(groups), np.int32), dimension)
+            add(f"{letters}_prop1", np.array([group[0] for group in groups], np.int32), dimension).name = "ID"
+            names = [list(group[1].ljust(33, chr(0))) for group in groups]
+            add(f"{letters}_names", np.array(names).astype("S1"), dimension, "len_name")
+
+        for name, size in (("time_step", None), ("len_string", 33), ("len_line", 81), ("four", 4), ("num_dim", n_dimensions),
+                           ("num_elem", len(elements))):
+            file.createDimension(name, size)
+        for k, axis in enumerate("xyz"[:n_dimensions]):
+            add("coord" + axis, points[:, k], "num_nodes")
+        add_groups("eb", "num_el_blk", [(0, "")])
+        add("connect1", np.array(elements, np.int32), "num_el_in_blk1", "num_nod_per_el1").elem_type = kind
+        if side_sets:
+            add_groups("ss", "num_side_sets", side_sets)
+        for k, (_, _, cells, sides) in enumerate(side_sets, 1):
+            add(f"elem_ss{k}", np.array(cells, np.int32), f"num_side_ss{k}")
+            add(f"side_ss{k}", np.array(sides, np.int32), f"num_side_ss{k}")
+        if node_sets:
+            add_groups("ns", "num_node_sets", node_sets)
+        for k, (_, _, nodes) in enumerate(node_sets, 1):
+            add(f"node_ns{k}", np.array(nodes, np.int32), f"num_nod_ns{k}")
 
 
 class Convert(unittest.TestCase):
@@ -198,6 +257,56 @@ class Convert(unittest.TestCase):
         self.assertEqual(fields["stress"][:, 0].tolist(), [2, 1])
         self.assertEqual(fields["displacement"].tolist()[1], [4, 5, 6])
         self.assertEqual(fields["four"].tolist(), [[1, 2, 3, 4]] * 5)
+
+    def exodus(self, name, *content, **sets):
+        if importlib.util.find_spec("scipy") is None:
+            self.skipTest("SKIPPED: python3-scipy is not installed")
+        write_exodus(self.folder / name, *content, **sets)
+
+    def test_exodus_sets_of_number_0_and_of_nodes(self):
+        self.exodus("sets.e", 2, "QUAD4", [[1, 2, 3, 4]], side_sets=[(0, "bottom", [1], [1]), (3, "", [1], [2])],
+                    node_sets=[(0, "bottom", [1, 2]), (7, "", [3]), (8, "fixed", [4])])
+        said = self.convert("sets.e", "sets.msh")
+        self.assertIn("the side set 0 (bottom) gets the number 4, as 0 means none", said)
+        self.assertIn("node sets become fields at nodes: bottom, node_set_7, fixed_set", said)
+        self.assertIn(b'1 4 "bottom"', (self.folder / "sets.msh").read_bytes())
+        self.convert("sets.e", "again.e")
+        for name in ("sets.e", "again.e"):
+            fields = self.fields(name)
+            self.assertEqual([fields[key].tolist() for key in ("bottom", "node_set_7", "fixed_set")],
+                             [[1, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        cells, tags = self.mesh("sets.e")
+        self.assertEqual({tag: corners.tolist() for corners, tag in zip(cells, tags) if len(corners) == 2},
+                         {4: [[0, 0, 0], [1, 0, 0]], 3: [[1, 0, 0], [1, 1, 0]]})
+
+    def test_exodus_sides_of_shells(self):
+        self.exodus("shells.e", 3, "TRISHELL3", [[1, 2, 3], [1, 3, 4]],
+                    side_sets=[(5, "top", [2], [1]), (6, "rim", [1, 2, 2], [3, 4, 5]), (7, "both", [1, 2], [2, 5])])
+        said = self.convert("shells.e", "shells.vtu")
+        self.assertIn("side sets that cover cells of the surface become fields at cells: top, both", said)
+        cells, tags = self.mesh("shells.e")
+        edges = sorted((tag, *corners[:, :2].ravel().tolist()) for corners, tag in zip(cells, tags) if len(corners) == 2)
+        self.assertEqual(edges, [(6, 0, 0, 1, 0), (6, 0, 1, 0, 0), (6, 1, 1, 0, 1), (7, 0, 1, 0, 0)])
+        fields = self.fields("shells.e")
+        of_triangles = [len(corners) == 3 for corners in cells]
+        self.assertEqual([fields[name][of_triangles].tolist() for name in ("top", "both")], [[0, 1], [1, 0]])
+
+    def test_exodus_refuses_cells_that_are_not_linear(self):
+        self.exodus("seven.e", 2, "TRI7", [[1, 2, 4, 5, 6, 7, 8]])
+        self.assertIn("cells with 7 nodes; cells with nodes other than their corners cannot be read",
+                      self.convert("seven.e", "out.vtu", code=2))
+        self.exodus("patch.e", 2, "BEX_QUAD", [[1, 2, 3, 4]])
+        self.assertIn("isogeometric analysis (BEX_QUAD)", self.convert("patch.e", "out.vtu", code=2))
+
+    def test_xdmf_reads_the_last_step(self):
+        if not has_meshio():
+            self.skipTest("SKIPPED: python3-meshio is not installed")
+        (self.folder / "series.xdmf").write_text(SERIES)
+        said = self.convert("series.xdmf", "out.vtu")
+        self.assertIn("only the last of 2 time steps is read", said)
+        self.assertIn("the field 'w' has values elsewhere than at nodes and cells and is left out", said)
+        self.assertEqual(self.fields("series.xdmf")["u"].tolist(), [4, 5, 6])
+        self.assertEqual(self.mesh("series.xdmf")[0][0].tolist(), [[0, 0, 0], [2, 0, 0], [0, 2, 0]])
 
     def test_no_tags_come_from_nothing(self):
         self.convert("untagged.vtk", "untagged.exo")

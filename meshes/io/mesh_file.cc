@@ -117,7 +117,8 @@ FoundFormat format_to_read(const std::filesystem::path& path) {
   for (const MeshFormat& format : mesh_formats())
     if (recognizes(format))
       return {&format, "the file does not have the format that its name says; it is read as " +
-                           format.name + " (" + format.description + ")"};
+                           format.name + " (" + format.description +
+                           "); written files have the formats that their names say"};
   if (formats.empty()) refuse_extension(path.string(), extension, false);
   for (const MeshFormat* format : formats)
     if (!format->recognizes) return {format, {}};

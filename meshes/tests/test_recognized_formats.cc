@@ -60,6 +60,11 @@ TEST_F(RecognizedFormats, ContentCountsAndNotTheName) {
     }
 }
 
+TEST_F(RecognizedFormats, BinaryUcdIsRefusedByItsName) {
+  EXPECT_THAT(input_error_of([&] { read_mesh(file_with("a.inp", "\x07 \x01 binary")); }),
+              HasSubstr("binary UCD of AVS, which is not read; save it as text"));
+}
+
 TEST_F(RecognizedFormats, FirstVersionOfGmshIsWrittenAsTwoPointTwo) {
   const MeshFile read = read_mesh(file_with("a.msh", square_msh_1));
   EXPECT_THAT(read.notes, ElementsAre(HasSubstr("version 1 of Gmsh's format")));

@@ -92,7 +92,8 @@ Real target_weight(const LinearMap<dim, Real>& map) {
 }
 
 /// Fits: std::true_type or std::false_type in the plane: whether element steps take a target size.
-template <int dim, int spacedim, class Weighting, class Fits = bool>
+/// HasTargets: std::false_type or bool: code for targets would keep corners out of registers.
+template <int dim, int spacedim, class Weighting, class Fits = bool, class HasTargets = bool>
 struct Pass {
   const Mesh<dim, spacedim>& mesh;
   const ElementRegularization<dim, spacedim>& element;
@@ -100,6 +101,9 @@ struct Pass {
   const double* prescribed;  ///< prescribed size of each cell, used in their place; or null
   Weighting weighting;
   Fits fits;
+  HasTargets has_targets;
+
+  const CellTargets<dim>* targets() const { return has_targets ? mesh.targets() : nullptr; }
 
   /// Adds w_j p'_i to sums[i] for the elements of a batch and their nodes where wanted(i) holds.
   /// Returns the quality of the elements. The order of the sums: first node 0 of all elements, one
@@ -107,16 +111,16 @@ struct Pass {
   template <std::size_t n, class Wanted>
   Lanes add(const CellBatch<n>& batch, const Wanted& wanted, double* sums) const {
     const Point<spacedim>* const x = mesh.coordinates().data();
-    const auto corners = target_corners<dim>(mesh.targets(), batch, coordinates_at(x));
+    const auto corners = target_corners<dim>(targets(), batch, coordinates_at(x));
     std::array<Vector<dim, Lanes>, n> transformed;
     const Lanes quality =
-        within_size_bound<dim>(mesh.targets(), std::span<const Vector<dim, Lanes>, n>(corners),
+        within_size_bound<dim>(targets(), std::span<const Vector<dim, Lanes>, n>(corners),
                                regularized(batch, corners, transformed));
     Lanes weight = weighting.weight(batch.cells, quality);
     unrolled<n>(
         [&](auto k) { transformed[k] = weighting.chosen(quality, transformed[k], corners[k]); });
-    if (mesh.targets() != nullptr) [[unlikely]] {
-      const auto map = linear_map<TargetMap::to_target>(*mesh.targets(), batch.cells);
+    if (targets() != nullptr) [[unlikely]] {
+      const auto map = linear_map<TargetMap::to_target>(*targets(), batch.cells);
       for (auto& node : transformed) node = map(node);
       weight = weight * target_weight(map);
     }
@@ -189,8 +193,8 @@ void with_scaling(bool fits, const Visit& visit) {
 }
 
 /// Adds all cells of a block in their order; writes their quality.
-template <int dim, int spacedim, class Weighting, class Fits>
-void add_block(const Pass<dim, spacedim, Weighting, Fits>& pass, const CellBlock& block,
+template <int dim, int spacedim, class... Rules>
+void add_block(const Pass<dim, spacedim, Rules...>& pass, const CellBlock& block,
                double* cell_quality, double* sums) {
   const auto every_node = [](NodeIndex) { return true; };
   for_each_batch<dim, spacedim>(
@@ -201,10 +205,9 @@ void add_block(const Pass<dim, spacedim, Weighting, Fits>& pass, const CellBlock
 
 /// Adds some cells (ascending) to the sums of marked nodes only. The qualities of these cells are
 /// known.
-template <int dim, int spacedim, class Weighting, class Fits>
-void add_to_marked(const Pass<dim, spacedim, Weighting, Fits>& pass,
-                   std::span<const CellIndex> cells, const std::vector<std::uint8_t>& marked,
-                   double* sums) {
+template <int dim, int spacedim, class... Rules>
+void add_to_marked(const Pass<dim, spacedim, Rules...>& pass, std::span<const CellIndex> cells,
+                   const std::vector<std::uint8_t>& marked, double* sums) {
   const auto wanted = [&](NodeIndex i) { return marked[i] != 0; };
   for_each_batch<dim, spacedim>(
       ListedCells(pass.mesh.topology(), cells),
@@ -283,12 +286,16 @@ MeshQuality ElementPass<dim, spacedim>::transform_all(SmoothingState<dim, spaced
   const Topology& topology = state.mesh.topology();
   if (tables_->measures()) tables_->sizes.update(state.mesh);
   with_scaling<dim, spacedim>(tables_->element->fits_neighbours(), [&](auto fits) {
-    const Pass<dim, spacedim, QualityWeighting, decltype(fits)> pass{
-        state.mesh, *tables_->element, tables_->sizes, tables_->prescribed, {eta}, fits};
-    tables_->sums.compute([&](std::size_t b, double* sums) {
-      add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
-      tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
-    });
+    const auto compute = [&](auto has_targets) {
+      const Pass<dim, spacedim, QualityWeighting, decltype(fits), decltype(has_targets)> pass{
+          state.mesh, *tables_->element, tables_->sizes, tables_->prescribed, {eta},
+          fits,       has_targets};
+      tables_->sums.compute([&](std::size_t b, double* sums) {
+        add_block(pass, topology.blocks()[b], state.cell_quality.data(), sums);
+        tables_->qualities[b] = PartialQuality(topology, state.cell_quality, topology.blocks()[b]);
+      });
+    };
+    state.mesh.targets() == nullptr ? compute(std::false_type{}) : compute(true);
   });
   return mesh_quality(tables_->qualities, topology.n_cells());
 }
@@ -316,10 +323,13 @@ MeshQuality ElementPass<dim, spacedim>::transform_around(SmoothingState<dim, spa
   for (CellIndex c = 0; c < topology.n_cells(); ++c)
     if (marked_cells[c]) cells.push_back(c);
 
-  const Pass<dim, spacedim, QualityWeighting> pass{
-      state.mesh,     *tables_->element,
-      tables_->sizes, tables_->prescribed,
-      {eta},          tables_->element->fits_neighbours()};
+  const Pass<dim, spacedim, QualityWeighting> pass{state.mesh,
+                                                   *tables_->element,
+                                                   tables_->sizes,
+                                                   tables_->prescribed,
+                                                   {eta},
+                                                   tables_->element->fits_neighbours(),
+                                                   state.mesh.targets() != nullptr};
   tables_->sums.compute_some(
       changed_sums, cells,
       [&](std::size_t b, std::span<const CellIndex> cells_of_block, double* sums) {
@@ -340,9 +350,13 @@ void ElementPass<dim, spacedim>::transform_some(const SmoothingState<dim, spaced
     else
       tables_->sizes.update(state.mesh, tables_->nodes_of(state.mesh.topology(), cells));
   }
-  const Pass<dim, spacedim, ThresholdWeighting> pass{
-      state.mesh,          *tables_->element,           tables_->sizes,
-      tables_->prescribed, {weights.data(), threshold}, tables_->element->fits_neighbours()};
+  const Pass<dim, spacedim, ThresholdWeighting> pass{state.mesh,
+                                                     *tables_->element,
+                                                     tables_->sizes,
+                                                     tables_->prescribed,
+                                                     {weights.data(), threshold},
+                                                     tables_->element->fits_neighbours(),
+                                                     state.mesh.targets() != nullptr};
   auto& marked_nodes = tables_->marked_nodes;
   marked_nodes.assign(state.mesh.n_nodes(), 0);
   for (const NodeIndex i : nodes) marked_nodes[i] = 1;

@@ -23,17 +23,25 @@ Point<spacedim> mean_of_neighbours(const Mesh<dim, spacedim>& mesh, NodeIndex no
 template <int dim, int spacedim, class Movement>
 StepReport gauss_seidel_sweep(Mesh<dim, spacedim>& mesh, const Movement& movement) {
   double longest = 0.0;
-  for (const NodeIndex i : mesh.topology().free_nodes()) {
-    Point<spacedim> move = movement(i);
-    const Point<spacedim> old = mesh.coordinates()[i];
-    mesh.coordinates()[i] = allowed_position<dim, spacedim>(mesh, i, old + move);
-    if (mesh.constraints()) {
+  const auto sweep = [&](const auto& moved) {
+    for (const NodeIndex i : mesh.topology().free_nodes()) {
+      const Point<spacedim> move = moved(i, movement(i));
+      longest = std::max(longest, squared_length<spacedim>(move));
+    }
+  };
+  if (mesh.constraints() == nullptr)  // a loop of its own, which takes three quarters of the time
+    sweep([&](NodeIndex i, const Point<spacedim>& move) {
+      mesh.coordinates()[i] += move;
+      return move;
+    });
+  else
+    sweep([&](NodeIndex i, const Point<spacedim>& move) -> Point<spacedim> {
+      const Point<spacedim> old = mesh.coordinates()[i];
+      mesh.coordinates()[i] = allowed_position<dim, spacedim>(mesh, i, old + move);
       if (mesh.coordinates()[i] != old && !keeps_facet_bound(mesh, {&i, 1}))
         mesh.coordinates()[i] = old;
-      move = mesh.coordinates()[i] - old;
-    }
-    longest = std::max(longest, squared_length<spacedim>(move));
-  }
+      return mesh.coordinates()[i] - old;
+    });
   return {.max_displacement = std::sqrt(longest)};
 }
 

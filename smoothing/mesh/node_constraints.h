@@ -75,7 +75,7 @@ class NodeConstraints {
 template <int dim, int spacedim>
 Point<spacedim> allowed_position(const Mesh<dim, spacedim>& mesh, NodeIndex node,
                                  const Point<spacedim>& wanted) {
-  if (const auto* constraints = mesh.constraints())
+  if (const auto* constraints = mesh.constraints()) [[unlikely]]
     return constraints->project(node, mesh.coordinates()[node], wanted);
   return wanted;
 }

@@ -9,7 +9,9 @@
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/smooth.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/mesh/interfaces.h"
 #include "smoothing/surface/nearest_point.h"
+#include "smoothing/surface/sliding_boundary.h"
 #include "smoothing/surface/surface_constraints.h"
 #include "smoothing/tests/methods.h"
 #include "smoothing/tests/planar_meshes.h"
@@ -296,6 +298,31 @@ TEST_P(SurfaceMethod, KeepsNodesOnTheirPartsAndCornersWhereTheyAre) {
     if (test::claims_validity(made)) {
       EXPECT_EQ(mesh_quality(result).n_invalid, 0u);
     }
+  }
+}
+
+TEST_P(SurfaceMethod, KeepsInterfacesAndSlidesAlongThem) {
+  SurfaceMesh plain = sphere_patch(8, GridCells::triangles);
+  disturb(plain, 0.4 * edge_length(plain), 5);
+  MeshLabels labels;
+  for (CellIndex c = 0; c < plain.n_cells(); ++c)
+    labels.cell_tags.push_back(c < plain.n_cells() / 2 ? 1 : 2);
+  const SurfaceMesh mesh =
+      make_surface_mesh(plain.topology().cells(), plain.copied_coordinates(), labels);
+  const auto interface = interface_nodes(mesh.topology());
+  for (const auto rule : {InterfaceRule::fixed, InterfaceRule::slide}) {
+    const SurfaceMesh before = with_interface_rule(mesh, rule);
+    SurfaceMesh after = before;
+    auto made = method();
+    smooth(after, made);
+    std::size_t n_moved = 0;
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+      if (!interface[i]) continue;
+      const Point<3>& x = after.coordinates()[i];
+      n_moved += x != mesh.coordinates()[i];
+      EXPECT_LT((mesh.constraints()->project(i, mesh.coordinates()[i], x) - x).norm(), 1e-12) << i;
+    }
+    EXPECT_EQ(n_moved > 0, rule == InterfaceRule::slide);
   }
 }
 

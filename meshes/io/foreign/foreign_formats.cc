@@ -29,7 +29,9 @@ std::vector<std::string> translate(const std::string& direction, const fs::path&
   for (const std::string& word :
        {script.string(), direction, fs::absolute(from).string(), fs::absolute(to).string()})
     command += " " + shell_quoted(word);
-  const CommandEnd end = run_command(command, fs::temp_directory_path(), time_limit_seconds);
+  // In the folder of the intermediate file, which is this process' own.
+  const fs::path folder = (direction == "read" ? to : from).parent_path();
+  const CommandEnd end = run_command(command, folder, time_limit_seconds);
   std::vector<std::string> notes;
   std::string last;
   std::istringstream lines(end.output);

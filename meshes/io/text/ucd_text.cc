@@ -163,8 +163,16 @@ class UcdReader {
   MeshParts parts_;
 };
 
+/// Binary files begin with this byte.
+bool is_binary(std::string_view content) {
+  return content.starts_with('\x07');
+}
+
 MeshParts read_ucd(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
+  if (is_binary(content))
+    throw InputError(path.string() +
+                     ": the file is binary UCD of AVS, which is not read; save it as text");
   return UcdReader(path, content).parts();
 }
 
@@ -177,8 +185,9 @@ std::size_t n_integers(LineReader& reader) {
   return n;
 }
 
-/// True if the first line that is no comment has the five counts.
+/// True if the file is binary or the first line that is no comment has the five counts.
 bool is_ucd(std::string_view beginning) {
+  if (is_binary(beginning)) return true;
   LineReader reader({}, beginning);
   while (reader.next_line())
     if (!reader.text().starts_with('#')) return n_integers(reader) == 5;
