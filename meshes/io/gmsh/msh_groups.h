@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "meshes/io/line_reader.h"
 #include "smoothing/mesh/mesh_labels.h"
@@ -19,7 +21,8 @@ namespace smoothfem {
 /// msh_input.h.
 template <class Input>
 std::uint64_t msh_count_in_text(Input& in, const char* what) {
-  const std::string_view line = in.text_line(what);
+  std::string_view line = in.text_line(what);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   const char* const last = line.data() + line.size();
   std::uint64_t n = 0;
   const auto [end, error] = std::from_chars(line.data(), last, n);
@@ -34,23 +37,36 @@ std::uint64_t msh_count_in_text(Input& in, const char* what) {
 /// entities, which apply to their elements.
 class MshGroups {
  public:
-  /// Reads $PhysicalNames: lines 'dimension tag "name"'. The first name of a group counts.
+  /// Reads $PhysicalNames: lines 'dimension tag "name"', in version 2.0 also 'tag "name"'. The
+  /// first name of a group counts.
   template <class Input>
   void read_names(Input& in) {
     const std::uint64_t n = msh_count_in_text(in, "the number of physical names");
     for (std::uint64_t i = 0; i < n; ++i) {
       const std::string_view line = in.text_line("a physical name");
-      std::istringstream numbers{std::string(line)};
+      const std::size_t begin = line.find('"'), end = line.find('"', begin + 1);
+      const bool has_name = begin != line.npos && end != line.npos && end > begin + 1;
+      std::istringstream numbers{std::string(line.substr(0, begin))};
       Group group;
-      if (!(numbers >> group.first >> group.second))
+      if (!(numbers >> group.first))
         in.fail("expected dimension, tag and name of a physical group");
+      if (!(numbers >> group.second)) {
+        if (!has_name) in.fail("expected dimension, tag and name of a physical group");
+        of_any_dimension_.emplace(group.first, line.substr(begin + 1, end - begin - 1));
+        continue;
+      }
       if (group.first < 0 || group.first > 3)
         in.fail("the physical group's dimension is " + std::to_string(group.first) +
                 ", but must be from 0 to 3");
-      const std::size_t begin = line.find('"'), end = line.find('"', begin + 1);
-      if (begin != line.npos && end != line.npos && end > begin + 1)
-        names_.emplace(group, line.substr(begin + 1, end - begin - 1));
+      if (has_name) names_.emplace(group, line.substr(begin + 1, end - begin - 1));
     }
+  }
+
+  /// Gives elements of a dimension with these tags the names that the file has for any dimension.
+  void name_elements(int dimension, const std::vector<int>& tags) {
+    for (const auto& [tag, name] : of_any_dimension_)
+      if (std::find(tags.begin(), tags.end(), tag) != tags.end())
+        names_.emplace(Group(dimension, tag), name);
   }
 
   /// Reads $Entities or $PartitionedEntities, whose text may be broken into lines anywhere.
@@ -106,7 +122,8 @@ class MshGroups {
   using Group = std::pair<int, int>;  // dimension and tag
 
   std::map<Group, std::string> names_;
-  std::map<Group, ModelEntity> entities_;  ///< by dimension and number
+  std::map<int, std::string> of_any_dimension_;  ///< names by tag
+  std::map<Group, ModelEntity> entities_;        ///< by dimension and number
 };
 
 }  // namespace smoothfem
