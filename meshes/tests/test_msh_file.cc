@@ -167,11 +167,17 @@ TEST_F(Msh, ReadsVersion2InOtherHands) {
   EXPECT_EQ(commented.mesh.n_cells(), 2u);
   write_mesh(file("b.msh"), commented.mesh);
   EXPECT_THAT(content_of(file("b.msh")), HasSubstr("$Comments\nof 1\n$EndComments\n"));
-  const PlanarFile named = read_planar(
-      changed("$Nodes\n", "$PhysicalNames\n1\n1 \"a sheet\"\n$EndPhysicalNames\n$Nodes\n"));
+  const PlanarFile named = read_planar(changed(
+      "$Nodes\n", "$PhysicalNames\n2\n1 \"a sheet\"\n7 \"none\"\n$EndPhysicalNames\n$Nodes\n"));
   const auto& names = named.mesh.topology().labels().names;
   EXPECT_EQ(names.at({2, 1}), "a sheet");
-  EXPECT_FALSE(names.contains({1, 1}));
+  EXPECT_EQ(names.at({2, 7}), "none");
+  EXPECT_EQ(names.size(), 2u);
+  const auto with_third_tag = [&](const std::string& tag) {
+    return changed("11 2 2 1 1 2 3 7", "11 2 3 1 1 " + tag + " 2 3 7");
+  };
+  EXPECT_EQ(read_mesh(with_third_tag("0")).notes.size(), 1u);  // on the node of no cell
+  EXPECT_EQ(read_mesh(with_third_tag("4")).notes.size(), 2u);
 }
 
 TEST_F(Msh, Version4_0IsRead) {

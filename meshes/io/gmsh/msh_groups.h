@@ -62,11 +62,21 @@ class MshGroups {
     }
   }
 
-  /// Gives elements of a dimension with these tags the names that the file has for any dimension.
-  void name_elements(int dimension, const std::vector<int>& tags) {
-    for (const auto& [tag, name] : of_any_dimension_)
-      if (std::find(tags.begin(), tags.end(), tag) != tags.end())
+  /// Gives elements the names that the file has for any dimension. tags: of elements by dimension.
+  /// A name that no element has goes to the highest dimension.
+  void name_elements(const std::array<const std::vector<int>*, 4>& tags) {
+    for (const auto& [tag, name] : of_any_dimension_) {
+      int highest = 0;
+      bool is_used = false;
+      for (int dimension = 0; dimension <= 3; ++dimension) {
+        const std::vector<int>& of_elements = *tags[static_cast<std::size_t>(dimension)];
+        if (!of_elements.empty()) highest = dimension;
+        if (std::find(of_elements.begin(), of_elements.end(), tag) == of_elements.end()) continue;
         names_.emplace(Group(dimension, tag), name);
+        is_used = true;
+      }
+      if (!is_used) names_.emplace(Group(highest, tag), name);
+    }
   }
 
   /// Reads $Entities or $PartitionedEntities, whose text may be broken into lines anywhere.

@@ -97,11 +97,9 @@ class MshReader {
     for (const std::string section : {"$Nodes", "$Elements"})
       if (!seen_.contains(section))
         in_.refuse("the file has no section " + section + "; it is truncated or not a mesh");
-    for (int dimension = 0; dimension <= 3; ++dimension) {
-      ElementList& elements = parts_.elements[static_cast<std::size_t>(dimension)];
-      sort(elements);
-      groups_.name_elements(dimension, elements.tags);
-    }
+    for (ElementList& elements : parts_.elements) sort(elements);
+    const auto& of = parts_.elements;
+    groups_.name_elements({&of[0].tags, &of[1].tags, &of[2].tags, &of[3].tags});
     read_node_fields();
     read_element_fields();
     FileContent& content = parts_.content;
@@ -285,8 +283,8 @@ class MshReader {
       const int value = in_.integer("element");
       if (k == 0) group = value;
       if (k == 1) entity = value;
+      has_partitions_ = has_partitions_ || (k > 1 && value != 0);
     }
-    has_partitions_ = has_partitions_ || n_tags > 2;
     add_element(tag, type, group, entity);
   }
 

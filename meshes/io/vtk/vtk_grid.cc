@@ -219,7 +219,7 @@ class GridParts {
     }
   }
 
-  /// Adds a note on what is written in another form. Both forms have the same nodes.
+  /// Adds notes on cells and data sets that are written in another form with the same nodes.
   void add_notes_on_types() {
     const auto has = [&](int type) {
       return std::find(cells_.types.begin(), cells_.types.end(), type) != cells_.types.end();
