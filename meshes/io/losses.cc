@@ -2,6 +2,7 @@
 #include "meshes/io/losses.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "meshes/io/all_elements.h"
@@ -15,12 +16,13 @@ namespace {
 /// Collects the losses of a mesh in a format.
 class Losses {
  public:
-  Losses(const MeshView& mesh, const MeshFormat& format)
+  Losses(const MeshView& mesh, const MeshFormat& format, const MeshWriteOptions& options)
       : topology_(mesh.topology()),
         labels_(mesh.topology().labels()),
         content_(mesh.content()),
         elements_(mesh),
-        format_(format) {}
+        format_(format),
+        options_(options) {}
 
   std::vector<std::string> find() {
     add(!format_.holds_tags && !labels_.cell_tags.empty(), "the tags of cells");
@@ -35,8 +37,10 @@ class Losses {
     find_fields();
     add(!format_.holds_periodic && !content_->periodic.empty(), "periodic partners");
     add(!format_.holds_points_in_space && content_->plane, "the plane of the mesh in space");
-    const bool keeps_text = content_->format == format_.name && !content_->sections.empty();
-    for (const std::string& name : content_->section_names) add(!keeps_text, name);
+    find_rows();
+    const bool keeps_text = is_written_as_read() && !content_->sections.empty();
+    for (const std::string& name : content_->section_names)
+      add(!keeps_text && std::count(found_.begin(), found_.end(), name) == 0, name);
     return std::move(found_);
   }
 
@@ -77,6 +81,45 @@ class Losses {
     add(n_lost > 0, std::to_string(n_lost) + " points, lines or facets without a label");
   }
 
+  /// True if the file has the format, version and encoding of that which the mesh comes from.
+  bool is_written_as_read() const {
+    if (content_->format != format_.name) return false;
+    if (!format_.has_two_encodings) return true;
+    return options_.binary.value_or(content_->is_binary) == content_->is_binary &&
+           (!options_.msh_version || is_version_2() == (content_->version == "2.2"));
+  }
+  bool is_version_2() const {
+    return options_.msh_version ? *options_.msh_version == MshVersion::v2_2
+                                : content_->format == "gmsh" && content_->version == "2.2";
+  }
+
+  /// Data of elements that a file repeats for each of their groups, if they differ.
+  void find_rows() {
+    if (content_->repeated.empty() || (format_.name == "gmsh" && is_version_2())) return;
+    std::size_t n_lost = 0;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      const std::size_t id = elements_.id(e) == 0 ? e + 1 : elements_.id(e);
+      const auto rows = content_->repeated.find({elements_.dimension(e), id});
+      if (rows == content_->repeated.end()) continue;
+      n_lost +=
+          std::any_of(rows->second.begin(), rows->second.end(),
+                      [&](const RepeatedElement& row) { return !has_data_of(e, row.values); });
+    }
+    add(n_lost > 0, "the data of " + std::to_string(n_lost) +
+                        (n_lost == 1 ? " element that differ" : " elements that differ") +
+                        " between their groups");
+  }
+
+  bool has_data_of(std::size_t e, const std::vector<double>& values) const {
+    std::size_t i = 0;
+    for (const MeshField& field : content_->element_fields)
+      for (std::size_t k = 0; k < field.n_components && i < values.size(); ++k, ++i) {
+        const double value = field.number(e * field.n_components + k);
+        if (value != values[i] && !(std::isnan(value) && std::isnan(values[i]))) return false;
+      }
+    return true;
+  }
+
   void find_fields() {
     std::vector<std::string> names;
     const auto find = [&](const std::vector<MeshField>& fields, bool is_of_file) {
@@ -96,6 +139,7 @@ class Losses {
   const FileContent* content_;
   AllElements elements_;
   const MeshFormat& format_;
+  const MeshWriteOptions options_;
   std::vector<std::string> found_;
 };
 
@@ -105,11 +149,13 @@ bool is_own_field(const MeshField& field) {
   return field.name == "mean_ratio";
 }
 
-std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh) {
-  return losses(format_for(path, mesh), mesh);
+std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh,
+                                const MeshWriteOptions& options) {
+  return losses(format_for(path, mesh), mesh, options);
 }
-std::vector<std::string> losses(const MeshFormat& format, const MeshView& mesh) {
-  return Losses(mesh, format).find();
+std::vector<std::string> losses(const MeshFormat& format, const MeshView& mesh,
+                                const MeshWriteOptions& options) {
+  return Losses(mesh, format, options).find();
 }
 
 }  // namespace smoothfem

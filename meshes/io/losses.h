@@ -14,11 +14,13 @@ namespace smoothfem {
 bool is_own_field(const MeshField& field);
 
 /// Returns what a mesh says that a file of this name cannot hold, so that write_mesh leaves it out:
-/// for example "the names and labels of facets". Throws InputError as write_mesh does if the format
-/// cannot hold the mesh.
-std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh);
+/// for example "the names and labels of facets". options: as for write_mesh. Throws InputError as
+/// write_mesh does if the format cannot hold the mesh.
+std::vector<std::string> losses(const std::filesystem::path& path, const MeshView& mesh,
+                                const MeshWriteOptions& options = {});
 
 /// Returns the same for a format that can hold the mesh.
-std::vector<std::string> losses(const MeshFormat& format, const MeshView& mesh);
+std::vector<std::string> losses(const MeshFormat& format, const MeshView& mesh,
+                                const MeshWriteOptions& options = {});
 
 }  // namespace smoothfem

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <sstream>
@@ -176,6 +177,37 @@ AnyMesh make_mesh(MeshParts& parts, int dim) {
   return PlanarMesh(std::move(topology), std::move(points));
 }
 
+/// Returns how many points of the model each group has, by its name or else its tag.
+std::map<std::string, std::size_t> groups_of_points(const MeshParts& parts) {
+  const ElementList& points = parts.elements[0];
+  std::map<std::string, std::size_t> n_points;
+  for (std::size_t e = 0; e < points.nodes.size() && !points.tags.empty(); ++e) {
+    const int entity = points.entities.empty() ? 0 : points.entities[e];
+    for (const int group : groups_of(&parts.content, 0, entity, points.tags[e])) {
+      const auto name = parts.names.find({0, group});
+      ++n_points[name == parts.names.end() ? std::to_string(group) : name->second];
+    }
+  }
+  return n_points;
+}
+
+/// groups, left: those of points before and after nodes were left out.
+std::string note_on_unused_nodes(std::size_t n, const std::map<std::string, std::size_t>& groups,
+                                 const std::map<std::string, std::size_t>& left) {
+  std::vector<std::string> lost;
+  for (const auto& [name, n_points] : groups)
+    if (const auto found = left.find(name); found == left.end() || found->second < n_points)
+      lost.push_back(name);
+  const bool is_one = n == 1;
+  std::string note = std::to_string(n) +
+                     (is_one ? " node that no cell uses is" : " nodes that no cell uses are") +
+                     " left out";
+  if (!lost.empty())
+    note += (is_one ? ", with its point of the " : ", with their points of the ") +
+            std::string(lost.size() == 1 ? "group " : "groups ") + joined(lost);
+  return note;
+}
+
 /// Largest coordinate: its sixth powers (squares of volumes) do not overflow.
 constexpr double largest_coordinate = 1e50;
 
@@ -225,11 +257,10 @@ MeshFile assemble_mesh(const std::filesystem::path& path, MeshParts parts,
   std::vector<std::size_t> lines;
   try {
     const std::size_t n_nodes = parts.coordinates.size();
+    const auto groups = groups_of_points(parts);
     if (parts.leaves_out_unused_nodes) drop_unused_nodes(parts);
     if (const std::size_t n = n_nodes - parts.coordinates.size(); n > 0)
-      parts.notes.push_back(
-          std::to_string(n) +
-          (n == 1 ? " node that no cell uses is" : " nodes that no cell uses are") + " left out");
+      parts.notes.push_back(note_on_unused_nodes(n, groups, groups_of_points(parts)));
     require_usable_coordinates(parts);
     lay_into_plane(parts);
     auto notes = std::move(parts.notes);

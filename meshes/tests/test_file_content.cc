@@ -250,6 +250,128 @@ TEST_F(FileContents, LossesAreNamed) {
               ::testing::IsSupersetOf({"the tags of cells", "labelled facets"}));
 }
 
+/// One square in two groups, and one in a single group; data of each row.
+std::string repeated_22(const std::string& value_of_second_row) {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n"
+         "5 1 1 0\n6 2 1 0\n$EndNodes\n$Elements\n3\n1 3 2 7 1 1 2 5 4\n2 3 2 8 1 1 2 5 4\n"
+         "3 3 2 7 1 2 3 6 5\n$EndElements\n$ElementData\n1\n\"k\"\n1\n0\n3\n0\n1\n3\n1 5\n2 " +
+         value_of_second_row + "\n3 6\n$EndElementData\n";
+}
+
+TEST_F(FileContents, RepeatedElementsKeepTheirNumbersAndData) {
+  write("a.msh", repeated_22("9"));
+  through("a.msh", "b.msh");
+  const std::string written = content_of(file("b.msh"));
+  for (const std::string row : {"\n1 3 2 7 1 1 2 5 4\n", "\n2 3 2 8 1 1 2 5 4\n",
+                                "\n3 3 2 7 2 2 3 6 5\n", "\n1 5\n", "\n2 9\n", "\n3 6\n"})
+    EXPECT_THAT(written, HasSubstr(row));
+}
+
+TEST_F(FileContents, DataThatDifferBetweenGroupsAreNamed) {
+  write("a.msh", repeated_22("9"));
+  write("same.msh", repeated_22("5"));
+  const AnyMesh mesh = read_mesh(file("a.msh")).mesh, same = read_mesh(file("same.msh")).mesh;
+  const std::string what = "the data of 1 element that differ between their groups";
+  EXPECT_THAT(losses(file("b.msh"), mesh), IsEmpty());
+  EXPECT_THAT(losses(file("b.msh"), mesh, {MshVersion::v4_1, {}}), ElementsAre(what));
+  EXPECT_THAT(losses(file("b.msh"), same, {MshVersion::v4_1, {}}), IsEmpty());
+  EXPECT_THAT(losses(file("b.vtu"), mesh), ::testing::Contains(what));
+}
+
+TEST_F(FileContents, TextThatOnlyTheSameVersionHoldsIsNamed) {
+  write("a.msh", all_41);
+  const AnyMesh mesh = read_mesh(file("a.msh")).mesh;
+  EXPECT_THAT(losses(file("b.msh"), mesh, {MshVersion::v4_1, false}), IsEmpty());
+  for (const MeshWriteOptions& options :
+       {MeshWriteOptions{MshVersion::v2_2, false}, MeshWriteOptions{{}, true}})
+    EXPECT_THAT(losses(file("b.msh"), mesh, options), ElementsAre("the section $Comments"));
+}
+
+TEST_F(FileContents, GroupsOfPointsWithoutCellsAreNamed) {
+  std::string text = repeated_22("9");
+  text.replace(text.find("$Nodes\n6\n"), 9, "$Nodes\n7\n8 5 5 5\n");
+  text.replace(text.find("$Elements\n3\n"), 12, "$Elements\n4\n9 15 2 4 4 8\n");
+  write("a.msh", text);
+  EXPECT_THAT(read_mesh(file("a.msh")).notes,
+              ElementsAre("1 node that no cell uses is left out, with its point of the group 4"));
+}
+
+/// Two triangles and an edge without cells, an array for each role.
+const std::string roles_vtk =
+    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+    "POINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+    "CELLS 3 11\n3 0 1 2\n3 0 2 3\n2 1 3\nCELL_TYPES 3\n5 5 3\n"
+    "CELL_DATA 3\nSCALARS material int\nLOOKUP_TABLE default\n3\n4\n0\n"
+    "PEDIGREE_IDS number int\n7\n8\n9\n"
+    "POINT_DATA 4\nSCALARS two float 2\nLOOKUP_TABLE default\n1 2\n3 4\n5 6\n7 8\n"
+    "VECTORS v double\n1 0 0\n2 0 0\n3 0 0\n4 0 0\n"
+    "NORMALS n float\n0 0 1\n0 0 1\n0 0 1\n0 0 1\n"
+    "TEXTURE_COORDINATES texture 2 float\n0 0\n1 0\n1 1\n0 1\n"
+    "TENSORS stress float\n1 0 0 0 1 0 0 0 1\n1 0 0 0 1 0 0 0 1\n1 0 0 0 1 0 0 0 1\n"
+    "1 0 0 0 1 0 0 0 1\nGLOBAL_IDS id vtkIdType\n4\n3\n2\n1\n"
+    "FIELD FieldData 1\nplain 1 4 int\n1\n2\n3\n4\n";
+
+TEST_F(FileContents, ArraysOfVtkKeepTheirRoles) {
+  write("a.vtk", roles_vtk);
+  const MeshLabels before = labels("a.vtk");
+  EXPECT_THAT(before.content->element_roles,
+              UnorderedElementsAre(::testing::Pair("Scalars", "material"),
+                                   ::testing::Pair("PedigreeIds", "number")));
+  EXPECT_EQ(before.content->node_roles.size(), 6u);
+  for (const auto& [out, is_binary] : std::vector<std::pair<std::string, bool>>{
+           {"b.vtk", false}, {"b.vtk", true}, {"b.vtu", false}, {"b.vtu", true}}) {
+    SCOPED_TRACE(out + (is_binary ? " binary" : " text"));
+    const MeshLabels after = through("a.vtk", out, {.binary = is_binary});
+    EXPECT_EQ(after.content->node_roles, before.content->node_roles);
+    EXPECT_EQ(after.content->element_roles, before.content->element_roles);
+    EXPECT_EQ(after.content->node_fields.size(), 7u);
+    for (const MeshField& field : before.content->node_fields) {
+      if (field.name == "id") continue;  // gets VTK's type of indices
+      EXPECT_THAT(after.content->node_fields, ::testing::Contains(field));
+    }
+  }
+  through("a.vtk", "text.vtk", {.binary = false});
+  const std::string written = content_of(file("text.vtk"));
+  for (const char* const keyword : {"CELL_DATA", "POINT_DATA"}) {
+    const auto section = [&](const std::string& text) {
+      const std::string begin = text.substr(text.find(keyword));
+      return begin.substr(0, begin.find("FIELD"));
+    };
+    const std::string of_text = section(written), of_file = section(roles_vtk);
+    EXPECT_THAT(of_text, HasSubstr(of_file.substr(0, of_file.find("TENSORS"))));
+  }
+}
+
+/// VTK's reader of text stops at "nan".
+TEST_F(FileContents, ElementsWithoutACellHaveTheValueZero) {
+  write("a.vtk", roles_vtk);
+  const MeshFile read = read_mesh(file("a.vtk"));
+  for (const auto& [out, is_binary] : std::vector<std::pair<std::string, bool>>{
+           {"b.vtk", false}, {"b.vtk", true}, {"b.vtu", true}}) {
+    SCOPED_TRACE(out + (is_binary ? " binary" : " text"));
+    write_mesh(file(out), read.mesh, {.cell = {{"q", {0.5, 0.25}}}, .point = {}},
+               {.binary = is_binary});
+    const MeshLabels after = labels(out);
+    const auto& fields = after.content->element_fields;
+    const auto q = std::find_if(fields.begin(), fields.end(),
+                                [](const MeshField& field) { return field.name == "q"; });
+    ASSERT_NE(q, fields.end());
+    EXPECT_EQ(std::get<std::vector<double>>(q->values), (std::vector{0.5, 0.25, 0.0}));
+  }
+}
+
+TEST_F(FileContents, PolygonalDataPixelsAndVoxelsGetANote) {
+  const std::string version = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET ";
+  write("a.vtk", version + "POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n");
+  EXPECT_THAT(read_mesh(file("a.vtk")).notes,
+              ElementsAre("the polygonal data become an unstructured grid"));
+  write("b.vtk", version +
+                     "UNSTRUCTURED_GRID\nPOINTS 8 float\n0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 "
+                     "1 1 1\nCELLS 2 14\n8 0 1 2 3 4 5 6 7 4 0 1 2 3\nCELL_TYPES 2\n11 8\n");
+  EXPECT_THAT(read_mesh(file("b.vtk")).notes,
+              ElementsAre("pixels become quadrilaterals", "voxels become hexahedra"));
+}
+
 TEST_F(FileContents, PlanesComeBackInTheirPlaneAndUnmovedNodesBitByBit) {
   const std::string points[] = {"0 0 5 1 0 5 1 1 5 0 1 5",           // z = 5
                                 "0 3 0 1 3 0 1 3 1 0 3 1",           // y = 3

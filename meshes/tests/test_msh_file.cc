@@ -144,6 +144,40 @@ TEST_F(Msh, PartitionsAreReadWithTheGroupsOfTheirEntities) {
   EXPECT_EQ(read.mesh.topology().cells().entries(), (std::vector<NodeIndex>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(read.mesh.copied_coordinates()[2], Point<2>(1, 1));
   EXPECT_EQ(read.cell_lines, (std::vector<std::size_t>{29, 27}));
+  const MeshFile file_read = read_mesh(file("a.msh"));
+  EXPECT_THAT(file_read.notes, ::testing::ElementsAre("the division into partitions with its ghost "
+                                                      "elements is left out"));
+  write_mesh(file("b.msh"), file_read.mesh);
+  EXPECT_THAT(content_of(file("b.msh")), ::testing::Not(HasSubstr("Ghost")));
+}
+
+/// As some programs write version 2: all of it is read by Gmsh.
+TEST_F(Msh, ReadsVersion2InOtherHands) {
+  const std::string expected = content_of(file_with("a.msh", square()));
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = expected;
+    text.replace(text.find(from), from.size(), to);
+    return file_with("a.msh", text);
+  };
+  for (const std::string version : {"2", "2.0", "2.200000"})
+    EXPECT_EQ(read_planar(changed("2.2 0", version + " 0")).mesh.n_cells(), 2u) << version;
+  EXPECT_EQ(read_planar(changed("$Nodes\n", "$Nodes\n  \t ")).mesh.n_cells(), 2u);
+  const PlanarFile commented =
+      read_planar(changed("$MeshFormat", "$Comments\nof 1\n$EndComments\n$MeshFormat"));
+  EXPECT_EQ(commented.mesh.n_cells(), 2u);
+  write_mesh(file("b.msh"), commented.mesh);
+  EXPECT_THAT(content_of(file("b.msh")), HasSubstr("$Comments\nof 1\n$EndComments\n"));
+  const PlanarFile named = read_planar(changed(
+      "$Nodes\n", "$PhysicalNames\n2\n1 \"a sheet\"\n7 \"none\"\n$EndPhysicalNames\n$Nodes\n"));
+  const auto& names = named.mesh.topology().labels().names;
+  EXPECT_EQ(names.at({2, 1}), "a sheet");
+  EXPECT_EQ(names.at({2, 7}), "none");
+  EXPECT_EQ(names.size(), 2u);
+  const auto with_third_tag = [&](const std::string& tag) {
+    return changed("11 2 2 1 1 2 3 7", "11 2 3 1 1 " + tag + " 2 3 7");
+  };
+  EXPECT_EQ(read_mesh(with_third_tag("0")).notes.size(), 1u);  // on the node of no cell
+  EXPECT_EQ(read_mesh(with_third_tag("4")).notes.size(), 2u);
 }
 
 TEST_F(Msh, Version4_0IsRead) {

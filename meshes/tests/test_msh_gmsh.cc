@@ -216,6 +216,25 @@ INSTANTIATE_TEST_SUITE_P(Msh, MshOfGmsh,
                                            GmshVariant{"v22_text", 2.2, false}),
                          [](const auto& info) { return info.param.name; });
 
+using MshOfPartitions = FileTest;
+
+TEST_F(MshOfPartitions, IsReadByGmshAfterwards) {
+  const std::string before = file("a.msh").string(), after = file("b.msh").string();
+  GmshSession session;
+  session.set_option("Mesh.MeshSizeMax", 0.3);
+  session.set_option("Mesh.PartitionCreateGhostCells", 1);
+  session.run("model", [&] {
+    build_disc_in_square();
+    gmsh::model::mesh::partition(2);
+    gmsh::write(before);
+  });
+  write_mesh(after, read_mesh(before).mesh);
+  session.run("result", [&] {
+    gmsh::open(after);
+    gmsh::model::remove();
+  });
+}
+
 // --- Files that smoothfem writes -----------------------------------------------------------------
 
 class MshForGmsh : public FileTest, public ::testing::WithParamInterface<Variant> {

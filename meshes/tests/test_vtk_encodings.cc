@@ -13,6 +13,7 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -100,6 +101,40 @@ TEST_F(VtkEncodings, LegacyFilesOfBothVersionsInTextAndBinary) {
       for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)  // VTK's text has 11 digits
         EXPECT_LE((read.coordinates()[i] - mesh.coordinates()[i]).norm(), binary ? 0.0 : 1e-10);
     }
+}
+
+TEST_F(VtkEncodings, VtkFindsTheRolesOfItsArraysAgain) {
+  const auto grid = grid_of(labelled_box(BoxCells::mixed));
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputData(grid);
+  writer->SetFileName(file("a.vtu").c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  const AnyMesh mesh = read_mesh(file("a.vtu")).mesh;
+  const auto expect_roles = [](vtkDataSetAttributes& read, vtkDataSetAttributes& of_file) {
+    for (int role = 0; role < vtkDataSetAttributes::NUM_ATTRIBUTES; ++role) {
+      auto* array = of_file.GetAbstractAttribute(role);
+      if (!array) continue;
+      SCOPED_TRACE(vtkDataSetAttributes::GetAttributeTypeAsString(role));
+      ASSERT_NE(read.GetAbstractAttribute(role), nullptr);
+      EXPECT_STREQ(read.GetAbstractAttribute(role)->GetName(), array->GetName());
+    }
+  };
+  const auto expect_all = [&](vtkUnstructuredGrid& read) {
+    expect_roles(*read.GetPointData(), *grid->GetPointData());
+    expect_roles(*read.GetCellData(), *grid->GetCellData());
+  };
+  for (const bool binary : {false, true}) {
+    write_mesh(file("b.vtk"), mesh, {}, {.binary = binary});
+    vtkNew<vtkUnstructuredGridReader> legacy;
+    legacy->SetFileName(file("b.vtk").c_str());
+    legacy->Update();
+    expect_all(*legacy->GetOutput());
+  }
+  write_mesh(file("b.vtu"), mesh);
+  vtkNew<vtkXMLUnstructuredGridReader> xml;
+  xml->SetFileName(file("b.vtu").c_str());
+  xml->Update();
+  expect_all(*xml->GetOutput());
 }
 
 TEST_F(VtkEncodings, LegacyPolygonalData) {

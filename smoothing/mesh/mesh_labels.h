@@ -61,6 +61,15 @@ struct ModelEntity {
   bool operator==(const ModelEntity&) const = default;
 };
 
+/// A further row of an element, which version 2 of Gmsh's format repeats for each of its groups.
+struct RepeatedElement {
+  int group = 0;
+  std::size_t id = 0;            ///< the row's number
+  std::vector<double> values{};  ///< of all element fields, one after the other
+
+  bool operator==(const RepeatedElement&) const = default;
+};
+
 /// Nodes of an entity that are images of nodes of a partner entity.
 struct PeriodicEntity {
   int dimension = 0, entity = 0, partner = 0;
@@ -101,13 +110,17 @@ struct FileContent {
   std::vector<std::uint32_t> file_order;  ///< all elements as in the file; empty: in our order
 
   std::map<std::pair<int, int>, ModelEntity> entities;  ///< by dimension and number
-  std::vector<std::array<int, 2>> node_entities;        ///< dimension and number; empty: not known
+  /// Further rows of elements, by the elements' dimension and number.
+  std::map<std::pair<int, std::size_t>, std::vector<RepeatedElement>> repeated;
+  std::vector<std::array<int, 2>> node_entities;  ///< dimension and number; empty: not known
   std::vector<PeriodicEntity> periodic;
 
   std::optional<PlaneInSpace> plane;  ///< of planar meshes; nothing for the plane z = 0
 
   std::string tag_field;  ///< name of the array with the tags, in formats that name it
   std::vector<MeshField> node_fields, element_fields, file_fields;
+  /// Names of the arrays that have a role in VTK files, by the role, for example "Scalars".
+  std::map<std::string, std::string> node_roles, element_roles;
   std::vector<std::string> sections;       ///< text that only the same version of the format holds
   std::vector<std::string> section_names;  ///< what these say, for messages
 

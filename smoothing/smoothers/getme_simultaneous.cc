@@ -55,12 +55,18 @@ class GetmeSimultaneous final : public Smoother<dim, spacedim> {
   /// If all weights are zero, the elements are regular already: the node stays.
   void move_nodes(Mesh<dim, spacedim>& mesh) {
     constexpr std::size_t grain = 512;
-    parallel_for_ranges(mesh.n_nodes(), grain, [&](std::size_t first, std::size_t last) {
-      for (auto i = static_cast<NodeIndex>(first); i < last; ++i) {
-        const bool moves = !mesh.topology().is_fixed(i) && pass_.has_mean(i);
-        previous_[i] = moves ? allowed_position(mesh, i, pass_.mean(i)) : mesh.coordinates()[i];
-      }
-    });
+    const auto move = [&](const auto& place) {
+      parallel_for_ranges(mesh.n_nodes(), grain, [&](std::size_t first, std::size_t last) {
+        for (auto i = static_cast<NodeIndex>(first); i < last; ++i) {
+          const bool moves = !mesh.topology().is_fixed(i) && pass_.has_mean(i);
+          previous_[i] = moves ? place(i) : mesh.coordinates()[i];
+        }
+      });
+    };
+    if (mesh.constraints() == nullptr)
+      move([&](NodeIndex i) -> Point<spacedim> { return pass_.mean(i); });
+    else
+      move([&](NodeIndex i) { return allowed_position(mesh, i, pass_.mean(i)); });
     mesh.swap_coordinates(previous_);
   }
 

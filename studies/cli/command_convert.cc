@@ -30,7 +30,7 @@ void convert(ConvertArguments arguments) {
   print_notes(arguments.in, file.notes);
   const MeshView mesh(file.mesh);
   write_mesh(arguments.out, mesh, {}, target.options);
-  print_losses(arguments.out, mesh);
+  print_losses(arguments.out, mesh, target.options);
   if (output)
     print_content(output->path());
   else if (!arguments.quiet)

@@ -259,7 +259,7 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
                  : mesh,
              fields, options);
   recorder.write_log();
-  print_losses(arguments.out, mesh);
+  print_losses(arguments.out, mesh, options);
   const std::vector<double> sizes = cell_sizes(mesh);
   const std::string change = domain_change(dim == 3 ? "volume" : "area", sizes_before, sizes);
   if (!change.empty()) print_notes(arguments.out, {change});

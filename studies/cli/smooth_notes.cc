@@ -25,8 +25,9 @@ std::string rounded(double value, int digits) {
 
 }  // namespace
 
-void print_losses(const std::filesystem::path& path, const MeshView& mesh) {
-  const auto lost = losses(path, mesh);
+void print_losses(const std::filesystem::path& path, const MeshView& mesh,
+                  const MeshWriteOptions& options) {
+  const auto lost = losses(path, mesh, options);
   if (!lost.empty())
     print_notes(path.string(), {"the file cannot hold, and leaves out: " + joined(lost)});
 }

@@ -13,7 +13,8 @@
 namespace smoothfem {
 
 /// Prints one note that names what a file of this name cannot hold, if anything.
-void print_losses(const std::filesystem::path& path, const MeshView& mesh);
+void print_losses(const std::filesystem::path& path, const MeshView& mesh,
+                  const MeshWriteOptions& options);
 
 /// Returns a sentence on the fields of the file that pass through; empty if there are none.
 std::string fields_text(const FileContent* content);

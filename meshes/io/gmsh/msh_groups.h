@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "meshes/io/line_reader.h"
 #include "smoothing/mesh/mesh_labels.h"
@@ -19,7 +21,8 @@ namespace smoothfem {
 /// msh_input.h.
 template <class Input>
 std::uint64_t msh_count_in_text(Input& in, const char* what) {
-  const std::string_view line = in.text_line(what);
+  std::string_view line = in.text_line(what);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   const char* const last = line.data() + line.size();
   std::uint64_t n = 0;
   const auto [end, error] = std::from_chars(line.data(), last, n);
@@ -34,22 +37,45 @@ std::uint64_t msh_count_in_text(Input& in, const char* what) {
 /// entities, which apply to their elements.
 class MshGroups {
  public:
-  /// Reads $PhysicalNames: lines 'dimension tag "name"'. The first name of a group counts.
+  /// Reads $PhysicalNames: lines 'dimension tag "name"', in version 2.0 also 'tag "name"'. The
+  /// first name of a group counts.
   template <class Input>
   void read_names(Input& in) {
     const std::uint64_t n = msh_count_in_text(in, "the number of physical names");
     for (std::uint64_t i = 0; i < n; ++i) {
       const std::string_view line = in.text_line("a physical name");
-      std::istringstream numbers{std::string(line)};
+      const std::size_t begin = line.find('"'), end = line.find('"', begin + 1);
+      const bool has_name = begin != line.npos && end != line.npos && end > begin + 1;
+      std::istringstream numbers{std::string(line.substr(0, begin))};
       Group group;
-      if (!(numbers >> group.first >> group.second))
+      if (!(numbers >> group.first))
         in.fail("expected dimension, tag and name of a physical group");
+      if (!(numbers >> group.second)) {
+        if (!has_name) in.fail("expected dimension, tag and name of a physical group");
+        of_any_dimension_.emplace(group.first, line.substr(begin + 1, end - begin - 1));
+        continue;
+      }
       if (group.first < 0 || group.first > 3)
         in.fail("the physical group's dimension is " + std::to_string(group.first) +
                 ", but must be from 0 to 3");
-      const std::size_t begin = line.find('"'), end = line.find('"', begin + 1);
-      if (begin != line.npos && end != line.npos && end > begin + 1)
-        names_.emplace(group, line.substr(begin + 1, end - begin - 1));
+      if (has_name) names_.emplace(group, line.substr(begin + 1, end - begin - 1));
+    }
+  }
+
+  /// Gives elements the names that the file has for any dimension. tags: of elements by dimension.
+  /// A name that no element has goes to the highest dimension.
+  void name_elements(const std::array<const std::vector<int>*, 4>& tags) {
+    for (const auto& [tag, name] : of_any_dimension_) {
+      int highest = 0;
+      bool is_used = false;
+      for (int dimension = 0; dimension <= 3; ++dimension) {
+        const std::vector<int>& of_elements = *tags[static_cast<std::size_t>(dimension)];
+        if (!of_elements.empty()) highest = dimension;
+        if (std::find(of_elements.begin(), of_elements.end(), tag) == of_elements.end()) continue;
+        names_.emplace(Group(dimension, tag), name);
+        is_used = true;
+      }
+      if (!is_used) names_.emplace(Group(highest, tag), name);
     }
   }
 
@@ -106,7 +132,8 @@ class MshGroups {
   using Group = std::pair<int, int>;  // dimension and tag
 
   std::map<Group, std::string> names_;
-  std::map<Group, ModelEntity> entities_;  ///< by dimension and number
+  std::map<int, std::string> of_any_dimension_;  ///< names by tag
+  std::map<Group, ModelEntity> entities_;        ///< by dimension and number
 };
 
 }  // namespace smoothfem

@@ -22,6 +22,8 @@ class MshTextInput {
  public:
   explicit MshTextInput(LineReader reader) : reader_(std::move(reader)) {}
 
+  /// Returns the reader at the present position.
+  const LineReader& reader() const { return reader_; }
   std::size_t position() const { return reader_.line(); }
   bool is_swapped() const { return false; }
   /// Throws InputError for missing or damaged content.

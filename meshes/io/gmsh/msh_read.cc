@@ -22,9 +22,18 @@ namespace smoothfem {
 
 namespace {
 
+RepeatedElement repeated_element(const MeshParts& parts, const ElementList& elements,
+                                 std::size_t e) {
+  RepeatedElement row{.group = elements.tags[e], .id = elements.ids[e]};
+  for (const MeshField& field : parts.content.element_fields)
+    for (std::size_t k = 0; k < field.n_components; ++k)
+      row.values.push_back(field.number(elements.file_positions[e] * field.n_components + k));
+  return row;
+}
+
 /// Version 2 repeats an element for each of its groups. Joins such elements of one dimension; its
 /// entity then has all of the groups. If elements of an entity have different groups, each
-/// combination becomes an entity.
+/// combination becomes an entity. The numbers and data of the further rows are kept.
 void join_repeated_elements(MeshParts& parts) {
   auto& entities = parts.content.entities;
   for (int dimension = 0; dimension <= 3; ++dimension) {
@@ -39,7 +48,11 @@ void join_repeated_elements(MeshParts& parts) {
       auto& of_first = groups[first->second];
       const bool is_repeated =
           std::find(of_first.begin(), of_first.end(), elements.tags[e]) != of_first.end();
-      if (is_new || is_repeated) kept.push_back(e);  // a doubled element is refused later
+      if (is_new || is_repeated)
+        kept.push_back(e);  // a doubled element is refused later
+      else
+        parts.content.repeated[{dimension, elements.ids[first->second]}].push_back(
+            repeated_element(parts, elements, e));
       of_first.push_back(elements.tags[e]);
     }
     if (kept.size() == elements.nodes.size()) continue;
@@ -85,6 +98,8 @@ class MshReader {
       if (!seen_.contains(section))
         in_.refuse("the file has no section " + section + "; it is truncated or not a mesh");
     for (ElementList& elements : parts_.elements) sort(elements);
+    const auto& of = parts_.elements;
+    groups_.name_elements({&of[0].tags, &of[1].tags, &of[2].tags, &of[3].tags});
     read_node_fields();
     read_element_fields();
     FileContent& content = parts_.content;
@@ -92,6 +107,10 @@ class MshReader {
     content.entities = std::move(groups_).entities();
     content.node_entities = std::move(nodes_.entities);
     if (!version_4_) join_repeated_elements(parts_);
+    if (has_partitions_)
+      parts_.notes.push_back("the division into partitions" +
+                             std::string(has_ghosts_ ? " with its ghost elements" : "") +
+                             " is left out");
     if (nodes_.has_parameters)
       parts_.notes.emplace_back("the parametric coordinates of nodes are left out");
     parts_.names = std::move(groups_).names();
@@ -129,11 +148,18 @@ class MshReader {
       return read_if_sound(section, [&] { node_data_.push_back(read_msh_data(in_)); });
     else if (section == "$ElementData")
       return read_if_sound(section, [&] { element_data_.push_back(read_msh_data(in_)); });
+    else if (section == "$GhostElements")
+      return leave_out_ghosts();
     else
       return keep_section(section);
     in_.require_end(section);
-    if (section == "$PartitionedEntities")
-      parts_.notes.emplace_back("the division into partitions is left out");
+    has_partitions_ = has_partitions_ || section == "$PartitionedEntities";
+  }
+
+  /// Ghost elements name partitions, which are left out.
+  void leave_out_ghosts() {
+    in_.skip_section("$GhostElements");
+    has_partitions_ = has_ghosts_ = true;
   }
 
   /// Reads a section that the mesh does not need. If it is damaged, it is left out with a note.
@@ -257,10 +283,7 @@ class MshReader {
       const int value = in_.integer("element");
       if (k == 0) group = value;
       if (k == 1) entity = value;
-    }
-    if (n_tags > 2 && !has_partitions_) {
-      has_partitions_ = true;
-      parts_.notes.emplace_back("the division into partitions is left out");
+      has_partitions_ = has_partitions_ || (k > 1 && value != 0);
     }
     add_element(tag, type, group, entity);
   }
@@ -335,19 +358,33 @@ class MshReader {
   std::optional<MshVersion4> version_4_;
   std::set<std::string> seen_;
   std::vector<MshData> node_data_, element_data_;
-  bool has_partitions_ = false;
+  bool has_partitions_ = false, has_ghosts_ = false;
   MshGroups groups_;
   MshNodes nodes_;
   MeshParts parts_;
 };
 
-constexpr std::string_view msh_first_line = "$MeshFormat", msh_first_line_1 = "$NOD";
+constexpr std::string_view msh_first_line = "$MeshFormat", msh_first_line_1 = "$NOD",
+                           msh_comments = "$Comments";
 
 bool is_msh(std::string_view beginning) {
   LineReader reader({}, beginning);
   if (!reader.next_line()) return false;
   const std::string_view word = reader.word();
-  return word == msh_first_line || word == msh_first_line_1;
+  return word == msh_first_line || word == msh_first_line_1 || word == msh_comments;
+}
+
+/// Reads comments before the first line that the format asks for. Returns their sections.
+std::vector<std::string> leading_comments(LineReader& reader) {
+  std::vector<std::string> comments;
+  reader.require_line("the first line");
+  while (reader.text().starts_with(msh_comments)) {
+    MshTextInput input(reader);
+    comments.push_back(input.skip_section(std::string(msh_comments)));
+    reader = input.reader();
+    reader.require_line("the format's version");
+  }
+  return comments;
 }
 
 /// Reads version 1, which is text and has no section with its version.
@@ -362,9 +399,11 @@ MeshParts read_msh_1(const std::filesystem::path& path, std::string_view content
 
 /// Returns nothing for version 2.
 std::optional<MshVersion4> version_of(const LineReader& reader, const std::string& word) {
-  if (word == "2.2" || word == "2.1" || word == "2.0" || word == "2") return std::nullopt;
-  if (word == "4.1") return MshVersion4::v4_1;
-  if (word == "4" || word == "4.0") return MshVersion4::v4_0;
+  const std::size_t last = word.find_last_not_of('0');  // of 2.200000
+  const std::string version = word.find('.') == word.npos ? word + "." : word.substr(0, last + 1);
+  if (version == "2.2" || version == "2.1" || version == "2.") return std::nullopt;
+  if (version == "4.1") return MshVersion4::v4_1;
+  if (version == "4.") return MshVersion4::v4_0;
   reader.fail("the file has version " + in_quotes(word) + "; save it as version 4.1 or 2.2");
 }
 
@@ -373,7 +412,7 @@ std::optional<MshVersion4> version_of(const LineReader& reader, const std::strin
 MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
   const std::string content = read_whole_file(path);
   LineReader reader(path, content);
-  reader.require_line("the first line");
+  auto comments = leading_comments(reader);
   const std::string_view first = reader.word();
   if (first == msh_first_line_1) return read_msh_1(path, content);
   if (first != msh_first_line)
@@ -400,6 +439,10 @@ MeshParts read_msh(const std::filesystem::path& path, const MeshReadOptions&) {
     MshTextInput input(reader);
     input.require_end("$MeshFormat");
     parts = MshReader(std::move(input), version_4).parts();
+  }
+  for (std::string& section : comments) {
+    parts.content.sections.push_back(std::move(section));
+    parts.content.section_names.push_back("the section " + std::string(msh_comments));
   }
   parts.content.version = version_4 ? "4.1" : "2.2";
   parts.content.is_binary = is_binary;

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshes/io/atomic_file.h"
@@ -39,6 +41,7 @@ class MshWriter {
     for (const MshEntity& entity : entities_)
       for (const auto& [type, elements] : entity.by_type) n_elements_ += elements.size();
     if (!has_all_ids_) last_number_ += elements_.size() - elements_.n_cells();
+    keeps_rows_ = version_ == "2.2" && !content_.repeated.empty() && further_numbers_are_free();
   }
 
   void write() {
@@ -78,6 +81,27 @@ class MshWriter {
     return ids.empty() ? mesh_.n_cells() : *std::max_element(ids.begin(), ids.end());
   }
 
+  /// True if no element has a number of the further rows of the file.
+  bool further_numbers_are_free() {
+    std::set<std::size_t> numbers;
+    for (const auto& [element, rows] : content_.repeated)
+      for (const RepeatedElement& row : rows) numbers.insert(row.id);
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      if (numbers.contains(element_number(e))) return false;
+    last_of_file_ = *numbers.rbegin();
+    return true;
+  }
+
+  /// Returns the file's row of an element for a group beyond the first; null if it has none.
+  const RepeatedElement* row_of_file(std::size_t e, int group) const {
+    if (!keeps_rows_) return nullptr;
+    const auto found = content_.repeated.find({elements_.dimension(e), element_number(e)});
+    if (found == content_.repeated.end()) return nullptr;
+    for (const RepeatedElement& row : found->second)
+      if (row.group == group) return &row;
+    return nullptr;
+  }
+
   void end_section(const std::string& name) {
     out_.text(out_.is_binary() ? "\n$End" + name + "\n" : "$End" + name + "\n");
   }
@@ -115,12 +139,23 @@ class MshWriter {
     for (const MeshField& field : content_.node_fields)
       write_field("NodeData", field,
                   [&](std::size_t i) { return node_number(static_cast<NodeIndex>(i)); });
-    for (const MeshField& field : content_.element_fields)
-      write_field("ElementData", field, [&](std::size_t e) { return element_number(e); });
+    std::size_t first = 0;
+    for (const MeshField& field : content_.element_fields) {
+      std::vector<FurtherRow> further;
+      for (const RepeatedElement* row : further_rows_)
+        if (row->values.size() >= first + field.n_components && !std::isnan(row->values[first]))
+          further.emplace_back(row->id, row->values.data() + first);
+      write_field(
+          "ElementData", field, [&](std::size_t e) { return element_number(e); }, further);
+      first += field.n_components;
+    }
   }
 
+  using FurtherRow = std::pair<std::size_t, const double*>;  // number and values
+
   template <class NumberOf>
-  void write_field(const std::string& section, const MeshField& field, const NumberOf& number_of) {
+  void write_field(const std::string& section, const MeshField& field, const NumberOf& number_of,
+                   const std::vector<FurtherRow>& further = {}) {
     const std::size_t n = field.n_components, n_written = msh_components(n);
     if (n_written == 0) return;
     std::vector<std::size_t> rows;
@@ -131,13 +166,16 @@ class MshWriter {
     std::string head = "$" + section + "\n1\n\"" + name + "\"\n1\n";
     append_number(head, field.time);
     out_.text(head + "\n3\n" + std::to_string(field.step) + "\n" + std::to_string(n_written) +
-              "\n" + std::to_string(rows.size()) + "\n");
-    for (const std::size_t i : rows) {
-      out_.number(static_cast<std::int32_t>(number_of(i)));
-      for (std::size_t k = 0; k < n_written; ++k)
-        out_.number(k < n ? field.number(i * n + k) : 0.0);
+              "\n" + std::to_string(rows.size() + further.size()) + "\n");
+    const auto write_row = [&](std::size_t number, const auto& value) {
+      out_.number(static_cast<std::int32_t>(number));
+      for (std::size_t k = 0; k < n_written; ++k) out_.number(k < n ? value(k) : 0.0);
       out_.end_record();
-    }
+    };
+    for (const std::size_t i : rows)
+      write_row(number_of(i), [&](std::size_t k) { return field.number(i * n + k); });
+    for (const auto& [number, values] : further)
+      write_row(number, [&, row = values](std::size_t k) { return row[k]; });
     end_section(section);
   }
 
@@ -154,7 +192,7 @@ class MshWriter {
   }
 
   /// Writes type by type, as Gmsh does; readers sort by the numbers. An element in several groups
-  /// is repeated for each, with a number of its own.
+  /// is repeated for each, with the file's number or one of its own.
   void write_elements_2() {
     std::size_t n = n_elements_;
     for (const MshEntity& entity : entities_)
@@ -162,7 +200,13 @@ class MshWriter {
         for (const auto& [type, elements] : entity.by_type)
           n += elements.size() * (entity.groups.size() - 1);
     out_.text("$Elements\n" + std::to_string(n) + "\n");
-    std::size_t next = last_number_ + 1;
+    std::size_t next = std::max(last_number_, last_of_file_) + 1;
+    const auto number_of = [&](std::size_t e, int group) {
+      const RepeatedElement* row = row_of_file(e, group);
+      if (!row) return next++;
+      further_rows_.push_back(row);
+      return row->id;
+    };
     for (const MshElementType& type : msh_element_types)
       for (const MshEntity& entity : entities_) {
         const auto elements = entity.by_type.find(type.number);
@@ -171,7 +215,7 @@ class MshWriter {
         for (const std::size_t e : elements->second)
           for (const int group : groups)
             write_element_2(entity, type, e, group,
-                            group == groups.front() ? element_number(e) : next++);
+                            group == groups.front() ? element_number(e) : number_of(e, group));
       }
     end_section("Elements");
   }
@@ -358,6 +402,9 @@ class MshWriter {
   std::vector<MshEntity> entities_;
   bool has_all_ids_ = true;
   std::size_t last_number_ = 0, n_elements_ = 0;
+  bool keeps_rows_ = false;       ///< further rows have the numbers and data of the file
+  std::size_t last_of_file_ = 0;  ///< largest number of these rows
+  std::vector<const RepeatedElement*> further_rows_;  ///< that are written
 };
 
 void require_version_2_holds(const std::filesystem::path& path, const Topology& topology) {

@@ -126,7 +126,10 @@ class GridParts {
     parts_.content.node_fields = std::move(grid_.point_fields);
     parts_.content.element_fields = std::move(grid_.cell_fields);
     parts_.content.file_fields = std::move(grid_.file_fields);
+    parts_.content.node_roles = std::move(grid_.point_roles);
+    parts_.content.element_roles = std::move(grid_.cell_roles);
     parts_.content.is_binary = grid_.is_binary;
+    add_notes_on_types();
     parts_.leaves_out_unused_nodes = grid_.has_unused_points;
     parts_.notes.insert(parts_.notes.end(), grid_.notes.begin(), grid_.notes.end());
     return std::move(parts_);
@@ -215,6 +218,17 @@ class GridParts {
       for (std::size_t i = 0; i < fixed->n_rows(); ++i)
         parts_.fixed->push_back(fixed->number(i * fixed->n_components) != 0.0);
     }
+  }
+
+  /// Adds notes on cells and data sets that are written in another form with the same nodes.
+  void add_notes_on_types() {
+    const auto has = [&](int type) {
+      return std::find(cells_.types.begin(), cells_.types.end(), type) != cells_.types.end();
+    };
+    if (grid_.is_polygonal)
+      parts_.notes.emplace_back("the polygonal data become an unstructured grid");
+    if (has(VTK_PIXEL)) parts_.notes.emplace_back("pixels become quadrilaterals");
+    if (has(VTK_VOXEL)) parts_.notes.emplace_back("voxels become hexahedra");
   }
 
   void read_names() {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,8 +43,10 @@ struct VtkGrid {
   std::vector<Point<3>> points;
   VtkCells cells;
   std::vector<MeshField> point_fields, cell_fields, file_fields;
-  std::string physical_names;  ///< lines "dimension tag name"
+  std::map<std::string, std::string> point_roles, cell_roles;  ///< as in FileContent
+  std::string physical_names;                                  ///< lines "dimension tag name"
   bool is_binary = false;
+  bool is_polygonal = false;       ///< VTK's POLYDATA
   bool has_unused_points = false;  ///< that the mesh leaves out
   std::vector<std::string> notes;  ///< arrays that are left out, and why
 };
@@ -69,5 +72,22 @@ inline constexpr std::array<std::string_view, 8> vtk_tag_fields{
     "physical_tag", "gmsh:physical", "MaterialID",    "material_id",
     "material",     "attribute",     "CellEntityIds", "medit:ref"};
 inline constexpr std::array<std::string_view, 2> vtk_boundary_fields{"BoundaryID", "boundary_id"};
+
+/// A role that an array can have for VTK's readers. Legacy files have a keyword for it.
+struct VtkRole {
+  std::string_view keyword;    ///< of legacy files, in lower case
+  std::string_view name;       ///< VTK's, which .vtu files have
+  std::uint64_t n_components;  ///< 0: the file says it
+};
+/// In the order in which VTK writes them.
+inline constexpr std::array<VtkRole, 9> vtk_roles{{{"scalars", "Scalars", 0},
+                                                   {"vectors", "Vectors", 3},
+                                                   {"normals", "Normals", 3},
+                                                   {"texture_coordinates", "TCoords", 0},
+                                                   {"tensors", "Tensors", 9},
+                                                   {"tensors6", "Tensors", 6},
+                                                   {"global_ids", "GlobalIds", 1},
+                                                   {"pedigree_ids", "PedigreeIds", 1},
+                                                   {"edge_flags", "EdgeFlag", 1}}};
 
 }  // namespace smoothfem

@@ -3,6 +3,7 @@
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -10,9 +11,13 @@
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <string>
+#include <vector>
 
+#include "meshes/io/vtk/vtk_grid.h"
 #include "smoothing/base/text.h"
 
 namespace smoothfem {
@@ -56,22 +61,63 @@ void append_values(std::string& text, const T* values, vtkIdType n_rows, int n_c
     }
 }
 
-void append_array(std::string& text, vtkDataArray& array) {
-  const int n_components = array.GetNumberOfComponents();
-  const vtkIdType n_rows = array.GetNumberOfTuples();
-  text += encoded_vtk_name(array.GetName()) + " " + std::to_string(n_components) + " " +
-          std::to_string(n_rows) + " ";
+std::string type_name_of(vtkDataArray& array) {
+  if (array.GetDataType() == VTK_ID_TYPE) return "vtkIdType";
+  switch (array.GetDataType()) { vtkTemplateMacro(return type_name<VTK_TT>()); }
+  return {};
+}
+
+void append_values_of(std::string& text, vtkDataArray& array) {
   switch (array.GetDataType()) {
-    vtkTemplateMacro(
-        text += type_name<VTK_TT>() + "\n";
-        append_values(text, static_cast<VTK_TT*>(array.GetVoidPointer(0)), n_rows, n_components));
+    vtkTemplateMacro(append_values(text, static_cast<VTK_TT*>(array.GetVoidPointer(0)),
+                                   array.GetNumberOfTuples(), array.GetNumberOfComponents()));
   }
 }
 
-void append_arrays(std::string& text, const std::string& head, vtkFieldData& arrays) {
-  if (arrays.GetNumberOfArrays() == 0) return;
-  text += head + "FIELD FieldData " + std::to_string(arrays.GetNumberOfArrays()) + "\n";
-  for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) append_array(text, *arrays.GetArray(i));
+void append_field(std::string& text, const std::vector<vtkDataArray*>& arrays) {
+  if (arrays.empty()) return;
+  text += "FIELD FieldData " + std::to_string(arrays.size()) + "\n";
+  for (vtkDataArray* array : arrays) {
+    text += encoded_vtk_name(array->GetName()) + " " +
+            std::to_string(array->GetNumberOfComponents()) + " " +
+            std::to_string(array->GetNumberOfTuples()) + " " + type_name_of(*array) + "\n";
+    append_values_of(text, *array);
+  }
+}
+
+std::vector<vtkDataArray*> arrays_of(vtkFieldData& arrays) {
+  std::vector<vtkDataArray*> result;
+  for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) result.push_back(arrays.GetArray(i));
+  return result;
+}
+
+/// Appends an array with a role as a section of its own.
+void append_role(std::string& text, const VtkRole& role, vtkDataArray& array) {
+  std::string keyword(role.keyword);
+  for (char& c : keyword) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  const std::string n = " " + std::to_string(array.GetNumberOfComponents());
+  const bool is_scalar = role.name == "Scalars", states_n = role.n_components == 0;
+  text += keyword + " " + encoded_vtk_name(array.GetName()) + (states_n && !is_scalar ? n : "") +
+          " " + type_name_of(array) + (is_scalar && n != " 1" ? n : "") + "\n" +
+          (is_scalar ? "LOOKUP_TABLE default\n" : "");
+  append_values_of(text, array);
+}
+
+/// Appends the arrays with a role, and all others as a field, as VTK does.
+void append_arrays(std::string& text, const std::string& head, vtkDataSetAttributes& attributes) {
+  auto others = arrays_of(attributes);
+  if (others.empty()) return;
+  text += head;
+  for (const VtkRole& role : vtk_roles)
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type) {
+      auto* array = attributes.GetAttribute(type);
+      if (!array || role.name != vtkDataSetAttributes::GetAttributeTypeAsString(type)) continue;
+      const auto n = static_cast<std::uint64_t>(array->GetNumberOfComponents());
+      if (role.n_components != 0 && role.n_components != n) continue;
+      append_role(text, role, *array);
+      std::erase(others, array);
+    }
+  append_field(text, others);
 }
 
 void append_cells(std::string& text, vtkUnstructuredGrid& grid) {
@@ -101,7 +147,7 @@ void append_cells(std::string& text, vtkUnstructuredGrid& grid) {
 std::string legacy_vtk_text(vtkUnstructuredGrid& grid) {
   std::string text =
       "# vtk DataFile Version 4.2\nsmoothfem mesh\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-  append_arrays(text, "", *grid.GetFieldData());
+  append_field(text, arrays_of(*grid.GetFieldData()));
   const vtkIdType n_points = grid.GetNumberOfPoints();
   text += "POINTS " + std::to_string(n_points) + " double\n";
   append_values(text, static_cast<double*>(grid.GetPoints()->GetVoidPointer(0)), n_points, 3);

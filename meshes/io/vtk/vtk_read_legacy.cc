@@ -44,6 +44,7 @@ class LegacyVtkReader {
     while (in_.next_keyword()) read_section(in_.keyword());
     for (VtkCells& cells : cells_) grid_.cells.append(std::move(cells));
     grid_.is_binary = in_.is_binary();
+    grid_.is_polygonal = is_polygonal_;
     return std::move(grid_);
   }
 
@@ -183,20 +184,10 @@ class LegacyVtkReader {
 
   /// Returns false if the keyword begins no attribute.
   bool read_attribute(const std::string& keyword) {
-    static constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> sizes{
-        {{"vectors", 3},
-         {"normals", 3},
-         {"tensors", 9},
-         {"tensors6", 6},
-         {"global_ids", 1},
-         {"pedigree_ids", 1},
-         {"edge_flags", 1}}};
-    const auto* size = std::find_if(sizes.begin(), sizes.end(),
-                                    [&](const auto& entry) { return entry.first == keyword; });
-    const bool is_known = size != sizes.end() || keyword == "scalars" ||
-                          keyword == "lookup_table" || keyword == "texture_coordinates" ||
-                          keyword == "color_scalars";
-    if (!is_known) return false;
+    const auto* role = std::find_if(vtk_roles.begin(), vtk_roles.end(),
+                                    [&](const VtkRole& entry) { return entry.keyword == keyword; });
+    if (role == vtk_roles.end() && keyword != "lookup_table" && keyword != "color_scalars")
+      return false;
     const std::string name(in_.word("the array's name"));
     if (keyword == "lookup_table") {
       in_.skip_colours(in_.count("the size of the lookup table"), 4);
@@ -213,9 +204,12 @@ class LegacyVtkReader {
       read_array(name, type, n_components, n_tuples_);
     } else {
       const std::uint64_t n_components =
-          size != sizes.end() ? size->second : in_.count("the number of components");
+          role->n_components > 0 ? role->n_components : in_.count("the number of components");
       read_array(name, std::string(in_.word("the array's type")), n_components, n_tuples_);
     }
+    if (role != vtk_roles.end())  // VTK, too, uses the first array of a role
+      (attributes_ == Attributes::cells ? grid_.cell_roles : grid_.point_roles)
+          .emplace(role->name, decoded_vtk_name(name));
     return true;
   }
 

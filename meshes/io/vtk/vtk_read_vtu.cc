@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -86,10 +87,19 @@ class VtuReader {
     const std::size_t first_point = grid_.points.size(), first_cell = grid_.cells.size();
     if (piece.n_points > 0) read_points(piece);
     if (piece.n_cells > 0) grid_.cells.append(read_cells(piece), first_point);
+    read_roles(piece, "PointData", grid_.point_roles);
+    read_roles(piece, "CellData", grid_.cell_roles);
     if (piece.n_points > 0)
       read_arrays(piece, "PointData", piece.n_points, first_point == 0, grid_.point_fields);
     if (piece.n_cells > 0)
       read_arrays(piece, "CellData", piece.n_cells, first_cell == 0, grid_.cell_fields);
+  }
+
+  /// Adds those of a piece that the pieces before it do not have.
+  static void read_roles(const VtuPiece& piece, std::string_view section,
+                         std::map<std::string, std::string>& roles) {
+    if (const auto found = piece.roles.find(section); found != piece.roles.end())
+      roles.insert(found->second.begin(), found->second.end());
   }
 
   const VtuArray& required(const VtuPiece& piece, const std::string& section,

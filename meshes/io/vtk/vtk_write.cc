@@ -5,6 +5,7 @@
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -18,7 +19,8 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <limits>
+#include <cstdint>
+#include <map>
 #include <streambuf>
 #include <string>
 
@@ -119,13 +121,12 @@ CellIndex cell_of_facet(const Topology& topology, std::span<const NodeIndex> fac
 }
 
 /// Returns a field's values at all elements; those below the cells have the value of a cell that
-/// has all their nodes.
+/// has all their nodes, and 0 if there is none: VTK's reader of text stops at "nan".
 std::vector<double> with_other_elements(const Topology& topology, const AllElements& elements,
                                         std::vector<double> values) {
   for (std::size_t e = elements.n_cells(); e < elements.size(); ++e) {
     const CellIndex cell = cell_of_facet(topology, elements.nodes(e));
-    values.push_back(cell < topology.n_cells() ? values[cell]
-                                               : std::numeric_limits<double>::quiet_NaN());
+    values.push_back(cell < topology.n_cells() ? values[cell] : 0.0);
   }
   return values;
 }
@@ -194,7 +195,41 @@ void add_content(const FileContent& content, const MeshFields& fields,
   for (const MeshField& field : content.file_fields) add_field(*grid.GetFieldData(), field, {});
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFields& fields) {
+enum class VtkFormat { legacy, xml };
+
+/// Returns the array in the type that VTK wants for a role; null if it cannot have the role. In
+/// legacy files VTK's type of indices has 32 bits, and scalars of bytes would become colours.
+vtkSmartPointer<vtkDataArray> array_for_role(int role, vtkDataArray* array, VtkFormat format) {
+  const bool is_legacy = format == VtkFormat::legacy;
+  if (!array || (is_legacy && role == vtkDataSetAttributes::SCALARS &&
+                 array->GetDataType() == VTK_UNSIGNED_CHAR))
+    return nullptr;
+  if (role != vtkDataSetAttributes::GLOBALIDS || array->GetNumberOfComponents() != 1) return array;
+  const double* range = array->GetRange();
+  const bool is_integer = array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
+  if (!is_integer || range[0] < INT32_MIN || range[1] > INT32_MAX)
+    return is_legacy ? nullptr : array;
+  const auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+  ids->DeepCopy(array);
+  return ids;
+}
+
+/// Gives arrays the roles that they have in the file.
+void set_roles(const std::map<std::string, std::string>& roles, VtkFormat format,
+               vtkDataSetAttributes& arrays) {
+  const VtkMessages silence;  // an array may not have the size that its role asks for
+  for (int role = 0; role < vtkDataSetAttributes::NUM_ATTRIBUTES; ++role) {
+    const auto name = roles.find(vtkDataSetAttributes::GetAttributeTypeAsString(role));
+    if (name == roles.end()) continue;
+    const auto array = array_for_role(role, arrays.GetArray(name->second.c_str()), format);
+    if (!array) continue;
+    arrays.AddArray(array);  // in the place of that of the same name
+    arrays.SetActiveAttribute(name->second.c_str(), role);
+  }
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFields& fields,
+                                             VtkFormat format) {
   const Topology& topology = mesh.topology();
   const AllElements elements(mesh);
   const auto order = elements.in_file_order(mesh.content());
@@ -213,6 +248,10 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const MeshView& mesh, const MeshFie
     std::vector<double> values;
     for (const std::uint32_t e : order) values.push_back(canonical[e]);
     add_array<vtkDoubleArray>(*grid->GetCellData(), name, values);
+  }
+  if (const FileContent* content = mesh.content()) {
+    set_roles(content->node_roles, format, *grid->GetPointData());
+    set_roles(content->element_roles, format, *grid->GetCellData());
   }
   return grid;
 }
@@ -275,12 +314,12 @@ bool writes_binary(const MeshView& mesh, const MeshWriteOptions& options, std::s
 void write_legacy_vtk(const std::filesystem::path& path, const MeshView& mesh,
                       const MeshFields& fields, const MeshWriteOptions& options) {
   if (!writes_binary(mesh, options, "vtk"))
-    return write_atomically(path, legacy_vtk_text(*grid_of(mesh, fields)));
+    return write_atomically(path, legacy_vtk_text(*grid_of(mesh, fields, VtkFormat::legacy)));
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
   writer->SetFileTypeToBinary();
   writer->SetHeader("smoothfem mesh");
-  writer->SetInputData(grid_of(mesh, fields));
+  writer->SetInputData(grid_of(mesh, fields, VtkFormat::legacy));
   writer->WriteToOutputStringOn();
   run(*writer, path);
   write_atomically(path, writer->GetOutputStdString());
@@ -295,7 +334,7 @@ void write_vtu(const std::filesystem::path& path, const MeshView& mesh, const Me
     writer->SetDataModeToAscii();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToNone();
-  const auto grid = grid_of(mesh, fields);
+  const auto grid = grid_of(mesh, fields, VtkFormat::xml);
   escape_names(*grid->GetPointData());
   escape_names(*grid->GetCellData());
   writer->SetInputData(grid);

@@ -61,7 +61,9 @@ void VtuFile::read_tag() {
   if (name == "VTKFile")
     read_file_tag();
   else if (name == "Piece")
-    pieces_.push_back({number("NumberOfPoints", 0), number("NumberOfCells", 0), {}});
+    pieces_.push_back({number("NumberOfPoints", 0), number("NumberOfCells", 0), {}, {}});
+  else if (name == "PointData" || name == "CellData")
+    read_roles();
   else if (name == "DataArray" || name == "Array")
     read_array_tag();
   else if (name == "AppendedData")
@@ -95,6 +97,13 @@ void VtuFile::read_file_tag() {
   encoding_.is_swapped = choice("byte_order", "LittleEndian", "BigEndian");
   encoding_.header_size = choice("header_type", "UInt32", "UInt64") ? 8 : 4;
   encoding_.compressor = tag.attribute("compressor").value_or("");
+}
+
+/// Sections outside pieces are of damaged files, and so are their arrays.
+void VtuFile::read_roles() {
+  if (pieces_.empty()) return;
+  auto& roles = pieces_.back().roles[std::string(tags_.tag().name)];
+  for (const auto& [role, name] : tags_.tag().attributes) roles.emplace(role, name);
 }
 
 void VtuFile::read_array_tag() {

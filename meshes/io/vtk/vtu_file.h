@@ -37,6 +37,8 @@ using VtuSection = std::vector<VtuArray>;
 struct VtuPiece {
   std::uint64_t n_points = 0, n_cells = 0;
   std::map<std::string, VtuSection, std::less<>> sections;
+  /// Attributes of `<PointData>` and `<CellData>`: the role of an array, and its name.
+  std::map<std::string, std::map<std::string, std::string>, std::less<>> roles;
 
   /// Returns null if there is no such array; an empty name means any.
   const VtuArray* array(std::string_view section, std::string_view name) const;
@@ -98,6 +100,7 @@ class VtuFile {
  private:
   void read_tag();
   void read_file_tag();
+  void read_roles();
   void read_array_tag();
   void read_appended();
   std::uint64_t number(std::string_view attribute, std::uint64_t fallback) const;
