@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smoothing/loop/best_mesh.h"
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/mesh/fixed_nodes.h"
 #include "smoothing/mesh/interfaces.h"
@@ -146,19 +147,16 @@ class StageAlone {
   StageAlone(const StageAlone&) = delete;
 
   Method<dim>& method() { return alone_; }
-  ResultMesh result() const { return alone_.stages.front()->traits().result; }
+  /// The stage's rule for its result. Scores of single steps say nothing about joined partners.
+  ResultMesh result() const {
+    const ResultMesh rule = alone_.stages.front()->traits().result;
+    return rule == ResultMesh::best_score ? ResultMesh::best_q_star_min : rule;
+  }
 
  private:
   std::unique_ptr<Smoother<dim>>& owner_;
   Method<dim> alone_;
 };
-
-/// True if a stage that chooses its result in this way prefers the first quality.
-bool is_better(ResultMesh result, const MeshQuality& a, const MeshQuality& b) {
-  if (result == ResultMesh::last) return true;
-  if (a.n_invalid != b.n_invalid) return a.n_invalid < b.n_invalid;
-  return result == ResultMesh::best_q_mean ? a.q_mean > b.q_mean : a.q_star_min > b.q_star_min;
-}
 
 }  // namespace
 
@@ -203,27 +201,26 @@ SmoothingResult smooth_periodic(Mesh<dim>& mesh, Method<dim>& method,
   SmoothingResult result;
   std::size_t n_records = 0;
   Mesh<dim> seen = mesh;
+  Observer<dim> of_mesh;
+  if (observer)
+    of_mesh = [&](const IterationRecord& record, const Mesh<dim>& now) {
+      if (n_records > 0 && record.record == 0) return;
+      seen.set_coordinates(now.coordinates().first(mesh.n_nodes()));
+      IterationRecord of_round = record;
+      of_round.record = n_records++;
+      of_round.quality = mesh_quality(seen);
+      of_round.smoothing_seconds += result.smoothing_seconds;
+      observer(of_round, seen);
+    };
   // All rounds of a stage come before the next stage: in turn, stages would undo each other's work.
   for (std::size_t s = 0; s < method.stages.size(); ++s) {
     StageAlone<dim> stage(method, s);
     StageResult total;
-    auto best = mesh.copied_coordinates();
-    MeshQuality best_quality = mesh_quality(mesh);
+    BestMesh<dim> best(stage.result(), std::as_const(mesh).coordinates(), mesh_quality(mesh), 0.0);
     int n_not_better = 0;
     for (int round = 0; round < parameters.max_rounds; ++round) {
       const auto before = mesh.copied_coordinates();
       Mesh<dim> extended(topology, halo.coordinates(mesh.coordinates()), constraints);
-      Observer<dim> of_mesh;
-      if (observer)
-        of_mesh = [&](const IterationRecord& record, const Mesh<dim>& now) {
-          if (n_records > 0 && record.record == 0) return;
-          seen.set_coordinates(now.coordinates().first(mesh.n_nodes()));
-          IterationRecord of_round = record;
-          of_round.record = n_records++;
-          of_round.quality = mesh_quality(seen);
-          of_round.smoothing_seconds += result.smoothing_seconds;
-          observer(of_round, seen);
-        };
       const SmoothingResult of_round = smooth(extended, stage.method(), of_mesh);
       result.smoothing_seconds += of_round.smoothing_seconds;
       result.preparation_seconds += of_round.preparation_seconds;
@@ -232,17 +229,12 @@ SmoothingResult smooth_periodic(Mesh<dim>& mesh, Method<dim>& method,
       total.iterations += earlier;
       mesh.set_coordinates(std::as_const(extended).coordinates().first(mesh.n_nodes()));
       periodic.join_partners(*topology, mesh.coordinates());
-      const MeshQuality quality = mesh_quality(mesh);
-      if (is_better(stage.result(), quality, best_quality)) {
-        best = mesh.copied_coordinates();
-        best_quality = quality;
-        n_not_better = 0;
-      } else if (++n_not_better == parameters.patience) {
-        break;
-      }
+      const bool is_best = best.offer(std::as_const(mesh).coordinates(), mesh_quality(mesh), {});
+      n_not_better = is_best || stage.result() == ResultMesh::last ? 0 : n_not_better + 1;
+      if (n_not_better == parameters.patience) break;
       if (periodic.movement(mesh, before) <= parameters.tolerance) break;
     }
-    mesh.set_coordinates(best);
+    best.restore(mesh);
     result.stages.push_back(std::move(total));
   }
   // A method without quality control may leave invalid cells.

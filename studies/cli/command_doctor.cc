@@ -57,6 +57,12 @@ auto about_file(const std::string& path, const Work& work) {
   }
 }
 
+/// Coordinates that are no numbers would be in no plane.
+void lay_usable_points_into_plane(MeshParts& parts) {
+  require_usable_coordinates(parts);
+  lay_into_plane(parts);
+}
+
 std::string summary_text(const Examination& seen) {
   return seen.mesh_kind + " mesh, " + count_of(seen.n_nodes, "node") + ", " +
          count_of(seen.n_cells, "cell") + ", " + count_of(seen.n_pieces, "piece");
@@ -83,8 +89,7 @@ void check(const DoctorArguments& arguments) {
   const auto input = copy_of_standard_input(arguments.in, arguments.from);
   MeshParts parts = read_mesh_parts(input ? input->path() : std::filesystem::path(arguments.in));
   const Examination seen = about_file(arguments.in, [&] {
-    require_usable_coordinates(parts);
-    lay_into_plane(parts);
+    lay_usable_points_into_plane(parts);
     return examine(parts);
   });
   (arguments.json ? show_json : show_text)(arguments.in, seen);
@@ -95,8 +100,7 @@ void repair_file(const DoctorArguments& arguments) {
   require_mesh_path(arguments.out);
   MeshParts parts = read_mesh_parts(arguments.in);
   const auto [done, left] = about_file(arguments.in, [&] {
-    require_usable_coordinates(parts);
-    lay_into_plane(parts);
+    lay_usable_points_into_plane(parts);
     auto changes = repair(parts);
     return std::pair(std::move(changes), examine(parts));
   });
