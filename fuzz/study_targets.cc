@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "fuzz/targets.h"
-#include "studies/framework/run/checkpoint.h"
-#include "studies/framework/run/sealed_file.h"
+#include "studies/framework/run/kept/kept_results.h"
+#include "studies/framework/run/kept/sealed_file.h"
 #include "studies/kinds/study_kinds.h"
 
 namespace smoothfem::fuzz {
@@ -20,13 +20,13 @@ bool run_study(Bytes bytes) {
   return is_read([](const std::filesystem::path& path) { read_any_study(path); }, file.path());
 }
 
-/// Folder of a checkpoint; removed when the process ends.
-class CheckpointFolder {
+/// Folder of kept results; removed when the process ends.
+class KeptFolder {
  public:
-  CheckpointFolder() : path_("/dev/shm/smoothfem-fuzz-" + std::to_string(::getpid())) {
+  KeptFolder() : path_("/dev/shm/smoothfem-fuzz-" + std::to_string(::getpid())) {
     std::filesystem::create_directories(path_ / name);
   }
-  ~CheckpointFolder() { std::filesystem::remove_all(path_); }
+  ~KeptFolder() { std::filesystem::remove_all(path_); }
   const std::filesystem::path& path() const { return path_; }
 
   static constexpr const char* name = "fuzz";
@@ -37,10 +37,10 @@ class CheckpointFolder {
 
 constexpr std::size_t number_of_numbers = 4;
 
-/// The first byte selects one of a checkpoint's files for the remaining bytes, and whether they are
-/// written unchanged or sealed. Without a seal no reader accepts them.
-bool run_checkpoint(Bytes bytes) {
-  static const CheckpointFolder folder;
+/// The first byte selects one of the files of kept results for the remaining bytes, and whether
+/// they are written unchanged or sealed. Without a seal no reader accepts them.
+bool run_kept(Bytes bytes) {
+  static const KeptFolder folder;
   using Read = void (*)(const std::filesystem::path&);
   struct File {
     const char* name;
@@ -48,12 +48,9 @@ bool run_checkpoint(Bytes bytes) {
   };
   static const File files[] = {
       {"fuzz/0.numbers",
-       [](auto& path) {
-         Checkpoint(path).load_numbers(CheckpointFolder::name, 0, number_of_numbers);
-       }},
-      {"fuzz.trajectory",
-       [](auto& path) { Checkpoint(path).load_trajectory(CheckpointFolder::name); }},
-      {"fuzz.solved", [](auto& path) { Checkpoint(path).load_solved(CheckpointFolder::name); }}};
+       [](auto& path) { KeptResults(path).load_numbers(KeptFolder::name, 0, number_of_numbers); }},
+      {"fuzz.trajectory", [](auto& path) { KeptResults(path).load_trajectory(KeptFolder::name); }},
+      {"fuzz.solved", [](auto& path) { KeptResults(path).load_solved(KeptFolder::name); }}};
   if (bytes.empty()) return false;
   const File& file = files[bytes[0] % std::size(files)];
   const bool sealed = bytes[0] < 128;
@@ -68,7 +65,7 @@ bool run_checkpoint(Bytes bytes) {
 }  // namespace
 
 std::vector<Target> study_targets() {
-  return {{"checkpoint", run_checkpoint}, {"study", run_study}};
+  return {{"kept", run_kept}, {"study", run_study}};
 }
 
 }  // namespace smoothfem::fuzz

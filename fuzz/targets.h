@@ -22,7 +22,7 @@ struct Target {
 
 /// Returns a target for each mesh format. A read mesh must allow computing its quality.
 std::vector<Target> mesh_targets();
-/// Returns the targets of the study file and of the files of a checkpoint.
+/// Returns the targets of the study file and of the files of kept results.
 std::vector<Target> study_targets();
 
 /// A file in memory, whose content changes from run to run.

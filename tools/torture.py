@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Injects faults that happen to programs: kills the program at random moments, fills its disk, damages its
-checkpoints, starts it twice, and gives it unwritable paths. Prints a table of tries and
+kept results, starts it twice, and gives it unwritable paths. Prints a table of tries and
 findings; the exit code is 1 if there are findings.
 
     torture.py PROGRAM [--scale F] [--seed N] [--out FILE.md]
@@ -210,11 +210,11 @@ class Torture:
                                 "standard output")
         return n, f"{n - written} refused in a sentence, {written} small enough to fit"
 
-    def damaged_checkpoint(self):
-        """A damaged checkpoint is refused, or does not change a row."""
+    def damaged_results(self):
+        """Damaged kept results are refused, or does not change a row."""
         half, out = self.folder / "half", self.folder / "damaged"
         process = self.start("study", "planar.prm", "--out", half, "--quiet")
-        while not any((half / "checkpoint").glob("*_d2.solved")) and process.poll() is None:
+        while not any((half / "kept").glob("*.solved")) and process.poll() is None:
             time.sleep(0.001)
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
@@ -228,7 +228,7 @@ class Torture:
         for i in range(n):
             shutil.rmtree(out, ignore_errors=True)
             shutil.copytree(half, out)
-            files = sorted(p for p in (out / "checkpoint").rglob("*") if p.is_file())
+            files = sorted(p for p in (out / "kept").rglob("*") if p.is_file())
             kind = list(damages)[i % len(damages)]
             path = self.random.choice(files)
             if kind == "exchanged":
@@ -243,10 +243,10 @@ class Torture:
             outcome = self.run("study", "planar.prm", "--out", out, "--quiet")
             if outcome[0] == 0:
                 if self.rows_of(out) != expected:
-                    self.found(f"checkpoint, {path.name} {kind}: accepted, but the rows differ")
+                    self.found(f"kept, {path.name} {kind}: accepted, but the rows differ")
             else:
                 refused += 1
-                self.expect_refusal(f"checkpoint, {path.name} {kind}", outcome, "is damaged")
+                self.expect_refusal(f"kept, {path.name} {kind}", outcome, "is damaged")
         return n, f"{refused} refused in a sentence, {n - refused} ended with the right rows"
 
     def flip(self, content):
@@ -325,7 +325,7 @@ def main():
         torture.experiment("SIGKILL, planar study", lambda: torture.kill_study("planar"))
         torture.experiment("SIGKILL, volume study", lambda: torture.kill_study("volume"))
         torture.experiment("full disk, every writer", torture.full_disk)
-        torture.experiment("damaged checkpoints", torture.damaged_checkpoint)
+        torture.experiment("damaged kept results", torture.damaged_results)
         torture.experiment("two runs, one folder", torture.two_at_once)
         torture.experiment("unwritable paths", torture.unwritable)
         table = torture.table()

@@ -32,6 +32,7 @@ SHORTER = {
     "smoothfem plot merged --quiet": "smoothfem plot merged --quiet --no-figures",
     "smoothfem study energy-layer --scale quick": "begin_and_stop smoothfem study energy-layer --scale quick",
     "smoothfem study gear --quick --quiet --force": "begin_and_stop smoothfem study gear --quick --force",
+    "smoothfem study gear --quick --quiet --retime": "begin_and_stop smoothfem study gear --quick --retime",
     "smoothfem study polygons --quick --quiet": "begin_and_stop smoothfem study polygons --quick",
     # Coarser meshes and no optimization: test_new_smoother.py and test_installed.py in launcher/tests run the unchanged templates.
     "smoothfem study mine.prm --quiet": "sed -i '/edge scale/s/2/3/; /max_iterations/s/16/2/; /^subsection mesh quad/,/^end/d; /^set meshes/s/, quad//' mine.prm; "

@@ -152,8 +152,16 @@ void smoothfem_add_study_command(CLI::App& app) {
       "--shard", arguments->options.shard,
       "run only part K of N of a collection, for example 3/10; 'smoothfem merge' merges the "
       "results");
-  command->add_flag("--force", arguments->options.force,
-                    "start anew; keep the folder of an earlier run under another name");
+  command->add_flag("--retime", arguments->options.retime,
+                    "smooth all meshes again, to measure all times in one session; keep the finite "
+                    "element results");
+  command
+      ->add_option("--keep", arguments->options.keep,
+                   "number of earlier results to keep below the folder earlier/ (default: 1)")
+      ->check(CLI::Range(0, 1000));
+  command->add_flag(
+      "--force", arguments->options.force,
+      "compute everything anew; keep the folder of an earlier run under another name");
   command->add_flag("--retry-failed", arguments->options.retry_failed,
                     "try the members of a collection again that have failed");
   command->add_flag("--quiet", arguments->options.quiet, "no progress, no results on the screen");

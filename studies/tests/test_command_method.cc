@@ -160,11 +160,13 @@ TEST_F(CommandMethod, KeepsItsLogAndNamesItsOrigin) {
   EXPECT_EQ(method.at("version"), "Mine 1.2");
   EXPECT_EQ(method.at("files").at(1).at("name"), "mine.sh");
   EXPECT_EQ(method.at("files").at(1).at("sha256").get<std::string>().size(), 64u);
-  // A study with another program is another study.
-  file_with("mine.sh", "cp $1 $2\n");
-  const Outcome again = smoothfem({"study", "my.prm", "--out", "out", "--quiet"});
-  EXPECT_EQ(again.exit_code, 2);
-  EXPECT_THAT(again.err, HasSubstr("content of method other, mine.sh was"));
+  // Results of another program are made anew; those of other methods are kept.
+  file_with("mine.sh", "echo I am new; cp $1 $2\n");
+  const Outcome again = smoothfem({"study", "my.prm", "--out", "out"});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, AllOf(HasSubstr("content of method other, mine.sh has changed"),
+                               HasSubstr("Kept: 1 of 2 smoothing runs")));
+  EXPECT_THAT(content_of(file("out/logs/m_other.log")), HasSubstr("I am new\n"));
 }
 
 TEST_F(CommandMethod, FailuresAreRowsWithTheReason) {

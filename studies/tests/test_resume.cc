@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "studies/tests/resume_tests.h"
+#include "studies/tests/edited_studies.h"
 
 namespace smoothfem {
 namespace {
@@ -26,7 +26,11 @@ TEST_F(Resume, VolumeStudiesKilledAtRandomMomentsEndWithTheSameRows) {
   EXPECT_EQ(points("unbroken"), points("killed"));
 }
 
-TEST_F(Resume, DamagedCheckpointsAreRefused) {
+TEST_F(EditedStudies, EndWithTheRowsOfAFreshRun) {
+  edit_and_compare(8, 1);
+}
+
+TEST_F(Resume, DamagedKeptResultsAreRefused) {
   for (const std::string name : {"planar.prm", "volume.prm"}) {
     const std::string out = fs::path(name).stem();
     kill_half_done(name, out);
@@ -35,7 +39,7 @@ TEST_F(Resume, DamagedCheckpointsAreRefused) {
       fs::remove_all(file("damaged"));
       fs::copy(file(out), file("damaged"), fs::copy_options::recursive);
       int n_damaged = 0;
-      for (const auto& entry : fs::recursive_directory_iterator(file("damaged") / "checkpoint"))
+      for (const auto& entry : fs::recursive_directory_iterator(file("damaged") / "kept"))
         if (entry.path().extension() == extension) {
           fs::resize_file(entry.path(), n_damaged++ % 2 == 0 ? 0 : entry.file_size() / 2);
         }
@@ -43,7 +47,7 @@ TEST_F(Resume, DamagedCheckpointsAreRefused) {
       const Outcome outcome = smoothfem({"study", name, "--out", "damaged", "--quiet"});
       EXPECT_EQ(outcome.exit_code, 2) << extension;
       EXPECT_THAT(outcome.err, ::testing::HasSubstr(extension + " is damaged: "));
-      EXPECT_TRUE(fs::exists(file("damaged") / "checkpoint"));
+      EXPECT_TRUE(fs::exists(file("damaged") / "kept"));
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
 
-#include "studies/framework/run/sealed_file.h"
+#include "studies/framework/run/kept/sealed_file.h"
 #include "studies/tests/study_tests.h"
 
 namespace smoothfem {
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class SealedFile : public FileTest {
  protected:
-  fs::path folder() const { return file("checkpoint"); }
+  fs::path folder() const { return file("kept"); }
 
   void overwrite(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder() / name, std::ios::binary) << bytes;

@@ -29,7 +29,7 @@ TEST_F(CommandLine, RunsAStudyOfPolygons) {
   EXPECT_EQ(json.at("seconds").size(), files_in(file("results/my")).size() - 1);
 }
 
-TEST_F(CommandLine, PolygonStudiesAreLeftAsTheyAreRepeatedOrRefused) {
+TEST_F(CommandLine, PolygonStudiesAreRunAgainOnlyIfTheyChanged) {
   file_with("my.prm", polygons);
   ASSERT_EQ(smoothfem({"study", "my.prm", "--quiet"}).exit_code, 0);
   const std::string provenance = content_of(file("results/my/provenance.json"));
@@ -47,11 +47,17 @@ TEST_F(CommandLine, PolygonStudiesAreLeftAsTheyAreRepeatedOrRefused) {
 
   file_with("my.prm", polygons + "set seed = 2\n");
   const Outcome changed = smoothfem({"study", "my.prm"});
-  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_EQ(changed.exit_code, 0);
   EXPECT_NE(changed.err.find("seed was '1' and is '2'"), std::string::npos) << changed.err;
-  ASSERT_EQ(smoothfem({"study", "my.prm", "--force", "--quiet"}).exit_code, 0);
-  EXPECT_EQ(content_of(file("results/my_1/provenance.json")), provenance);
   EXPECT_NE(content_of(file("results/my/sequences.csv")), content_of(file("other/sequences.csv")));
+  // The replaced results are kept, and so are the results that --force replaces.
+  const std::filesystem::path earlier =
+      std::filesystem::directory_iterator(file("results/my/earlier"))->path();
+  EXPECT_EQ(content_of(earlier / "provenance.json"), provenance);
+  EXPECT_EQ(content_of(earlier / "sequences.csv"), content_of(file("other/sequences.csv")));
+  const std::string second = content_of(file("results/my/provenance.json"));
+  ASSERT_EQ(smoothfem({"study", "my.prm", "--force", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(content_of(file("results/my_1/provenance.json")), second);
 }
 
 TEST_F(CommandLine, TheQuickScaleOfTheBuiltInPolygonStudyHolds) {
@@ -97,9 +103,10 @@ TEST_F(CommandLine, TheProvenanceOfAScaleHasItsParameters) {
   EXPECT_EQ(json.at("parameters").at("cases"), "1");
   EXPECT_EQ(json.at("parameters").at("nodes"), "3, 4");
   // The same scale is the same run; another scale is not.
-  EXPECT_EQ(smoothfem({"study", "my.prm", "--scale", "small"}).exit_code, 0);
+  EXPECT_NE(smoothfem({"study", "my.prm", "--scale", "small"}).err.find("nothing to do"),
+            std::string::npos);
   const Outcome other = smoothfem({"study", "my.prm"});
-  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_EQ(other.exit_code, 0);
   EXPECT_NE(other.err.find("--scale was 'small' and is ''"), std::string::npos) << other.err;
 }
 

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "smoothfem_commit.h"
@@ -137,6 +138,32 @@ Json describe_sessions(const RunFacts& facts) {
   return sessions;
 }
 
+Json describe_results(const RunFacts& facts) {
+  Json results = Json::array();
+  for (const auto& result : facts.results) {
+    results.push_back({{"mesh", result.mesh}, {"method", result.method}});
+    if (!result.smoothed.empty()) results.back()["smoothed"] = result.smoothed;
+    for (const auto& [degree, session] : result.solved)
+      results.back()["solved"][std::to_string(degree)] = session;
+  }
+  return results;
+}
+
+/// Returns the sessions that some result comes from, and the present one. Without results, all.
+Json used_sessions(const RunFacts& facts) {
+  Json sessions = describe_sessions(facts);
+  if (facts.results.empty()) return sessions;
+  std::set<std::string> used{facts.started};
+  for (const auto& result : facts.results) {
+    used.insert(result.smoothed);
+    for (const auto& [degree, session] : result.solved) used.insert(session);
+  }
+  Json kept = Json::array();
+  for (auto& session : sessions)
+    if (used.contains(session.at("started").get<std::string>())) kept.push_back(std::move(session));
+  return kept;
+}
+
 Json seconds_of(const Json& sessions) {
   std::map<std::string, double> sums;
   for (const auto& session : sessions)
@@ -182,7 +209,9 @@ std::string provenance_json(const RunFacts& facts) {
   for (const auto& [key, value] : facts.study.parameters) parameters[key] = value;
   json["parameters"] = parameters;
   json["settings"] = settings_of(facts.study, facts.meshes, facts.methods);
-  json["sessions"] = describe_sessions(facts);
+  if (!facts.results.empty()) json["results"] = describe_results(facts);
+  if (!facts.kept.empty()) json["kept"] = facts.kept;
+  json["sessions"] = used_sessions(facts);
   json["seconds"] = seconds_of(json["sessions"]);
   // Names of files may be no UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -197,8 +226,10 @@ EarlierRun read_provenance(const std::filesystem::path& path) {
                    .commit = json.at("program").at("commit"),
                    .sessions = json.at("sessions").dump(),
                    .settings = json.at("settings"),
-                   .meshes = {}};
-    for (const auto& mesh : json.at("meshes")) run.meshes[mesh.at("name")] = mesh.at("sha256");
+                   .written = json.at("written"),
+                   .meshes = {},
+                   .kept = json.value("kept", std::set<std::string>())};
+    for (const auto& mesh : json.at("meshes")) run.meshes[mesh.at("file")] = mesh.at("sha256");
     return run;
   } catch (const Json::exception&) {
     throw InputError(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,13 @@ namespace smoothfem {
 struct ProcessorUse {
   unsigned int smoothing_threads = 1, finite_element_threads = 1;
   int n_ranks = 1;
+};
+
+/// The sessions that the results of a method on a mesh come from, by their start (UTC).
+struct ResultSessions {
+  std::string mesh, method;           ///< method: "initial" for the initial mesh
+  std::string smoothed;               ///< session of the smoothing times; empty: not smoothed
+  std::map<int, std::string> solved;  ///< by degree, sessions of the finite elements
 };
 
 /// The content of provenance.json, except facts of the program and the machine.
@@ -28,6 +36,8 @@ struct RunFacts {
   std::vector<StudyMethod> methods{};  ///< for meshes of these dimensions
   std::string shard{};                 ///< of a collection, for example "3/10"; empty: all
   std::map<std::string, std::string> members{};  ///< member -> mesh, of all shards
+  std::vector<ResultSessions> results{};         ///< of a complete run
+  std::set<std::string> kept{};                  ///< names of the kept results of a complete run
 };
 
 /// Returns the text of provenance.json: commit, compiler, versions, machine, seeds, parameters in
@@ -42,7 +52,9 @@ struct EarlierRun {
   std::string commit;
   std::string sessions;                         ///< for RunFacts
   std::map<std::string, std::string> settings;  ///< everything that determines the rows
-  std::map<std::string, std::string> meshes;    ///< name -> SHA-256 of its file
+  std::string written;                          ///< when (UTC)
+  std::map<std::string, std::string> meshes;    ///< path below the folder -> SHA-256
+  std::set<std::string> kept;                   ///< names of the kept results
 };
 /// Reads a provenance. The status is empty if the file does not exist. Throws InputError if it is
 /// not a provenance.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/results/results_folder.h"
 
+#include <algorithm>
+
 #include "meshes/io/atomic_file.h"
 
 namespace smoothfem {
@@ -49,20 +51,24 @@ void make_results_folder(const fs::path& folder, std::optional<FolderLock>& lock
                       " in the meantime; start this one again, or take another --out");
 }
 
-void check_settings_match(const EarlierRun& earlier, const StudyHeader& study,
-                          const std::vector<MeshFacts>& meshes,
-                          const std::vector<StudyMethod>& methods, const fs::path& folder) {
-  if (earlier.status.empty()) return;
+std::string differences_from(const EarlierRun& earlier, const StudyHeader& study,
+                             const std::vector<MeshFacts>& meshes,
+                             const std::vector<StudyMethod>& methods) {
+  if (earlier.status.empty()) return {};
   auto settings = settings_of(study, meshes, methods);
   std::string differences;
   int n_differences = 0;
   const auto note = [&](const std::string& key, const std::string& then, const std::string& now) {
     constexpr int most = 5;
-    if (++n_differences <= most)
-      differences +=
-          (n_differences == 1 ? "" : "; ") + key + " was '" + then + "' and is '" + now + "'";
-    else if (n_differences == most + 1)
-      differences += "; and more";
+    ++n_differences;
+    if (n_differences == most + 1) differences += "; and more";
+    if (n_differences > most) return;
+    if (n_differences > 1) differences += "; ";
+    // The values of contents are checksums, which nobody wants to read.
+    differences += key.starts_with("content of ") ? key + " has changed"
+                   : then.empty()                 ? key + " is new: '" + now + "'"
+                   : now.empty()                  ? key + " was '" + then + "' and is gone"
+                                 : key + " was '" + then + "' and is '" + now + "'";
   };
   for (const auto& [key, then] : earlier.settings) {
     const bool of_file =
@@ -72,11 +78,79 @@ void check_settings_match(const EarlierRun& earlier, const StudyHeader& study,
   }
   for (const auto& [key, now] : settings)
     if (!earlier.settings.contains(key) && !now.empty()) note(key, "", now);
-  if (n_differences > 0)
-    throw InputError("the results in " + folder.string() + " are those of another run (" +
-                     differences +
-                     "); start anew with --force, which keeps them under another name, or take "
-                     "another --out");
+  return differences;
+}
+
+namespace {
+
+/// Links or copies a file. A link is as good as a copy, because results are only replaced as a
+/// whole.
+void link_file(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (error) fs::copy_file(from, to, error);
+  if (error)
+    throw InputError("cannot keep " + from.string() + " as " + to.string() + ": " +
+                     error.message() + "; make room there, or take another --out");
+}
+
+void link_all(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
+  for (const auto& entry : fs::directory_iterator(from)) {
+    const fs::path name = entry.path().filename();
+    if (name == kept_folder || name == earlier_folder) continue;
+    if (entry.is_directory())
+      link_all(entry.path(), to / name);
+    else if (entry.path().extension() == ".log")  // a log is not replaced, but written to
+      fs::copy_file(entry.path(), to / name);
+    else if (entry.is_regular_file())
+      link_file(entry.path(), to / name);
+  }
+}
+
+std::vector<fs::path> earlier_results(const fs::path& folder) {
+  std::vector<fs::path> found;
+  if (fs::is_directory(folder / earlier_folder))
+    for (const auto& entry : fs::directory_iterator(folder / earlier_folder))
+      found.push_back(entry.path());
+  std::sort(found.begin(), found.end());  // by time
+  return found;
+}
+
+}  // namespace
+
+void set_aside_results(const fs::path& folder, const std::string& written) {
+  std::string time = written;
+  std::erase_if(time, [](char c) { return c == ':' || c == '-'; });
+  fs::path whole = folder / earlier_folder / time;
+  for (int i = 2; fs::exists(whole); ++i)  // results of the same second
+    whole = folder / earlier_folder / (time + "_" + std::to_string(i));
+  const fs::path unfinished = folder / earlier_folder / ".unfinished";
+  fs::remove_all(unfinished);
+  link_all(folder, unfinished);
+  fs::rename(unfinished, whole);
+}
+
+void remove_earlier_results(const fs::path& folder, std::size_t n) {
+  const auto found = earlier_results(folder);
+  std::error_code ignored;  // leftovers are harmless
+  for (std::size_t i = 0; i + n < found.size(); ++i) fs::remove_all(found[i], ignored);
+  if (n == 0) fs::remove(folder / earlier_folder, ignored);
+}
+
+std::set<std::string> used_results(const fs::path& folder) {
+  std::set<std::string> names;
+  const auto add = [&](const fs::path& results) {
+    names.merge(read_provenance(results / "provenance.json").kept);
+  };
+  auto folders = earlier_results(folder);
+  folders.push_back(folder);
+  for (const auto& results : folders) {
+    add(results);
+    if (fs::is_directory(results / "members"))
+      for (const auto& member : fs::directory_iterator(results / "members")) add(member.path());
+  }
+  return names;
 }
 
 }  // namespace smoothfem

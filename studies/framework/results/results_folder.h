@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "studies/framework/results/folder_lock.h"
 #include "studies/framework/results/provenance.h"
@@ -24,11 +27,26 @@ std::string move_old_results(const std::filesystem::path& folder);
 /// missing or renamed folder. Throws InputError if another run has begun there in the meantime.
 void make_results_folder(const std::filesystem::path& folder, std::optional<FolderLock>& lock);
 
-/// Throws InputError with the differences if the earlier run in the folder had other settings.
+/// Returns the differences between the settings of the earlier run in a folder and those of this
+/// one, for example "title was 'A' and is 'B'"; empty if there are none, or no earlier run.
 /// meshes: empty if nothing is known of them yet.
-void check_settings_match(const EarlierRun& earlier, const StudyHeader& study,
-                          const std::vector<MeshFacts>& meshes,
-                          const std::vector<StudyMethod>& methods,
-                          const std::filesystem::path& folder);
+std::string differences_from(const EarlierRun& earlier, const StudyHeader& study,
+                             const std::vector<MeshFacts>& meshes,
+                             const std::vector<StudyMethod>& methods);
+
+/// Links all results of the folder, except kept and earlier ones, into earlier/TIME below it. TIME
+/// is when they were written. So they outlast a run that replaces them.
+void set_aside_results(const std::filesystem::path& folder, const std::string& written);
+
+/// Removes all but the newest n earlier results below a folder.
+void remove_earlier_results(const std::filesystem::path& folder, std::size_t n);
+
+/// Returns the names of kept results that the results in a folder, in its members and in the
+/// earlier ones below it are made of.
+std::set<std::string> used_results(const std::filesystem::path& folder);
+
+/// Names of folders below a folder of results.
+inline constexpr const char* kept_folder = "kept";
+inline constexpr const char* earlier_folder = "earlier";
 
 }  // namespace smoothfem

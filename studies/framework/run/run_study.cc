@@ -19,6 +19,7 @@
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
 #include "studies/framework/run/constraints/periodic_nodes.h"
+#include "studies/framework/run/kept/result_names.h"
 #include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
 #include "studies/framework/run/solve_workers.h"
@@ -40,7 +41,8 @@ class StudyRun {
         team_(options.ranks),
         n_workers_(n_solve_workers(study, options)),
         progress_(options.quiet),
-        data_{study, Checkpoint(options.out / "checkpoint")} {}
+        data_{study, KeptResults(options.kept.empty() ? options.out / kept_folder : options.kept),
+              started_} {}
 
   void run() {
     // All of the user's input is checked before the first file is written.
@@ -48,28 +50,27 @@ class StudyRun {
     require_published_files(study_, options_.mesh_dir);
     lock_.emplace(options_.out);
     if (!options_.force) earlier_ = read_provenance(options_.out / "provenance.json");
-    check_settings_match(earlier_, study_.header, {}, {}, options_.out);
+    require_unchanged_meshes(earlier_, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
-      check_settings_match(earlier_, study_.header, mesh_facts(), study_.methods, options_.out);
       if (!study_.degrees.empty()) {
         require_support_of_ties();
         make_solutions();
       }
     });
-    if (earlier_.status == "complete") {
-      data_.checkpoint.remove();  // of a run that was killed at its very end
+    changes_ = differences_from(earlier_, study_.header, mesh_facts(), study_.methods);
+    if (earlier_.status == "complete" && changes_.empty() && !options_.retime)
       return report_complete();
-    }
     begin_writing();
     if (options_.until == RunUntil::meshes) return write_provenance("interrupted");
     times_.measure("smoothing", [&] { smooth_meshes(); });
     if (options_.until == RunUntil::smoothing) return write_provenance("interrupted");
     make_tasks(data_);
+    report_kept();
     if (!study_.degrees.empty()) times_.measure("finite_elements", [&] { solve(); });
     times_.measure("writing", [&] { write_results(); });
     write_provenance("complete");
-    data_.checkpoint.remove();
+    if (is_alone()) remove_replaced();
   }
 
  private:
@@ -80,16 +81,23 @@ class StudyRun {
     progress_.say(text + ": nothing to do. --force starts anew and keeps them under another name.");
   }
 
+  /// True if the kept results are those of this study only, not of a collection's members.
+  bool is_alone() const { return options_.kept.empty(); }
+
+  /// Removes earlier results, and kept ones that no results are made of any more.
+  void remove_replaced() const {
+    remove_earlier_results(options_.out, options_.keep);
+    data_.kept.keep_only(used_results(options_.out));
+  }
+
   std::vector<MeshFacts> mesh_facts() const { return {data_.meshes.begin(), data_.meshes.end()}; }
 
   void prepare_meshes() {
     progress_.begin("Meshes", study_.meshes.size());
     for (const auto& description : study_.meshes) {
       progress_.update(data_.meshes.size(), description.name);
-      data_.meshes.push_back(prepare_mesh<dim, spacedim>(
-          description, study_, options_.mesh_dir,
-          earlier_.status.empty() && !options_.initial_meshes_are_there ? fs::path()
-                                                                        : options_.out));
+      data_.meshes.push_back(prepare_mesh<dim, spacedim>(description, study_, options_.mesh_dir,
+                                                         options_.force ? nullptr : &data_.kept));
       for (const auto& change : data_.meshes.back().changes)
         progress_.say(data_.meshes.back().origin + ": " + change);
       stop_if_interrupted();
@@ -185,15 +193,30 @@ class StudyRun {
     if (options_.force) progress_.say(move_old_results(options_.out));
     if (earlier_.status.empty()) {
       make_results_folder(options_.out, lock_);
-      data_.checkpoint.remove();  // of a run whose provenance is missing
-      write_provenance("running");
-      for (auto& prepared : data_.meshes) write_initial_mesh(prepared, options_.out);
     } else {
       remove_unfinished_files(options_.out);
-      for (auto& prepared : data_.meshes) require_same_mesh(prepared, earlier_, options_.out);
-      progress_.say("Resuming the run in " + options_.out.string() + ".");
+      if (earlier_.status != "complete")
+        progress_.say("Resuming the run in " + options_.out.string() + ".");
+      else if (is_alone())
+        set_aside_results(options_.out, earlier_.written);
+      if (!changes_.empty()) {
+        progress_.say("Since the last run, " + changes_ + ".");
+        remove_outdated_files();
+      }
+    }
+    write_provenance("running");
+    for (auto& prepared : data_.meshes) {
+      write_initial_mesh(prepared, options_.out, data_.kept);
+      data_.mesh_contents.push_back(mesh_content(prepared.mesh, prepared));
     }
     write_provenance("running");  // now with the checksums
+  }
+
+  /// Removes files that the run of a changed study may not write again.
+  void remove_outdated_files() const {
+    std::error_code ignored;  // the folder is writable
+    for (const char* name : {"meshes", "logs", "refined.csv", "solutions.csv", "metrics.csv"})
+      fs::remove_all(options_.out / name, ignored);
   }
 
   /// Smooths all meshes. A smoother that waits for another program notices the interruption by
@@ -212,6 +235,7 @@ class StudyRun {
     std::size_t done = 0;
     for (const auto& prepared : data_.meshes) {
       auto& of_mesh = data_.trajectories.emplace_back();
+      data_.trajectory_names.emplace_back();
       for (const auto& method : study_.methods) {
         const std::string what = prepared.description.name + ", " + method.title;
         of_mesh.push_back(trajectory_of(prepared, method, [&](const IterationRecord& record) {
@@ -238,23 +262,47 @@ class StudyRun {
 
   Trajectory trajectory_of(const PreparedMesh<dim, spacedim>& prepared, const StudyMethod& method,
                            const WatchIteration& watch) {
-    const std::string name = Checkpoint::name(prepared.description.name, method.name);
-    if (auto known = data_.checkpoint.load_trajectory(name)) return *std::move(known);
-    set_n_threads(method.threads > 0 ? method.threads
-                                     : static_cast<int>(options_.smoothing_threads));
-    const Trajectory trajectory = record_trajectory(
-        prepared.mesh, method, study_, is_of_results_only(prepared),
-        problem_of(static_cast<std::size_t>(&prepared - data_.meshes.data()), method),
-        folders_of(name),
+    const auto m = static_cast<std::size_t>(&prepared - data_.meshes.data());
+    const auto threads =
+        method.threads > 0 ? static_cast<unsigned int>(method.threads) : options_.smoothing_threads;
+    const std::string name = trajectory_name(data_.mesh_contents[m], method, study_,
+                                             is_of_results_only(prepared), threads);
+    data_.trajectory_names[m].push_back(name);
+    // What failed is tried again: the reason may be gone.
+    if (!options_.retime)
+      if (auto known = data_.kept.load_trajectory(name); known && known->failure.empty()) {
+        ++n_kept_trajectories_;
+        return *std::move(known);
+      }
+    set_n_threads(static_cast<int>(threads));
+    std::map<std::size_t, std::string> contents;  // by record
+    Trajectory trajectory = record_trajectory(
+        prepared.mesh, method, study_, is_of_results_only(prepared), problem_of(m, method),
+        folders_of(prepared.description.name + "_" + method.name),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
-          data_.checkpoint.save_numbers(name, record, numbers_of<spacedim>(coordinates));
+          const auto numbers = numbers_of<spacedim>(coordinates);
+          data_.kept.save_numbers(name, record, numbers);
+          contents[record] = content_of(numbers);
         },
         watch);
-    data_.checkpoint.save(name, trajectory);
+    trajectory.session = started_;
+    trajectory.content = content_of(trajectory, contents);
+    data_.kept.save(name, trajectory);
     if (!trajectory.failure.empty())
       progress_.say(prepared.description.name + ", " + method.title +
                     " failed: " + trajectory.failure + ".");
     return trajectory;
+  }
+
+  /// Reports how many results an earlier run has left.
+  void report_kept() const {
+    if (earlier_.status.empty()) return;
+    const std::size_t n_smoothed = data_.meshes.size() * study_.methods.size();
+    const auto n_solved = std::count_if(data_.tasks.begin(), data_.tasks.end(),
+                                        [](const SolveTask& task) { return task.done.load(); });
+    progress_.say("Kept: " + std::to_string(n_kept_trajectories_) + " of " +
+                  std::to_string(n_smoothed) + " smoothing runs, " + std::to_string(n_solved) +
+                  " of " + std::to_string(data_.tasks.size()) + " finite element solves.");
   }
 
   /// Returns the folders for a method's files. trajectory: its name.
@@ -372,7 +420,7 @@ class StudyRun {
   }
 
   /// Ends the process if the user has interrupted it. Tasks may run on other threads for a long
-  /// time, so it does not wait for them. Finished work is in the checkpoint.
+  /// time, so it does not wait for them. Finished work is kept.
   void stop_if_interrupted() {
     if (options_.interrupted == nullptr || !*options_.interrupted) return;
     if (!writing_) {
@@ -430,30 +478,36 @@ class StudyRun {
   }
 
   void write_provenance(const std::string& status) {
-    write_atomically(options_.out / "provenance.json",
-                     provenance_json({.study = study_.header,
-                                      .processors = {options_.smoothing_threads, n_workers_,
-                                                     options_.ranks.size()},
-                                      .status = status,
-                                      .started = started_,
-                                      .seconds = times_.seconds(),
-                                      .earlier_sessions = earlier_.sessions,
-                                      .dimensions = study_.dimensions,
-                                      .meshes = mesh_facts(),
-                                      .methods = study_.methods}));
+    const bool is_complete = status == "complete";
+    write_atomically(
+        options_.out / "provenance.json",
+        provenance_json(
+            {.study = study_.header,
+             .processors = {options_.smoothing_threads, n_workers_, options_.ranks.size()},
+             .status = status,
+             .started = started_,
+             .seconds = times_.seconds(),
+             .earlier_sessions = earlier_.sessions,
+             .dimensions = study_.dimensions,
+             .meshes = mesh_facts(),
+             .methods = study_.methods,
+             .results = is_complete ? sessions_of(data_) : std::vector<ResultSessions>(),
+             .kept = is_complete ? names_of_kept(data_) : std::set<std::string>()}));
   }
 
   const Study& study_;
   const StudyOptions& options_;
+  const std::string started_ = now_utc();
   SolverTeam team_;  ///< the other ranks wait for its commands from the beginning
   unsigned int n_workers_;
   mutable Progress progress_;
   StudyData<dim, spacedim> data_;
   SolveCosts costs_;
   EarlierRun earlier_;
+  std::string changes_;  ///< of the study since the earlier run
+  std::size_t n_kept_trajectories_ = 0;
   std::optional<FolderLock> lock_;
   bool writing_ = false;  ///< the results folder has files of this run
-  const std::string started_ = now_utc();
   PhaseTimes times_;
 };
 

@@ -96,9 +96,9 @@ class PlanarWorker {
                               })
               : solve(task);
       if (keeps_nodal_errors(data_.study, task))
-        data_.checkpoint.save_numbers(job.name, task.record, solver_->nodal_errors());
+        data_.kept.save_numbers(job.name, task.record, solver_->nodal_errors());
     }
-    finish_task(task, std::move(solution), seconds, {}, data_.checkpoint);
+    finish_task(task, std::move(solution), seconds, {}, data_.kept);
   }
 
  private:
@@ -141,10 +141,10 @@ class TeamWorker {
                                      })
                      : solve(task);
       if (keeps_nodal_errors(data_.study, task))
-        data_.checkpoint.save_numbers(job.name, task.record, team_.nodal_errors());
+        data_.kept.save_numbers(job.name, task.record, team_.nodal_errors());
     }
     finish_task(task, std::move(solution), seconds,
-                job.is_refined ? std::vector<double>() : team_.eigenvectors(), data_.checkpoint);
+                job.is_refined ? std::vector<double>() : team_.eigenvectors(), data_.kept);
   }
 
  private:

@@ -19,8 +19,8 @@ bool needs_mpi(const Study& study);
 /// Returns the number of records that are solved at once. Trilinos runs on one thread at a time.
 unsigned int n_solve_workers(const Study& study, const StudyOptions& options);
 
-/// Returns workers for a queue of these tasks. They store the results in the data and in its
-/// checkpoint.
+/// Returns workers for a queue of these tasks. They store the results in the data and
+/// keep them.
 /// Planar meshes have n_workers workers, each with its own solvers. Volume meshes have one worker,
 /// which leads the team. All arguments must outlive the workers.
 std::vector<SolveQueue::Worker> solve_workers(StudyData<2>& data,

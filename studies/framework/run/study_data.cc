@@ -6,6 +6,7 @@
 #include "meshes/io/mesh_file.h"
 #include "meshes/io/vtu_series.h"
 #include "smoothing/quality/cell_targets.h"
+#include "studies/framework/run/kept/result_names.h"
 
 namespace smoothfem {
 
@@ -76,10 +77,10 @@ Mesh<dim, spacedim> mesh_of(const StudyData<dim, spacedim>& data, std::size_t m,
                             std::size_t record) {
   const auto& mesh = data.meshes[m].mesh;
   if (record == 0) return mesh;
-  const auto name = Checkpoint::name(data.meshes[m].description.name, data.study.methods[k].name);
   return {mesh.shared_topology(),
-          points_of<spacedim>(data.checkpoint.load_numbers(
-              name, record, static_cast<std::size_t>(spacedim) * mesh.n_nodes())),
+          points_of<spacedim>(
+              data.kept.load_numbers(data.trajectory_names[m][k], record,
+                                     static_cast<std::size_t>(spacedim) * mesh.n_nodes())),
           mesh.shared_constraints()};
 }
 
@@ -93,7 +94,7 @@ MeshFields fields_of(const StudyData<dim, spacedim>& data, std::size_t m,
   for (const auto& p : mesh.coordinates()) exact.push_back(data.solutions[m].front().value(p));
   for (std::size_t d = 0; d < tasks.size(); ++d)
     fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
-        data.checkpoint.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
+        data.kept.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
   return fields;
 }
 
@@ -130,14 +131,9 @@ class TaskMaker {
 
  private:
   void make_degree(std::size_t m, std::size_t d, MeshTasks& of_mesh) {
-    const std::string& mesh = data_.meshes[m].description.name;
-    const int degree = data_.study.degrees[d];
-    of_mesh.initial.push_back(
-        add_task(add_job(Checkpoint::name(mesh, "initial", degree), "", m, d, 0), 0, true));
+    of_mesh.initial.push_back(add_task(add_job(m, d, 0), 0, true));
     for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
-      const std::string& method = data_.study.methods[k].name;
-      SolveJob& job = add_job(Checkpoint::name(mesh, method, degree),
-                              Checkpoint::name(mesh, method), m, d, k + 1);
+      SolveJob& job = add_job(m, d, k + 1);
       const Trajectory& trajectory = data_.trajectories[m][k];
       for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s) {
         const std::size_t record = trajectory.snapshots[s];
@@ -147,59 +143,58 @@ class TaskMaker {
     }
   }
 
-  /// Makes the tasks of refined meshes. Labels never contain '~'.
   void make_refined(std::size_t m, MeshTasks& of_mesh) {
     const auto& degrees = data_.study.degrees;
-    const std::string& mesh = data_.meshes[m].description.name;
     of_mesh.refined.resize(data_.study.methods.size() + 1);
     for (const int degree : data_.study.refined_degrees) {
       const auto d = static_cast<std::size_t>(std::find(degrees.begin(), degrees.end(), degree) -
                                               degrees.begin());
-      for_each_result(m, [&](std::size_t k, const std::string& method,
-                             const std::string& trajectory, std::size_t record) {
-        SolveJob& job =
-            add_job(Checkpoint::name(mesh, method + "~refined", degree), trajectory, m, d, k, true);
-        of_mesh.refined[k].push_back(add_task(job, record, true));
+      for_each_result(m, [&](std::size_t k, std::size_t record) {
+        of_mesh.refined[k].push_back(add_task(add_job(m, d, k, true), record, true));
       });
     }
   }
 
   void make_further(std::size_t m, MeshTasks& of_mesh) {
     const Study& study = data_.study;
-    const std::string& mesh = data_.meshes[m].description.name;
     of_mesh.further.assign(study.methods.size() + 1,
                            std::vector<Tasks>(study.further_solutions.size()));
     for (std::size_t s = 0; s < study.further_solutions.size(); ++s)
       for (std::size_t d = 0; d < study.degrees.size(); ++d)
-        for_each_result(m, [&](std::size_t k, const std::string& method,
-                               const std::string& trajectory, std::size_t record) {
-          const std::string name = method + "~solution~" + study.further_solutions[s].label;
-          SolveJob& job = add_job(Checkpoint::name(mesh, name, study.degrees[d]), trajectory, m, d,
-                                  k, false, s + 1);
-          of_mesh.further[k][s].push_back(add_task(job, record, true));
+        for_each_result(m, [&](std::size_t k, std::size_t record) {
+          of_mesh.further[k][s].push_back(add_task(add_job(m, d, k, false, s + 1), record, true));
         });
   }
 
-  /// Calls visit(method plus one, its name, name of its trajectory, record) for the initial mesh
-  /// (0, no trajectory) and each method's result. It skips results that are the initial mesh or not
-  /// valid.
+  /// Calls visit(method plus one, record) for the initial mesh (0) and each method's result. It
+  /// skips results that are the initial mesh or not valid.
   template <class Visit>
   void for_each_result(std::size_t m, const Visit& visit) {
-    const std::string& mesh = data_.meshes[m].description.name;
-    if (data_.meshes[m].quality.n_invalid == 0) visit(0, "initial", "", 0);
+    if (data_.meshes[m].quality.n_invalid == 0) visit(0, 0);
     for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
-      const std::string& method = data_.study.methods[k].name;
       const Trajectory& trajectory = data_.trajectories[m][k];
       if (trajectory.result_record > 0 && trajectory.quality.n_invalid == 0)
-        visit(k + 1, method, Checkpoint::name(mesh, method), trajectory.result_record);
+        visit(k + 1, trajectory.result_record);
     }
   }
 
-  SolveJob& add_job(std::string name, std::string trajectory, std::size_t mesh, std::size_t degree,
-                    std::size_t method, bool is_refined = false, std::size_t solution = 0) {
-    SolveJob& job = data_.jobs.emplace_back(std::move(name), std::move(trajectory), mesh, degree,
-                                            method, is_refined, solution);
-    if (auto solved = data_.checkpoint.load_solved(job.name)) job.solved = std::move(*solved);
+  /// method: its index plus one; 0: the initial mesh.
+  SolveJob& add_job(std::size_t m, std::size_t d, std::size_t method, bool is_refined = false,
+                    std::size_t solution = 0) {
+    const bool is_initial = method == 0;
+    const std::string name =
+        solved_name({.mesh_content = data_.mesh_contents[m],
+                     .trajectory = is_initial ? "" : data_.trajectories[m][method - 1].content,
+                     .degree = data_.study.degrees[d],
+                     .is_refined = is_refined,
+                     .is_further = solution > 0,
+                     .ties = data_.meshes[m].ties.get()},
+                    *solutions_of(data_.study)[solution], data_.study);
+    SolveJob& job =
+        data_.jobs.emplace_back(name, is_initial ? "" : data_.trajectory_names[m][method - 1], m, d,
+                                method, is_refined, solution);
+    job.solved.session = data_.session;
+    if (auto solved = data_.kept.load_solved(job.name)) job.solved = std::move(*solved);
     return job;
   }
 
@@ -224,7 +219,7 @@ template <int dim, int spacedim>
 std::vector<Point<spacedim>> StudyData<dim, spacedim>::coordinates_of(const SolveTask& task) const {
   const auto& mesh = meshes[task.job.mesh].mesh;
   if (task.job.trajectory.empty()) return mesh.copied_coordinates();
-  return points_of<spacedim>(checkpoint.load_numbers(
+  return points_of<spacedim>(kept.load_numbers(
       task.job.trajectory, task.record, static_cast<std::size_t>(spacedim) * mesh.n_nodes()));
 }
 
@@ -250,7 +245,7 @@ void make_tasks(StudyData<dim, spacedim>& data) {
 }
 
 void finish_task(SolveTask& task, SolutionRecord solution, double seconds,
-                 std::vector<double> eigenvectors, const Checkpoint& checkpoint) {
+                 std::vector<double> eigenvectors, const KeptResults& kept) {
   constexpr auto between_saves = std::chrono::seconds(1);
   SolveJob& job = task.job;
   const std::lock_guard guard(job.mutex);
@@ -261,7 +256,7 @@ void finish_task(SolveTask& task, SolutionRecord solution, double seconds,
   job.solved.eigenvectors = std::move(eigenvectors);
   const auto now = std::chrono::steady_clock::now();
   if (job.solved.records.size() == job.n_tasks || now - job.saved > between_saves) {
-    checkpoint.save(job.name, job.solved);
+    kept.save(job.name, job.solved);
     job.saved = now;
   }
   task.done = true;
@@ -428,6 +423,35 @@ std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
   return rows;
 }
 
+template <int dim, int spacedim>
+std::vector<ResultSessions> sessions_of(const StudyData<dim, spacedim>& data) {
+  std::vector<ResultSessions> all;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> places;  // by mesh, method plus one
+  for (std::size_t m = 0; m < data.meshes.size(); ++m)
+    for (std::size_t k = 0; k <= data.study.methods.size(); ++k) {
+      places[{m, k}] = all.size();
+      all.push_back({.mesh = data.meshes[m].description.name,
+                     .method = k == 0 ? "initial" : data.study.methods[k - 1].name,
+                     .smoothed = k == 0 ? "" : data.trajectories[m][k - 1].session,
+                     .solved = {}});
+    }
+  for (const auto& job : data.jobs)
+    if (job.n_tasks > 0 && !job.is_refined && job.solution == 0)
+      all[places.at({job.mesh, job.method})].solved[data.study.degrees[job.degree]] =
+          job.solved.session;
+  return all;
+}
+
+template <int dim, int spacedim>
+std::set<std::string> names_of_kept(const StudyData<dim, spacedim>& data) {
+  std::set<std::string> names;
+  for (const auto& mesh : data.meshes)
+    if (!mesh.kept_name.empty()) names.insert(mesh.kept_name);
+  for (const auto& of_mesh : data.trajectory_names) names.insert(of_mesh.begin(), of_mesh.end());
+  for (const auto& job : data.jobs) names.insert(job.name);
+  return names;
+}
+
 std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,
                                 const std::string& method, const std::string& extension) {
   return out / "meshes" / (mesh + "_" + method + extension);
@@ -458,6 +482,8 @@ void write_meshes(const StudyData<dim, spacedim>& data, const std::filesystem::p
   template std::vector<SummaryRow> summary_rows(const StudyData<__VA_ARGS__>&);    \
   template std::vector<MetricRow> metric_rows(const StudyData<__VA_ARGS__>&,       \
                                               const std::function<void()>&);       \
+  template std::vector<ResultSessions> sessions_of(const StudyData<__VA_ARGS__>&); \
+  template std::set<std::string> names_of_kept(const StudyData<__VA_ARGS__>&);     \
   template void write_meshes(const StudyData<__VA_ARGS__>&, const std::filesystem::path&);
 SMOOTHFEM_INSTANTIATE(2, 2)
 SMOOTHFEM_INSTANTIATE(3, 3)

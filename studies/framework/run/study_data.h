@@ -7,10 +7,11 @@
 #include <functional>
 #include <list>
 #include <mutex>
+#include <set>
 #include <vector>
 
 #include "studies/framework/results/results.h"
-#include "studies/framework/run/checkpoint.h"
+#include "studies/framework/run/kept/kept_results.h"
 #include "studies/framework/run/solve_costs.h"
 #include "studies/framework/run/study_meshes.h"
 #include "studies/framework/run/trajectory.h"
@@ -20,8 +21,8 @@ namespace smoothfem {
 /// The status of meshes with invalid cells, which are not solved.
 inline constexpr const char* invalid_mesh = "invalid mesh";
 
-/// The finite element records of one mesh, method (or the initial mesh) and degree. They are
-/// checkpointed together.
+/// The finite element records of one mesh, method (or the initial mesh) and degree. They are kept
+/// together.
 struct SolveJob {
   SolveJob(std::string name_, std::string trajectory_, std::size_t mesh_, std::size_t degree_,
            std::size_t method_, bool is_refined_, std::size_t solution_)
@@ -33,8 +34,8 @@ struct SolveJob {
         is_refined(is_refined_),
         solution(solution_) {}
 
-  std::string name;          ///< in the checkpoint
-  std::string trajectory;    ///< name of the trajectory; empty: the initial mesh
+  std::string name;          ///< of its kept results
+  std::string trajectory;    ///< name of the kept trajectory; empty: the initial mesh
   std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
   std::size_t method;        ///< index into the study's methods plus one; 0: the initial mesh
   bool is_refined;           ///< of the mesh with split cells
@@ -76,13 +77,16 @@ struct MeshTasks {
 template <int dim, int spacedim = dim>
 struct StudyData {
   const Study& study;
-  Checkpoint checkpoint;
+  KeptResults kept;
+  std::string session{};  ///< its start (UTC)
   std::vector<PreparedMesh<dim, spacedim>> meshes{};
   /// [mesh][solution]; empty: the study solves none.
   std::vector<std::vector<ManufacturedSolution<spacedim>>> solutions{};
-  std::vector<std::vector<Trajectory>> trajectories{};  ///< [mesh][method]
-  std::list<SolveJob> jobs{};                           ///< addresses of jobs and tasks stay valid
-  std::list<SolveTask> tasks{};                         ///< by mesh, degree, job, record
+  std::vector<std::string> mesh_contents{};                  ///< of each mesh, see result_names.h
+  std::vector<std::vector<Trajectory>> trajectories{};       ///< [mesh][method]
+  std::vector<std::vector<std::string>> trajectory_names{};  ///< of the kept trajectories
+  std::list<SolveJob> jobs{};    ///< addresses of jobs and tasks stay valid
+  std::list<SolveTask> tasks{};  ///< by mesh, degree, job, record
   std::vector<MeshTasks> mesh_tasks{};
 
   /// Returns the coordinates of a task's mesh, before its cells are split (if they are).
@@ -90,14 +94,14 @@ struct StudyData {
   SolveKind kind_of(const SolveTask& task) const;
 };
 
-/// Makes the jobs and tasks of all trajectories. Tasks in the checkpoint are done.
+/// Makes the jobs and tasks of all trajectories. Tasks with kept results are done.
 template <int dim, int spacedim>
 void make_tasks(StudyData<dim, spacedim>& data);
 
-/// Stores a task's solution and its seconds. The checkpoint is saved at the end of a job and about
+/// Stores a task's solution and its seconds. Kept results are saved at the end of a job and about
 /// every second.
 void finish_task(SolveTask& task, SolutionRecord solution, double seconds,
-                 std::vector<double> eigenvectors, const Checkpoint& checkpoint);
+                 std::vector<double> eigenvectors, const KeptResults& kept);
 
 /// Returns rows for iterations.csv of all finished records, in the order of meshes, methods,
 /// records and degrees. Safe while tasks are running.
@@ -122,6 +126,14 @@ std::vector<SolutionRow> solution_rows(const StudyData<dim, spacedim>& data);
 template <int dim, int spacedim>
 std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
                                    const std::function<void()>& watch);
+
+/// Returns the sessions that the results come from; all tasks must be done.
+template <int dim, int spacedim>
+std::vector<ResultSessions> sessions_of(const StudyData<dim, spacedim>& data);
+
+/// Returns the names of the kept results that the study is made of.
+template <int dim, int spacedim>
+std::set<std::string> names_of_kept(const StudyData<dim, spacedim>& data);
 
 /// Returns the path for a method's mesh, or for the mesh called `initial`.
 std::filesystem::path mesh_path(const std::filesystem::path& out, const std::string& mesh,

@@ -12,6 +12,7 @@
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/constraints/hanging_nodes.h"
 #include "studies/framework/run/constraints/periodic_nodes.h"
+#include "studies/framework/run/kept/result_names.h"
 
 namespace smoothfem {
 
@@ -166,7 +167,7 @@ std::shared_ptr<const NodeTies> ties_of(Mesh<dim>& mesh, const std::vector<bool>
 template <int dim, int spacedim>
 PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Study& study,
                                          const std::filesystem::path& mesh_dir,
-                                         const std::filesystem::path& earlier) {
+                                         const KeptResults* kept) {
   const Source source = source_of(description, mesh_dir);
   // The text format of planar and volume meshes does not store surfaces.
   const std::string initial =
@@ -174,14 +175,19 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   // It does not store what a mesh says besides its cells either.
   const bool has_more = !source.file.empty() ||
                         (!description.domain.empty() && find_domain(description.domain).has_groups);
-  const bool is_there =
-      dim == spacedim && !earlier.empty() && std::filesystem::exists(earlier / initial);
+  const std::string source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file);
+  const bool is_made = source.file.empty() || (is_distorted(description) && !source.published);
+  std::string kept_name;
+  if (dim == spacedim && is_made)
+    kept_name = kept_mesh_name(description, source_sha256, study.edge_scale);
+  const auto found =
+      kept == nullptr || kept_name.empty() ? std::nullopt : kept->find_mesh(kept_name);
   std::vector<std::string> changes;
   Mesh<dim, spacedim> mesh =
-      is_there && !has_more ? read_valid_mesh<dim, spacedim>(earlier / initial, changes)
-                            : make_mesh<dim, spacedim>(
-                                  description, source, study.edge_scale * description.edge_scale,
-                                  is_there ? earlier / initial : std::filesystem::path(), changes);
+      found && !has_more
+          ? read_valid_mesh<dim, spacedim>(*found, changes)
+          : make_mesh<dim, spacedim>(description, source, study.edge_scale * description.edge_scale,
+                                     found.value_or(std::filesystem::path()), changes);
   std::shared_ptr<const NodeTies> ties;
   if (!study.degrees.empty()) {
     if constexpr (dim == spacedim)
@@ -212,36 +218,35 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                   .file = initial,
                   .published = source.published,
                   .changes = std::move(changes),
-                  .source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file),
+                  .source_sha256 = source_sha256,
                   .sha256 = {}};
-  return {std::move(facts), std::move(mesh), std::move(ties)};
+  return {std::move(facts), std::move(mesh), std::move(ties), std::move(kept_name)};
+}
+
+void require_unchanged_meshes(const EarlierRun& run, const std::filesystem::path& out) {
+  for (const auto& [file, noted] : run.meshes)
+    if (!noted.empty() && std::filesystem::exists(out / file) &&
+        sha256_of_file(out / file) != noted)
+      throw InputError((out / file).string() +
+                       " has been changed since the run began; start anew with --force, which "
+                       "keeps the folder under another name");
 }
 
 template <int dim, int spacedim>
-void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesystem::path& out) {
-  write_mesh(out / prepared.file, prepared.mesh);
-  prepared.sha256 = sha256_of_file(out / prepared.file);
-}
-
-template <int dim, int spacedim>
-void require_same_mesh(PreparedMesh<dim, spacedim>& prepared, const EarlierRun& run,
-                       const std::filesystem::path& out) {
-  const auto noted = run.meshes.find(prepared.description.name);
-  if (noted == run.meshes.end() || noted->second.empty()) return write_initial_mesh(prepared, out);
+void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesystem::path& out,
+                        const KeptResults& kept) {
   const std::filesystem::path path = out / prepared.file;
+  write_mesh(path, prepared.mesh);
   prepared.sha256 = sha256_of_file(path);
-  if (prepared.sha256 != noted->second)
-    throw InputError(path.string() +
-                     " has been changed since the run began; start anew with --force, which keeps "
-                     "the folder under another name");
+  if (!prepared.kept_name.empty() && !kept.find_mesh(prepared.kept_name))
+    kept.save_mesh(prepared.kept_name, path);
 }
 
-#define SMOOTHFEM_INSTANTIATE(...)                                                                 \
-  template PreparedMesh<__VA_ARGS__> prepare_mesh(                                                 \
-      const StudyMesh&, const Study&, const std::filesystem::path&, const std::filesystem::path&); \
-  template void write_initial_mesh(PreparedMesh<__VA_ARGS__>&, const std::filesystem::path&);      \
-  template void require_same_mesh(PreparedMesh<__VA_ARGS__>&, const EarlierRun&,                   \
-                                  const std::filesystem::path&);
+#define SMOOTHFEM_INSTANTIATE(...)                                                           \
+  template PreparedMesh<__VA_ARGS__> prepare_mesh(                                           \
+      const StudyMesh&, const Study&, const std::filesystem::path&, const KeptResults*);     \
+  template void write_initial_mesh(PreparedMesh<__VA_ARGS__>&, const std::filesystem::path&, \
+                                   const KeptResults&);
 SMOOTHFEM_INSTANTIATE(2, 2)
 SMOOTHFEM_INSTANTIATE(3, 3)
 SMOOTHFEM_INSTANTIATE(2, 3)

@@ -18,13 +18,16 @@ enum class RunUntil { meshes, smoothing, results };
 struct StudyOptions {
   std::filesystem::path out;       ///< folder of the results; made if it is not there
   std::filesystem::path mesh_dir;  ///< folder of published meshes; empty: generate
-  bool force = false;              ///< start anew; the folder of an earlier run is renamed
-  bool retry_failed = false;       ///< also the members of a collection that have failed
+  bool force =
+      false;  ///< start anew, without kept results; the folder of an earlier run is renamed
+  bool retry_failed = false;  ///< also the members of a collection that have failed
   bool quiet = false;
-  RunUntil until = RunUntil::results;     ///< of studies of smoothing methods
-  bool initial_meshes_are_there = false;  ///< in `out`, although no run has begun there
-  bool dry_run = false;                   ///< only print the plan
-  unsigned int n_threads = 0;  ///< for the finite elements of planar meshes; 0: all cores
+  RunUntil until = RunUntil::results;  ///< of studies of smoothing methods
+  std::filesystem::path kept{};  ///< folder of kept results; empty: `out`/kept, for this study only
+  bool retime = false;           ///< smooth all meshes again, to measure all times in one session
+  unsigned int keep = 1;         ///< number of earlier results that stay below `out`/earlier
+  bool dry_run = false;          ///< only print the plan
+  unsigned int n_threads = 0;    ///< for the finite elements of planar meshes; 0: all cores
   unsigned int smoothing_threads = 1;
   std::string shard{};   ///< "3/10": the third of ten parts of a collection; empty: all
   int task_socket = -1;  ///< for commands of another process of the same run; -1: none

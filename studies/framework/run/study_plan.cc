@@ -5,6 +5,9 @@
 #include <cstdio>
 
 #include "studies/framework/results/results_folder.h"
+#include "studies/framework/results/sha256.h"
+#include "studies/framework/run/kept/kept_results.h"
+#include "studies/framework/run/kept/result_names.h"
 #include "studies/framework/run/progress.h"
 #include "studies/framework/run/solve_costs.h"
 #include "studies/framework/run/solve_workers.h"
@@ -61,7 +64,8 @@ struct Totals {
 template <int dim, int spacedim>
 class Plan {
  public:
-  Plan(const Study& study, const StudyOptions& options) : study_(study), options_(options) {}
+  Plan(const Study& study, const StudyOptions& options)
+      : study_(study), options_(options), kept_(options.out / kept_folder) {}
 
   void print() {
     std::printf("%s\n\nMeshes\n", study_.header.title.c_str());
@@ -73,8 +77,10 @@ class Plan {
         std::printf(", %s = %s", key.c_str(), value.c_str());
       std::printf("\n");
     }
-    std::printf("\nSmoothing: each method on each mesh, %d time%s for its median time.\n",
-                study_.timing_runs, study_.timing_runs == 1 ? "" : "s");
+    print_kept();
+    std::printf("\nSmoothing: %zu of %zu runs are to do, each %d time%s for its median time.\n",
+                n_open_, study_.meshes.size() * study_.methods.size(), study_.timing_runs,
+                study_.timing_runs == 1 ? "" : "s");
     if (!study_.degrees.empty())
       std::printf(
           "Finite elements: about %.0f solves if each method makes %d iterations, about %s by a "
@@ -89,25 +95,99 @@ class Plan {
  private:
   double n_workers() const { return n_solve_workers(study_, options_); }
 
+  /// Reports the methods whose results are kept, for each mesh.
+  void print_kept() const {
+    if (!std::any_of(kept_methods_.begin(), kept_methods_.end(),
+                     [](const auto& methods) { return !methods.empty(); }))
+      return;
+    std::printf("\nKept from earlier runs\n");
+    for (std::size_t m = 0; m < study_.meshes.size(); ++m) {
+      std::string names;
+      for (const auto& name : kept_methods_[m]) names += (names.empty() ? "" : ", ") + name;
+      std::printf("  %-24s %s\n", study_.meshes[m].name.c_str(),
+                  names.empty() ? "nothing" : names.c_str());
+    }
+    for (const auto& method : study_.methods)
+      if (method.is_stand_in)
+        std::printf(
+            "  %s is computed again if its code has changed, which a dry run does not look "
+            "at.\n",
+            method.name.c_str());
+  }
+
+  unsigned int threads_of(const StudyMethod& method) const {
+    return method.threads > 0 ? static_cast<unsigned int>(method.threads)
+                              : options_.smoothing_threads;
+  }
+
+  /// True if a dry run can have the mesh as smoothing gets it. Distortion may take long, so a mesh
+  /// is not distorted here.
+  bool is_at_hand(const StudyMesh& mesh) const {
+    const bool is_published = !options_.mesh_dir.empty() && !mesh.published_file.empty();
+    if (dim < spacedim || is_published || !is_distorted(mesh)) return true;
+    const std::string source = mesh.file.empty() ? "" : sha256_of_file(mesh.file);
+    return kept_.find_mesh(kept_mesh_name(mesh, source, study_.edge_scale)).has_value();
+  }
+
+  /// What an earlier run has left of one mesh.
+  struct Known {
+    std::string content;                    ///< of the mesh; empty: not known
+    std::vector<std::string> trajectories;  ///< by method, Trajectory::content; empty: to be made
+  };
+
+  Known known_of(const PreparedMesh<dim, spacedim>& prepared) const {
+    Known known{.content = mesh_content(prepared.mesh, prepared),
+                .trajectories = std::vector<std::string>(study_.methods.size())};
+    for (std::size_t k = 0; k < study_.methods.size(); ++k) {
+      const StudyMethod& method = study_.methods[k];
+      if (method.is_stand_in || options_.retime) continue;
+      const bool only_results =
+          study_.only_results_of_seeds && !prepared.description.repeats.empty();
+      const auto trajectory = kept_.load_trajectory(
+          trajectory_name(known.content, method, study_, only_results, threads_of(method)));
+      if (trajectory && trajectory->failure.empty()) known.trajectories[k] = trajectory->content;
+    }
+    return known;
+  }
+
+  /// True if the records of a method (its index plus one; 0: the initial mesh) are to be solved.
+  bool is_open(const Known& known, const PreparedMesh<dim, spacedim>& prepared, std::size_t method,
+               int degree, bool is_refined, std::size_t solution) const {
+    if (known.content.empty()) return true;
+    if (method > 0 && known.trajectories[method - 1].empty()) return true;
+    return !kept_.has_solved(
+        solved_name({.mesh_content = known.content,
+                     .trajectory = method == 0 ? "" : known.trajectories[method - 1],
+                     .degree = degree,
+                     .is_refined = is_refined,
+                     .is_further = solution > 0,
+                     .ties = prepared.ties.get()},
+                    *solutions_of(study_)[solution], study_));
+  }
+
   int records_per_method() const {
     return std::max(1, assumed_iterations / study_.record_every.default_interval);
   }
 
   void plan_mesh(std::size_t m) {
-    StudyMesh undistorted = study_.meshes[m];
-    undistorted.distort_to_q_mean = undistorted.distort_within = 0.0;
-    const auto prepared = prepare_mesh<dim, spacedim>(undistorted, study_, options_.mesh_dir, {});
+    StudyMesh mesh = study_.meshes[m];
+    const bool is_here = !options_.force && is_at_hand(mesh);
+    if (!is_here) mesh.distort_to_q_mean = mesh.distort_within = 0.0;
+    const auto prepared =
+        prepare_mesh<dim, spacedim>(mesh, study_, options_.mesh_dir, is_here ? &kept_ : nullptr);
+    const Known known = is_here ? known_of(prepared) : Known{};
+    note_kept(known);
     const Topology& topology = prepared.mesh.topology();
     const auto n_nodes = static_cast<double>(prepared.n_nodes);
     const auto n_methods = static_cast<double>(study_.methods.size());
-    std::printf("  %-24s %zu nodes, %zu cells", undistorted.name.c_str(), prepared.n_nodes,
+    std::printf("  %-24s %zu nodes, %zu cells", mesh.name.c_str(), prepared.n_nodes,
                 prepared.n_cells);
     double bytes = 500.0 * n_nodes + 200.0 * static_cast<double>(prepared.n_cells);
     for (std::size_t d = 0; d < study_.degrees.size(); ++d) {
       const int degree = study_.degrees[d];
       std::printf(", %.0f dofs at degree %d", n_dofs_of(topology, degree), degree);
       bytes = std::max(bytes, matrix_bytes(topology, degree) * (dim == 2 ? n_workers() : 1.0));
-      plan_solves(m, d, n_nodes, degree);
+      plan_solves(m, d, prepared, known);
     }
     std::printf("%s\n", is_distorted(study_.meshes[m]) ? ", then distorted" : "");
     totals_.max_bytes = std::max(totals_.max_bytes, bytes);
@@ -116,37 +196,47 @@ class Plan {
     totals_.disk_bytes += n_methods * n_nodes * (kept * bytes_per_record + 200.0);
   }
 
-  void plan_solves(std::size_t m, std::size_t d, double n_nodes, int degree) {
+  void note_kept(const Known& known) {
+    auto& names = kept_methods_.emplace_back();
+    for (std::size_t k = 0; k < known.trajectories.size(); ++k)
+      if (!known.trajectories[k].empty()) names.push_back(study_.methods[k].name);
+    n_open_ += study_.methods.size() - names.size();
+  }
+
+  void plan_solves(std::size_t m, std::size_t d, const PreparedMesh<dim, spacedim>& prepared,
+                   const Known& known) {
+    const int degree = study_.degrees[d];
+    const auto n_nodes = static_cast<double>(prepared.n_nodes);
     const SolveCosts costs;
-    const auto seconds = [&](std::size_t method, bool is_result, double times = 1.0) {
-      return costs.expected({.mesh = m,
-                             .method = method,
-                             .degree = d,
-                             .is_initial = method == 0,
-                             .is_result = is_result,
-                             .n_nodes = times * n_nodes,
-                             .dimension = dim,
-                             .polynomial_degree = degree,
-                             .record = 0});
+    const auto add = [&](std::size_t method, bool is_result, double n, double times = 1.0) {
+      totals_.n_solves += n;
+      totals_.solve_seconds += n * costs.expected({.mesh = m,
+                                                   .method = method,
+                                                   .degree = d,
+                                                   .is_initial = method == 0,
+                                                   .is_result = is_result,
+                                                   .n_nodes = times * n_nodes,
+                                                   .dimension = dim,
+                                                   .polynomial_degree = degree,
+                                                   .record = 0});
     };
     const bool only_results = study_.only_results_of_seeds && !study_.meshes[m].repeats.empty();
-    const double n = static_cast<double>(study_.methods.size()) *
-                     (only_results ? 2.0 : static_cast<double>(records_per_method()));
-    totals_.n_solves += 1.0 + n;
-    totals_.solve_seconds += seconds(0, true) + n * seconds(1, false);
-    const double n_further = static_cast<double>(study_.further_solutions.size()) *
-                             static_cast<double>(study_.methods.size() + 1);
-    totals_.n_solves += n_further;
-    totals_.solve_seconds += n_further * seconds(1, true);
+    const double n_records = only_results ? 2.0 : records_per_method();
     const auto& refined = study_.refined_degrees;
-    if (std::find(refined.begin(), refined.end(), degree) == refined.end()) return;
-    const auto n_refined = static_cast<double>(study_.methods.size() + 1);
-    totals_.n_solves += n_refined;
-    totals_.solve_seconds += n_refined * seconds(1, true, 1 << dim);
+    const bool refines = std::find(refined.begin(), refined.end(), degree) != refined.end();
+    for (std::size_t k = 0; k <= study_.methods.size(); ++k) {
+      if (is_open(known, prepared, k, degree, false, 0)) add(k, k == 0, k == 0 ? 1.0 : n_records);
+      for (std::size_t s = 1; s <= study_.further_solutions.size(); ++s)
+        if (is_open(known, prepared, k, degree, false, s)) add(1, true, 1.0);
+      if (refines && is_open(known, prepared, k, degree, true, 0)) add(1, true, 1.0, 1 << dim);
+    }
   }
 
   const Study& study_;
   const StudyOptions& options_;
+  const KeptResults kept_;
+  std::vector<std::vector<std::string>> kept_methods_;  ///< of each mesh
+  std::size_t n_open_ = 0;                              ///< smoothing runs to do
   Totals totals_;
 };
 

@@ -31,10 +31,10 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
   std::optional<FolderLock> lock(options.out);
   const EarlierRun earlier =
       options.force ? EarlierRun{} : read_provenance(options.out / "provenance.json");
-  check_settings_match(earlier, study, {}, {}, options.out);
+  const std::string changes = differences_from(earlier, study, {}, {});
 
   Progress progress(options.quiet);
-  if (earlier.status == "complete") {
+  if (earlier.status == "complete" && changes.empty()) {
     progress.say("The results in " + options.out.string() +
                  " are complete: nothing to do. --force starts anew and keeps them under another "
                  "name.");
@@ -42,6 +42,8 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
   }
   if (options.force) progress.say(move_old_results(options.out));
   if (earlier.status.empty()) make_results_folder(options.out, lock);
+  if (earlier.status == "complete") set_aside_results(options.out, earlier.written);
+  if (!changes.empty()) progress.say("Since the last run, " + changes + ".");
   PhaseTimes times;
   const std::string started = now_utc();
   const auto write_provenance = [&](const std::string& status) {
@@ -65,6 +67,7 @@ void run_table_study(const StudyHeader& study, const StudyOptions& options,
     }
   }
   write_provenance("complete");
+  remove_earlier_results(options.out, options.keep);
 }
 
 }  // namespace smoothfem

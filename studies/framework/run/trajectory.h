@@ -29,6 +29,9 @@ struct Trajectory {
   /// Why the method failed; empty if it did not. The result of a failed method is the initial mesh,
   /// and the records are those before the failure.
   std::string failure;
+  std::string session{};  ///< start of the session that smoothed the mesh (UTC)
+  /// SHA-256 of the snapshots and their coordinates; says what finite element records are made of.
+  std::string content{};
 };
 
 /// Returns the warpage of a volume mesh's quadrilateral faces; empty for other meshes.

@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* row_file = "member.csv";
+constexpr const char* made_by_file = "made-by.txt";
 
 std::string header(const std::vector<std::string>& columns) {
   std::string text;
@@ -131,6 +132,17 @@ MemberRow read_row(const fs::path& folder) {
   MemberRow row;
   for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = fields[i];
   return row;
+}
+
+void write_made_by(const fs::path& folder, const std::string& digest) {
+  write_atomically(folder / made_by_file, digest + "\n");
+}
+
+std::string made_by(const fs::path& folder) {
+  std::ifstream stream(folder / made_by_file);
+  std::string digest;
+  std::getline(stream, digest);
+  return digest;
 }
 
 std::vector<MemberRow> read_rows(const fs::path& out) {

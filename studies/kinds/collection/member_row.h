@@ -35,6 +35,10 @@ std::filesystem::path member_folder(const std::filesystem::path& out, const std:
 void write_row(const std::filesystem::path& folder, const MemberRow& row);
 MemberRow read_row(const std::filesystem::path& folder);
 
+/// Writes and reads the digest of what made a member's row; empty if it is not known.
+void write_made_by(const std::filesystem::path& folder, const std::string& digest);
+std::string made_by(const std::filesystem::path& folder);
+
 /// Returns the rows of all members that have a folder, sorted by name.
 std::vector<MemberRow> read_rows(const std::filesystem::path& out);
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "studies/framework/run/checkpoint.h"
+#include "studies/framework/results/results_folder.h"
 #include "studies/framework/run/run_study.h"
 #include "studies/framework/run/solve_workers.h"
 
@@ -34,18 +34,14 @@ MemberWorker::MemberWorker(const Collection& collection, const StudyOptions& opt
   options_.n_threads = 1;
   options_.smoothing_threads = options.smoothing_threads;
   options_.until = until;
-}
-
-fs::path MemberWorker::folder_of(const Member& member) const {
-  return member_folder(out_, member.name);
+  options_.kept = out_ / kept_folder;
+  options_.retime = options.retime && until == RunUntil::smoothing;
 }
 
 std::string MemberWorker::run(const Member& member) {
-  options_.out = folder_of(member);
-  options_.initial_meshes_are_there = options_.until == RunUntil::meshes && share_mesh(member);
+  options_.out = member_folder(out_, member.name);
   const MeshOutline outline = outline_of(collection_, member, options_.out);
   const Study study = member_study(collection_, member, outline);
-  if (options_.until == RunUntil::smoothing) share_smoothing(member, study);
   // Methods that need the problem also solve it while they smooth.
   if (options_.until != RunUntil::meshes && needs_mpi(study)) {
     if (!mpi_) mpi_.emplace();
@@ -55,40 +51,6 @@ std::string MemberWorker::run(const Member& member) {
   }
   run_study(study, options_);
   return options_.until == RunUntil::meshes ? facts_of(options_.out, outline) : "";
-}
-
-std::optional<fs::path> MemberWorker::at_another(const Member& member, const std::string& status,
-                                                 const fs::path& name) const {
-  for (const auto& other : collection_.members) {
-    if (other.mesh.name != member.mesh.name || other.name == member.name) continue;
-    const fs::path folder = folder_of(other);
-    if (read_row(folder)["status"] == status && fs::exists(folder / name)) return folder / name;
-  }
-  return std::nullopt;
-}
-
-/// Takes over the mesh from another member with the same mesh and another solution. Returns true if
-/// the mesh is then there.
-bool MemberWorker::share_mesh(const Member& member) const {
-  if (member.mesh.domain.empty()) return false;  // files are read again
-  const fs::path name = fs::path("meshes") / (member.mesh.name + "_initial.mesh");
-  const auto made = at_another(member, member_meshed, name);
-  if (!made) return false;
-  const fs::path own = folder_of(member) / name;
-  fs::create_directories(own.parent_path());
-  fs::copy_file(*made, own, fs::copy_options::overwrite_existing);
-  return true;
-}
-
-/// Takes over trajectories from another member with the same mesh and another solution. Methods
-/// that move nodes by the solution are smoothed anew.
-void MemberWorker::share_smoothing(const Member& member, const Study& study) const {
-  const auto other = at_another(member, member_smoothed, "checkpoint");
-  if (!other) return;
-  const Checkpoint own(folder_of(member) / "checkpoint");
-  for (const auto& method : study.methods)
-    if (!method.needs_problem(study.dimensions))
-      own.adopt(*other, Checkpoint::name(member.mesh.name, method.name));
 }
 
 void add_facts(const std::string& facts, MemberRow& row) {

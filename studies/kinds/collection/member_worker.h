@@ -23,13 +23,6 @@ class MemberWorker {
   std::string run(const Member& member);
 
  private:
-  std::filesystem::path folder_of(const Member& member) const;
-  /// Returns the folder of another member with the same mesh and this status, if there is one.
-  std::optional<std::filesystem::path> at_another(const Member& member, const std::string& status,
-                                                  const std::filesystem::path& name) const;
-  bool share_mesh(const Member& member) const;
-  void share_smoothing(const Member& member, const Study& study) const;
-
   const Collection& collection_;
   std::filesystem::path out_;
   StudyOptions options_;  ///< of members

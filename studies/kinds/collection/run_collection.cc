@@ -10,9 +10,12 @@
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
 #include "studies/framework/results/folder_lock.h"
+#include "studies/framework/results/method_files.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/results_folder.h"
 #include "studies/framework/results/sha256.h"
+#include "studies/framework/run/kept/kept_results.h"
+#include "studies/framework/run/kept/result_names.h"
 #include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
 #include "studies/kinds/collection/member_row.h"
@@ -93,16 +96,11 @@ class CollectionRun {
     require_writable(options_.out);
     lock_.emplace(options_.out);
     if (!options_.force) earlier_ = read_provenance(options_.out / "provenance.json");
-    check_settings_match(earlier_, collection_.header, {}, {}, options_.out);
     note_contents_of_files();
     read_rows_of_members();
-    require_same_files();
-    if (options_.retry_failed)
-      for (auto& row : rows_)
-        if (row["status"] == member_failed) row["status"] = member_open;
-    if (earlier_.status == "complete" && is_complete()) return report_complete();
-    if (options_.force) progress_.say(move_old_results(options_.out));
-    if (earlier_.status.empty()) make_results_folder(options_.out, lock_);
+    const std::string changes = differences_from(earlier_, header_, {}, {});
+    if (earlier_.status == "complete" && changes.empty() && is_complete()) return report_complete();
+    begin_writing(changes);
     write_provenance("running");
     try {
       for (const Phase& phase : phases) times_.measure(phase.name, [&] { run_phase(phase); });
@@ -111,6 +109,10 @@ class CollectionRun {
     }
     times_.measure("writing", [&] { write_tables(); });
     write_provenance(is_complete() ? "complete" : "interrupted");
+    if (is_complete()) {
+      remove_earlier_results(options_.out, options_.keep);
+      KeptResults(options_.out / kept_folder).keep_only(used_results(options_.out));
+    }
     report();
   }
 
@@ -132,11 +134,57 @@ class CollectionRun {
     return member_folder(options_.out, member.name);
   }
 
+  /// Reads the rows that earlier runs have left. Members are open whose study or mesh has changed
+  /// since then, and failed ones that are to be tried again.
   void read_rows_of_members() {
     for (const Member* member : members_) {
-      rows_.push_back(options_.force ? MemberRow{} : read_row(folder_of(*member)));
-      if (rows_.back().empty()) rows_.back() = row_of(*member);
+      MemberRow row = options_.force ? MemberRow{} : read_row(folder_of(*member));
+      const bool is_new = row.empty() || made_by(folder_of(*member)) != digest_of(*member);
+      const bool again = options_.retry_failed && !is_new && row["status"] == member_failed;
+      if (is_new || options_.retime) row = row_of(*member);
+      if (again) row["status"] = member_open;
+      rows_.push_back(std::move(row));
     }
+  }
+
+  /// Returns a digest of what makes the rows of a member.
+  std::string digest_of(const Member& member) {
+    std::string text = member.name + '\n' + member.mesh.name + '\n';
+    const auto content = contents_.find(content_setting(member));
+    for (const auto& [dimension, common] : collection_.common) {
+      text += kept_mesh_name(member.mesh, content == contents_.end() ? "" : content->second,
+                             common.edge_scale);
+      auto& digest = digests_[{dimension, member.solution}];
+      if (digest.empty()) {
+        Study study = common;
+        if (!member.solution.empty()) study.solution = collection_.solutions.at(member.solution);
+        note_files(study);
+        digest = rows_digest(study, options_.smoothing_threads);
+      }
+      text += '\n' + digest;
+    }
+    return sha256(text);
+  }
+
+  /// Sets aside the results that this run replaces, and removes members that are gone.
+  void begin_writing(const std::string& changes) {
+    if (options_.force) progress_.say(move_old_results(options_.out));
+    if (earlier_.status.empty()) return make_results_folder(options_.out, lock_);
+    if (earlier_.status == "complete") set_aside_results(options_.out, earlier_.written);
+    std::set<std::string> names;
+    for (const auto& member : collection_.members) names.insert(member.name);
+    if (fs::is_directory(options_.out / "members"))
+      for (const auto& entry :
+           std::vector<fs::directory_entry>(fs::directory_iterator(options_.out / "members"), {}))
+        if (!names.contains(entry.path().filename())) fs::remove_all(entry.path());
+    for (const char* table : {"metrics.csv", "refined.csv"}) fs::remove(options_.out / table);
+    const auto n_open = static_cast<std::size_t>(
+        std::count_if(rows_.begin(), rows_.end(), [](const MemberRow& row) {
+          return row.at("status") != member_complete && row.at("status") != member_failed;
+        }));
+    if (!changes.empty()) progress_.say("Since the last run, " + changes + ".");
+    progress_.say("Kept: " + std::to_string(rows_.size() - n_open) + " of " +
+                  std::to_string(rows_.size()) + " members.");
   }
 
   static std::string content_setting(const Member& member) {
@@ -154,36 +202,6 @@ class CollectionRun {
                                    contents_.end());
   }
 
-  /// True if the mesh file of a member is not the one of the earlier run.
-  bool has_changed(const Member& member) const {
-    const auto now = contents_.find(content_setting(member));
-    const auto then = earlier_.settings.find(content_setting(member));
-    return now != contents_.end() && then != earlier_.settings.end() && now->second != then->second;
-  }
-
-  /// Opens failed members again whose file has changed. Throws InputError if other members have
-  /// results of a file that has changed.
-  void require_same_files() {
-    std::set<std::string> changed;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (!has_changed(*members_[i])) continue;
-      const std::string& status = rows_[i].at("status");
-      if (status != member_failed && status != member_open)
-        changed.insert(members_[i]->mesh.file.string());
-    }
-    if (!changed.empty())
-      throw InputError("the results in " + options_.out.string() +
-                       " are those of other files: " + some_of({changed.begin(), changed.end()}) +
-                       (changed.size() == 1 ? " has" : " have") +
-                       " changed since then; start anew with --force, which keeps them under "
-                       "another name, or take another --out");
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (has_changed(*members_[i])) {
-        fs::remove_all(folder_of(*members_[i]));  // begun with the earlier file
-        rows_[i] = row_of(*members_[i]);
-      }
-  }
-
   bool is_complete() const {
     return fs::exists(options_.out / "members.csv") &&
            std::all_of(rows_.begin(), rows_.end(), [](const MemberRow& row) {
@@ -197,7 +215,7 @@ class CollectionRun {
   }
 
   /// Returns the members that the phase is for, the smaller ones first. When meshes are made, one
-  /// member of each mesh comes first, and the others take over its mesh.
+  /// member of each mesh comes first, and the others take its kept mesh.
   std::vector<std::size_t> members_for(const Phase& phase) const {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -252,6 +270,7 @@ class CollectionRun {
     row["reason"] = end.failure;
     if (!end.outcome.empty()) add_facts(end.outcome, row);
     write_row(folder_of(*members_[i]), row);
+    write_made_by(folder_of(*members_[i]), digest_of(*members_[i]));
     if (!end.failure.empty()) progress_.say(members_[i]->name + " failed: " + end.failure + ".");
   }
 
@@ -317,6 +336,8 @@ class CollectionRun {
   const Collection& collection_;
   StudyHeader header_;                           ///< with the content of files
   std::map<std::string, std::string> contents_;  ///< SHA-256 of each mesh file, by its setting
+  /// Of the settings that members share, by dimension and solution.
+  std::map<std::pair<int, std::string>, std::string> digests_;
   const StudyOptions& options_;
   unsigned int n_processes_;
   Progress progress_;

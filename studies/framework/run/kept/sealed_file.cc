@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "studies/framework/run/sealed_file.h"
+#include "studies/framework/run/kept/sealed_file.h"
 
 #include <fstream>
 #include <iterator>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The first bytes of each file. A new format of the contents needs a new number.
-constexpr std::string_view format = "smoothfem checkpoint 2\n";
+constexpr std::string_view format = "smoothfem kept result 3\n";
 
 /// Returns the bytes before the content.
 std::string seal(const std::string& name, std::string_view content) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "studies/framework/run/checkpoint.h"
+#include "studies/framework/run/kept/kept_results.h"
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "meshes/io/atomic_file.h"
-#include "studies/framework/run/sealed_file.h"
+#include "studies/framework/results/sha256.h"
+#include "studies/framework/run/kept/sealed_file.h"
 
 namespace nlohmann {
 
@@ -34,14 +37,14 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(IterationRecord, record, stage, iteration, sm
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record, iterations_text,
                                    smoothing_seconds, preparation_seconds, wall_seconds, quality,
                                    cells_below, warpage, warpage_of_records, peak_memory_gib,
-                                   failure)
+                                   failure, session, content)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, assembly_seconds,
                                    condition_number, lambda_min, lambda_max, condition_method,
                                    condition_residual, cg_iterations, jacobi_cg_iterations,
                                    amg_cg_iterations, cg_seconds, jacobi_cg_seconds,
                                    amg_setup_seconds, amg_cg_seconds, cg_converged, e_max, e_mean,
                                    e_l2, e_h1, l2_error, h1_error, most_points, status)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, seconds, eigenvectors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, seconds, eigenvectors, session)
 
 namespace {
 
@@ -66,13 +69,8 @@ std::optional<T> load_cbor(const fs::path& folder, const std::string& name) {
   }
 }
 
-/// Links or copies a file. A link is as good as a copy, because a checkpoint's files are only
-/// replaced as a whole.
-void link_file(const fs::path& from, const fs::path& to) {
-  if (fs::exists(to)) return;
-  std::error_code cannot_link;
-  fs::create_hard_link(from, to, cannot_link);
-  if (cannot_link) fs::copy_file(from, to);
+fs::path mesh_file(const fs::path& folder, const std::string& name) {
+  return folder / (name + ".mesh");
 }
 
 /// True if the trajectory's indices are valid for its records.
@@ -85,22 +83,18 @@ bool is_consistent(const Trajectory& t) {
 
 }  // namespace
 
-std::string Checkpoint::name(const std::string& mesh, const std::string& method, int degree) {
-  return mesh + "_" + method + (degree > 0 ? "_d" + std::to_string(degree) : "");
-}
-
-std::string Checkpoint::numbers_name(const std::string& name, std::size_t record) {
+std::string KeptResults::numbers_name(const std::string& name, std::size_t record) {
   return name + "/" + std::to_string(record) + ".numbers";
 }
 
-void Checkpoint::save_numbers(const std::string& name, std::size_t record,
-                              const std::vector<double>& numbers) const {
+void KeptResults::save_numbers(const std::string& name, std::size_t record,
+                               const std::vector<double>& numbers) const {
   write_sealed(folder_, numbers_name(name, record),
                {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)});
 }
 
-std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_t record,
-                                             std::size_t size) const {
+std::vector<double> KeptResults::load_numbers(const std::string& name, std::size_t record,
+                                              std::size_t size) const {
   const auto content = read_sealed(folder_, numbers_name(name, record));
   if (!content || content->size() != size * sizeof(double))
     refuse_damaged(folder_ / numbers_name(name, record));
@@ -109,37 +103,55 @@ std::vector<double> Checkpoint::load_numbers(const std::string& name, std::size_
   return numbers;
 }
 
-void Checkpoint::save(const std::string& name, const Trajectory& trajectory) const {
+void KeptResults::save(const std::string& name, const Trajectory& trajectory) const {
   if (std::filesystem::exists(folder_)) flush_file_system(folder_);  // the saved numbers
   save_as_cbor(folder_, name + ".trajectory", trajectory);
 }
 
-void Checkpoint::adopt(const fs::path& other, const std::string& name) const {
-  const std::string trajectory = name + ".trajectory";
-  if (!fs::exists(other / trajectory) || fs::exists(folder_ / trajectory)) return;
-  fs::create_directories(folder_ / name);
-  for (const auto& entry : fs::directory_iterator(other / name))
-    link_file(entry.path(), folder_ / name / entry.path().filename());
-  link_file(other / trajectory, folder_ / trajectory);  // last, because it refers to the others
-}
-
-std::optional<Trajectory> Checkpoint::load_trajectory(const std::string& name) const {
+std::optional<Trajectory> KeptResults::load_trajectory(const std::string& name) const {
   auto trajectory = load_cbor<Trajectory>(folder_, name + ".trajectory");
   if (trajectory && !is_consistent(*trajectory)) refuse_damaged(folder_ / (name + ".trajectory"));
   return trajectory;
 }
 
-void Checkpoint::save(const std::string& name, const SolvedRecords& solved) const {
+void KeptResults::save(const std::string& name, const SolvedRecords& solved) const {
   save_as_cbor(folder_, name + ".solved", solved);
 }
 
-std::optional<SolvedRecords> Checkpoint::load_solved(const std::string& name) const {
+std::optional<SolvedRecords> KeptResults::load_solved(const std::string& name) const {
   return load_cbor<SolvedRecords>(folder_, name + ".solved");
 }
 
-void Checkpoint::remove() const {
+void KeptResults::save_mesh(const std::string& name, const fs::path& file) const {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  write_atomically(mesh_file(folder_, name), content.view());
+  write_sealed(folder_, name + ".sum", sha256(content.view()));
+}
+
+std::optional<fs::path> KeptResults::find_mesh(const std::string& name) const {
+  const fs::path file = mesh_file(folder_, name);
+  const auto sum = read_sealed(folder_, name + ".sum");
+  if (!sum || sha256_of_file(file) != *sum) return std::nullopt;
+  return file;
+}
+
+bool KeptResults::has_trajectory(const std::string& name) const {
+  return fs::exists(folder_ / (name + ".trajectory"));
+}
+
+bool KeptResults::has_solved(const std::string& name) const {
+  return fs::exists(folder_ / (name + ".solved"));
+}
+
+void KeptResults::keep_only(const std::set<std::string>& names) const {
+  if (!fs::exists(folder_)) return;
+  std::vector<fs::path> unused;
+  for (const auto& entry : fs::directory_iterator(folder_))
+    if (!names.contains(entry.path().stem().string())) unused.push_back(entry.path());
   std::error_code ignored;  // leftovers are harmless
-  fs::remove_all(folder_, ignored);
+  for (const auto& path : unused) fs::remove_all(path, ignored);
 }
 
 template <int dim>

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,22 +18,23 @@ struct SolvedRecords {
   std::map<std::size_t, SolutionRecord> records;  ///< by the record of the trajectory
   std::map<std::size_t, double> seconds;          ///< of each record
   std::vector<double> eigenvectors;               ///< start values of the next record
+  std::string session;                            ///< start of the session that began them (UTC)
 };
 
-/// The present state of a study, in a folder. A run that is killed at any moment resumes from here;
-/// after a power failure it resumes from the last saved state.
+/// The results that a study has computed so far, in a folder. Each has a name that says what made
+/// it (result_names.h). So a run that was killed resumes from here, and a run of a changed study
+/// computes only the new results. After a power failure a run resumes from the last saved state.
 /// Every file is written as a whole. Numbers are restored bitwise identical. Damaged files are
 /// refused (sealed_file.h). Only the program that wrote the files can read them. Errors are
 /// InputError.
-class Checkpoint {
+class KeptResults {
  public:
-  explicit Checkpoint(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit KeptResults(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Returns the name of a mesh's method, or with a degree that of its finite element records.
-  static std::string name(const std::string& mesh, const std::string& method, int degree = 0);
+  const std::filesystem::path& folder() const { return folder_; }
 
-  /// Saves one array of numbers per record: coordinates (without degree) or nodal errors (with
-  /// degree).
+  /// Saves one array of numbers per record: coordinates of a trajectory or nodal errors of solved
+  /// records.
   void save_numbers(const std::string& name, std::size_t record,
                     const std::vector<double>& numbers) const;
   /// Loads such an array. size: its required length.
@@ -42,15 +44,21 @@ class Checkpoint {
   /// Saves a trajectory. All its snapshots must have been saved.
   void save(const std::string& name, const Trajectory& trajectory) const;
   std::optional<Trajectory> load_trajectory(const std::string& name) const;
-  /// Links the trajectory of this name and its snapshots from the checkpoint in another folder.
-  /// Does nothing if this checkpoint has them, or if the other one does not.
-  void adopt(const std::filesystem::path& other, const std::string& name) const;
 
   void save(const std::string& name, const SolvedRecords& solved) const;
   std::optional<SolvedRecords> load_solved(const std::string& name) const;
 
-  /// Removes the checkpoint of a complete study, whose results are elsewhere.
-  void remove() const;
+  /// Keeps a copy of a mesh file.
+  void save_mesh(const std::string& name, const std::filesystem::path& file) const;
+  /// Returns the path of that copy, or nothing if there is none or it has been changed.
+  std::optional<std::filesystem::path> find_mesh(const std::string& name) const;
+
+  /// True if there is a trajectory, or solved records, of this name.
+  bool has_trajectory(const std::string& name) const;
+  bool has_solved(const std::string& name) const;
+
+  /// Removes all results but those of these names.
+  void keep_only(const std::set<std::string>& names) const;
 
  private:
   static std::string numbers_name(const std::string& name, std::size_t record);
