@@ -24,7 +24,7 @@ def figure_size(n_rows, n_columns):
 
 def styles_in_order(results):
     """Styles of the methods in the order of the study; the initial mesh has a line of its own."""
-    styles = style.method_styles(results.methods)
+    styles = style.method_styles(results.study_methods or results.methods)
     return {method: styles[method] for method in (*results.methods, INITIAL)}
 
 
@@ -62,7 +62,7 @@ def thin_markers(figure):
     for ax in figure.axes:
         ax.get_xlim(), ax.get_ylim()  # asking brings the limits, hence transData, up to date
         for line in ax.get_lines():
-            if line.get_marker() in ("", "None", None):
+            if line.get_marker() in ("", "None", None) or line.get_label() == "_gap":
                 continue
             points = ax.transData.transform(line.get_xydata())
             kept, last = [], None
