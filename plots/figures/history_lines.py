@@ -103,8 +103,7 @@ class Range:
         low, high = (own if end is None else end for own, end in zip((self.low, self.high), limits))
         if self.logarithmic and low <= 0:
             low = self.low
-        cut = self.zero is not None and low > self.zero
-        return replace(self, low=low, high=high, zero=None if cut else self.zero,
+        return replace(self, low=low, high=high, zero=self.zero if limits[0] is None else None,
                        dominant="" if limits[1] is not None else self.dominant)
 
 
