@@ -103,6 +103,8 @@ class Range:
         low, high = (own if end is None else end for own, end in zip((self.low, self.high), limits))
         if self.logarithmic and low <= 0:
             low = self.low
+        if limits[0] is None and low < 0 < high:
+            low = max(low, -MARGIN * high)  # the margin of a shorter axis
         return replace(self, low=low, high=high, zero=self.zero if limits[0] is None else None,
                        dominant="" if limits[1] is not None else self.dominant)
 

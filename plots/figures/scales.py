@@ -10,7 +10,7 @@ LOGARITHMIC_FROM = 12.0
 # A linear axis begins at zero if the least number is at most this part of the largest one.
 FROM_ZERO = 0.2
 
-TICKS_OF_AN_INCH = 1.5  # labels of a horizontal axis such as 0.0025 are half an inch wide
+TICKS_OF_AN_INCH = 1.9  # labels of a horizontal axis such as 0.0025 are half an inch wide
 
 # Inches: around labels, and the height of a line of them.
 PAD, LABEL_HEIGHT = 0.06, 0.18
@@ -58,7 +58,7 @@ def space_ticks(ax, whole=False):
     if ax.get_xscale() == "linear":
         inches = ax.get_position().width * ax.figure.get_figwidth()
         ax.xaxis.set_major_locator(MaxNLocator(nbins=max(2, min(9, int(TICKS_OF_AN_INCH * inches))), integer=whole,
-                                               steps=[1, 2, 2.5, 5, 10]))
+                                               steps=[1, 2, 5, 10]))
 
 
 def make_room_for_labels(figure, axes, right=0.18):

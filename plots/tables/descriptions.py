@@ -137,7 +137,7 @@ MEANINGS = {
     "condition_method": "cond(A) by: how the condition number was computed",
     **dict.fromkeys(("jacobi_cg_iterations", "amg_cg_iterations"), "with Jacobi, with AMG: CG iterations with the diagonal or "
                     "algebraic multigrid as preconditioner"),
-    **dict.fromkeys(("h1_error", "l2_error"), "H1 and L2 error: norms of the true error u - u_h"),
+    **dict.fromkeys(("h1_error", "l2_error"), "H1 and L2 error: norms of the true error, solution less finite element solution"),
     **dict.fromkeys(THESIS_NORMS, "e_max, e_mean, e_L2, e_H1: norms of the thesis, of the error at the nodes or of its "
                     "interpolant there")}
 NORMS_MEANING = "Error: a norm of the thesis, of the error at the nodes or of its interpolant there; not the true error"

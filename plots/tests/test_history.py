@@ -105,6 +105,7 @@ class Histories(InFolder):
         axes, = draw_history(results, ("q_min",), "1", x_range=(None, 1.5), y_range=(0.05, None)).axes
         self.assertEqual((axes.get_xlim()[1], axes.get_ylim()[0]), (1.5, .05))
         self.assertLess(axes.get_ylim()[1], .25)  # fits what is shown
+        self.assertAlmostEqual(axes.get_xlim()[0], -.03)  # the margin of this range
         axes, = draw_history(results, ("q_min",), "1", log_x=True, x_range=(.5, 4)).axes
         self.assertEqual((axes.get_xlim(), axes.get_xlabel()), ((.5, 4), "Smoothing time (s), log"))
 
