@@ -76,7 +76,7 @@ def output_path(text):
     suffix = suffix_of(path)
     is_known = suffix in FORMATS or suffix in TABLE_FORMATS
     if re.fullmatch("[a-z]{2,5}", suffix) and not is_known and not text.endswith("/") and not path.is_dir():
-        raise argparse.ArgumentTypeError(f"{suffix} is none of {', '.join(FORMATS)} (figures) and {', '.join(TABLE_FORMATS)} (tables); "
+        raise argparse.ArgumentTypeError(f"{suffix} is not one of {', '.join(FORMATS)} (figures) and {', '.join(TABLE_FORMATS)} (tables); "
                                          f"for a folder of this name, write {text}/")
     return path
 

@@ -144,7 +144,7 @@ class Options(CommandLine):
 
     def test_files_of_unknown_formats_are_no_folders(self):
         for name in ("f.eps", "f.jpg"):
-            self.assertIn(f"{name[2:]} is none of pdf, png, svg ", self.refused("--y", "q_min", "-o", self.folder / name))
+            self.assertIn(f"{name[2:]} is not one of pdf, png, svg ", self.refused("--y", "q_min", "-o", self.folder / name))
             self.assertFalse((self.folder / name).exists())
         for name in ("v1.2", "f.eps/"):
             self.assertEqual(self.run_main(self.results, "--only", "errors", "-o", f"{self.folder}/{name}", "--quiet")[0], 0)
@@ -292,7 +292,7 @@ class Library(CommandLine):
     def test_the_readmes_command_lines(self):
         text = (PACKAGE / "README.md").read_text(encoding="utf-8")
         lines = re.findall(r"^smoothfem plot results/gear(.*?)(?: +#.*)?$", text, re.MULTILINE)
-        self.assertEqual(len(lines), 5)
+        self.assertEqual(len(lines), 6)
         for line in lines:
             self.made(*line.replace("--out paper", "").replace("-o fig.pdf", "").replace("smart-laplace", "own").split())
 

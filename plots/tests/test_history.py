@@ -104,7 +104,7 @@ class Histories(InFolder):
         results = self.results(getme=([0, 1, 2, 3], [.1, .2, .3, .4], [0] * 4, 3))
         axes, = draw_history(results, ("q_min",), "1", x_range=(None, 1.5), y_range=(0.05, None)).axes
         self.assertEqual((axes.get_xlim()[1], axes.get_ylim()[0]), (1.5, .05))
-        self.assertLess(axes.get_ylim()[1], .25)  # fits what is shown
+        self.assertLess(axes.get_ylim()[1], .25)  # as high as the numbers shown
         self.assertAlmostEqual(axes.get_xlim()[0], -.03)  # the margin of this range
         axes, = draw_history(results, ("q_min",), "1", log_x=True, x_range=(.5, 4)).axes
         self.assertEqual((axes.get_xlim(), axes.get_xlabel()), ((.5, 4), "Smoothing time (s), log"))
