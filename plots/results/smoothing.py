@@ -65,7 +65,7 @@ class Results:
     seeds: tuple = ()  # of the study's repetitions, that of these results first; empty: there are none
     repeated: tuple = ()  # the meshes that the seeds change
     repetitions: tuple = ()  # Results of the other seeds
-    study_methods: tuple = ()  # all methods of the study, also those that were not chosen: they fix the looks of all
+    study_methods: tuple = ()  # all methods of the study, chosen or not: they decide on colours and marks
 
     @property
     def thesis_study(self):

@@ -49,7 +49,7 @@ def split(table, width, width_of):
 
 
 def blocks(groups):
-    """The groups as lists of those that stay together."""
+    """The groups as lists; the groups of a list stay together."""
     found = []
     for group in groups:
         if group.tied and found:

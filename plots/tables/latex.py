@@ -78,7 +78,7 @@ def tabular(table):
 
 
 def is_uneven(cells):
-    """True if numbers of a column differ in the width of what is behind their decimal points."""
+    """True if numbers of a column have different numbers of decimals, or powers of ten."""
     return len({len(part[1]) for cell in cells if (part := split_number(cell.text))}) > 1
 
 

@@ -46,6 +46,11 @@ def format_seconds(values):
     return [BELOW_CLOCK if 0 <= value < CLOCK else text for value, text in zip(values, formatted(values, f".{decimals}f"))]
 
 
+def seconds_text(value):
+    """Three digits of a time, unless the clock cannot tell it from zero."""
+    return BELOW_CLOCK if 0 <= value < CLOCK else f"{value:.3g}"
+
+
 def format_numbers(values):
     """Whole numbers as such, others with four decimals or an exponent."""
     whole = all(math.isnan(value) or value == round(value) for value in values)

@@ -14,6 +14,7 @@ from pathlib import Path
 from unittest import mock
 
 from plots.__main__ import main
+from plots.results.names import find_column
 from plots.results.request import Request
 from plots.results.rows import read_rows
 from plots.tests.synthetic_polygons import write_polygon_results
@@ -82,6 +83,8 @@ class Options(CommandLine):
                               (("--only", "x*"), r"figure or table 'x\*'; choose one of smoothing, solver, "),
                               (("--methods", "getmee"), "method 'getmee'; did you mean 'getme'? choose one of getme"),
                               (("--meshes", "trii"), "mesh 'trii'; did you mean 'tri'? choose one of tri"),
+                              (("--y", "H1norm"), "column 'H1norm'; did you mean 'h1_error'?"),
+                              (("--y", "e_h1x"), "column 'e_h1x'; did you mean 'e_h1'?"),
                               (("--y", "e_maks"), "column 'e_maks'; did you mean 'e_max'? choose one of iteration, "),
                               (("--x", "cg_itrations"), "column 'cg_itrations'; did you mean 'cg_iterations'?"),
                               (("--y", "cnd(A)"), r"column 'cnd\(A\)'; did you mean 'condition_number'?")):
@@ -116,6 +119,12 @@ class Options(CommandLine):
         self.assertEqual(self.made("--log-y", "--only", "history_log*,errors", "--format", "png")[0],
                          {"history_log_d1.png", "history_log_d2.png", "table_6_3_errors.csv",
                           "table_6_3_errors.md", "table_6_3_errors.tex"})
+
+    def test_true_errors_have_short_names(self):
+        numbers = ["q_min", "e_l2", "e_h1", "l2_error", "h1_error", "condition_number"]
+        for wanted, column in (("H1", "h1_error"), ("l2", "l2_error"), ("h1 error", "h1_error"), ("E_H1", "e_h1"), ("Q_Min", "q_min"),
+                               ("cond", "condition_number")):
+            self.assertEqual(find_column(wanted, numbers, numbers), column)
 
     def test_width(self):
         for text, inches in (("84mm", 84 / 25.4), ("8.4 cm", 84 / 25.4), ("3.3", 3.3), ("5in", 5.0)):
