@@ -12,6 +12,7 @@ from .number_format import MISSING
 TERMINAL_WIDTH = 110
 # A number, its part before the decimal point, and the rest.
 NUMBER = re.compile(r"([-+]?\d[\d,]*)((?:\.\d*)?(?:e[-+]?\d+)?)")
+FIGURE_SPACE = "\N{FIGURE SPACE}"  # as wide as a digit; Markdown drops other blanks at the end of a cell
 GAP = 2  # blanks between groups; within a group there is one
 
 SUPERSCRIPTS = dict(zip("abcdefghij", "ᵃᵇᶜᵈᵉᶠᵍʰⁱʲ"))
@@ -91,19 +92,20 @@ def split_number(text):
     return match and (match[1], match[2])
 
 
-def aligned(texts, marks):
-    """The texts of a column with their marks; those of numbers have blanks behind them, so that, flush right, their decimal
+def aligned(texts, marks, blank=" "):
+    """The texts of a column with their marks. Numbers have blanks behind them, so that, flush right, their decimal
     points stand below each other."""
     parts = [split_number(text) for text in texts]
     behind = [len(part[1]) + len(mark) for part, mark in zip(parts, marks) if part]
     room = max(behind, default=0)
-    return [text + mark + (" " * (room - len(part[1]) - len(mark)) if part else "")
+    return [text + mark + (blank * (room - len(part[1]) - len(mark)) if part else "")
             for text, mark, part in zip(texts, marks, parts)]
 
 
-def aligned_columns(group, mark=superscript):
+def aligned_columns(group, blank=" "):
     """The texts of each of a group's columns."""
-    return [aligned([cell.text for cell in column], [mark(cell.mark) for cell in column]) for column in zip(*group.cells)]
+    return [aligned([cell.text for cell in column], [superscript(cell.mark) for cell in column], blank)
+            for column in zip(*group.cells)]
 
 
 def column_widths(group):
@@ -162,24 +164,22 @@ def machine_text(text):
     return "" if text == MISSING else re.sub(r"(?<=\d),(?=\d{3}(\D|$))", "", text)
 
 
-def as_markdown(table):
-    """The table for a Markdown page; headings are repeated in each column. Columns are aligned in the source, too."""
-    columns = [[escape_markdown(row[i].text) for row in table.keys] for i in range(len(table.key_headings))]
-    is_left = [True] * len(columns)
-    for group in table.groups:
-        # Blanks for the decimal point stay outside of the escapes.
-        columns += [[escape_markdown(text) for text in column]
-                    for column in aligned_columns(group, lambda mark: f"<sup>{mark}</sup>" if mark else "")]
-        is_left += [group.heading.text in table.left_aligned] * len(group.subheadings)
-    headings = [escape_markdown(heading) for heading in column_headings(table)]
-    widths = [max([3, len(heading), *map(len, column)]) for heading, column in zip(headings, columns)]
+def markdown_cell(text, mark):
+    """A text for a Markdown page; its mark becomes a superscript."""
+    return escape_markdown(text).replace(superscript(mark), f"<sup>{mark}</sup>") if mark else escape_markdown(text)
 
-    def line(texts):
-        return "| " + " | ".join(text.ljust(w) if left else text.rjust(w)
-                                 for text, w, left in zip(texts, widths, is_left)) + " |"
-    lines = [f"**{escape_markdown(table.caption)}**", "", line(headings),
-             "|" + "|".join(":" + "-" * (w + 1) if left else "-" * (w + 1) + ":" for w, left in zip(widths, is_left)) + "|",
-             *map(line, zip(*columns)), ""]
+
+def as_markdown(table):
+    """The table for a Markdown page; headings are repeated in each column."""
+    columns = [[escape_markdown(row[i].text) for row in table.keys] for i in range(len(table.key_headings))]
+    alignment = [":--" for _ in columns]
+    for group in table.groups:
+        columns += [[markdown_cell(text, cell.mark) for text, cell in zip(texts, cells)]
+                    for texts, cells in zip(aligned_columns(group, FIGURE_SPACE), zip(*group.cells))]
+        alignment += [":--" if group.heading.text in table.left_aligned else "--:" for _ in group.subheadings]
+    headings = " | ".join(escape_markdown(heading) for heading in column_headings(table))
+    lines = [f"**{escape_markdown(table.caption)}**", "", f"| {headings} |", f"|{'|'.join(alignment)}|",
+             *("| " + " | ".join(row) + " |" for row in zip(*columns)), ""]
     for letter, sentence in table.notes:
         lines.append((f"<sup>{letter}</sup> " if letter else "") + escape_markdown(sentence) + "  ")
     return "\n".join(lines).rstrip() + "\n"

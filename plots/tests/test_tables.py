@@ -46,6 +46,7 @@ class Numbers(InFolder):
 
     def test_decimal_points_stand_below_each_other(self):
         self.assertEqual(aligned(["1.5", "12", "7.39e+02", "–"], ["", "", "ᵃ", ""]), ["1.5      ", "12        ", "7.39e+02ᵃ", "–"])
+        self.assertEqual(aligned(["1.5", "12.25"], ["", ""], "_"), ["1.5_", "12.25"])
         lines = tabular(Table("s", "t", "", (Heading("M", "M"),), ((Cell("a"),), (Cell("b"),), (Cell("c"),)), (), (), (
             Group(Heading("E", "E"), ("",), ((number_cell("5.32e-02"),), (number_cell("-3.2898", "a"),), (number_cell("–"),))),), ()))
         self.assertEqual(lines[0], r"\begin{tabular}{lr@{}l}")
@@ -192,6 +193,12 @@ class Tables(InFolder):
             lines = list(csv.reader(as_csv(table).splitlines()))
             self.assertEqual({len(line) for line in lines}, {len(lines[0])})
             self.assertEqual(len({tuple(line[:len(table.key_headings)]) for line in lines[1:]}), len(table.keys))
+
+    def test_markdown_has_decimal_points_below_each_other(self):
+        cells = ((number_cell("5.32"),), (number_cell("3.2898", "a"),), (number_cell("12"),))
+        table = Table("s", "t", "", (Heading("M", "M"),), ((Cell("a"),),) * 3, (), (), (Group(Heading("E", "E"), ("",), cells),), ())
+        self.assertEqual([line.split(" | ")[1] for line in as_markdown(table).splitlines()[4:7]],
+                         ["5.32\u2007\u2007\u2007 |", "3.2898<sup>a</sup> |", "12" + 6 * "\u2007" + " |"])
 
     def test_markdown_has_equal_columns(self):
         for table in self.tables().values():
