@@ -5,7 +5,7 @@ from ..results.names import find_column
 from ..results.rows import ResultsError
 from ..results.smoothing import NUMBERS
 from ..results.symbols import Heading, symbol_of
-from .descriptions import KEY_HEADINGS, MEANINGS, TABLES, Measure
+from .descriptions import KEY_HEADINGS, TABLES, Measure
 from .number_format import format_numbers
 from .smoothing import in_study_order, invalid_meshes, key_cells, make_group, meanings, without_failures
 from .notes import Notes
