@@ -73,9 +73,9 @@ KNOWN_METHODS = {
     "getme-qgamma": MethodStyle("#7A3E9D", ">", (3, 1.2, 1.2, 1.2)),
 }
 
-# Of all other methods. No known method has these colours. Each was chosen farthest from all colours before it, as seen
-# with normal sight, without red and without green cones.
-OWN_COLOURS = ("#0000FF", "#663355", "#99BB66", "#6666FF", "#664433", "#FF8899", "#448844", "#4411AA")
+# Of all other methods. No known method has these colours. They are far from those and from each other, as seen with normal
+# sight, without red cones and without green cones (LEAST_DISTANCE in plots/tests/test_figures.py); the most different ones first.
+OWN_COLOURS = ("#0000FF", "#663355", "#99BB66", "#FF8899", "#448844", "#664433", "#6666FF", "#4411AA")
 OWN_MARKERS = ("*", "p", "d", "h", "P", "<", "X", ">", "D", "8")
 OWN_DASHES = ((6, 1, 1, 1, 1, 1), (2, 1), (10, 2), (1, 2), (4, 1, 2, 1), (7, 1, 1, 1), (2, 2, 6, 2), (12, 1.5, 2, 1.5))
 

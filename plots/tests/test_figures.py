@@ -17,6 +17,21 @@ from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import change_provenance, without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
 
+LEAST_DISTANCE = 15  # in CIELAB; 2 is just noticeable
+# Linear RGB as seen with normal sight, without red cones, and without green cones: G. M. Machado et al., "A
+# Physiologically-based Model for Simulation of Color Vision Deficiency" (2009).
+VIEWS = (np.eye(3),
+         np.array([[.152286, 1.052583, -.204868], [.114503, .786281, .099216], [-.003882, -.048116, 1.051998]]),
+         np.array([[.367322, .860646, -.227968], [.280085, .672501, .047413], [-.011820, .042940, .968881]]))
+XYZ = np.array([[.4124, .3576, .1805], [.2126, .7152, .0722], [.0193, .1192, .9505]])
+
+
+def lab_colour(colour, view):
+    """A colour in CIELAB as it is seen."""
+    linear = np.array([((int(colour[i:i + 2], 16) / 255 + .055) / 1.055)**2.4 for i in (1, 3, 5)])
+    x, y, z = np.cbrt(np.clip(view @ linear, 0, 1) @ XYZ.T / XYZ.sum(axis=1))
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
 
 class Figures(InFolder):
     def run_main(self, *arguments):
@@ -127,6 +142,14 @@ class Figures(InFolder):
                 for name in methods[n_known:]:
                     self.assertNotIn(styles[name].colour, colours)
         self.assertLessEqual({look.marker for look in styles.values()}, set(SYMBOLS))
+
+    def test_the_colour_blind_can_tell_own_colours_apart(self):
+        others = [look.colour for look in style.KNOWN_METHODS.values()]
+        for number, colour in enumerate(style.OWN_COLOURS):
+            for other in (*others, *style.OWN_COLOURS[:number]):
+                for view in VIEWS:
+                    distance = np.linalg.norm(lab_colour(colour, view) - lab_colour(other, view))
+                    self.assertGreater(distance, LEAST_DISTANCE, (colour, other))
 
     def test_a_method_looks_the_same_whatever_is_chosen(self):
         results = read_results(write_results(self.folder / "r", methods=("getme", "angle", "spring", "laplace")))
