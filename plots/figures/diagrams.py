@@ -13,6 +13,10 @@ from . import style
 HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.4, 1.72
 INITIAL_DASHES = (1, 2)
 MARKER_SIZE = 2.8
+# Of figures narrower than so many inches, in which a legend would take much of the height.
+NARROW = 4.0
+NARROW_LEGEND = {"columnspacing": 0.9, "handlelength": 2.3, "fontsize": 8, "labelspacing": 0.3}
+USUAL_LEGEND = {"columnspacing": 1.2, "handlelength": 2.9}
 MARKER_DISTANCE = 3.5  # points between the markers of one line that are drawn
 
 
@@ -47,8 +51,8 @@ def draw_legend(figure, results, styles, markers=True, remarks=None, more=()):
     for n_lines in range(1, len(handles) + 1):
         per_line = math.ceil(len(handles) / n_lines)  # lines of about the same length
         legend = figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0),
-                               ncol=per_line, columnspacing=1.2, handlelength=2.9,
-                               handletextpad=0.5, borderaxespad=0.1)
+                               ncol=per_line, handletextpad=0.5, borderaxespad=0.1,
+                               **(NARROW_LEGEND if figure.get_figwidth() < NARROW else USUAL_LEGEND))
         extent = legend.get_window_extent(figure.canvas.get_renderer())
         if extent.width <= 0.99 * figure.bbox.width or per_line == 1:
             return extent.height / figure.dpi
