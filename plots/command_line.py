@@ -2,6 +2,7 @@
 """The command lines of the package."""
 
 import argparse
+import math
 import os
 import re
 import sys
@@ -15,12 +16,15 @@ from .results.request import Request
 from .results.rows import ResultsError
 from .results.write_files import write_atomically
 from .study_kinds import outputs_of
+from .tables.chosen import CHOSEN
 from .tables.formats import as_csv, as_markdown, as_text
 from .tables.latex import as_latex
 
 HISTOGRAM, REPORT = "histogram", "report"
 FORMATS = ("pdf", "png", "svg")
-MILLIMETRES = 25.4  # in an inch
+TABLE_FORMATS = {"csv": as_csv, "md": as_markdown, "tex": as_latex}
+UNITS = {"in": 1.0, "": 1.0, "cm": 1 / 2.54, "mm": 1 / 25.4}  # inches
+FORMAT = "pdf,png"  # unless another is asked for
 WIDTHS = (2.0, 30.0)  # inches
 
 
@@ -30,13 +34,25 @@ def names(text):
 
 
 def width(text):
-    """Inches of "84mm", "3.3in" or "3.3", for argparse."""
-    match = re.fullmatch(r"\s*(\d+\.?\d*|\.\d+)\s*(mm|in|)\s*", text)
-    inches = float(match[1]) / (MILLIMETRES if match[2] == "mm" else 1.0) if match else 0.0
+    """Inches of "84mm", "8.4cm", "3.3in" or "3.3", for argparse."""
+    match = re.fullmatch(r"\s*(\d+\.?\d*|\.\d+)\s*(mm|cm|in|)\s*", text)
+    inches = float(match[1]) * UNITS[match[2]] if match else 0.0
     if not WIDTHS[0] <= inches <= WIDTHS[1]:
         raise argparse.ArgumentTypeError(f"'{text}' is not a width from {WIDTHS[0]:.0f}in to {WIDTHS[1]:.0f}in, "
-                                         "such as 84mm or 3.3in")
+                                         "such as 84mm, 8.4cm or 3.3in")
     return inches
+
+
+def axis_range(text):
+    """(from, to) of "0.1:0.5", None for an end that is left out, for argparse."""
+    try:
+        low, high = (float(end) if end.strip() else None for end in text.split(":"))
+    except ValueError:
+        low = high = None
+    ends = [end for end in (low, high) if end is not None]
+    if not ends or not all(map(math.isfinite, ends)) or ends != sorted(set(ends)):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a range such as 0:0.5, 0.1: or :0.5")
+    return low, high
 
 
 def formats(text):
@@ -54,9 +70,30 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}; --help lists the options.\n")
 
 
+def output_path(text):
+    """The path of a file or folder, for argparse. Refuses what looks like a file of a format that cannot be written."""
+    path = Path(text)
+    suffix = suffix_of(path)
+    is_known = suffix in FORMATS or suffix in TABLE_FORMATS
+    if re.fullmatch("[a-z]{2,5}", suffix) and not is_known and not text.endswith("/") and not path.is_dir():
+        raise argparse.ArgumentTypeError(f"{suffix} is not one of {', '.join(FORMATS)} (figures) and {', '.join(TABLE_FORMATS)} (tables); "
+                                         f"for a folder of this name, write {text}/")
+    return path
+
+
+def suffix_of(path):
+    """The suffix without its point, in lower case."""
+    return path.suffix[1:].lower()
+
+
 def is_figure(path):
-    """True if the path has the suffix of a figure; False for None."""
-    return path is not None and path.suffix[1:] in FORMATS
+    """True if the path has the suffix of a figure; False for None and for a folder."""
+    return path is not None and suffix_of(path) in FORMATS and not path.is_dir()
+
+
+def is_table(path):
+    """True if the path has the suffix of a table; False for None and for a folder."""
+    return path is not None and suffix_of(path) in TABLE_FORMATS and not path.is_dir()
 
 
 def parse_study(arguments):
@@ -69,33 +106,52 @@ def parse_study(arguments):
     parser.add_argument("--only", type=names, default=(), metavar="NAMES",
                         help="only these figures and tables, by their file names with or without number; "
                         "patterns such as 'history*' are allowed")
-    parser.add_argument("--methods", type=names, default=(), help="only these methods")
-    parser.add_argument("--meshes", type=names, default=(), help="only these meshes")
+    parser.add_argument("--methods", type=names, default=(), help="only these methods, by their labels or titles; each keeps "
+                        "its colour and mark")
+    parser.add_argument("--meshes", type=names, default=(), help="only these meshes, by their labels or titles")
+    parser.add_argument("--degrees", type=names, default=(), help="only these degrees of the finite elements")
+    parser.add_argument("--columns", type=names, default=(), metavar="COLUMNS",
+                        help="make one table of these columns of summary.csv, by their names or headings: "
+                        "mesh,method,H1,q_min; without --only nothing else is made")
     parser.add_argument("--y", type=names, default=(), metavar="COLUMNS",
-                        help="draw these columns of iterations.csv, by their names or headings such as 'cond(A)', each in a "
-                        "row of panels; without --only nothing else is made")
+                        help="draw these columns of iterations.csv, by their names or headings such as 'cond(A)' or H1 (the true "
+                        "error), each in a row of panels; without --only nothing else is made")
     parser.add_argument("--x", default="", metavar="COLUMN",
                         help="horizontal axis of these panels: this column (default: smoothing time)")
     parser.add_argument("--log-x", action="store_true", help="logarithmic horizontal axis for these panels")
     parser.add_argument("--log-y", action="store_true", help="logarithmic vertical axes for these panels")
+    for axis in "xy":
+        parser.add_argument(f"--{axis}-range", type=axis_range, default=(None, None), metavar="FROM:TO",
+                            help=f"ends of the {'horizontal' if axis == 'x' else 'vertical'} axes of these panels; an end that is left "
+                            "out fits the numbers: :0.5")
     parser.add_argument("--width", type=width, metavar="WIDTH",
-                        help="width of the figures in inches, or in millimetres with the suffix mm: 3.3, 84mm "
+                        help="width of the figures: 84mm, 8.4cm, 3.3in; inches without a unit "
                         "(default: 7 inches, narrower where there is little to show)")
-    parser.add_argument("--format", type=formats, default=FORMATS[:2], metavar="FORMATS",
-                        help="pdf, png or svg (default: pdf,png)")
-    parser.add_argument("-o", "--out", type=Path, metavar="PATH",
+    parser.add_argument("--format", type=formats, metavar="FORMATS", help=f"pdf, png or svg (default: {FORMAT})")
+    parser.add_argument("-o", "--out", type=output_path, metavar="PATH",
                         help="folder for the folders tables and figures (default: FOLDER). With the suffix "
-                        f"{', '.join(f'.{name}' for name in FORMATS[:-1])} or .{FORMATS[-1]}: a file for the chosen figure, without "
-                        "tables; of several figures, each file name has the name of its figure")
+                        f"{', '.join(f'.{name}' for name in (*FORMATS, *TABLE_FORMATS))}: "
+                        "exactly this file, for the one chosen figure or table")
     parser.add_argument("--no-figures", action="store_true", help="make the tables only")
     parser.add_argument("--verbose", action="store_true", help="print all tables and the paths of all files")
     parser.add_argument("--quiet", action="store_true", help="print nothing but warnings")
     options = parser.parse_args(arguments)
     if options.no_figures and is_figure(options.out):
         parser.error(f"{options.out} is a figure, but --no-figures asks for none; leave out one of them")
-    if options.no_figures and (options.x or options.y or options.log_x or options.log_y):
-        parser.error("--x, --y, --log-x and --log-y are about figures: leave out --no-figures")
+    if options.no_figures and request_of(options).has_history:
+        parser.error("--x, --y, --log-x, --log-y, --x-range and --y-range are about figures: leave out --no-figures")
+    if options.columns and request_of(options).has_history:
+        parser.error("--columns makes a table, --x, --y and their options figures: use one command for each")
+    if options.format and (is_figure(options.out) or is_table(options.out)) and options.format != (suffix_of(options.out),):
+        parser.error(f"{options.out} says the format already; leave out --format")
+    options.format = options.format or formats(FORMAT)
     return options
+
+
+def request_of(options):
+    """The request of a command line."""
+    return Request(options.methods, options.meshes, options.x, options.y, options.log_x, options.log_y, options.degrees,
+                   options.x_range, options.y_range, options.columns)
 
 
 def parse_histogram(arguments):
@@ -160,24 +216,27 @@ def planned_figures(outputs, request, only, width):
 def make_study(options):
     """Makes the tables and figures of a study; raises ResultsError or OSError. Problems of
     the results are found before the first file is written."""
-    request = Request(options.methods, options.meshes, options.x, options.y, options.log_x, options.log_y)
+    request = request_of(options)
     outputs = outputs_of(options.folder, request)
-    figures = [] if options.no_figures else planned_figures(outputs, request, options.only, options.width)
+    only_tables = options.no_figures or is_table(options.out) or (request.columns and not options.only)
+    figures = [] if only_tables else planned_figures(outputs, request, options.only, options.width)
     drawn = {figure.name: figure.whole for figure in figures}
     wanted = (select(options.only, {**dict.fromkeys(outputs.names, ""), **drawn}) if options.only else
-              set(drawn) if request.has_history else {*outputs.names, *drawn})
-    tables = [table for table in outputs.tables if table.name in wanted]
+              set(drawn) if request.has_history else {CHOSEN} if request.columns else {*outputs.names, *drawn})
+    tables = [table for table in outputs.tables if table.name in wanted or table.name == CHOSEN]
     if is_figure(options.out):
-        return make_chosen_figures(options, [figure for figure in figures if figure.name in wanted], outputs.study_title)
-    texts = [(table.name + suffix, write(table)) for table in tables
-             for suffix, write in ((".csv", as_csv), (".md", as_markdown), (".tex", as_latex))]
+        return make_chosen_figure(options, [figure for figure in figures if figure.name in wanted], outputs.study_title)
+    if is_table(options.out):
+        return make_chosen_table(options, tables)
+    texts = [(f"{table.name}.{suffix}", write(table)) for table in tables for suffix, write in TABLE_FORMATS.items()]
     texts += [(f"{name}.md", text) for name, text in outputs.texts.items() if name in wanted]
 
     tell = (lambda text: None) if options.quiet else say
     folder = options.out or outputs.folder
     for sentence in outputs.warnings:
         warn(sentence)
-    tell("\n".join(as_text(table) for table in tables) if options.verbose or options.only else outputs.screen)
+    tell("\n".join(as_text(table) for table in tables) if options.verbose or options.only or request.columns
+         else outputs.screen)
     paths = [write_atomically(folder / "tables" / name, text) for name, text in texts]
     if not wanted.isdisjoint(drawn):
         from .figures.planned import save_figures
@@ -204,29 +263,44 @@ def summary_of(paths, folder):
             (f" Open {page[0]} in a browser." if page else ""))
 
 
-def own_names(names, stem):
-    """Returns file names for figures: the stem for one figure; for several, the stem followed by the part that
-    differs."""
-    if len(names) == 1:
-        return [stem]
-    words = [name.split("_") for name in names]
-    shared = 0
-    while all(len(own) > shared + 1 for own in words) and len({own[shared] for own in words}) == 1:
-        shared += 1
-    return ["_".join((stem, *own[shared:])) for own in words]
+def options_that_select(figures):
+    """The options that choose one of several figures."""
+    differs = {"--degrees": len({figure.degree for figure in figures}) > 1,
+               "--meshes": len({figure.meshes for figure in figures}) > 1}
+    return " and ".join(option for option, helps in differs.items() if helps) or "--only"
 
 
-def make_chosen_figures(options, chosen, study_title):
-    """Draws the chosen figures into the given file, or into several such files; raises ResultsError or OSError."""
+def listed(names, most=4):
+    """Some of the names, and the number of the others."""
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
+
+
+def make_chosen_figure(options, chosen, study_title):
+    """Draws the one chosen figure into the given file; raises ResultsError or OSError."""
     from .figures.planned import save_figures
-    renamed = [replace(figure, name=name)
-               for figure, name in zip(chosen, own_names([figure.name for figure in chosen], options.out.stem))]
-    paths = save_figures(renamed, study_title, options.out.parent, (options.out.suffix[1:],), warn)
+    if not chosen:
+        raise ResultsError(f"{options.folder}: there is no figure to draw into {options.out}; choose others by --only or --y.")
+    if len(chosen) > 1:
+        raise ResultsError(f"{options.out} has room for one figure, but there are {len(chosen)}: "
+                           f"{listed([figure.name for figure in chosen])}; choose one by {options_that_select(chosen)}, or give a "
+                           "folder.")
+    paths = save_figures([replace(chosen[0], name=options.out.stem)], study_title, options.out.parent, (options.out.suffix[1:],),
+                         warn)
     if not paths:
         raise ResultsError(f"{options.folder}: there is no figure to draw into {options.out}; choose others by --only or --y.")
     if not options.quiet:
-        for path in paths:
-            say(f"wrote {path}")
+        say(f"wrote {paths[0]}")
+
+
+def make_chosen_table(options, tables):
+    """Writes the one chosen table into the given file; raises ResultsError or OSError."""
+    if len(tables) != 1:
+        raise ResultsError(f"{options.out} has room for one table, but there are {len(tables)}"
+                           f"{': ' if tables else ''}{listed([table.name for table in tables])}; choose one by --only or --columns, or "
+                           "give a folder.")
+    path = write_atomically(options.out, TABLE_FORMATS[suffix_of(options.out)](tables[0]))
+    if not options.quiet:
+        say(f"{as_text(tables[0])}wrote {path}")
 
 
 def make_report(options):

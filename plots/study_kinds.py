@@ -14,6 +14,7 @@ from .results.regularization import read_regularization_results
 from .results.request import Request
 from .results.rows import ResultsError, read_provenance
 from .results.smoothing import left_out, read_results
+from .tables.chosen import chosen_table
 from .tables.collection import make_collection_tables
 from .tables.energy import make_energy_tables
 from .tables.polygons import make_polygon_tables
@@ -65,10 +66,12 @@ class Outputs:
 def smoothing_outputs(folder, request):
     """Outputs of a study of smoothing methods."""
     whole = read_results(folder)
-    results = whole.restricted(request.methods, request.meshes)
+    results = whole.restricted(request.methods, request.meshes, request.degrees)
+    # Whether a method pays is judged by the next degree, too.
+    of_all_degrees = whole.restricted(request.methods, request.meshes)
     printed = read_printed_tables(results.thesis_study, results.provenance)
     claims, outcomes, texts = read_claims(results.thesis_study), (), {}
-    if claims and results.methods == whole.methods and results.meshes == whole.meshes:
+    if claims and all(getattr(results, name) == getattr(whole, name) for name in ("methods", "meshes", "degrees")):
         outcomes = check_claims(claims, results, printed)
         texts["claims"] = claims_as_markdown(outcomes, results)
 
@@ -83,7 +86,8 @@ def smoothing_outputs(folder, request):
     def write_page(against, path):
         from .report.page import write_report
         return write_report(results, outcomes, against, path)
-    tables = (*make_tables(results, printed), *make_seed_tables(results), *make_energy_tables(results))
+    tables = (*([chosen_table(results, request.columns)] if request.columns else []), *make_tables(results, printed),
+              *make_seed_tables(results), *make_energy_tables(of_all_degrees))
     return Outputs(results.folder, results.study_title, tables, plan, screen(results), plan_of_meshes, texts,
                    () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page)
 
@@ -144,6 +148,7 @@ def outputs_of(folder, request=Request()):
         raise ResultsError(f"{folder}: a study of the unknown kind `{kind}`; known are "
                            f"{', '.join(KINDS)}.")
     if kind != SMOOTHING and request != Request():
-        raise ResultsError(f"{folder}: a study of the kind `{kind}` has no methods, meshes or histories to "
-                           "choose from; leave out --methods, --meshes, --x, --y, --log-x and --log-y.")
+        raise ResultsError(f"{folder}: a study of the kind `{kind}` has no methods, meshes, degrees, columns or "
+                           "histories to choose from; leave out --methods, --meshes, --degrees, --columns, --x, --y and the options "
+                           "of their axes.")
     return KINDS[kind](folder, request)

@@ -49,6 +49,7 @@ NEED_PUBLISHED = ("--published", "--mesh-dir")
 CONSOLE = {
     "how-to/many-meshes": "mpirun across machines, SLURM and GNU parallel are not available; `--shard` and `merge` are run above them",
     "how-to/restart-and-mpi": "a study of hours on several processes; studies/tests/test_resume.cc runs studies with mpirun",
+    "how-to/latex": "LaTeX is optional; plots/tests/test_latex.py makes the figures and tables of this page and compiles its document",
     "how-to/cpp-libraries": "needs an installation; launcher/tests/test_installed.py builds and runs this program",
     "how-to/develop": "the fuzzers are built by clang in a folder of their own; plots/tests/test_manual.py checks the generated blocks",
 }
@@ -81,7 +82,7 @@ EXPECTED = {
 MADE = {
     "readme": ("out.vtu", "results/gear/summary.csv", ".local/bin/smoothfem"),
     "tutorials/first-study": ("results/gear/figures",),
-    "how-to/latex": ("error_d1.pdf", "results/gear/report.html"),
+    "how-to/latex": ("error.pdf", "quality.pdf", "errors.tex", "results/gear/report.html"),
     "how-to/keep-what-a-file-says": ("smoothed.msh", "moved.msh", "other.msh"),
     "how-to/check-and-repair": ("whole.vtk", "smoothed.vtk"),
     "how-to/untangle-and-slide": ("valid.vtk", "slid.vtu", "smooth-roof.vtu", "bad.vtu", "local.vtu"),

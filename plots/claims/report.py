@@ -17,7 +17,7 @@ def claims_as_markdown(outcomes, results):
     """All claims of a study as a Markdown table."""
     lines = [f"# {results.study_title}: claims of the thesis", "", totals(outcomes) + ".", ""]
     lines += [sentence + "  " for sentence in caveats(results)]
-    lines += ["", "| | Section | Claim | Criterion | Printed | smoothfem | |", "|:--|:--|:--|:--|:--|:--|:--|"]
+    lines += ["", "| | Section | Claim | Criterion | Thesis | smoothfem | |", "|:--|:--|:--|:--|:--|:--|:--|"]
     for outcome in outcomes:
         claim = outcome.claim
         cells = (claim["id"], claim["section"], claim["statement"], criterion_of(claim),

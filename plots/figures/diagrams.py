@@ -13,6 +13,10 @@ from . import style
 HEAD, FOOT, PANEL_HEIGHT = 0.26, 0.4, 1.72
 INITIAL_DASHES = (1, 2)
 MARKER_SIZE = 2.8
+# Of figures narrower than so many inches, in which a legend would take much of the height.
+NARROW = 4.0
+NARROW_LEGEND = {"columnspacing": 0.9, "handlelength": 2.3, "fontsize": 8, "labelspacing": 0.3}
+USUAL_LEGEND = {"columnspacing": 1.2, "handlelength": 2.9}
 MARKER_DISTANCE = 3.5  # points between the markers of one line that are drawn
 
 
@@ -24,7 +28,7 @@ def figure_size(n_rows, n_columns):
 
 def styles_in_order(results):
     """Styles of the methods in the order of the study; the initial mesh has a line of its own."""
-    styles = style.method_styles(results.methods)
+    styles = style.method_styles(results.study_methods or results.methods)
     return {method: styles[method] for method in (*results.methods, INITIAL)}
 
 
@@ -47,8 +51,8 @@ def draw_legend(figure, results, styles, markers=True, remarks=None, more=()):
     for n_lines in range(1, len(handles) + 1):
         per_line = math.ceil(len(handles) / n_lines)  # lines of about the same length
         legend = figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0),
-                               ncol=per_line, columnspacing=1.2, handlelength=2.9,
-                               handletextpad=0.5, borderaxespad=0.1)
+                               ncol=per_line, handletextpad=0.5, borderaxespad=0.1,
+                               **(NARROW_LEGEND if figure.get_figwidth() < NARROW else USUAL_LEGEND))
         extent = legend.get_window_extent(figure.canvas.get_renderer())
         if extent.width <= 0.99 * figure.bbox.width or per_line == 1:
             return extent.height / figure.dpi
@@ -62,7 +66,7 @@ def thin_markers(figure):
     for ax in figure.axes:
         ax.get_xlim(), ax.get_ylim()  # asking brings the limits, hence transData, up to date
         for line in ax.get_lines():
-            if line.get_marker() in ("", "None", None):
+            if line.get_marker() in ("", "None", None) or line.get_label() == "_gap":
                 continue
             points = ax.transData.transform(line.get_xydata())
             kept, last = [], None

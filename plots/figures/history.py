@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figure 6.4 of the thesis: mesh quality and solution errors against smoothing time."""
+"""Histories: mesh quality and solution errors against smoothing time, as in Figure 6.4 of the thesis."""
 
 import string
 import textwrap
@@ -7,15 +7,14 @@ import textwrap
 import matplotlib.pyplot as pyplot
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.ticker import MaxNLocator
 
 from ..results.request import TIME
 from ..results.smoothing import INITIAL
-from ..results.symbols import symbol_of
+from ..results.symbols import THESIS_NORMS, symbol_of
 from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
                        styles_in_order, thin_markers)
 from .history_lines import COUNTS, QUALITY, panel_lines, range_of
-from .scales import make_room_for_labels, scale_values, spans_magnitudes
+from .scales import make_room_for_labels, scale_values, space_ticks, spans_magnitudes
 
 # Numbers that lie between 0 and 1 have linear axes.
 LINEAR = ("q_min", "q_star_min", "q_mean")
@@ -23,17 +22,20 @@ LINEAR = ("q_min", "q_star_min", "q_mean")
 # Around the record of the resulting mesh, and where a method's meshes begin to be invalid.
 RESULT = {"marker": "o", "markersize": 7.0, "markerfacecolor": "none", "markeredgewidth": 0.8}
 INVALID = {"marker": "x", "markersize": 5.5, "markeredgewidth": 1.4}
-TITLE_LINE = 0.15  # inches
+# Across records that are invalid, from the last valid mesh to the next one: no number is known there.
+GAP = {"linewidth": 0.8, "linestyle": (0, (1, 1.6)), "marker": "x", "markersize": 3.6, "markeredgewidth": 0.7}
+TITLE_LINE, NO_TITLE = 0.15, 0.06  # inches
 # Sizes of sentences in a panel or above it, to place them next to the lines.
 LETTERS_OF_AN_INCH, POINTS_OF_A_SEGMENT = 15, 20
 
 
-def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log_y=False):
+def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log_y=False, x_range=(None, None),
+                 y_range=(None, None)):
     """A figure with a row for each measure and a column for each mesh; None if there is no number.
 
     `columns` and `x` are columns of iterations.csv, `degree` a string as in the file; `meshes` are
     some of the study's, or None for all. Vertical axes are logarithmic where their numbers span
-    magnitudes, with `log_y` all of them.
+    magnitudes, with `log_y` all of them. Ranges are (from, to), None where the numbers decide.
     """
     meshes = results.meshes if meshes is None else meshes
     lines = {(name, mesh): panel_lines(results, name, mesh, degree, x)
@@ -42,20 +44,21 @@ def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log
                if any(line.shown.any() for mesh in meshes for line in lines[name, mesh].values())]
     if not columns:
         return None
-    ranges = [range_of([lines[name, mesh] for name in columns], log_x, x) for mesh in meshes]
+    ranges = [range_of([lines[name, mesh] for name in columns], log_x, x).limited(x_range) for mesh in meshes]
     styles = styles_in_order(results)
+    is_single = len(columns) * len(meshes) == 1  # then the caption says what it shows
     figure, axes = empty_panels(results, styles, [[lines[name, mesh] for mesh in meshes] for name in columns],
-                                [results.title(mesh) for mesh in meshes])
+                                ["" if is_single else results.title(mesh) for mesh in meshes])
     for row, name in zip(axes, columns):
         values = [shown_values(lines[name, mesh], extent) for mesh, extent in zip(meshes, ranges)]
         logarithmic = log_y or name not in LINEAR and any(map(spans_magnitudes, values))
         for ax, mesh, extent, shown in zip(row, meshes, ranges, values):
             draw_panel(ax, lines[name, mesh], styles, extent)
-            scale_values(ax, shown, logarithmic)
+            scale_values(ax, shown, logarithmic, y_range)
+            bridge_gaps(ax, lines[name, mesh], styles, extent)
     label_axes(figure, axes, columns, degree, x, ranges)
-    if x in COUNTS and not log_x:
-        for ax in axes[-1]:
-            ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+    for ax in axes[-1]:
+        space_ticks(ax, whole=x in COUNTS)
     for row, name in zip(axes, columns):
         for ax, mesh, extent in zip(row, meshes, ranges):
             annotate_free_area(ax, words_on(results, lines[name, mesh], extent))
@@ -76,14 +79,15 @@ def empty_panels(results, styles, lines, titles):
                  for methods in never]
     every = [line for row in lines for panel in row for method, line in panel.items() if method != INITIAL]
     marks = [(RESULT, "Result", any(line.result is not None for line in every)),
+             (GAP, "Invalid meshes", any(line.gaps for line in every)),
              (INVALID, "Invalid from here", any(line.invalid_after is not None for line in every))]
     legend_height = draw_legend(figure, results, styles, remarks=dict.fromkeys(everywhere, "invalid"), more=[
-        Line2D([], [], color="0.25", linestyle="none", label=label, **look)
+        Line2D([], [], color="0.25", label=label, **{"linestyle": "none", **look})
         for look, label, occurs in marks if occurs])
     letters = int(LETTERS_OF_AN_INCH * width / n_columns)
     titles = ["\n".join([title, *(textwrap.wrap("invalid: " + ", ".join(methods), letters) if methods else [])])
               for title, methods in zip(titles, elsewhere)]
-    head = HEAD + TITLE_LINE * max(title.count("\n") for title in titles) + legend_height
+    head = legend_height + (HEAD + TITLE_LINE * max(title.count("\n") for title in titles) if any(titles) else NO_TITLE)
     height += head - HEAD
     figure.set_figheight(height)
     figure.subplots_adjust(bottom=FOOT / height, top=1 - head / height, hspace=0.1)
@@ -95,11 +99,38 @@ def empty_panels(results, styles, lines, titles):
 def label_axes(figure, axes, columns, degree, x, ranges):
     """Names of the axes, and room for them."""
     for letter, row, name in zip(string.ascii_lowercase, axes, columns):
-        row[0].set_ylabel(f"({letter})  {symbol_of(name).tex}"
-                          + (f"  ($d={degree}$)" if degree and name not in QUALITY else ""))
+        words = [*([f"$d={degree}$"] if degree and name not in QUALITY else []),
+                 *(["log"] if row[0].get_yscale() == "log" else [])]
+        row[0].set_ylabel((f"({letter})  " if len(axes) > 1 else "") + label_of(name)
+                          + (f"  ({', '.join(words)})" if words else ""))
     for ax, extent in zip(axes[-1], ranges):
-        ax.set_xlabel(symbol_of(x).tex + ("" if extent.zero is None else "; 0 at the left edge"))
+        ax.set_xlabel(label_of(x) + (", log" if extent.logarithmic else "")
+                      + ("" if extent.zero is None else "; 0 at the left edge"))
     make_room_for_labels(figure, axes)
+
+
+def label_of(column):
+    """The symbol of a column; norms of the thesis are called so, as they are not the true errors."""
+    return ("thesis " if column in THESIS_NORMS else "") + symbol_of(column).tex
+
+
+def bridge_gaps(ax, lines, styles, extent):
+    """Dotted lines with crosses across records that are invalid, in a panel whose scales are known: without them, a gap
+    looks like an error of the figure."""
+    for method, line in lines.items():
+        x = extent.placed(line.x)
+        for before, gap, after in line.gaps:
+            records = [before, *gap, after]
+            if method == INITIAL or not extent.holds(x[records]).all():
+                continue
+            scale_x, scale_y = (np.log if axis == "log" else np.asarray for axis in (ax.get_xscale(), ax.get_yscale()))
+            places, ends = scale_x(x[records]), scale_y(line.y[[before, after]])
+            if not (np.isfinite(places).all() and np.isfinite(ends).all()):
+                continue
+            y = np.interp(places, places[[0, -1]], ends) if places[-1] > places[0] else np.linspace(*ends, len(places))
+            y = np.exp(y) if ax.get_yscale() == "log" else y
+            ax.plot(x[records], y, color=styles[method].colour, markevery=range(1, len(records) - 1), zorder=1.5,
+                    label="_gap", **GAP)
 
 
 def draw_panel(ax, lines, styles, extent):
@@ -109,7 +140,8 @@ def draw_panel(ax, lines, styles, extent):
             continue
         look, x = styles[method], extent.placed(line.x)
         inside = extent.holds(x)
-        drawn, = ax.plot(x[inside], line.y[inside], color=look.colour, marker=look.marker,
+        # Also what lies beyond the axis: a line leads to the edge.
+        drawn, = ax.plot(x, line.y, color=look.colour, marker=look.marker,
                          markersize=MARKER_SIZE, markeredgewidth=0.4,
                          markerfacecolor=look.marker_fill, label=method)
         if look.dashes:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Content of a panel of a history, before it is drawn: a line for each method, and the range of its horizontal axis."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Optional
 
 import numpy as np
@@ -43,6 +43,13 @@ class Line:
         """The last record shown before all meshes are invalid; None if it does not come to that."""
         before = np.flatnonzero(self.shown & self.valid)
         return None if self.valid[-1] or not len(before) else int(before[-1])
+
+    @property
+    def gaps(self):
+        """Records without a number between two with one, as (record before, records of the gap, record after)."""
+        shown = np.flatnonzero(self.shown)
+        return [(before, np.arange(before + 1, after), after) for before, after in zip(shown[:-1], shown[1:])
+                if after > before + 1 and not self.valid[before + 1:after].all()]
 
     @property
     def is_never_valid(self):
@@ -87,9 +94,19 @@ class Range:
         return np.where(x == 0, place, np.where(x > 0, x, np.nan))
 
     def holds(self, x):
-        """A mask of the placed numbers that lie before the end."""
+        """A mask of the placed numbers that lie on the axis."""
         with np.errstate(invalid="ignore"):
-            return ~(x > self.high)
+            return ~(x > self.high) & ~(x < self.low)
+
+    def limited(self, limits):
+        """The range with other ends: (from, to), None where an end stays."""
+        low, high = (own if end is None else end for own, end in zip((self.low, self.high), limits))
+        if self.logarithmic and low <= 0:
+            low = self.low
+        if limits[0] is None and low < 0 < high:
+            low = max(low, -MARGIN * high)  # the margin of a shorter axis
+        return replace(self, low=low, high=high, zero=self.zero if limits[0] is None else None,
+                       dominant="" if limits[1] is not None else self.dominant)
 
 
 def range_of(panels, logarithmic, x=TIME):

@@ -9,6 +9,7 @@ from ..results.names import find_column
 from ..results.request import TIME
 from ..results.rows import ResultsError, solves_itself
 from ..results.smoothing import number_columns
+from ..results.symbols import THESIS_NORMS
 from .history import draw_history
 from .history_lines import QUALITY
 from .pages import fits_as_columns, pages
@@ -16,18 +17,24 @@ from .planned import PlannedFigure
 from .thesis_numbers import HISTORY_DEGREES, THESIS_NUMBERS, figure_name
 
 SOLVES = "n_solves"  # column of iterations.csv
+PRINTED_COLUMNS = ("q_min", "q_mean", "e_max", "e_mean")  # of the figures in the thesis
 
 
 def main_columns(results):
     """The default columns of the history."""
-    return ("q_min", "q_mean", "e_max", "e_mean") if results.degrees else ("q_star_min", "q_mean", "w_mean")
+    return ("q_min", "q_mean", "h1_error", "l2_error") if results.degrees else ("q_star_min", "q_mean", "w_mean")
 
 
 def plan_histories(results):
-    """Quality and errors against smoothing time, for each degree."""
+    """Quality and true errors against smoothing time, for each degree. A study with a figure in the thesis has this figure
+    with its norms, too, and all norms of the thesis for each degree."""
     study, first = results.thesis_study, results.degrees[0] if results.degrees else ""
+    is_printed = "history" in THESIS_NUMBERS.get(study, {})
+    has_norms = is_printed and bool(results.degrees)
     shown = HISTORY_DEGREES.get(study, first)
     shown = shown if shown in results.degrees else first
+    main = PRINTED_COLUMNS if has_norms else main_columns(results)
+    prefix = "figure_history" if study in THESIS_NUMBERS else "history"
     planned = []
 
     def plan(prefix, variant, title, *arguments):
@@ -36,14 +43,13 @@ def plan_histories(results):
     for part, meshes in pages(results.meshes, fits_as_columns).items():
         for log_time, variant, title in ((False, "", "history"),
                                          (True, "_log_time", "history, log time")):
-            plan(figure_name(study, "history"), variant, title, main_columns(results), shown, log_time, meshes)
+            plan(figure_name(study, "history"), variant, title, main, shown, log_time, meshes)
         for degree in results.degrees:
-            # Without number: the thesis has these for one degree only, and no true errors.
-            prefix = "figure_history" if study in THESIS_NUMBERS else "history"
-            if degree != shown:
+            # Without number: the thesis has no true errors, and its norms for one degree only.
+            if has_norms or degree != shown:
                 plan(prefix, f"_d{degree}", f"history, d = {degree}", main_columns(results), degree, False, meshes)
-            plan(prefix, f"_norms_d{degree}", f"error norms, d = {degree}",
-                 ("e_l2", "e_h1", "l2_error", "h1_error"), degree, False, meshes)
+            if has_norms:
+                plan(prefix, f"_norms_d{degree}", f"norms of the thesis, d = {degree}", THESIS_NORMS, degree, False, meshes)
     return planned + plan_solves(results)
 
 
@@ -81,6 +87,7 @@ def plan_requested_history(results, request):
             variant = f"_d{degree}" if by_degree else ""
             planned.append(PlannedFigure(
                 request.history_name + part + variant, "history", lambda degree=degree, meshes=meshes: draw_history(
-                    results, columns, degree, request.log_x, meshes, request.x or TIME, request.log_y),
-                whole=request.history_name + variant))
+                    results, columns, degree, request.log_x, meshes, request.x or TIME, request.log_y, request.x_range,
+                    request.y_range),
+                whole=request.history_name + variant, degree=variant and degree, meshes=tuple(meshes) if part else ()))
     return planned

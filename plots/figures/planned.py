@@ -18,6 +18,8 @@ class PlannedFigure:
     draw: Callable
     rendered: bool = False  # whether it needs VTK's pictures
     whole: str = ""  # of one for some meshes: the name that all of them would have in one figure
+    degree: str = ""  # of one for one of several degrees
+    meshes: tuple = ()  # of one for some of several meshes
 
 
 def save_figures(planned, study_title, folder, formats, report):

@@ -2,7 +2,8 @@
 """Defines the style of all figures: sizes, fonts, colours, and the colour, marker and dashes of each method.
 
 Colours are those of M. Okabe and K. Ito, "Color Universal Design" (2008), without its yellow, which
-is too light for thin lines. Marker and dashes differ as well, so that print in grey stays readable.
+is too light for thin lines, and more for methods of the user. Marker and dashes differ as well, so that print in grey stays
+readable.
 """
 
 import io
@@ -72,12 +73,19 @@ KNOWN_METHODS = {
     "getme-qgamma": MethodStyle("#7A3E9D", ">", (3, 1.2, 1.2, 1.2)),
 }
 
-OTHER_METHODS = tuple(
-    MethodStyle(colour, marker, dashes) for colour, marker, dashes in zip(
-        ("#000000", "#56B4E9", "#CC79A7", "#8B4513", "#7A3E9D", "#0072B2", "#E69F00", "#009E73"),
-        ("h", "*", "p", "d", "8", "H", "4", "1"),
-        ((6, 1, 1, 1, 1, 1), (2, 1), (1, 2), (10, 2), (4, 1, 2, 1), (7, 1, 1, 1), (2, 2, 6, 2),
-         (12, 1.5, 2, 1.5))))
+# Of all other methods. No known method has these colours. They are far from those and from each other, as seen with normal
+# sight, without red cones and without green cones (LEAST_DISTANCE in plots/tests/test_figures.py); the most different ones first.
+OWN_COLOURS = ("#0000FF", "#663355", "#99BB66", "#FF8899", "#448844", "#664433", "#6666FF", "#4411AA")
+OWN_MARKERS = ("*", "p", "d", "h", "P", "<", "X", ">", "D", "8")
+OWN_DASHES = ((6, 1, 1, 1, 1, 1), (2, 1), (10, 2), (1, 2), (4, 1, 2, 1), (7, 1, 1, 1), (2, 2, 6, 2), (12, 1.5, 2, 1.5))
+
+
+def own_style(number):
+    """The style of the method of this number, from 0, of those without a style of their own. After all colours, they
+    come again with other markers and dashes."""
+    turn = number // len(OWN_COLOURS)
+    return MethodStyle(OWN_COLOURS[number % len(OWN_COLOURS)], OWN_MARKERS[(number + turn) % len(OWN_MARKERS)],
+                       OWN_DASHES[(number + 3 * turn) % len(OWN_DASHES)])
 
 
 # How the name of a method ends that is the one of the same name on several threads.
@@ -91,13 +99,12 @@ def sequential_name(method):
 
 
 def method_styles(methods):
-    """A style for each method. The known ones always have the same; any other takes the next free
-    one in the alphabetical order of the names, whatever the order of the study. A parallel method
+    """A style for each method of a study. The known ones always have the same; the others take theirs in the order of the
+    study, so that a method that is added at the end changes no other. A parallel method
     looks like its sequential one with a hollow marker and other dashes."""
-    sequential = {sequential_name(name) for name in methods}
-    others = sorted(sequential - KNOWN_METHODS.keys())
-    found = {**KNOWN_METHODS,
-             **{name: OTHER_METHODS[i % len(OTHER_METHODS)] for i, name in enumerate(others)}}
+    sequential = dict.fromkeys(map(sequential_name, methods))
+    others = [name for name in sequential if name not in KNOWN_METHODS]
+    found = {**KNOWN_METHODS, **{name: own_style(number) for number, name in enumerate(others)}}
     styles = {name: found[sequential_name(name)] for name in methods}
     styles.update((name, replace(look, dashes=PARALLEL_DASHES, hollow=True))
                   for name, look in styles.items() if name != sequential_name(name))
@@ -134,9 +141,9 @@ def figure_bytes(figure, suffix, title):
     same bytes."""
     metadata = {"pdf": {"Title": title, "Creator": "smoothfem", "CreationDate": None},
                 "png": {"Title": title, "Software": "smoothfem"},
-                "svg": {"Title": title, "Creator": "smoothfem", "Date": None}}[suffix]
+                "svg": {"Title": title, "Creator": "smoothfem", "Date": None}}[suffix.lower()]
     stream = io.BytesIO()
-    figure.savefig(stream, format=suffix, dpi=DPI, metadata=metadata)
+    figure.savefig(stream, format=suffix.lower(), dpi=DPI, metadata=metadata)
     return stream.getvalue()
 
 

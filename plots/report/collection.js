@@ -8,9 +8,10 @@
 
   // ---- curves of methods
   function tracesOf(curve, isShare) {
-    const colour = page.seen(data.colours[curve.method]), name = data.titles[curve.method];
-    const line = { name: name, x: curve.x, y: curve.y, type: "scatter", mode: "lines", legendgroup: name,
-      line: { color: colour, shape: isShare ? "hv" : "linear" },
+    const look = data.looks[curve.method], colour = page.seen(look.colour), name = data.titles[curve.method];
+    const line = { name: name, x: curve.x, y: curve.y, type: "scatter", mode: "lines+markers", legendgroup: name,
+      line: { color: colour, dash: look.dash, shape: isShare ? "hv" : "linear" },
+      marker: { color: colour, symbol: look.symbol, size: 7, maxdisplayed: 8 },
       hovertemplate: "%{y:.4g} at %{x:.4g}<extra>" + name + "</extra>" };
     if (!curve.lower) return [line];
     const band = { name: name + ", quartiles", x: curve.x.concat([...curve.x].reverse()), type: "scatter", mode: "lines",

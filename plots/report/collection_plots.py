@@ -5,8 +5,8 @@ import numpy as np
 
 from ..collections.diagrams import DIAGRAMS, diagrams
 from ..collections.prediction import predictions, samples_of
-from ..figures.style import method_styles
 from ..results.symbols import symbol_of
+from .looks import looks_of
 
 MOST_POINTS = 500  # of a scatter plot: they are in the page for every quality
 MOST_STEPS = 300  # of a curve
@@ -19,7 +19,7 @@ def collection_plots(results):
     found = predictions(results)
     qualities, outcomes = (list(dict.fromkeys(getattr(p, name) for p in found)) for name in ("quality", "outcome"))
     return {"titles": {name: results.title(name) for name in results.methods},
-            "colours": {name: style.colour for name, style in method_styles(results.methods).items()},
+            "looks": looks_of(results.methods),
             "diagrams": [{"name": name, "title": DIAGRAMS[name].capitalize(), **diagram_data(diagram)}
                          for name, diagram in diagrams(results).items()],
             "qualities": qualities, "outcomes": outcomes,

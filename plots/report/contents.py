@@ -5,19 +5,22 @@ import math
 
 import numpy as np
 
-from ..figures.style import method_styles
 from ..results.rows import ResultsError
 from ..results.smoothing import INITIAL, read_results
-from ..results.symbols import symbol_of
+from ..results.symbols import THESIS_NORMS, symbol_of
+from .looks import looks_of
 from .mesh_views import mesh_view
 
 # Columns that may be drawn against one another; those without a number are left out.
 DRAWN = ("iteration", "smoothing_seconds", "wall_seconds", "q_min", "q_star_min", "q_mean", "n_invalid", "w_mean",
-         "condition_number", "cg_iterations", "jacobi_cg_iterations", "amg_cg_iterations", "e_max", "e_mean",
-         "e_l2", "e_h1", "l2_error", "h1_error")
+         "condition_number", "cg_iterations", "jacobi_cg_iterations", "amg_cg_iterations", "h1_error", "l2_error",
+         *THESIS_NORMS)
 # Columns of summary.csv that say which row it is.
 KEYS = ("mesh", "method", "degree")
-COMPARED = ("smoothing_seconds", "q_min", "q_mean", "condition_number", "cg_iterations", "l2_error", "h1_error")
+COMPARED = ("h1_error", "l2_error", "q_min", "q_mean", "condition_number", "cg_iterations", "smoothing_seconds")
+# Of summary.csv, before all its other columns.
+FIRST = (*KEYS, "status", "h1_error", "l2_error", "q_min", "q_mean", "n_invalid", "cg_iterations", "condition_number",
+         "iterations", "smoothing_seconds")
 
 
 def number_or_none(value):
@@ -34,14 +37,21 @@ def curves(results):
         if np.isfinite(values).any():
             columns[name] = [number_or_none(value) for value in values]
     return {"keys": {name: list(rows.text(name)) for name in KEYS}, "columns": columns,
-            "headings": {name: symbol_of(name).text for name in columns}}
+            "headings": {name: heading_of(name) for name in columns}}
+
+
+def heading_of(column):
+    """The heading of a column; norms of the thesis are called so, as they are not the true errors."""
+    return symbol_of(column).text + (" (norm of the thesis)" if column in THESIS_NORMS else "")
 
 
 def summary_table(results):
-    """Headings and rows of summary.csv without the study's name and without columns that are empty."""
+    """Headings and rows of summary.csv, errors and qualities first, without the study's name and without columns that are
+    empty."""
     rows = results.summary
-    names = [name for name in rows.columns if name != "study" and any(rows.text(name))]
-    return {"headings": [symbol_of(name).text for name in names],
+    names = [name for name in dict.fromkeys((*FIRST, *rows.columns))
+             if name in rows.columns and name != "study" and any(rows.text(name))]
+    return {"headings": [heading_of(name) for name in names],
             "rows": [[cell(name, field, results) for name, field in zip(names, fields)]
                      for fields in zip(*(rows.text(name) for name in names))]}
 
@@ -93,5 +103,5 @@ def contents(results):
     views = {mesh: view for mesh in results.meshes if (view := mesh_view(results, mesh)) is not None}
     return {"meshes": list(results.meshes), "methods": [INITIAL, *results.methods], "degrees": list(results.degrees),
             "titles": {name: results.title(name) for name in (*results.meshes, INITIAL, *results.methods)},
-            "colours": {name: style.colour for name, style in method_styles(results.methods).items()},
+            "looks": looks_of(results.study_methods or results.methods),
             "curves": curves(results), "views": views}

@@ -34,8 +34,13 @@ const page = (function () {
     legend: { orientation: "h", y: innerWidth < 700 ? -0.45 : -0.2, yanchor: "top" } }, more);
   const axis = (words, type) => ({ title: words, type: type, gridcolor: css("--faint"), zeroline: false,
     exponentformat: "power" });
-  // Black lines would not be seen on dark ground.
-  const seen = (colour) => (isDark() && colour === "#000000" ? "#ffffff" : colour);
+  // Dark lines would not be seen on dark ground: they are mixed with white.
+  function seen(colour) {
+    const parts = [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16));
+    if (!isDark() || !(0.3 * parts[0] + 0.6 * parts[1] + 0.1 * parts[2] < 90)) return colour;
+    const share = colour === "#000000" ? 1 : 0.45;
+    return "#" + parts.map((part) => Math.round(part + share * (255 - part)).toString(16).padStart(2, "0")).join("");
+  }
 
   // What takes a moment is drawn when it is about to be seen, or printed.
   function whenSeen(element, draw) {

@@ -2,6 +2,7 @@
 """Writes report.html: one file that opens without a network."""
 
 import json
+import re
 import shlex
 from html import escape
 from pathlib import Path
@@ -27,12 +28,20 @@ def json_in_page(data):
     return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-def html_table(table, caption, identifier, filters=()):
-    """Headings and rows of cells {text, order} as a table that DataTables sorts and filters."""
+def inline(text):
+    """The HTML of text with the Markdown that this program's sentences have: bold, code, escaped characters."""
+    text = escape(text)
+    for mark, tag in ((r"\*\*(?=\S)(.+?)(?<=\S)\*\*", "b"), ("`([^`]+)`", "code")):
+        text = re.sub(mark, rf"<{tag}>\1</{tag}>", text)
+    return re.sub(r"\\([|*_])", r"\1", text)
+
+
+def html_table(table, caption, identifier, filters=(), words=escape):
+    """Headings and rows of cells {text, order} as a table that DataTables sorts and filters. words: makes HTML of texts."""
     def td(cell):
         if "order" in cell:
             return f'<td class="number" data-order="{cell["order"]:.17g}">{escape(cell["text"])}</td>'
-        return f"<td>{escape(cell['text'])}</td>"
+        return f"<td>{words(cell['text'])}</td>"
     head = "".join(f'<th scope="col">{escape(heading)}</th>' for heading in table["headings"])
     body = "\n".join("<tr>" + "".join(td(cell) for cell in row) + "</tr>" for row in table["rows"])
     columns = " ".join(str(table["headings"].index(name)) for name in filters if name in table["headings"])
@@ -48,9 +57,9 @@ def claims_section(outcomes):
         return ""
     rows = [[{"text": text} for text in (o.claim["id"], o.claim["section"], o.claim["statement"], criterion_of(o.claim),
                                          o.printed, o.computed, verdict_cell(o))] for o in outcomes]
-    table = {"headings": ["Claim", "Section", "Statement", "Criterion", "Printed", "smoothfem", "Verdict"], "rows": rows}
+    table = {"headings": ["Claim", "Section", "Statement", "Criterion", "Thesis", "smoothfem", "Verdict"], "rows": rows}
     return (f'<section id="claims"><h2>Claims of the thesis</h2><p>{escape(totals(outcomes))}.</p>'
-            + html_table(table, "Claims, criteria and results", "claims-table", ("Verdict",)) + "</section>")
+            + html_table(table, "Claims, criteria and results", "claims-table", ("Verdict",), inline) + "</section>")
 
 
 def against_section(results, against):

@@ -20,9 +20,10 @@
       keys.mesh.forEach((name, i) => {
         if (name === mesh && keys.method[i] === method && keys.degree[i] === degree) rows.push(i);
       });
-      return { name: title(method), mode: rows.length < 40 ? "lines+markers" : "lines", type: "scatter",
+      const look = data.looks[method], colour = seen(look.colour);
+      return { name: title(method), mode: "lines+markers", type: "scatter",
         x: rows.map((i) => columns[x][i]), y: rows.map((i) => columns[y][i]),
-        line: { color: seen(data.colours[method]) },
+        line: { color: colour, dash: look.dash }, marker: { color: colour, symbol: look.symbol, size: 7, maxdisplayed: 40 },
         hovertemplate: "%{y:.6g} at %{x:.6g}<extra>" + title(method) + "</extra>" };
     });
     const axis = (name, box) => page.axis(heading(name), $id(box).checked ? "log" : "linear");

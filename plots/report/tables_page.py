@@ -11,7 +11,7 @@ from string import Template
 from ..results.rows import read_provenance
 from ..results.write_files import write_atomically
 from ..tables.formats import as_csv
-from .page import NAME, file_text, html_page, html_table, json_in_page, provenance_section
+from .page import NAME, file_text, html_page, html_table, inline, json_in_page, provenance_section
 
 
 def html_text(markdown):
@@ -24,11 +24,11 @@ def html_text(markdown):
             lines.append("<ul>" if is_item else "</ul>")
             in_list = is_item
         if is_item:
-            lines.append(f"<li>{escape(line[2:])}</li>")
+            lines.append(f"<li>{inline(line[2:])}</li>")
         elif line.startswith("## "):
             lines.append(f"<h3>{escape(line[3:])}</h3>")
         elif line and not line.startswith("# "):
-            lines.append(f"<p>{escape(line)}</p>")
+            lines.append(f"<p>{inline(line)}</p>")
     return "\n".join(lines + ["</ul>"] * in_list)
 
 

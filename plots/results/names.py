@@ -6,7 +6,7 @@ import re
 from fnmatch import fnmatchcase
 
 from .rows import ResultsError
-from .symbols import symbol_of
+from .symbols import short_column, symbol_of
 
 # What stands before the names of figures and tables: figure_6_4_history, table_5_11-5_12_smoothing.
 PREFIX = re.compile(r"^(figure|table)_((\d+_\d+-?)+_)?")
@@ -22,30 +22,45 @@ def no_such_name(what, wanted, names, nearest=None):
 
 
 def find_column(wanted, columns, numbers):
-    """The column of that name, or of that heading: `cond(A)` and `cond` are `condition_number`. Raises
-    ResultsError with the nearest name, of those in `numbers`."""
+    """The column of that name, or of that heading: `cond(A)` and `cond` are `condition_number`, `H1` is `h1_error`. Case
+    does not matter. Raises ResultsError with the nearest name, of those in `numbers`."""
     if wanted in columns:
         return wanted
     headings = {}
     for column in numbers:
         text = symbol_of(column).text
-        for heading in (text, re.sub(r"\s*\(.*?\)", "", text)):
+        for heading in (text, re.sub(r"\s*\(.*?\)", "", text), text.removesuffix(" error"), short_column(column)):
             headings.setdefault(heading.casefold(), column)
+    headings.update((name.casefold(), name) for name in columns)
     known = wanted.casefold()
     if known in headings:
         return headings[known]
-    called = {**headings, **{name: name for name in numbers}}
-    nearest = difflib.get_close_matches(known, called, 1)
-    raise no_such_name("column", wanted, numbers, called[nearest[0]] if nearest else None)
+    raise no_such_name("column", wanted, numbers, nearest_column(known, headings))
 
 
-def find_all(what, wanted, names):
-    """The wanted names in the order of `names`; all of them if none is wanted. Raises ResultsError
-    for one that is not among them."""
+def nearest_column(wanted, called):
+    """The column with the nearest name; None if none is near. A true error comes before a norm of the thesis, unless the
+    name begins like one."""
+    for norm, error in (("h1", "h1_error"), ("l2", "l2_error")):
+        if norm in wanted and not wanted.startswith("e") and error in called:
+            return error
+    nearest = difflib.get_close_matches(wanted, called, 1)
+    return called[nearest[0]] if nearest else None
+
+
+def find_all(what, wanted, names, titles=None):
+    """The wanted names in the order of `names`; all of them if none is wanted. A title that only one of them has stands for
+    its name. Raises ResultsError for one that is not among them."""
+    by_title = {}
+    for name in names:
+        by_title.setdefault((titles or {}).get(name, name).casefold(), []).append(name)
+    found = set()
     for name in wanted:
-        if name not in names:
+        of_title = by_title.get(name.casefold(), [])
+        if name not in names and len(of_title) != 1:
             raise no_such_name(what, name, names)
-    return tuple(name for name in names if name in wanted or not wanted)
+        found.add(name if name in names else of_title[0])
+    return tuple(name for name in names if name in found or not wanted)
 
 
 def short_name(name):

@@ -74,7 +74,7 @@ def comparison_notes(table, results):
     list."""
     measured = [row["mesh"] for row in table.rows]
     stand_ins = [mesh for mesh in results.meshes if mesh in measured and not results.is_published(mesh)]
-    note = f"Printed values: Table {table.number}, measured on the {table.measured_on}."
+    note = f"Values of the thesis: Table {table.number}, measured on the {table.measured_on}."
     own = [results.note] if results.note else []
     if not stand_ins:
         return [note, *own]

@@ -65,6 +65,7 @@ class Results:
     seeds: tuple = ()  # of the study's repetitions, that of these results first; empty: there are none
     repeated: tuple = ()  # the meshes that the seeds change
     repetitions: tuple = ()  # Results of the other seeds
+    study_methods: tuple = ()  # all methods of the study, chosen or not: they decide on colours and marks
 
     @property
     def thesis_study(self):
@@ -107,19 +108,21 @@ class Results:
         """Path of the mesh that the method ended with (it need not exist)."""
         return self.folder / "meshes" / f"{mesh}_{method}.vtu"
 
-    def restricted(self, methods=(), meshes=()):
-        """The results of some methods and meshes only, in the order of the study; all of them where
+    def restricted(self, methods=(), meshes=(), degrees=()):
+        """The results of some methods, meshes and degrees only, in the order of the study; all of them where
         none is named. The initial mesh stays. Raises ResultsError for a name that is not there."""
-        methods = find_all("method", methods, self.methods)
-        meshes = find_all("mesh", meshes, self.meshes)
+        methods = find_all("method", methods, self.methods, self.titles)
+        meshes = find_all("mesh", meshes, self.meshes, self.titles)
+        chosen = find_all("degree", degrees, self.degrees) if degrees else ()
 
         def rows_of(rows):
             return rows.where(np.isin(rows.text("mesh"), meshes)
-                              & np.isin(rows.text("method"), (INITIAL, *methods)))
-        return replace(self, methods=methods, meshes=meshes, summary=rows_of(self.summary),
+                              & np.isin(rows.text("method"), (INITIAL, *methods))
+                              & (np.isin(rows.text("degree"), (*chosen, "")) if chosen else True))
+        return replace(self, methods=methods, meshes=meshes, degrees=chosen or self.degrees, summary=rows_of(self.summary),
                        iterations=rows_of(self.iterations), thresholds=rows_of(self.thresholds),
                        repeated=tuple(mesh for mesh in self.repeated if mesh in meshes),
-                       repetitions=tuple(other.restricted(methods, meshes) for other in self.repetitions))
+                       repetitions=tuple(other.restricted(methods, meshes, degrees) for other in self.repetitions))
 
     def result_record(self, rows):
         """Returns, of the rows of one mesh, method and degree, the record of the method's resulting mesh: the first one
@@ -157,10 +160,12 @@ def read_results(folder):
     for key in ("meshes", "methods"):
         titles.update({e["name"]: str(e["title"]) for e in entries(provenance, key) if e.get("title")})
     methods = order_of(summary.text("method"), provenance, "methods")
+    declared = [entry["name"] for entry in entries(provenance, "methods")]
     return by_seed(Results(
         folder=folder, study=study, study_title=str(provenance.get("study_title") or study),
         meshes=order_of(summary.text("mesh"), provenance, "meshes"),
         methods=tuple(method for method in methods if method != INITIAL),
+        study_methods=tuple(dict.fromkeys(name for name in (*declared, *methods) if name != INITIAL)),
         degrees=tuple(sorted({degree for degree in summary.text("degree") if degree}, key=float)),
         titles=titles, summary=summary, iterations=iterations, thresholds=thresholds,
         provenance=provenance, solutions=solutions, refined=refined))

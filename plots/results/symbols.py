@@ -17,8 +17,8 @@ SYMBOLS = {
     "q_star_min": Heading("q*_min", r"$q^{*}_{\min}$"),
     "e_max": Heading("e_max", r"$e_{\max}$"), "e_mean": Heading("e_mean", r"$e_{\mathrm{mean}}$"),
     "e_l2": Heading("e_L2", r"$e_{L^2}$"), "e_h1": Heading("e_H1", r"$e_{H^1}$"),
-    "l2_error": Heading("|u-u_h|_L2", r"$\Vert u-u_h\Vert_{L^2}$"),
-    "h1_error": Heading("|u-u_h|_H1", r"$\Vert u-u_h\Vert_{H^1}$"),
+    "l2_error": Heading("L2 error", r"$\Vert u-u_h\Vert_{L^2}$"),
+    "h1_error": Heading("H1 error", r"$\Vert u-u_h\Vert_{H^1}$"),
     "lambda_min": Heading("lambda_min", r"$\lambda_{\min}$"),
     "lambda_max": Heading("lambda_max", r"$\lambda_{\max}$"),
     "w_max": Heading("w_max", r"$w_{\max}$"), "w_mean": Heading("w_mean", r"$w_{\mathrm{mean}}$"),
@@ -27,6 +27,19 @@ SYMBOLS = {
     "smoothing_seconds": Heading("Smoothing time (s)", "Smoothing time (s)"),
     "iteration": Heading("Iteration", "Iteration"), "n_solves": Heading("Solves", "Solves"),
 }
+
+
+# Norms of the nodal interpolant of the error, as in the thesis. The true errors are h1_error and l2_error.
+THESIS_NORMS = ("e_max", "e_mean", "e_l2", "e_h1")
+
+# For file names.
+SHORT_COLUMNS = {"h1_error": "h1", "l2_error": "l2", "condition_number": "cond", "cg_iterations": "cg",
+                 "smoothing_seconds": "time", "preparation_seconds": "preparation", "iteration": "iterations"}
+
+
+def short_column(column):
+    """A short name of a column: h1 for h1_error."""
+    return SHORT_COLUMNS.get(column, column)
 
 
 def symbol_of(column):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Callable, Optional
 
 from ..results.rows import ResultsError
-from ..results.symbols import SYMBOLS, Heading
+from ..results.symbols import SYMBOLS, THESIS_NORMS, Heading
 from . import number_format as form
 
 
@@ -22,6 +22,8 @@ class Measure:
     only_if_printed: bool = False  # the column is left out if the thesis has no printed value
     detail: bool = False  # the same if there is also a table of details
     ranks_methods: bool = True  # whether the methods' order by it is compared with the printed one
+    of_thesis: bool = False  # the column is left out of studies that are not in the thesis
+    tied: bool = False  # stays next to the column before it
 
     def numbers(self, fields):
         """Returns the fields of a column of a CSV file as numbers (None if they are shown as they stand) and as the
@@ -96,8 +98,8 @@ SOLVER = TableDescription(
 ERRORS = TableDescription(
     content="errors", source="summary", keys=("mesh", "degree", "method"),
     caption="Finite element solution errors",
-    measures=tuple(Measure(name, SYMBOLS[name], form.format_error)
-                   for name in ("e_max", "e_mean", "e_l2", "e_h1")))
+    measures=(*(Measure(name, SYMBOLS[name], form.format_error) for name in ("h1_error", "l2_error")),
+              *(Measure(name, SYMBOLS[name], form.format_error, of_thesis=True) for name in THESIS_NORMS)))
 
 THRESHOLDS = TableDescription(
     content="thresholds", source="thresholds", keys=("mesh", "degree", "error"), pivot=True,
@@ -106,11 +108,11 @@ THRESHOLDS = TableDescription(
         Measure("threshold", Heading("Threshold", "Threshold"), form.format_error),
         Measure("reference_seconds", TIME, form.format_seconds, difference=False),
         Measure("method_seconds", TIME, form.format_seconds, difference=False),
-        Measure("speedup", Heading("Speedup", "Speedup"), form.format_factor, difference=False)))
+        Measure("speedup", Heading("Speedup", "Speedup"), form.format_factor, difference=False, tied=True)))
 
 DETAILS = TableDescription(
     content="details", source="summary", keys=("mesh", "degree", "method"),
-    caption="Further quality numbers, extreme eigenvalues and true errors (by quadrature)",
+    caption="Further quality numbers and extreme eigenvalues",
     needs="n_dofs",
     measures=(
         Measure("q_star_min", SYMBOLS["q_star_min"], form.format_quality),
@@ -123,9 +125,21 @@ DETAILS = TableDescription(
         # That of planar studies by default; where methods differ, a reader has to know.
         Measure("condition_method", Heading("cond(A) by", r"$\mathrm{cond}(A)$ by"), None,
                 difference=False, unremarkable=("lanczos+cholesky",)),
-        Measure("l2_error", SYMBOLS["l2_error"], form.format_error),
-        Measure("h1_error", SYMBOLS["h1_error"], form.format_error),
         Measure("status", Heading("Status", "Status"), None, difference=False,
                 unremarkable=("ok", "not solved"))))
+
+# What headings mean; below each table that has the column.
+MEANINGS = {
+    "iterations": "Iterations: all that were run, of each stage; the result can be the mesh of an earlier one",
+    "preparation_seconds": "Preparation: work before the main loops, which Time does not include",
+    "q_star_min": "q*_min: smallest mean ratio of the cells with a free node",
+    "condition_residual": "Eigen residual: largest relative error that the extreme eigenvalues can have",
+    "condition_method": "cond(A) by: how the condition number was computed",
+    **dict.fromkeys(("jacobi_cg_iterations", "amg_cg_iterations"), "with Jacobi, with AMG: CG iterations with the diagonal or "
+                    "algebraic multigrid as preconditioner"),
+    **dict.fromkeys(("h1_error", "l2_error"), "H1 and L2 error: norms of the true error, solution less finite element solution"),
+    **dict.fromkeys(THESIS_NORMS, "e_max, e_mean, e_L2, e_H1: norms of the thesis, of the error at the nodes or of its "
+                    "interpolant there")}
+NORMS_MEANING = "Error: a norm of the thesis, of the error at the nodes or of its interpolant there; not the true error"
 
 TABLES = (SMOOTHING, WARPAGE, SOLVER, ERRORS, THRESHOLDS, DETAILS)

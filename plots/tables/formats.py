@@ -10,6 +10,9 @@ from dataclasses import replace
 from .number_format import MISSING
 
 TERMINAL_WIDTH = 110
+# A number, its part before the decimal point, and the rest.
+NUMBER = re.compile(r"([-+]?\d[\d,]*)((?:\.\d*)?(?:e[-+]?\d+)?)")
+FIGURE_SPACE = "\N{FIGURE SPACE}"  # as wide as a digit; Markdown drops other blanks at the end of a cell
 GAP = 2  # blanks between groups; within a group there is one
 
 SUPERSCRIPTS = dict(zip("abcdefghij", "ᵃᵇᶜᵈᵉᶠᵍʰⁱʲ"))
@@ -33,15 +36,28 @@ def as_text(table, width=TERMINAL_WIDTH):
 
 
 def split(table, width, width_of):
-    """Tables of some groups each, as many in each as fit a width; `width_of` is that of a group."""
+    """Tables of some groups each, as many in each as fit a width; `width_of` is that of a group. Tied groups stay next to
+    those before them."""
     panels, used = [[]], 0
-    for group in table.groups:
-        if panels[-1] and used + width_of(group) > width:
+    for block in blocks(table.groups):
+        needed = sum(map(width_of, block))
+        if panels[-1] and used + needed > width:
             panels.append([])
             used = 0
-        panels[-1].append(group)
-        used += width_of(group)
+        panels[-1].extend(block)
+        used += needed
     return [replace(table, groups=tuple(panel)) for panel in panels]
+
+
+def blocks(groups):
+    """The groups as lists; the groups of a list stay together."""
+    found = []
+    for group in groups:
+        if group.tied and found:
+            found[-1].append(group)
+        else:
+            found.append([group])
+    return found
 
 
 def panel_lines(table):
@@ -50,16 +66,11 @@ def panel_lines(table):
     keys = (" " * GAP).join(h.text.ljust(w) for h, w in zip(table.key_headings, widths))
     first = [keys] + [g.heading.text.center(group_width(g)) for g in table.groups]
     second = [" " * len(keys)] + [joined(g, g.subheadings) for g in table.groups]
+    columns = [(group, list(zip(*aligned_columns(group)))) for group in table.groups]
     body = []
     for number, key in enumerate(table.keys):
         cells = [(" " * GAP).join(c.text.ljust(w) for c, w in zip(key, widths))]
-        for group in table.groups:
-            marked = any(cell.mark for row in group.cells for cell in row)
-            # Without the blank after unmarked numbers the digits would not stand in columns.
-            cells.append(joined(group, [cell.text + (superscript(cell.mark) or
-                                                     (" " if marked and i == 1 else ""))
-                                        for i, cell in enumerate(group.cells[number])],
-                                left=group.heading.text in table.left_aligned))
+        cells += [joined(group, rows[number], left=group.heading.text in table.left_aligned) for group, rows in columns]
         body.append((" " * GAP).join(cells))
     gap = " " * GAP
     length = max(len(line) for line in body)
@@ -75,13 +86,32 @@ def key_widths(table):
             for i, heading in enumerate(table.key_headings)]
 
 
+def split_number(text):
+    """A number before its decimal point, and the rest: ("7", ".39e+02"); None for words."""
+    match = NUMBER.fullmatch(text)
+    return match and (match[1], match[2])
+
+
+def aligned(texts, marks, blank=" "):
+    """The texts of a column with their marks. Numbers have blanks behind them, so that, flush right, their decimal
+    points stand below each other."""
+    parts = [split_number(text) for text in texts]
+    behind = [len(part[1]) + len(mark) for part, mark in zip(parts, marks) if part]
+    room = max(behind, default=0)
+    return [text + mark + (blank * (room - len(part[1]) - len(mark)) if part else "")
+            for text, mark, part in zip(texts, marks, parts)]
+
+
+def aligned_columns(group, blank=" "):
+    """The texts of each of a group's columns."""
+    return [aligned([cell.text for cell in column], [superscript(cell.mark) for cell in column], blank)
+            for column in zip(*group.cells)]
+
+
 def column_widths(group):
     """Width of each of a group's columns, so that the group is as wide as its heading."""
-    widths = []
-    for i, subheading in enumerate(group.subheadings):
-        column = [row[i] for row in group.cells]
-        mark = max(len(superscript(cell.mark)) for cell in column)
-        widths.append(max([len(subheading)] + [len(cell.text) + mark for cell in column]))
+    columns = aligned_columns(group) or [() for _ in group.subheadings]
+    widths = [max([len(subheading), *map(len, column)]) for subheading, column in zip(group.subheadings, columns)]
     missing = len(group.heading.text) - (sum(widths) + len(widths) - 1)
     widths[0] += max(0, missing)
     return widths
@@ -134,21 +164,22 @@ def machine_text(text):
     return "" if text == MISSING else re.sub(r"(?<=\d),(?=\d{3}(\D|$))", "", text)
 
 
+def markdown_cell(text, mark):
+    """A text for a Markdown page; its mark becomes a superscript."""
+    return escape_markdown(text).replace(superscript(mark), f"<sup>{mark}</sup>") if mark else escape_markdown(text)
+
+
 def as_markdown(table):
     """The table for a Markdown page; headings are repeated in each column."""
-    def marked(cell):
-        return escape_markdown(cell.text) + (f"<sup>{cell.mark}</sup>" if cell.mark else "")
-
-    alignment = [":--" for _ in table.key_headings]
+    columns = [[escape_markdown(row[i].text) for row in table.keys] for i in range(len(table.key_headings))]
+    alignment = [":--" for _ in columns]
     for group in table.groups:
-        left = group.heading.text in table.left_aligned
-        alignment += [":--" if left else "--:" for _ in group.subheadings]
+        columns += [[markdown_cell(text, cell.mark) for text, cell in zip(texts, cells)]
+                    for texts, cells in zip(aligned_columns(group, FIGURE_SPACE), zip(*group.cells))]
+        alignment += [":--" if group.heading.text in table.left_aligned else "--:" for _ in group.subheadings]
     headings = " | ".join(escape_markdown(heading) for heading in column_headings(table))
-    lines = [f"**{escape_markdown(table.caption)}**", "", f"| {headings} |", f"|{'|'.join(alignment)}|"]
-    for number, key in enumerate(table.keys):
-        cells = list(key) + [cell for group in table.groups for cell in group.cells[number]]
-        lines.append("| " + " | ".join(marked(cell) for cell in cells) + " |")
-    lines.append("")
+    lines = [f"**{escape_markdown(table.caption)}**", "", f"| {headings} |", f"|{'|'.join(alignment)}|",
+             *("| " + " | ".join(row) + " |" for row in zip(*columns)), ""]
     for letter, sentence in table.notes:
         lines.append((f"<sup>{letter}</sup> " if letter else "") + escape_markdown(sentence) + "  ")
     return "\n".join(lines).rstrip() + "\n"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes a Table as LaTeX (booktabs, graphicx)."""
 
-from .formats import group_width, key_widths, split
+from .formats import group_width, key_widths, split, split_number
 from .table import escape_tex
 
 # Points: a digit of \footnotesize, the space of a column, the line of an article.
@@ -52,32 +52,52 @@ def panels_of(table):
 
 
 def tabular(table):
-    """The lines of one panel."""
-    columns = "l" * len(table.key_headings)
-    first, second, rules, column = [h.tex for h in table.key_headings], [], [], len(columns) + 1
-    second = ["" for _ in first]
+    """The lines of one panel. Columns of numbers with different decimals have two columns each, which meet at the point."""
+    first, second, rules = [h.tex for h in table.key_headings], ["" for _ in table.key_headings], []
+    columns, rows = "l" * len(table.key_headings), [[tex_cell(cell) for cell in key] for key in table.keys]
+    place = len(table.key_headings) + 1  # of the next column
     for group in table.groups:
-        n = len(group.subheadings)
-        columns += "l" if group.heading.text in table.left_aligned else "r" * n
-        first.append(rf"\multicolumn{{{n}}}{{c}}{{{group.heading.tex}}}" if n > 1
-                     else group.heading.tex)
-        second += [escape_tex(subheading) for subheading in group.subheadings]
-        rules += [rf"\cmidrule(lr){{{column}-{column + n - 1}}}"] if n > 1 else []
-        column += n
+        is_left = group.heading.text in table.left_aligned
+        divided = [not is_left and is_uneven(column) for column in zip(*group.cells)] or [False] * len(group.subheadings)
+        width = len(divided) + sum(divided)
+        columns += "".join("l" if is_left else "r@{}l" if each else "r" for each in divided)
+        first.append(rf"\multicolumn{{{width}}}{{c}}{{{group.heading.tex}}}" if width > 1 else group.heading.tex)
+        second += [rf"\multicolumn{{2}}{{c}}{{{escape_tex(subheading)}}}" if each else escape_tex(subheading)
+                   for subheading, each in zip(group.subheadings, divided)]
+        rules += [rf"\cmidrule(lr){{{place}-{place + width - 1}}}"] if len(divided) > 1 else []
+        place += width
+        for row, cells in zip(rows, group.cells):
+            row += [divided_cell(cell) if each else tex_cell(cell) for cell, each in zip(cells, divided)]
     header = [" & ".join(first) + r" \\"]
-    if any(second):
+    if any(part for part in second if not part.endswith("{}")):
         header += ["".join(rules), " & ".join(second) + r" \\"]
-    body = []
-    for number, key in enumerate(table.keys):
-        if number in table.rules:
-            body.append(r"\addlinespace")
-        cells = list(key) + [cell for group in table.groups for cell in group.cells[number]]
-        body.append(" & ".join(tex_cell(cell) for cell in cells) + r" \\")
+    body = [(r"\addlinespace" + "\n" if number in table.rules else "") + " & ".join(row) + r" \\"
+            for number, row in enumerate(rows)]
     return [rf"\begin{{tabular}}{{{columns}}}", r"\toprule", *header, r"\midrule", *body,
             r"\bottomrule", r"\end{tabular}"]
 
 
+def is_uneven(cells):
+    """True if numbers of a column have different numbers of decimals, or powers of ten."""
+    return len({len(part[1]) for cell in cells if (part := split_number(cell.text))}) > 1
+
+
+def divided_cell(cell):
+    """A number as two cells that meet at its decimal point; words go across both."""
+    part = split_number(cell.text)
+    if not part:
+        return rf"\multicolumn{{2}}{{r}}{{{tex_cell(cell)}}}"
+    decimals, _, power = part[1].partition("e")
+    whole = f"${part[0]}$" if part[0][0] in "+-" else part[0]
+    behind = rf"${decimals}\cdot10^{{{int(power)}}}$" if power else decimals
+    return f"{whole} & {behind}{mark_of(cell)}"
+
+
 def tex_cell(cell):
-    """A cell in LaTeX with its mark; \\rlap keeps the digits of marked numbers in their columns."""
-    text = cell.tex or escape_tex(cell.text)
-    return text + (rf"\rlap{{\textsuperscript{{{cell.mark}}}}}" if cell.mark else "")
+    """A cell in LaTeX with its mark."""
+    return (cell.tex or escape_tex(cell.text)) + mark_of(cell)
+
+
+def mark_of(cell):
+    """The mark of a note, or an empty string; \\rlap keeps the digits of marked numbers in their columns."""
+    return rf"\rlap{{\textsuperscript{{{cell.mark}}}}}" if cell.mark else ""

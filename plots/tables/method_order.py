@@ -50,7 +50,7 @@ def order_notes(description, pairs, results):
     exceptions = [f"• {case}, {name}: {sentence}" for case, numbers in cases.items()
                   for name, entries in numbers for sentence in disagreements(entries)]
     names = " and ".join(filter(None, (", ".join(compared[:-1]), compared[-1])))
-    beginning = f"The order of the methods by {names} is the printed one"
+    beginning = f"The order of the methods by {names} is that of the thesis"
     return [f"{beginning}, but for these:", *exceptions] if exceptions else [f"{beginning}."]
 
 
@@ -107,5 +107,5 @@ def disagreements(entries):
                 named = ", ".join(f"{other.method} ({other.computed_shown})" for other in partners)
                 numbers = ", ".join(other.printed_shown for other in partners)
                 sentences.append(f"{misplaced.method} ({misplaced.computed_shown}) {computed} {named}; "
-                                 f"printed {misplaced.printed_shown} {printed} {numbers}")
+                                 f"thesis: {misplaced.printed_shown} {printed} {numbers}")
     return sentences

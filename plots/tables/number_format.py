@@ -6,6 +6,11 @@ import re
 
 MISSING = "–"
 
+# Seconds: the noise of clock and scheduler is more than a tenth of shorter times.
+CLOCK = 1e-4
+BELOW_CLOCK = f"<{CLOCK:.4f}"
+# What four decimals would show as zero, as invalid cells have it.
+LEAST_QUALITY = 1e-4
 # Below this, four decimals would leave fewer than two digits.
 SMALLEST_FIXED = 1e-3
 # From this factor on, percents are hard to read.
@@ -28,15 +33,28 @@ def format_scientific(values):
 
 
 def format_quality(values):
-    """Four decimals, as the thesis prints mean ratio numbers."""
-    return formatted(values, ".4f")
+    """Four decimals, as the thesis prints mean ratio numbers. Tiny numbers are not shown as zero."""
+    return [f"<{LEAST_QUALITY:.4f}" if 0 < value < LEAST_QUALITY else text
+            for value, text in zip(values, formatted(values, ".4f"))]
 
 
 def format_seconds(values):
-    """Formats times with at least three decimals, and more if the shortest time needs them for two digits."""
-    shortest = min((v for v in values if v > 0), default=1.0)
-    decimals = min(max(3, 1 - math.floor(math.log10(shortest))), 6)
-    return formatted(values, f".{decimals}f")
+    """Formats times with at least three decimals, and more if the shortest time needs them for two digits. Times that the
+    clock cannot tell from zero are called so."""
+    shortest = min((v for v in values if v >= CLOCK), default=1.0)
+    decimals = max(3, 1 - math.floor(math.log10(shortest)))
+    return [BELOW_CLOCK if 0 <= value < CLOCK else text for value, text in zip(values, formatted(values, f".{decimals}f"))]
+
+
+def seconds_text(value):
+    """Three digits of a time, unless the clock cannot tell it from zero."""
+    return BELOW_CLOCK if 0 <= value < CLOCK else f"{value:.3g}"
+
+
+def format_numbers(values):
+    """Whole numbers as such, others with four decimals or an exponent."""
+    whole = all(math.isnan(value) or value == round(value) for value in values)
+    return format_integer(values) if whole else format_error(values)
 
 
 def format_factor(values):

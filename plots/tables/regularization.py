@@ -31,7 +31,7 @@ def compared(heading, texts, printed):
     """Returns a group of computed numbers, printed numbers and their difference; only computed numbers if none are printed."""
     if not any(printed):
         return Group(Heading(heading, heading), ("",), tuple((number_cell(t),) for t in texts))
-    return Group(Heading(heading, heading), ("smoothfem", "printed", "%"), tuple(
+    return Group(Heading(heading, heading), ("smoothfem", "thesis", "%"), tuple(
         (number_cell(computed), number_cell(theirs or MISSING),
          number_cell(relative_difference(float(computed), theirs or "")))
         for computed, theirs in zip(texts, printed)))

@@ -4,7 +4,7 @@
 import math
 
 from ..results.smoothing import INITIAL
-from .number_format import MISSING
+from .number_format import MISSING, format_quality, seconds_text
 
 MAX_ROWS = 40  # of all meshes and degrees together; the tables have the others
 BEST = "*"
@@ -44,8 +44,13 @@ def plain(name):
     return lambda row, initial: number(row, name)
 
 
-QUALITY = (Column("q_min", plain("q_min"), "{:.4f}".format, max), Column("q_mean", plain("q_mean"), "{:.4f}".format, max))
-TIME = (Column("time [s]", smoothing_seconds, "{:.3g}".format),)
+def quality_text(value):
+    """Four decimals; tiny numbers are not shown as zero, which invalid meshes have."""
+    return format_quality([value])[0]
+
+
+QUALITY = (Column("q_min", plain("q_min"), quality_text, max), Column("q_mean", plain("q_mean"), quality_text, max))
+TIME = (Column("time [s]", smoothing_seconds, seconds_text),)
 SOLUTION = (Column("H1 error", factor("h1_error"), "{:.3f}".format, min), Column("L2 error", factor("l2_error"), "{:.3f}".format, min),
             Column("CG", plain("cg_iterations"), "{:.0f}".format, min))
 ERRORS = "H1 and L2 error: true errors, as factors of the initial mesh's. CG: iterations."

@@ -32,7 +32,8 @@ def seed_table(description, results):
         raise ResultsError(f"{results.summary.path}: not every seed has the same meshes and methods; "
                            "run the study again.")
     groups = [seed_group(measure, [[found[key].get(measure.column, "") for key in keys] for found in of_seeds])
-              for measure in description.measures if measure.format and not measure.only_if_printed]
+              for measure in description.measures if measure.format and not measure.only_if_printed
+              and (results.thesis_study or not measure.of_thesis)]
     groups = tuple(group for group in groups if group is not None)
     if not groups:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fills the tables of Chapters 5 and 6 of the thesis: computed numbers, printed numbers, their difference.
+"""Fills the tables of Chapters 5 and 6 of the thesis: computed numbers, those of the thesis, their difference.
 
 All tables have one mechanism; descriptions.py has their differences.
 """
@@ -10,16 +10,18 @@ from ..results.printed_values import comparison_notes
 from ..results.rows import ResultsError
 from ..results.smoothing import INITIAL
 from ..results.symbols import SYMBOLS, Heading
-from .descriptions import DETAILS, KEY_HEADINGS, TABLES
+from .descriptions import DETAILS, KEY_HEADINGS, MEANINGS, NORMS_MEANING, TABLES
 from .method_order import order_notes
 from .notes import Notes
-from .number_format import MISSING, relative_difference
+from .number_format import BELOW_CLOCK, CLOCK, MISSING, format_seconds, relative_difference
 from .table import Cell, Group, Table, escape_tex, number_cell
 
 
-COLUMNS_NOTE = ("Columns: the value of smoothfem, the printed value, and where it makes sense the relative difference "
-                "in %. From ten times the printed value on, the difference is a factor (=: equal in all printed "
+COLUMNS_NOTE = ("Columns: the value of smoothfem, that of the thesis, and where it makes sense the relative difference "
+                "in %. From ten times the value of the thesis on, the difference is a factor (=: equal in all printed "
                 "digits).")
+CLOCK_NOTE = f"{BELOW_CLOCK}: too short to be timed; no speedup is computed from such times."
+INVALID = "invalid mesh"  # in the status of a mesh on which nothing is solved
 
 
 def make_tables(results, printed):
@@ -37,8 +39,11 @@ def make_table(description, results, printed):
     if not has_what_it_needs(description, rows):
         return None
     reference = printed.rows if printed else []
-    rows, sentences = (rows, ()) if description is DETAILS else without_failures(rows, description.keys, results)
+    rows, sentences = without_failures(rows, description.keys, results)
+    if description is not DETAILS:
+        sentences += invalid_meshes(rows, results)
     if description.pivot:
+        rows = without_noise(rows)
         sentences += unreached(rows, results)
         description, rows, reference = pivot(description, rows, reference, results)
     rows = in_study_order(rows, description.keys, results)
@@ -46,25 +51,30 @@ def make_table(description, results, printed):
     for row in reference:
         by_key.setdefault(key_of(row, description.keys), {}).update(row)
     pairs = [(row, by_key.get(key_of(row, description.keys), {})) for row in rows]
-    compared = any(printed_row for _, printed_row in pairs)
+    in_thesis = any(printed_row for _, printed_row in pairs)
+    compared = in_thesis and not results.is_quick
+    pairs = pairs if compared else [(row, {}) for row, _ in pairs]
     notes = Notes(printed.deviations if printed and compared else [], pairs)
     detailed = has_what_it_needs(DETAILS, rows)
-    groups = [make_group(measure, pairs, notes, measure.only_if_printed or (measure.detail and detailed))
-              for measure in description.measures]
-    groups = tuple(group for group in groups if group is not None)
+    groups = {measure: make_group(measure, pairs, notes, measure.only_if_printed or (measure.detail and detailed))
+              for measure in description.measures if in_thesis or not measure.of_thesis}
+    groups = {measure: group for measure, group in groups.items() if group is not None}
     if not rows or not groups:
         return None
     keys, rules = key_cells(rows, description.keys, results)
     name, caption = description.content, f"{results.study_title}: {description.caption}"
-    sentences += notes.sentences()
-    if compared:
+    sentences = meanings(description.keys, groups, rows) + sentences + notes.sentences()
+    if in_thesis:
         name = f"{printed.number.replace('.', '_')}_{name}"
         caption = f"Table {printed.number}: {caption}"
+    if in_thesis and not compared:
+        sentences += (("", f"Not compared with Table {printed.number} of the thesis: meshes of the scale `quick` are too coarse."),)
+    if compared:
         sentences = tuple(("", sentence) for sentence in (
             *comparison_notes(printed, results), COLUMNS_NOTE,
             *order_notes(description, pairs, results))) + sentences
     return Table(study=results.study, name=f"table_{name}", caption=caption, keys=keys, rules=rules,
-                 groups=groups,
+                 groups=tuple(groups.values()),
                  key_headings=tuple(KEY_HEADINGS[key] for key in description.keys),
                  left_aligned=("Status", "cond(A) by"), notes=sentences)
 
@@ -82,9 +92,38 @@ def without_failures(rows, keys, results):
         status = results.failures.get((row["mesh"], row["method"])) if "status" in row else None
         if status:
             sentences[f"{results.title(row['method'])}, {results.title(row['mesh'])}: {status.rstrip('.')}."] = None
-            row = {name: field for name, field in row.items() if name in keys}
+            row = {**{name: field for name, field in row.items() if name in keys}, "status": "failed"}
         left.append(row)
     return left, tuple(("", sentence) for sentence in sentences)
+
+
+def invalid_meshes(rows, results):
+    """A note for each method that ended with an invalid mesh: its numbers are dashes."""
+    found = {}
+    for row in rows:
+        if INVALID in row.get("status", ""):
+            cells = row.get("n_invalid", "")
+            count = f" ({cells} cell{'' if cells == '1' else 's'})" if cells not in ("", "0") else ""
+            found[f"{results.title(row['method'])}, {results.title(row['mesh'])}: the mesh is invalid{count}; nothing was solved "
+                  "on it."] = None
+    return tuple(("", sentence) for sentence in found)
+
+
+def without_noise(rows):
+    """The rows; those with a time that is too short for a quotient have no speedup."""
+    def is_short(field):
+        return bool(field) and float(field) < CLOCK
+    return [{**row, "speedup": ""} if is_short(row["method_seconds"]) or is_short(row["reference_seconds"]) else row
+            for row in rows]
+
+
+def meanings(keys, groups, rows):
+    """A note on what the headings mean, and one on times that are too short."""
+    shown = list(dict.fromkeys(MEANINGS[measure.column] for measure in groups if measure.column in MEANINGS))
+    shown += [NORMS_MEANING] if "error" in keys and rows else []
+    texts = {cell.text for measure, group in groups.items() if measure.format is format_seconds
+             for row in group.cells for cell in row}
+    return (*([("", "; ".join(shown) + ".")] if shown else []), *([("", CLOCK_NOTE)] if BELOW_CLOCK in texts else []))
 
 
 def first_degree(row, rows):
@@ -165,14 +204,14 @@ def make_group(measure, pairs, notes, only_if_printed):
         marks = ["" if printed is None else notes.letter(measure.column, row)
                  for row, printed in enumerate(prints)]
         columns.append([number_cell(printed or MISSING, mark) for printed, mark in zip(prints, marks)])
-        subheadings.append("printed")
+        subheadings.append("thesis")
         if measure.difference and values is not None:
             columns.append([number_cell(relative_difference(value, printed or ""))
                             for value, printed in zip(values, prints)])
             subheadings.append("%")
     else:
         subheadings = [""]
-    return Group(measure.heading, tuple(subheadings), tuple(zip(*columns)))
+    return Group(measure.heading, tuple(subheadings), tuple(zip(*columns)), measure.tied)
 
 
 def key_cells(rows, keys, results):

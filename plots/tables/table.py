@@ -23,6 +23,7 @@ class Group:
     heading: Heading
     subheadings: tuple
     cells: tuple  # one tuple of cells for each row
+    tied: bool = False  # stays next to the group before it
 
 
 @dataclass(frozen=True)

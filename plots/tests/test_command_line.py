@@ -14,7 +14,9 @@ from pathlib import Path
 from unittest import mock
 
 from plots.__main__ import main
-from plots.command_line import own_names
+from plots.results.names import find_column
+from plots.results.request import Request
+from plots.results.rows import read_rows
 from plots.tests.synthetic_polygons import write_polygon_results
 from plots.tests.synthetic_results import change_provenance, write_csv, write_results
 from plots.tests.test_read_results import InFolder
@@ -81,6 +83,8 @@ class Options(CommandLine):
                               (("--only", "x*"), r"figure or table 'x\*'; choose one of smoothing, solver, "),
                               (("--methods", "getmee"), "method 'getmee'; did you mean 'getme'? choose one of getme"),
                               (("--meshes", "trii"), "mesh 'trii'; did you mean 'tri'? choose one of tri"),
+                              (("--y", "H1norm"), "column 'H1norm'; did you mean 'h1_error'?"),
+                              (("--y", "e_h1x"), "column 'e_h1x'; did you mean 'e_h1'?"),
                               (("--y", "e_maks"), "column 'e_maks'; did you mean 'e_max'? choose one of iteration, "),
                               (("--x", "cg_itrations"), "column 'cg_itrations'; did you mean 'cg_iterations'?"),
                               (("--y", "cnd(A)"), r"column 'cnd\(A\)'; did you mean 'condition_number'?")):
@@ -90,7 +94,9 @@ class Options(CommandLine):
 
     def test_values_that_cannot_be_used(self):
         for options, said in ((("--width", "84cm"), "is not a width from 2in to 30in"),
-                              (("--width", "1mm"), "such as 84mm or 3.3in"), (("--format", "jpg"), "choose from pdf, png"),
+                              (("--x-range", "2:1"), "is not a range such as 0:0.5"), (("--y-range", ":"), "is not a range"),
+                              (("--columns", "mesh", "--y", "H1"), "use one command for each"),
+                              (("--width", "1mm"), "such as 84mm, 8.4cm or 3.3in"), (("--format", "jpg"), "choose from pdf, png"),
                               (("--y", "e_max", "--no-figures"), "leave out --no-figures"), (("--wide",), "unrecognized")):
             self.assertIn(said, self.refused(*options))
 
@@ -104,18 +110,24 @@ class Options(CommandLine):
 
     def test_a_history_of_other_columns(self):
         self.assertEqual(self.made("--y", "q_min,cg_iterations", "--x", "iteration", "--format", "png")[0],
-                         {f"history_q_min_cg_iterations_over_iteration_d{d}.png" for d in "12"})
+                         {f"history_q_min_cg_iterations_d{d}.png" for d in "12"})
         self.assertEqual(self.made("--y", "cond(A),q*_min,e_L2", "--x", "Smoothing time", "--format", "png")[0],
-                         {f"history_condition_number_q_star_min_e_l2_over_smoothing_seconds_d{d}.png" for d in "12"})
+                         {f"history_cond_q_star_min_e_l2_time_d{d}.png" for d in "12"})
         self.assertEqual(self.made("--y", "Cond", "--format", "png")[0],
-                         {f"history_condition_number_d{d}.png" for d in "12"})
-        self.assertEqual(self.made("--y", "q_min", "--log-x", "--format", "png")[0], {"history_q_min_log_x.png"})
-        self.assertEqual(self.made("--log-y", "--only", "history_log_y*,errors", "--format", "png")[0],
-                         {"history_log_y_d1.png", "history_log_y_d2.png", "table_6_3_errors.csv",
+                         {f"history_cond_d{d}.png" for d in "12"})
+        self.assertEqual(self.made("--y", "q_min", "--log-x", "--format", "png")[0], {"history_q_min_logx.png"})
+        self.assertEqual(self.made("--log-y", "--only", "history_log*,errors", "--format", "png")[0],
+                         {"history_log_d1.png", "history_log_d2.png", "table_6_3_errors.csv",
                           "table_6_3_errors.md", "table_6_3_errors.tex"})
 
+    def test_true_errors_have_short_names(self):
+        numbers = ["q_min", "e_l2", "e_h1", "l2_error", "h1_error", "condition_number"]
+        for wanted, column in (("H1", "h1_error"), ("l2", "l2_error"), ("h1 error", "h1_error"), ("E_H1", "e_h1"), ("Q_Min", "q_min"),
+                               ("cond", "condition_number")):
+            self.assertEqual(find_column(wanted, numbers, numbers), column)
+
     def test_width(self):
-        for text, inches in (("84mm", 84 / 25.4), ("3.3", 3.3), ("5in", 5.0)):
+        for text, inches in (("84mm", 84 / 25.4), ("8.4 cm", 84 / 25.4), ("3.3", 3.3), ("5in", 5.0)):
             _, out = self.made("--width", text, "--only", "history,model", "--format", "png")
             for path in (out / "figures").iterdir():
                 width, = struct.unpack(">I", path.read_bytes()[16:20])  # of the PNG's header
@@ -123,20 +135,61 @@ class Options(CommandLine):
 
     def test_one_figure_into_a_file(self):
         before = sorted(self.results.rglob("*"))
-        for options, names in ((("--only", "history_log_time"), {"fig.pdf"}), (("--y", "q_min", "--width", "3.4in"), {"fig.pdf"}),
-                               (("--x", "smoothing_seconds", "--y", "e_h1"), {"fig_d1.pdf", "fig_d2.pdf"})):
-            with tempfile.TemporaryDirectory() as folder:
-                code, output, errors = self.run_main(self.results, "--methods", "getme", *options, "-o", f"{folder}/fig.pdf")
-                self.assertEqual((code, errors), (0, ""))
-                self.assertEqual({path.name for path in Path(folder).iterdir()}, names)
-                self.assertEqual(output, "".join(f"wrote {folder}/{name}\n" for name in sorted(names)))
+        for options in (("--only", "history_log_time"), ("--y", "q_min", "--width", "3.4in"), ("--y", "H1", "--degrees", "1")):
+            for name in ("fig.pdf", "FIG.PNG"):
+                with tempfile.TemporaryDirectory() as folder:
+                    code, output, errors = self.run_main(self.results, "--methods", "getme", *options, "-o", f"{folder}/{name}")
+                    self.assertEqual((code, errors, output), (0, "", f"wrote {folder}/{name}\n"))
+                    self.assertEqual([path.name for path in Path(folder).iterdir()], [name])
         self.assertEqual(sorted(self.results.rglob("*")), before)
         self.assertIn("no figure to draw into fig.svg", self.refused("--only", "claims", "-o", "fig.svg"))
         self.assertIn("fig.svg is a figure", self.refused("--no-figures", "-o", "fig.svg"))
+        self.assertEqual(self.refused("--y", "H1", "-o", "fig.pdf"), "fig.pdf has room for one figure, but there are 2: history_h1_d1, "
+                         "history_h1_d2; choose one by --degrees, or give a folder.\n")
+        self.assertIn("choose one by --only", self.refused("--only", "history*", "-o", "fig.pdf"))
+        self.results = write_results(self.folder / "two", meshes=("tri", "quad"))
+        self.assertIn("choose one by --degrees and --meshes,", self.refused("--y", "H1", "--width", "84mm", "-o", "fig.pdf"))
+        self.assertIn("says the format already", self.refused("--y", "q_min", "--format", "png", "-o", "fig.pdf"))
 
-    def test_names_that_tell_figures_apart(self):
-        self.assertEqual(own_names(["history_a_d1", "history_b_d1"], "f"), ["f_a_d1", "f_b_d1"])
-        self.assertEqual(own_names(["meshes", "meshes_full"], "f"), ["f_meshes", "f_meshes_full"])
+    def test_files_of_unknown_formats_are_no_folders(self):
+        for name in ("f.eps", "f.jpg"):
+            self.assertIn(f"{name[2:]} is not one of pdf, png, svg ", self.refused("--y", "q_min", "-o", self.folder / name))
+            self.assertFalse((self.folder / name).exists())
+        for name in ("v1.2", "f.eps/"):
+            self.assertEqual(self.run_main(self.results, "--only", "errors", "-o", f"{self.folder}/{name}", "--quiet")[0], 0)
+            self.assertTrue((self.folder / name / "tables").is_dir())
+
+    def test_names_of_histories_are_short(self):
+        self.assertEqual(Request(y=("h1_error",)).history_name, "history_h1")
+        self.assertEqual(Request(y=("q_min", "h1_error"), x="iteration", log_y=True).history_name, "history_q_min_h1_iterations_log")
+        long = Request(y=("h1_error", "l2_error", "q_star_min", "jacobi_cg_iterations"), x="iteration", log_x=True).history_name
+        self.assertEqual(long, "history_h1_l2_more_iterations_logx")
+
+    def test_columns_of_a_table(self):
+        names, out = self.made("--columns", "mesh,method,H1,q_min", "--degrees", "2", "--methods", "GETMe,own")
+        self.assertEqual(names, {f"table_chosen.{suffix}" for suffix in ("csv", "md", "tex")})
+        self.assertEqual((out / "tables" / "table_chosen.csv").read_text(), "Mesh,Method,H1 error,q_min\ntri,Initial,1.5000,0.2046\n"
+                         "tri,GETMe,1.5000,0.2046\ntri,own,1.5000,0.2046\n")
+        path = self.results / "summary.csv"
+        rows = read_rows(path).records()
+        write_csv(path, list(rows[0]), [{**row, "e_max": row["degree"]} for row in rows])
+        self.assertIn("rows of the table differ by degree; add degree to --columns, or choose one of 1, 2 by --degrees",
+                      self.refused("--columns", "method,e_max"))
+        self.assertIn("column 'h1-errr'; did you mean 'h1_error'?", self.refused("--columns", "h1-errr"))
+        path = self.folder / "t.tex"
+        code, output, errors = self.run_main(self.results, "--columns", "method,q_mean,status", "--degrees", "1", "-o", path)
+        self.assertEqual((code, errors), (0, ""))
+        self.assertIn("Method", output)
+        self.assertIn(r"GETMe & 1.5000 & ok \\", path.read_text())
+        self.assertIn("room for one table, but there are", self.refused("-o", path.with_name("u.csv")))
+
+    def test_degrees(self):
+        names, out = self.made("--degrees", "2", "--y", "H1", "--format", "pdf")
+        self.assertEqual(names, {"history_h1.pdf"})
+        _, out = self.made("--degrees", "2", "--only", "errors")
+        with open(out / "tables" / "table_6_3_errors.csv", encoding="utf-8", newline="") as stream:
+            self.assertEqual({row["d"] for row in csv.DictReader(stream)}, {"2"})
+        self.assertIn("there is no degree '3'; choose one of 1, 2", self.refused("--degrees", "3"))
 
     def test_a_study_of_the_users_has_no_numbers_of_the_thesis(self):
         change_provenance(self.results, built_in=False)
@@ -248,7 +301,7 @@ class Library(CommandLine):
     def test_the_readmes_command_lines(self):
         text = (PACKAGE / "README.md").read_text(encoding="utf-8")
         lines = re.findall(r"^smoothfem plot results/gear(.*?)(?: +#.*)?$", text, re.MULTILINE)
-        self.assertEqual(len(lines), 5)
+        self.assertEqual(len(lines), 6)
         for line in lines:
             self.made(*line.replace("--out paper", "").replace("-o fig.pdf", "").replace("smart-laplace", "own").split())
 

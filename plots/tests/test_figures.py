@@ -9,10 +9,28 @@ import numpy as np
 
 from plots.__main__ import main
 from plots.figures import style
+from plots.figures.diagrams import styles_in_order
 from plots.figures.history import annotate_free_area, draw_history
+from plots.figures.history_study import plan_histories
+from plots.report.looks import SYMBOLS, looks_of
 from plots.results.smoothing import read_results
-from plots.tests.synthetic_results import without_finite_elements, write_results
+from plots.tests.synthetic_results import change_provenance, without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
+
+LEAST_DISTANCE = 15  # in CIELAB; 2 is just noticeable
+# Linear RGB as seen with normal sight, without red cones, and without green cones: G. M. Machado et al., "A
+# Physiologically-based Model for Simulation of Color Vision Deficiency" (2009).
+VIEWS = (np.eye(3),
+         np.array([[.152286, 1.052583, -.204868], [.114503, .786281, .099216], [-.003882, -.048116, 1.051998]]),
+         np.array([[.367322, .860646, -.227968], [.280085, .672501, .047413], [-.011820, .042940, .968881]]))
+XYZ = np.array([[.4124, .3576, .1805], [.2126, .7152, .0722], [.0193, .1192, .9505]])
+
+
+def lab_colour(colour, view):
+    """A colour in CIELAB as it is seen."""
+    linear = np.array([((int(colour[i:i + 2], 16) / 255 + .055) / 1.055)**2.4 for i in (1, 3, 5)])
+    x, y, z = np.cbrt(np.clip(view @ linear, 0, 1) @ XYZ.T / XYZ.sum(axis=1))
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
 
 
 class Figures(InFolder):
@@ -31,7 +49,7 @@ class Figures(InFolder):
             contents.append({path.name: path.read_bytes() for path in files})
         self.assertEqual(contents[0], contents[1])
         names = {"figure_6_2_model", "figure_6_3_meshes", "figure_6_3_meshes_full",
-                 "figure_6_4_history", "figure_6_4_history_log_time", "figure_history_d2",
+                 "figure_6_4_history", "figure_6_4_history_log_time", "figure_history_d1", "figure_history_d2",
                  "figure_histograms", "figure_histograms_log",
                  "figure_history_norms_d1", "figure_history_norms_d2"}
         self.assertEqual({path.name for path in folder.glob("figures/*")},
@@ -96,19 +114,65 @@ class Figures(InFolder):
         self.assertLessEqual({"history_a", "history_b_log_time", "histograms_a", "histograms_b_log",
                               "histogram_differences", "meshes", "meshes_full"}, names)
 
+    def test_true_errors_first_and_norms_of_the_thesis_for_its_own_study(self):
+        def columns_of(results):
+            return {figure.name: [axes.get_ylabel() for axes in figure.draw().axes[::2]] for figure in plan_histories(results)}
+        style.apply_style()
+        self.addCleanup(style.pyplot.close, "all")
+        folder = write_results(self.folder / "r", meshes=("tri", "quad"))
+        in_thesis = columns_of(read_results(folder))
+        self.assertEqual([label.split("(")[1] for label in in_thesis["figure_6_4_history"]],
+                         ["a)  $q_{\\min}$", "b)  $q_{\\mathrm{mean}}$", "c)  thesis $e_{\\max}$  ", "d)  thesis $e_{\\mathrm{mean}}$  "])
+        self.assertIn("(c)  $\\Vert u-u_h\\Vert_{H^1}$  ($d=2$)", in_thesis["figure_history_d2"])
+        change_provenance(folder, built_in=False)
+        own = columns_of(read_results(folder))
+        self.assertEqual(set(own), {"history", "history_log_time", "history_d2"})
+        self.assertNotIn("thesis", str(own))
+
+    def test_no_two_methods_look_alike(self):
+        known = list(style.KNOWN_METHODS)
+        colours = {look.colour for look in style.KNOWN_METHODS.values()}
+        self.assertFalse(colours & set(style.OWN_COLOURS))
+        for n_methods in range(1, 21):
+            for n_known in range(min(n_methods, len(known)) + 1):
+                methods = known[len(known) - n_known:] + [f"own-{i}" for i in range(n_methods - n_known)]
+                styles = style.method_styles(methods + [methods[0] + style.PARALLEL_SUFFIX])
+                looks = {(look.colour, look.marker, look.hollow) for look in styles.values()}
+                self.assertEqual(len(looks), len(styles), methods)
+                for name in methods[n_known:]:
+                    self.assertNotIn(styles[name].colour, colours)
+        self.assertLessEqual({look.marker for look in styles.values()}, set(SYMBOLS))
+
+    def test_the_colour_blind_can_tell_own_colours_apart(self):
+        others = [look.colour for look in style.KNOWN_METHODS.values()]
+        for number, colour in enumerate(style.OWN_COLOURS):
+            for other in (*others, *style.OWN_COLOURS[:number]):
+                for view in VIEWS:
+                    distance = np.linalg.norm(lab_colour(colour, view) - lab_colour(other, view))
+                    self.assertGreater(distance, LEAST_DISTANCE, (colour, other))
+
+    def test_a_method_looks_the_same_whatever_is_chosen(self):
+        results = read_results(write_results(self.folder / "r", methods=("getme", "angle", "spring", "laplace")))
+        whole = styles_in_order(results)
+        self.assertNotEqual(whole["angle"].colour, whole["spring"].colour)
+        for methods in (["spring"], ["spring", "getme"], ["angle"]):
+            some = styles_in_order(results.restricted(methods))
+            self.assertEqual({name: whole[name] for name in some}, some)
+        looks = looks_of(results.study_methods)
+        self.assertEqual(looks["spring"]["colour"], whole["spring"].colour)
+        self.assertEqual(looks["getme"], {"colour": "#D55E00", "symbol": "circle", "dash": "solid"})
+        # A method that is added at the end changes no other.
+        self.assertEqual(style.method_styles((*results.methods, "more"))["spring"], whole["spring"])
+
     def test_markers_and_dashes_tell_methods_apart(self):
         methods = (*style.KNOWN_METHODS, "mine", "yours", "another")
         styles = style.method_styles(methods)
         for attribute in ("colour", "marker", "dashes"):
             known = [getattr(styles[name], attribute) for name in style.KNOWN_METHODS]
             self.assertEqual(len(set(known)), len(known), attribute)
-        for attribute in ("marker", "dashes"):
-            values = [getattr(styles[name], attribute) for name in methods]
-            self.assertEqual(len(set(values)), len(values), attribute)
+        self.assertEqual(len({(look.colour, look.marker) for look in styles.values()}), len(styles))
         parallel = style.method_styles((*methods, "getme-parallel"))
         self.assertEqual({name: parallel[name] for name in styles}, styles)
         self.assertEqual(parallel["getme-parallel"].colour, styles["getme"].colour)
         self.assertNotEqual(parallel["getme-parallel"].dashes, styles["getme"].dashes)
         self.assertTrue(parallel["getme-parallel"].hollow)
-        # The order of the study does not change the looks.
-        self.assertEqual(styles, style.method_styles(tuple(reversed(methods))))

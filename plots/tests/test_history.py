@@ -74,6 +74,41 @@ class Histories(InFolder):
         self.assertIn("Invalid from here", self.legend(figure))
         self.assertIn("laplace", self.legend(figure))
 
+    def test_invalid_meshes_in_between_are_crossed(self):
+        results = self.results(laplace=([0, 1, 2, 4], [.1, 0, .3, .4], [0, 2, 0, 0], 3),
+                               getme=([0, 1, 2, 3], [.1, .2, .3, .4], [0] * 4, 3))
+        for log_y, y in ((False, .2), (True, (.1 * .3) ** .5)):
+            figure = draw_history(results, ("q_min", "e_max"), "1", log_y=log_y)
+            bridge, = [line for line in figure.axes[0].get_lines() if line.get_label() == "_gap"]
+            np.testing.assert_allclose(bridge.get_xydata(), [(0, .1), (1, y), (2, .3)])
+            self.assertEqual((bridge.get_marker(), list(bridge.get_markevery())), ("x", [1]))
+            self.assertIn("Invalid meshes", self.legend(figure))
+
+    def test_one_panel_has_no_letter_and_no_title(self):
+        results = self.results(getme=([0, 1, 2], [.1, .2, .3], [0] * 3, 2))
+        axes, = draw_history(results, ("h1_error",), "1", log_y=True).axes
+        self.assertEqual((axes.get_title(), axes.get_ylabel()), ("", "$\\Vert u-u_h\\Vert_{H^1}$  ($d=1$, log)"))
+        axes = draw_history(results, ("q_min", "e_max"), "1").axes
+        self.assertEqual((axes[0].get_title(), axes[1].get_ylabel()), ("m", "(b)  thesis $e_{\\max}$  ($d=1$)"))
+
+    def test_vertical_axes_fit_the_numbers(self):
+        for qualities, low in (([.8, .85, .9], .75), ([.1, .2, .9], -.1)):
+            with self.subTest(low=low):
+                results = write_history(self.folder / str(low), {("m", "getme"): ([0, 1, 2], qualities, [0] * 3, 2)})
+                axes, = draw_history(results, ("q_mean",), "1").axes
+                bottom, top = axes.get_ylim()
+                self.assertGreater(bottom, low)
+                self.assertGreater((max(qualities) - min(qualities)) / (top - bottom), .75)
+
+    def test_ranges_of_axes(self):
+        results = self.results(getme=([0, 1, 2, 3], [.1, .2, .3, .4], [0] * 4, 3))
+        axes, = draw_history(results, ("q_min",), "1", x_range=(None, 1.5), y_range=(0.05, None)).axes
+        self.assertEqual((axes.get_xlim()[1], axes.get_ylim()[0]), (1.5, .05))
+        self.assertLess(axes.get_ylim()[1], .25)  # as high as the numbers shown
+        self.assertAlmostEqual(axes.get_xlim()[0], -.03)  # the margin of this range
+        axes, = draw_history(results, ("q_min",), "1", log_x=True, x_range=(.5, 4)).axes
+        self.assertEqual((axes.get_xlim(), axes.get_xlabel()), ((.5, 4), "Smoothing time (s), log"))
+
     def test_a_method_that_is_invalid_throughout_is_called_so(self):
         never = ([0, 1, 2], [.1, 0, 0], [0, 3, 3], 2)
         valid = ([0, 1, 2], [.1, .2, .3], [0, 0, 0], 2)
@@ -98,7 +133,7 @@ class Histories(InFolder):
         np.testing.assert_array_equal(lines["own"].get_xdata(), [.01, .1, 10])
         left = axes.transAxes.inverted().transform(axes.transData.transform((x[0], .1)))[0]
         self.assertLess(left, 0.05)
-        self.assertEqual(axes.get_xlabel(), "Smoothing time (s); 0 at the left edge")
+        self.assertEqual(axes.get_xlabel(), "Smoothing time (s), log; 0 at the left edge")
 
     def test_labels_of_a_column_stay_off_the_panels_before_it(self):
         results = write_history(self.folder / "r", {

@@ -34,14 +34,14 @@ class Order(unittest.TestCase):
     def test_same_order_is_one_sentence(self):
         numbers = {"initial": ("0.95", "0.10"), "a": ("0.3", "0.7"), "b": ("0.4", "0.8")}
         self.assertEqual(notes("q_mean", numbers),
-                         ["The order of the methods by q_mean is the printed one."])
+                         ["The order of the methods by q_mean is that of the thesis."])
 
     def test_a_method_that_alone_is_out_of_place_takes_one_sentence(self):
         numbers = {"a": ("0.9", "0.1"), "b": ("0.5", "0.5"), "c": ("0.6", "0.6")}
         first, *cases = notes("q_mean", numbers)
-        self.assertEqual(first, "The order of the methods by q_mean is the printed one, but for these:")
+        self.assertEqual(first, "The order of the methods by q_mean is that of the thesis, but for these:")
         self.assertEqual(cases, ["• tri, q_mean: a (0.9000) > b (0.5000), c (0.6000); "
-                                 "printed 0.1 < 0.5, 0.6"])
+                                 "thesis: 0.1 < 0.5, 0.6"])
 
     def test_every_pair_in_another_order_is_named_once(self):
         methods = "abcd"
@@ -67,7 +67,7 @@ class Order(unittest.TestCase):
     def test_what_is_shown_twice_is_compared_once(self):
         numbers = {"a": ("0.9", "0.1"), "b": ("0.5", "0.5"), "b-parallel": ("0.5", "0.5")}
         self.assertEqual(notes("q_mean", numbers)[1:],
-                         ["• tri, q_mean: a (0.9000) > b (0.5000); printed 0.1 < 0.5"])
+                         ["• tri, q_mean: a (0.9000) > b (0.5000); thesis: 0.1 < 0.5"])
 
     def test_nothing_to_compare(self):
         for numbers in ({"a": ("0.3", "0.7"), "b": ("0.4", "invalid"), "c": ("0.4", ""), "d": ("0.4", None),
@@ -82,7 +82,7 @@ class Order(unittest.TestCase):
                  for pair in pairs_of("e_max", numbers, mesh, degree=degree)]
         pairs[3][0]["e_max"] = "0.05"  # method b, mesh tri, d = 2
         self.assertEqual(order_notes(ERRORS, pairs, RESULTS)[1:],
-                         ["• tri, d = 2, e_max: a (0.1000) > b (0.0500); printed 0.4 < 0.5"])
+                         ["• tri, d = 2, e_max: a (0.1000) > b (0.0500); thesis: 0.4 < 0.5"])
 
 
 class BelowTheTable(InFolder):
@@ -94,4 +94,4 @@ class BelowTheTable(InFolder):
         for write, bullet in ((as_text, "• "), (as_markdown, "• "), (as_latex, r"\textbullet{} ")):
             text = " ".join(write(table).split())
             self.assertIn(f"{bullet}Triangular mesh, q", text)
-            self.assertIn("printed 0.8896", text)
+            self.assertIn("thesis: 0.8896", text)

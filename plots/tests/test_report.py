@@ -13,9 +13,9 @@ from plots.__main__ import main
 from plots.collections.diagrams import Curve, Diagram
 from plots.report import libraries
 from plots.report.collection_plots import MOST_STEPS, collection_plots, diagram_data
-from plots.report.contents import comparison, contents, ratio
+from plots.report.contents import comparison, contents, ratio, summary_table
 from plots.report.mesh_views import mesh_view, metrics_of, seen_of
-from plots.report.page import page, write_report
+from plots.report.page import inline, page, write_report
 from plots.report.tables_page import html_text
 from plots.results.collection import read_collection_results
 from plots.results.rows import ResultsError, read_rows
@@ -168,6 +168,14 @@ class TablesPage(InFolder):
         self.assertEqual((found["curves"][0]["x"][0], found["curves"][0]["x"][-1], found["curves"][0]["y"][-1]), (1, n, 1))
         self.assertNotIn("lower", found["curves"][0])
 
+    def test_bold_and_code_of_markdown(self):
+        self.assertEqual(inline("**cannot be** `a<b` 2 * 3 ** 4"), "<b>cannot be</b> <code>a&lt;b</code> 2 * 3 ** 4")
+
+    def test_errors_come_first(self):
+        headings = summary_table(read_results(write_results(self.folder / "r")))["headings"]
+        self.assertEqual(headings[:7], ["mesh", "method", "degree", "status", "H1 error", "L2 error", "q_min"])
+        self.assertIn("e_H1 (norm of the thesis)", headings[7:])
+
     def test_sentences_become_lists(self):
         self.assertEqual(html_text("# Title\n\nA & b\n\n## More\n\n- one\n- <two>\n"),
                          "<p>A &amp; b</p>\n<h3>More</h3>\n<ul>\n<li>one</li>\n<li>&lt;two&gt;</li>\n</ul>")
@@ -229,6 +237,8 @@ class Browser(InFolder):
         self.open()
         names = self.js("return document.getElementById('curve').data.map((trace) => trace.name)")
         self.assertEqual(names, ["GETMe", "weighted-laplace"])
+        looks = self.js("return document.getElementById('curve').data.map((t) => [t.line.color, t.line.dash, t.marker.symbol])")
+        self.assertEqual(looks, [["#D55E00", "solid", "circle"], ["#0072B2", "10px,3px,2.4px,3px", "diamond"]])
         self.js("const y = document.getElementById('curve-y'); y.value = 'q_mean';"
                 "y.dispatchEvent(new Event('change', {bubbles: true}))")
         values = self.js("return Array.from(document.getElementById('curve').data[0].y)")

@@ -12,11 +12,12 @@ from plots.results.printed_values import as_guess, read_printed_tables
 from plots.results.rows import read_rows
 from plots.results.smoothing import read_results
 from plots.results.symbols import Heading
-from plots.tables.formats import TERMINAL_WIDTH, as_csv, as_markdown, as_text
-from plots.tables.latex import as_latex, panels_of
-from plots.tables.number_format import format_error, grouped, relative_difference
-from plots.tables.smoothing import make_tables
-from plots.tables.table import Cell, Group, Table, escape_tex
+from plots.tables.formats import TERMINAL_WIDTH, aligned, as_csv, as_markdown, as_text, group_width, split
+from plots.tables.latex import as_latex, panels_of, tabular
+from plots.tables.number_format import (format_error, format_quality, format_seconds, grouped, relative_difference,
+                                        seconds_text)
+from plots.tables.smoothing import make_tables, without_noise
+from plots.tables.table import Cell, Group, Table, escape_tex, number_cell
 from plots.tests.synthetic_results import (change_provenance, without_columns,
                                            without_finite_elements, write_csv, write_results)
 from plots.tests.test_read_results import InFolder
@@ -36,6 +37,22 @@ class Numbers(InFolder):
                                ("0.12345", "0.12345"), ("1.23e+04", "1.23e+04"), ("dense", "dense")):
             self.assertEqual(grouped(text), expected)
 
+    def test_what_is_too_small_is_called_so(self):
+        self.assertEqual(format_seconds([0.0, 4e-6, 0.0012, math.nan]), ["<0.0001", "<0.0001", "0.0012", "–"])
+        self.assertEqual(format_quality([0.0, 9e-6, 0.5]), ["0.0000", "<0.0001", "0.5000"])
+        self.assertEqual([seconds_text(value) for value in (0.0, 0.0226)], ["<0.0001", "0.0226"])
+        rows = [{"reference_seconds": "0.1", "method_seconds": seconds, "speedup": "9"} for seconds in ("0.00001", "0.01", "")]
+        self.assertEqual([row["speedup"] for row in without_noise(rows)], ["", "9", "9"])
+
+    def test_decimal_points_stand_below_each_other(self):
+        self.assertEqual(aligned(["1.5", "12", "7.39e+02", "–"], ["", "", "ᵃ", ""]), ["1.5      ", "12        ", "7.39e+02ᵃ", "–"])
+        self.assertEqual(aligned(["1.5", "12.25"], ["", ""], "_"), ["1.5_", "12.25"])
+        lines = tabular(Table("s", "t", "", (Heading("M", "M"),), ((Cell("a"),), (Cell("b"),), (Cell("c"),)), (), (), (
+            Group(Heading("E", "E"), ("",), ((number_cell("5.32e-02"),), (number_cell("-3.2898", "a"),), (number_cell("–"),))),), ()))
+        self.assertEqual(lines[0], r"\begin{tabular}{lr@{}l}")
+        self.assertEqual(lines[4:7], [r"a & 5 & $.32\cdot10^{-2}$ \\", r"b & $-3$ & .2898\rlap{\textsuperscript{a}} \\",
+                                      r"c & \multicolumn{2}{r}{--} \\"])
+
     def test_small_errors_get_exponents(self):
         self.assertEqual(format_error([1.5, math.nan]), ["1.5000", "–"])
         self.assertEqual(format_error([1.5, 2e-6]), ["1.5000e+00", "2.0000e-06"])
@@ -52,7 +69,7 @@ class Tables(InFolder):
         self.assertEqual(list(tables), ["table_6_1_smoothing", "table_6_2_solver", "table_6_3_errors",
                                         "table_6_4_thresholds", "table_details"])
         q_min = next(g for g in tables["table_6_1_smoothing"].groups if g.heading.text == "q_min")
-        self.assertEqual(q_min.subheadings, ("smoothfem", "printed", "%"))
+        self.assertEqual(q_min.subheadings, ("smoothfem", "thesis", "%"))
         # Rows: initial, then in the order of the provenance GETMe, then area-weighted Laplace.
         self.assertEqual([cell.text for cell in q_min.cells[2]], ["0.2046", "0.2045", "<0.1"])
         condition = tables["table_6_2_solver"].groups[0]
@@ -95,7 +112,7 @@ class Tables(InFolder):
         self.assertEqual(list(tables), ["table_smoothing", "table_solver", "table_errors",
                                         "table_thresholds", "table_details"])
         for table in tables.values():
-            self.assertNotIn("printed", as_text(table))
+            self.assertNotIn(" thesis ", as_text(table).partition("\n\n  ")[0])
             self.assertTrue(all(group.subheadings == ("",) for group in table.groups))
 
     def test_study_without_finite_elements(self):
@@ -116,7 +133,39 @@ class Tables(InFolder):
         table = next(t for t in make_tables(read_results(folder), {}) if t.name == "table_smoothing")
         text = as_text(table)
         self.assertNotIn("0.1235", text)
+        details = next(t for t in make_tables(read_results(folder), {}) if t.name == "table_details")
+        self.assertEqual([cells[0].text for cells in details.groups[0].cells[1:3]], ["–", "1.5000"])  # q*_min
         self.assertIn("GETMe, Triangular mesh: failed: it ended with exit code 7.", text)
+
+    def test_true_errors_come_first_and_norms_of_the_thesis_are_called_so(self):
+        tables = {**self.tables(), **self.tables("own", study="slab")}
+        self.assertEqual([group.heading.text for group in tables["table_6_3_errors"].groups],
+                         ["H1 error", "L2 error", "e_max", "e_mean", "e_L2", "e_H1"])
+        self.assertIn("e_max, e_mean, e_L2, e_H1: norms of the thesis", tables["table_6_3_errors"].notes[-2][1])
+        self.assertEqual([group.heading.text for group in tables["table_errors"].groups], ["H1 error", "L2 error"])
+
+    def test_coarse_meshes_are_not_compared(self):
+        folder = write_results(self.folder / "q")
+        change_provenance(folder, scale="quick")
+        table = self.tables_of("q", "6_3_errors")
+        self.assertEqual({group.subheadings for group in table.groups}, {("",)})
+        self.assertIn(("", "Not compared with Table 6.3 of the thesis: meshes of the scale `quick` are too coarse."), table.notes)
+
+    def test_an_invalid_result_has_a_sentence(self):
+        folder = write_results(self.folder / "i", study="own")
+        rows = read_rows(folder / "summary.csv").records()
+        write_csv(folder / "summary.csv", list(rows[0]), [
+            {**row, "status": "invalid mesh", "n_invalid": "3"} if row["method"] == "getme" else row for row in rows])
+        self.assertIn(("", "GETMe, Triangular mesh: the mesh is invalid (3 cells); nothing was solved on it."),
+                      self.tables_of("i", "errors").notes)
+
+    def test_the_speedup_stays_next_to_its_time(self):
+        keys = (Heading("Mesh", "Mesh"),)
+        pair = [Group(Heading(f"{kind} {i}", ""), ("",), ((Cell("0.123"),),), tied)
+                for i in range(9) for kind, tied in (("A rather long method", False), ("Speedup", True))]
+        table = Table("own", "t", "", keys, ((Cell("tri"),),), (), (), tuple(pair), ())
+        for panel in split(table, 100, group_width):
+            self.assertEqual([group.tied for group in panel.groups], [False, True] * (len(panel.groups) // 2))
 
     def test_notes_on_columns_that_are_printed(self):
         without_finite_elements(write_results(self.folder / "p", "planar"))
@@ -128,7 +177,7 @@ class Tables(InFolder):
         folder = write_results(self.folder / "n")
         change_provenance(folder, note="The shape is not that of the thesis.")
         text = as_text(self.tables_of("n", "smoothing"))
-        self.assertIn("The shape is not that of the thesis.", text[text.index("Printed values"):])
+        self.assertIn("The shape is not that of the thesis.", text[text.index("Values of the thesis"):])
 
     def test_csv_can_be_read_by_programs(self):
         def row(*texts):
@@ -144,6 +193,12 @@ class Tables(InFolder):
             lines = list(csv.reader(as_csv(table).splitlines()))
             self.assertEqual({len(line) for line in lines}, {len(lines[0])})
             self.assertEqual(len({tuple(line[:len(table.key_headings)]) for line in lines[1:]}), len(table.keys))
+
+    def test_markdown_has_decimal_points_below_each_other(self):
+        cells = ((number_cell("5.32"),), (number_cell("3.2898", "a"),), (number_cell("12"),))
+        table = Table("s", "t", "", (Heading("M", "M"),), ((Cell("a"),),) * 3, (), (), (Group(Heading("E", "E"), ("",), cells),), ())
+        self.assertEqual([line.split(" | ")[1] for line in as_markdown(table).splitlines()[4:7]],
+                         ["5.32\u2007\u2007\u2007 |", "3.2898<sup>a</sup> |", "12" + 6 * "\u2007" + " |"])
 
     def test_markdown_has_equal_columns(self):
         for table in self.tables().values():
@@ -163,12 +218,14 @@ class Tables(InFolder):
             panels = panels_of(table)
             self.assertEqual(len(bodies), len(panels))
             for body, panel in zip(bodies, panels):
-                columns = len(table.keys[0]) + sum(len(group.subheadings) for group in panel.groups)
                 rows = [line for line in body.splitlines() if line.endswith(r"\\")]
-                self.assertEqual({line.count(" & ") for line in rows}, {columns - 1})
+                columns, = re.findall(r"\\begin\{tabular\}\{([lr@{}]*)\}", "\n".join(tabular(panel)))
+                columns = columns.count("l") + columns.count("r")
+                self.assertGreaterEqual(columns, len(table.keys[0]) + sum(len(group.subheadings) for group in panel.groups))
+                self.assertEqual({line.count(" & ") + line.count(r"\multicolumn{2}") for line in rows}, {columns - 1})
                 self.assertEqual(len(rows), len(table.keys))
             self.assertEqual(latex.count("{"), latex.count("}"))
-        self.assertIn(r"$7.39\cdot10^{2}$\rlap{\textsuperscript{a}}",
+        self.assertIn(r"7.39\cdot10^{2}$\rlap{\textsuperscript{a}}",
                       as_latex(self.tables_of("r", "solver")))
 
     def test_labels_of_two_studies_do_not_clash(self):
@@ -195,7 +252,7 @@ class Tables(InFolder):
         change_provenance(folder, built_in=False)
         results = read_results(folder)
         for table in make_tables(results, read_printed_tables(results.thesis_study, results.provenance)):
-            self.assertNotIn("printed", as_text(table))
+            self.assertNotIn("Values of the thesis", as_text(table))
             self.assertNotIn("6_", table.name)
 
     def tables_of(self, folder, content):

@@ -199,7 +199,7 @@ class VolumeStudy(InFolder):
         self.assertEqual(names, {
             "figure_6_5_model", "figure_6_6_meshes", "figure_6_6_meshes_detail",
             "figure_6_7_histograms", "figure_6_7_histograms_log", "figure_6_8_history",
-            "figure_6_8_history_log_time", "figure_history_d1", "figure_history_norms_d1",
+            "figure_6_8_history_log_time", "figure_history_d1", "figure_history_d2", "figure_history_norms_d1",
             "figure_history_norms_d2", "figure_plane_sections_tet", "figure_plane_sections_hex"})
 
     @needs_rendering
