@@ -6,10 +6,13 @@ import math
 import os
 import re
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
+from .results.drawn import Drawn, inputs_of
 from .results.names import select, short_name
+from .results.processes import finished
 from .results.quality_histogram import read_quality_histogram
 from .report.libraries import NoLibrary
 from .results.request import Request
@@ -135,6 +138,7 @@ def parse_study(arguments):
     parser.add_argument("--no-figures", action="store_true", help="make the tables only")
     parser.add_argument("--verbose", action="store_true", help="print all tables and the paths of all files")
     parser.add_argument("--quiet", action="store_true", help="print nothing but warnings")
+    parser.add_argument("--reload", action="store_true", help=argparse.SUPPRESS)  # of `study --watch`
     options = parser.parse_args(arguments)
     if options.no_figures and is_figure(options.out):
         parser.error(f"{options.out} is a figure, but --no-figures asks for none; leave out one of them")
@@ -196,7 +200,7 @@ def say(text):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def planned_figures(outputs, request, only, width):
+def planned_figures(outputs, request, only, width, report=None):
     """The figures to choose from. Meshes are read only if figures of them may be among those chosen."""
     # Matplotlib takes a second to load.
     from .figures.style import FULL_WIDTH, apply_style
@@ -210,7 +214,12 @@ def planned_figures(outputs, request, only, width):
     known |= {short_name(name) for name in known}
     if known.issuperset(only) if only else request.has_history:
         return planned
-    return outputs.plan_of_meshes(warn) + planned
+    return outputs.plan_of_meshes(report or warn) + planned
+
+
+def is_whole(options, request):
+    """True if the user asks for all that a study makes."""
+    return not (options.only or options.no_figures or options.out or request != Request())
 
 
 def make_study(options):
@@ -218,6 +227,8 @@ def make_study(options):
     the results are found before the first file is written."""
     request = request_of(options)
     outputs = outputs_of(options.folder, request)
+    if is_whole(options, request):
+        return make_all(options, outputs)
     only_tables = options.no_figures or is_table(options.out) or (request.columns and not options.only)
     figures = [] if only_tables else planned_figures(outputs, request, options.only, options.width)
     drawn = {figure.name: figure.whole for figure in figures}
@@ -225,34 +236,96 @@ def make_study(options):
               set(drawn) if request.has_history else {CHOSEN} if request.columns else {*outputs.names, *drawn})
     tables = [table for table in outputs.tables if table.name in wanted or table.name == CHOSEN]
     if is_figure(options.out):
-        return make_chosen_figure(options, [figure for figure in figures if figure.name in wanted], outputs.study_title)
+        return make_chosen_figure(options, [figure for figure in figures if figure.name in wanted])
     if is_table(options.out):
         return make_chosen_table(options, tables)
-    texts = [(f"{table.name}.{suffix}", write(table)) for table in tables for suffix, write in TABLE_FORMATS.items()]
-    texts += [(f"{name}.md", text) for name, text in outputs.texts.items() if name in wanted]
-
-    tell = (lambda text: None) if options.quiet else say
     folder = options.out or outputs.folder
-    for sentence in outputs.warnings:
-        warn(sentence)
-    tell("\n".join(as_text(table) for table in tables) if options.verbose or options.only or request.columns
-         else outputs.screen)
-    paths = [write_atomically(folder / "tables" / name, text) for name, text in texts]
+    show_results(options, outputs, tables, options.only or request.columns)
+    paths = write_tables(outputs, tables, [name for name in outputs.texts if name in wanted], folder)
     if not wanted.isdisjoint(drawn):
         from .figures.planned import save_figures
-        paths += save_figures([figure for figure in figures if figure.name in wanted], outputs.study_title,
-                              folder / "figures", options.format, warn)
-    whole = not (options.only or options.no_figures or options.out or request != Request())
-    if whole:
-        try:
-            paths.append(outputs.write_page())
-        except NoLibrary as error:  # tables and figures are complete without the page
-            warn(str(error))
-    if options.verbose:
-        for sentence in (*(f"wrote {path}" for path in paths), *outputs.remarks):
-            tell(sentence)
-    else:
-        tell(summary_of(paths, folder))
+        paths += save_figures([figure for figure in figures if figure.name in wanted], folder / "figures", options.format, warn)
+    show_paths(options, outputs, paths, folder)
+
+
+def make_all(options, outputs):
+    """Makes all tables, the page and those figures that have changed."""
+    show_results(options, outputs, outputs.tables)
+    paths = write_tables(outputs, outputs.tables, outputs.texts, outputs.folder)
+    # The page takes as long as some figures: it is made at the same time.
+    tasks = [lambda: write_page(outputs, options.reload), lambda: draw_all(options, outputs)]
+    made = dict(finished(tasks))
+    for found, sentences in made.values():
+        paths += found
+        for sentence in sentences:
+            warn(sentence)
+    show_paths(options, outputs, paths, outputs.folder)
+
+
+def write_page(outputs, reload):
+    """Writes report.html; returns its path and sentences for the user."""
+    try:
+        return [outputs.write_page(reload=reload)], []
+    except NoLibrary as error:  # tables and figures are complete without the page
+        return [], [str(error)]
+
+
+def draw_all(options, outputs):
+    """Draws the figures that have changed; returns the paths of all of them and sentences for the user."""
+    folder = outputs.folder / "figures"
+    drawn = Drawn(folder, inputs_of(outputs.folder, outputs.provenance, [options.width, options.format]))
+    paths, sentences = drawn.all_paths(), []
+    if paths is None:
+        progress = FigureProgress(options.quiet)
+        from .figures.planned import save_figures
+        planned = planned_figures(outputs, Request(), (), options.width, sentences.append)
+        paths = save_figures(planned, folder, options.format, sentences.append, drawn, progress.show)
+        drawn.save(None if sentences else [figure.name for figure in planned])
+        progress.end()
+    return paths, sentences
+
+
+class FigureProgress:
+    """Shows the number of finished figures on a terminal, and the time at the end."""
+
+    def __init__(self, quiet):
+        self.quiet, self.on_terminal, self.began = quiet, sys.stderr.isatty(), time.monotonic()
+        if not quiet and not self.on_terminal:
+            warn("Figures")
+
+    def show(self, n_done, n):
+        """Takes the numbers of finished figures and of all."""
+        if not self.quiet and self.on_terminal:
+            print(f"\rFigures: {n_done} of {n}", end="", file=sys.stderr, flush=True)
+
+    def end(self):
+        """Replaces the numbers by the time."""
+        if not self.quiet:
+            warn(("\r\033[KFigures: " if self.on_terminal else "  done in ") + f"{time.monotonic() - self.began:.1f} s")
+
+
+def show_results(options, outputs, tables, in_full=False):
+    """Prints warnings, and the results: whole tables if the user wants them."""
+    for sentence in outputs.warnings:
+        warn(sentence)
+    if not options.quiet:
+        say("\n".join(as_text(table) for table in tables) if options.verbose or in_full else outputs.screen)
+
+
+def write_tables(outputs, tables, texts, folder):
+    """Writes tables and the texts of these names; returns the paths."""
+    files = [(f"{table.name}.{suffix}", write(table)) for table in tables for suffix, write in TABLE_FORMATS.items()]
+    files += [(f"{name}.md", outputs.texts[name]) for name in texts]
+    return [write_atomically(folder / "tables" / name, text) for name, text in files]
+
+
+def show_paths(options, outputs, paths, folder):
+    """Prints where the files are."""
+    if options.quiet:
+        return
+    for sentence in ((*(f"wrote {path}" for path in paths), *outputs.remarks) if options.verbose else
+                     [summary_of(paths, folder)]):
+        say(sentence)
 
 
 def summary_of(paths, folder):
@@ -275,7 +348,7 @@ def listed(names, most=4):
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
-def make_chosen_figure(options, chosen, study_title):
+def make_chosen_figure(options, chosen):
     """Draws the one chosen figure into the given file; raises ResultsError or OSError."""
     from .figures.planned import save_figures
     if not chosen:
@@ -284,8 +357,7 @@ def make_chosen_figure(options, chosen, study_title):
         raise ResultsError(f"{options.out} has room for one figure, but there are {len(chosen)}: "
                            f"{listed([figure.name for figure in chosen])}; choose one by {options_that_select(chosen)}, or give a "
                            "folder.")
-    paths = save_figures([replace(chosen[0], name=options.out.stem)], study_title, options.out.parent, (options.out.suffix[1:],),
-                         warn)
+    paths = save_figures([replace(chosen[0], name=options.out.stem)], options.out.parent, (options.out.suffix[1:],), warn)
     if not paths:
         raise ResultsError(f"{options.folder}: there is no figure to draw into {options.out}; choose others by --only or --y.")
     if not options.quiet:

@@ -7,6 +7,7 @@ from typing import Callable
 
 from .claims.check import check_claims, read_claims
 from .claims.report import claims_as_markdown
+from .report.reload import make_final, make_reloading
 from .results.collection import read_collection_results
 from .results.polygons import read_polygon_results
 from .results.printed_values import read_printed_tables
@@ -46,9 +47,17 @@ class Outputs:
     least_width: float = 0.0  # inches that the words in the figures need
     write_report: Callable = None  # (against, path) -> the path of the page written; None: that of tables and figures
     plots: Callable = lambda: None  # of that page in place of figures, as data
+    provenance: dict = field(default_factory=dict)
 
-    def write_page(self, against=None, path=None):
-        """Writes report.html, or to a path; returns where. Raises ResultsError or NoLibrary."""
+    def write_page(self, against=None, path=None, reload=False):
+        """Writes report.html, or to a path; returns where. reload: a page that is open in a browser shows the next version by
+        itself. Raises ResultsError or NoLibrary."""
+        written = self.write_page_once(against, path)
+        (make_reloading if reload else make_final)(written)
+        return written
+
+    def write_page_once(self, against, path):
+        """Writes report.html, or to a path; returns where."""
         if self.write_report:
             return self.write_report(against, path)
         if against is not None:
@@ -89,7 +98,8 @@ def smoothing_outputs(folder, request):
     tables = (*([chosen_table(results, request.columns)] if request.columns else []), *make_tables(results, printed),
               *make_seed_tables(results), *make_energy_tables(of_all_degrees))
     return Outputs(results.folder, results.study_title, tables, plan, screen(results), plan_of_meshes, texts,
-                   () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page)
+                   () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page,
+                   provenance=results.provenance)
 
 
 def polygon_outputs(folder, request):
@@ -100,7 +110,8 @@ def polygon_outputs(folder, request):
         from .figures.polygon_study import plan_polygon_figures
         return plan_polygon_figures(results)
     tables = tuple(make_polygon_tables(results))
-    return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH)
+    return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH,
+                   provenance=read_provenance(results.folder / "provenance.json"))
 
 
 def regularization_outputs(folder, request):
@@ -111,7 +122,8 @@ def regularization_outputs(folder, request):
         from .figures.regularization import plan_regularization_figures
         return plan_regularization_figures(results)
     tables = tuple(make_regularization_tables(results))
-    return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH)
+    return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH,
+                   provenance=read_provenance(results.folder / "provenance.json"))
 
 
 def collection_outputs(folder, request):
@@ -127,7 +139,7 @@ def collection_outputs(folder, request):
         from .report.collection_plots import collection_plots
         return collection_plots(results)
     return Outputs(results.folder, results.study_title, tuple(tables), plan, findings, texts={"findings": findings},
-                   least_width=LEAST_WIDTH, plots=plots)
+                   least_width=LEAST_WIDTH, plots=plots, provenance=read_provenance(results.folder / "provenance.json"))
 
 
 SMOOTHING = "smoothing"  # the kind of a study that names none

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..collections.diagrams import DIAGRAMS, diagrams
 from ..collections.prediction import predictions, samples_of
+from ..results.method_styles import method_styles
 from ..results.symbols import symbol_of
 from . import style
 from .planned import PlannedFigure
@@ -83,7 +84,7 @@ def draw_diagram(results, diagram):
     """Draws a line for each method; returns None without a diagram."""
     if diagram is None:
         return None
-    styles = style.method_styles(results.methods)
+    styles = method_styles(results.methods)
     figure, ax = pyplot.subplots(figsize=(style.width_of(1.4 * style.SINGLE_WIDTH), 3.0), constrained_layout=True)
     for curve in diagram.curves:
         look, label = styles[curve.method], results.title(curve.method)

@@ -6,6 +6,7 @@ import math
 import numpy as np
 from matplotlib.lines import Line2D
 
+from ..results.method_styles import method_styles
 from ..results.smoothing import INITIAL
 from . import style
 
@@ -28,7 +29,7 @@ def figure_size(n_rows, n_columns):
 
 def styles_in_order(results):
     """Styles of the methods in the order of the study; the initial mesh has a line of its own."""
-    styles = style.method_styles(results.study_methods or results.methods)
+    styles = method_styles(results.study_methods or results.methods)
     return {method: styles[method] for method in (*results.methods, INITIAL)}
 
 

@@ -3,9 +3,9 @@
 
 import numpy as np
 
+from ..results.method_styles import sequential_name
 from ..results.smoothing import INITIAL
 from ..results.vtu import NoVtk, read_vtu
-from .style import sequential_name
 
 
 def read_grids(results, report):

@@ -17,6 +17,7 @@ MOST_COLUMNS = 4
 DETAIL_ASPECT = 1.3
 # Centre and width of the detail, relative to the bounding box: a tooth and part of a hole of the gear.
 DETAIL_CENTRE, DETAIL_WIDTH = (0.83, 0.62), 0.33
+MOST_VECTORS = 5000  # cells of a full view; more of them as vectors would make huge files
 QUALITY_RANGE = Normalize(0.0, 1.0)
 
 # Heights in inches of everything except panels.
@@ -113,8 +114,7 @@ def draw_mesh(axes, grid, window):
     cells = PolyCollection(polygons_of(grid, chosen), cmap=style.QUALITY_MAP, norm=QUALITY_RANGE,
                            joinstyle="round", **edges)
     cells.set_array(quality if chosen is None else quality[chosen])
-    # Full views hold ten thousand cells or more: as vectors they would make huge files.
-    cells.set_rasterized(window is None)
+    cells.set_rasterized(window is None and len(quality) > MOST_VECTORS)
     axes.add_collection(cells)
     frame(axes, window if window is not None else bounding_box(grid), boxed=window is not None)
 

@@ -8,7 +8,7 @@ from . import style
 from .planar_geometry import bounding_box, outline_path
 from .resample import resampled
 
-IMAGE_DPI = 400
+IMAGE_DPI = 300
 
 
 def draw_model(grid):

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures that a study can have: known by their names before anything is drawn."""
 
+import itertools
 from dataclasses import dataclass
 from typing import Callable
 
+from ..results.processes import finished
 from . import style
 from .virtual_display import NoDisplay
 
@@ -21,24 +23,38 @@ class PlannedFigure:
     degree: str = ""  # of one for one of several degrees
     meshes: tuple = ()  # of one for some of several meshes
 
+    def save(self, folder, formats):
+        """Draws the figure into files in a folder; returns their paths. Raises NoDisplay."""
+        figure = self.draw()
+        return [] if figure is None else style.save_figure(figure, folder, self.name, self.title, formats)
 
-def save_figures(planned, study_title, folder, formats, report):
-    """Draws figures into files in a folder; returns the paths. `report` takes a sentence on each figure that cannot be
-    drawn here."""
-    paths, failure = [], None
-    for plan in planned:
-        if plan.rendered and failure is not None:
-            continue  # where one picture cannot be rendered none can, and each try takes its time
-        try:
-            figure = plan.draw()
-        except NoDisplay as error:
-            failure = error
-            continue
-        if figure is not None:
-            paths += style.save_figure(figure, folder, plan.name, f"{study_title}: {plan.title}", formats)
-    if failure is not None:
-        report(f"No pictures of volume meshes and surfaces: {failure}.")
-    return paths
+
+def save_figures(planned, folder, formats, report, drawn=None, show=lambda n_done, n: None):
+    """Draws figures into files in a folder; returns the paths, also of those that are up to date.
+
+    report: takes a sentence on each figure that cannot be drawn here. drawn: the known figures of the folder; None: draw all.
+    show: takes the numbers of finished figures and of all that are to be drawn. Figures are drawn in several processes; those
+    with VTK's pictures in this one, because a virtual display serves one process."""
+    paths = {plan.name: drawn.paths(plan.name) if drawn else None for plan in planned}
+    missing = [plan for plan in planned if paths[plan.name] is None]
+    count = itertools.count(1)
+
+    def note(plan, made):
+        paths[plan.name] = made
+        if drawn:
+            drawn.note(plan.name, made)
+        show(next(count), len(missing))
+
+    plain = [plan for plan in missing if not plan.rendered]
+    for number, made in finished([lambda plan=plan: plan.save(folder, formats) for plan in plain]):
+        note(plain[number], made)
+    try:
+        for plan in missing:
+            if plan.rendered:
+                note(plan, plan.save(folder, formats))
+    except NoDisplay as error:  # where one picture cannot be rendered none can, and each try takes its time
+        report(f"No pictures of volume meshes and surfaces: {error}.")
+    return [path for plan in planned for path in paths[plan.name] or ()]
 
 
 def plan_numbered(results, figures):

@@ -40,20 +40,24 @@ def widened(picture):
 def fill(picture, corners, numbers, first, size):
     """Writes what triangles (n, 3, 2) with numbers (n, 3) at their corners have in the squares of so
     many pixels that begin at `first` (n, 2)."""
-    offsets = np.stack(np.meshgrid(np.arange(size), np.arange(size)), axis=-1).reshape(-1, 2)
-    pixels = first[:, None, :] + offsets
     a, b, c = np.moveaxis(corners, 1, 0)
     area = cross(b - a, c - a)
-    flat = area == 0
-    area = np.where(flat, 1.0, area)[:, None]
-    weights = np.stack([cross(c[:, None] - b[:, None], pixels - b[:, None]),
-                        cross(a[:, None] - c[:, None], pixels - c[:, None]),
-                        cross(b[:, None] - a[:, None], pixels - a[:, None])], axis=-1) / area[..., None]
+    whole = area != 0
+    a, b, c, area, numbers, first = a[whole], b[whole], c[whole], area[whole], numbers[whole], first[whole]
     height, width = picture.shape
-    inside = ((weights >= -1e-9).all(axis=-1) & ~flat[:, None]
-              & (pixels >= 0).all(axis=-1) & (pixels < (width, height)).all(axis=-1))
-    x, y = np.moveaxis(pixels[inside], -1, 0)
-    picture[y, x] = (weights * numbers[:, None, :]).sum(axis=-1)[inside]
+    x = first[:, 0, None] + np.arange(size)  # (n, size)
+    y = first[:, 1, None] + np.arange(size)
+    inside = ((y >= 0) & (y < height))[:, :, None] & ((x >= 0) & (x < width))[:, None, :]  # (n, row, column)
+    value = np.zeros(inside.shape)
+    # The weight of a corner is linear in x and y: a sum of a term for each column and one for each row.
+    for number, (p, q) in enumerate(((b, c), (c, a), (a, b))):
+        edge = (q - p) / area[:, None]
+        weight = ((y - p[:, 1, None]) * edge[:, 0, None])[:, :, None] - ((x - p[:, 0, None]) * edge[:, 1, None])[:, None, :]
+        inside &= weight >= -1e-9
+        weight *= numbers[:, number, None, None]
+        value += weight
+    triangle, row, column = np.nonzero(inside)
+    picture[y[triangle, row], x[triangle, column]] = value[inside]
 
 
 def cross(a, b):

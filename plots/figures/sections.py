@@ -5,6 +5,7 @@ mean ratio."""
 import numpy as np
 from matplotlib import colormaps
 
+from ..results.method_styles import INITIAL_COLOUR
 from . import style
 from .meshes import QUALITY_RANGE, columns_of, draw_blocks
 from .planar_geometry import LEAST_FILLED
@@ -122,6 +123,6 @@ def show(axes, picture, boxed):
         spine.set_visible(boxed)
     if picture is None:
         axes.text(0.5, 0.5, "no mesh", transform=axes.transAxes, ha="center", va="center",
-                  color=style.INITIAL_COLOUR)
+                  color=INITIAL_COLOUR)
     else:
         axes.imshow(np.asarray(picture), aspect="auto")

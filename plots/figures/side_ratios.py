@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from ..results.method_styles import KNOWN_METHODS
 from ..results.rows import groups_of
 from . import style
 
@@ -19,7 +20,7 @@ MARKED_EVERY = 3
 def draw_side_ratios(results):
     """A panel for each transformation, a line for each angle; dotted: the bound of every second step."""
     parts = groups_of(results.side_ratios, "transformation")
-    looks = list(style.KNOWN_METHODS.values())
+    looks = list(KNOWN_METHODS.values())
     figure, axes = pyplot.subplots(1, len(parts), squeeze=False, sharey=True,
                                    figsize=(style.full_width(), 2.9))
     figure.subplots_adjust(left=0.09, right=0.99, bottom=0.14, top=0.84, wspace=0.06)

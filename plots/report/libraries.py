@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page's libraries, from Debian's packages: Plotly (curves, meshes), jQuery and DataTables (tables)."""
 
+import contextlib
+import hashlib
+import os
 import shutil
 import subprocess
 from pathlib import Path
+
+from ..results.write_files import write_atomically
 
 JAVASCRIPT = Path("/usr/share/javascript")
 PLOTLY = (Path("/usr/share/python3-plotly/plotly.js"), "python3-plotly")
@@ -24,11 +29,22 @@ def library(path, package):
 
 def minified(path, package):
     """Returns the content of a file without blanks and comments."""
-    library(path, package)
+    digest = hashlib.sha256(library(path, package).encode()).hexdigest()
+    known = cache_folder() / f"{path.stem}-{digest[:32]}.min.js"
+    with contextlib.suppress(OSError):
+        return known.read_text(encoding="utf-8")
     if not shutil.which("esbuild"):
         raise NoLibrary("No report.html: esbuild is missing; install the Debian package esbuild.")
-    return subprocess.run(["esbuild", "--minify", "--charset=utf8", str(path)], check=True, capture_output=True,
+    text = subprocess.run(["esbuild", "--minify", "--charset=utf8", str(path)], check=True, capture_output=True,
                           text=True, encoding="utf-8").stdout
+    with contextlib.suppress(OSError):  # the next page takes longer, that is all
+        write_atomically(known, text)
+    return text
+
+
+def cache_folder():
+    """The folder for what can be made again, by the convention of the XDG base directories."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "smoothfem"
 
 
 def scripts(with_plots=True):

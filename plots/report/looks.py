@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Colours, marks and dashes of the figures, as Plotly's scripts call them."""
 
-from ..figures.style import method_styles
+from ..results.method_styles import method_styles
 
 SYMBOLS = {"": "circle", "o": "circle", "^": "triangle-up", "s": "square", "D": "diamond", "v": "triangle-down", "P": "cross",
            "X": "x", "<": "triangle-left", ">": "triangle-right", "*": "star", "p": "pentagon", "d": "diamond-tall",

@@ -13,6 +13,7 @@ from plots.figures.diagrams import styles_in_order
 from plots.figures.history import annotate_free_area, draw_history
 from plots.figures.history_study import plan_histories
 from plots.report.looks import SYMBOLS, looks_of
+from plots.results import method_styles
 from plots.results.smoothing import read_results
 from plots.tests.synthetic_results import change_provenance, without_finite_elements, write_results
 from plots.tests.test_read_results import InFolder
@@ -130,13 +131,13 @@ class Figures(InFolder):
         self.assertNotIn("thesis", str(own))
 
     def test_no_two_methods_look_alike(self):
-        known = list(style.KNOWN_METHODS)
-        colours = {look.colour for look in style.KNOWN_METHODS.values()}
-        self.assertFalse(colours & set(style.OWN_COLOURS))
+        known = list(method_styles.KNOWN_METHODS)
+        colours = {look.colour for look in method_styles.KNOWN_METHODS.values()}
+        self.assertFalse(colours & set(method_styles.OWN_COLOURS))
         for n_methods in range(1, 21):
             for n_known in range(min(n_methods, len(known)) + 1):
                 methods = known[len(known) - n_known:] + [f"own-{i}" for i in range(n_methods - n_known)]
-                styles = style.method_styles(methods + [methods[0] + style.PARALLEL_SUFFIX])
+                styles = method_styles.method_styles(methods + [methods[0] + method_styles.PARALLEL_SUFFIX])
                 looks = {(look.colour, look.marker, look.hollow) for look in styles.values()}
                 self.assertEqual(len(looks), len(styles), methods)
                 for name in methods[n_known:]:
@@ -144,9 +145,9 @@ class Figures(InFolder):
         self.assertLessEqual({look.marker for look in styles.values()}, set(SYMBOLS))
 
     def test_the_colour_blind_can_tell_own_colours_apart(self):
-        others = [look.colour for look in style.KNOWN_METHODS.values()]
-        for number, colour in enumerate(style.OWN_COLOURS):
-            for other in (*others, *style.OWN_COLOURS[:number]):
+        others = [look.colour for look in method_styles.KNOWN_METHODS.values()]
+        for number, colour in enumerate(method_styles.OWN_COLOURS):
+            for other in (*others, *method_styles.OWN_COLOURS[:number]):
                 for view in VIEWS:
                     distance = np.linalg.norm(lab_colour(colour, view) - lab_colour(other, view))
                     self.assertGreater(distance, LEAST_DISTANCE, (colour, other))
@@ -162,16 +163,16 @@ class Figures(InFolder):
         self.assertEqual(looks["spring"]["colour"], whole["spring"].colour)
         self.assertEqual(looks["getme"], {"colour": "#D55E00", "symbol": "circle", "dash": "solid"})
         # A method that is added at the end changes no other.
-        self.assertEqual(style.method_styles((*results.methods, "more"))["spring"], whole["spring"])
+        self.assertEqual(method_styles.method_styles((*results.methods, "more"))["spring"], whole["spring"])
 
     def test_markers_and_dashes_tell_methods_apart(self):
-        methods = (*style.KNOWN_METHODS, "mine", "yours", "another")
-        styles = style.method_styles(methods)
+        methods = (*method_styles.KNOWN_METHODS, "mine", "yours", "another")
+        styles = method_styles.method_styles(methods)
         for attribute in ("colour", "marker", "dashes"):
-            known = [getattr(styles[name], attribute) for name in style.KNOWN_METHODS]
+            known = [getattr(styles[name], attribute) for name in method_styles.KNOWN_METHODS]
             self.assertEqual(len(set(known)), len(known), attribute)
         self.assertEqual(len({(look.colour, look.marker) for look in styles.values()}), len(styles))
-        parallel = style.method_styles((*methods, "getme-parallel"))
+        parallel = method_styles.method_styles((*methods, "getme-parallel"))
         self.assertEqual({name: parallel[name] for name in styles}, styles)
         self.assertEqual(parallel["getme-parallel"].colour, styles["getme"].colour)
         self.assertNotEqual(parallel["getme-parallel"].dashes, styles["getme"].dashes)

@@ -20,6 +20,8 @@ class StudyText {
   const std::string& text() const { return text_; }
   /// The study file.
   const std::filesystem::path& file() const { return file_; }
+  /// The files that it includes, in the order of their lines.
+  const std::vector<std::filesystem::path>& included() const { return included_; }
   /// Returns another text with the positions of this one. Additional lines get the position of the
   /// last line.
   StudyText with_text(std::string text) const;
@@ -36,6 +38,7 @@ class StudyText {
   std::filesystem::path file_;
   std::string text_;
   std::vector<std::string> positions_;
+  std::vector<std::filesystem::path> included_;
   std::size_t n_includes_ = 0;
 };
 

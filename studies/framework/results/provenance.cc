@@ -138,6 +138,18 @@ Json describe_sessions(const RunFacts& facts) {
   return sessions;
 }
 
+Json describe_problem(const ProblemFacts& problem) {
+  Json json;
+  for (const auto& solution : problem.solutions) {
+    Json entry{{"u", solution.u}, {"A", solution.a}};
+    if (!solution.label.empty()) entry["label"] = solution.label;
+    json["solutions"].push_back(entry);
+  }
+  json["natural"] = problem.natural;
+  json["load"] = problem.load;
+  return json;
+}
+
 Json describe_results(const RunFacts& facts) {
   Json results = Json::array();
   for (const auto& result : facts.results) {
@@ -205,6 +217,7 @@ std::string provenance_json(const RunFacts& facts) {
   json["machine"] = describe_machine(facts);
   json["meshes"] = describe_meshes(facts);
   json["methods"] = describe_methods(facts);
+  if (!facts.problem.solutions.empty()) json["problem"] = describe_problem(facts.problem);
   Json parameters;
   for (const auto& [key, value] : facts.study.parameters) parameters[key] = value;
   json["parameters"] = parameters;

@@ -23,6 +23,17 @@ struct ResultSessions {
   std::map<int, std::string> solved;  ///< by degree, sessions of the finite elements
 };
 
+/// The problem -div(A grad u) = f whose solution is prescribed, as text.
+struct ProblemFacts {
+  struct Solution {
+    std::string label;  ///< empty: the study has one solution
+    std::string u, a;
+  };
+  std::vector<Solution> solutions;
+  std::vector<std::string> natural;  ///< groups of the boundary with natural conditions
+  std::string load;                  ///< "nodal" or "quadrature"
+};
+
 /// The content of provenance.json, except facts of the program and the machine.
 struct RunFacts {
   const StudyHeader& study;
@@ -36,6 +47,7 @@ struct RunFacts {
   std::vector<StudyMethod> methods{};  ///< for meshes of these dimensions
   std::string shard{};                 ///< of a collection, for example "3/10"; empty: all
   std::map<std::string, std::string> members{};  ///< member -> mesh, of all shards
+  ProblemFacts problem{};                        ///< without solutions if nothing is solved
   std::vector<ResultSessions> results{};         ///< of a complete run
   std::set<std::string> kept{};                  ///< names of the kept results of a complete run
 };

@@ -65,10 +65,9 @@ std::string differences_from(const EarlierRun& earlier, const StudyHeader& study
     if (n_differences > most) return;
     if (n_differences > 1) differences += "; ";
     // The values of contents are checksums, which nobody wants to read.
-    differences += key.starts_with("content of ") ? key + " has changed"
-                   : then.empty()                 ? key + " is new: '" + now + "'"
-                   : now.empty()                  ? key + " was '" + then + "' and is gone"
-                                 : key + " was '" + then + "' and is '" + now + "'";
+    differences += key.starts_with("content of ")
+                       ? key + " has changed"
+                       : key + " was '" + then + "' and is '" + now + "'";
   };
   for (const auto& [key, then] : earlier.settings) {
     const bool of_file =

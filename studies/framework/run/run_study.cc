@@ -477,6 +477,19 @@ class StudyRun {
     progress_.end();
   }
 
+  /// Returns the problem as text.
+  ProblemFacts problem_facts() const {
+    ProblemFacts facts{.solutions = {},
+                       .natural = study_.finite_elements.natural_groups,
+                       .load = study_.finite_elements.galerkin_load ? "quadrature" : "nodal"};
+    if constexpr (dim == spacedim)
+      if (!study_.degrees.empty())
+        for (const StudySolution* solution : solutions_of(study_))
+          facts.solutions.push_back(
+              {solution->label, u_text<dim>(*solution), diffusivity_text(*solution)});
+    return facts;
+  }
+
   void write_provenance(const std::string& status) {
     const bool is_complete = status == "complete";
     write_atomically(
@@ -491,6 +504,7 @@ class StudyRun {
              .dimensions = study_.dimensions,
              .meshes = mesh_facts(),
              .methods = study_.methods,
+             .problem = problem_facts(),
              .results = is_complete ? sessions_of(data_) : std::vector<ResultSessions>(),
              .kept = is_complete ? names_of_kept(data_) : std::set<std::string>()}));
   }

@@ -178,6 +178,21 @@ ManufacturedSolution<dim> study_solution(const StudySolution& solution,
 template ManufacturedSolution<2> study_solution(const StudySolution&, std::span<const Point<2>>);
 template ManufacturedSolution<3> study_solution(const StudySolution&, std::span<const Point<3>>);
 
+template <int dim>
+std::string u_text(const StudySolution& solution) {
+  if (solution.name != "expression") return manufactured_solution<dim>(solution.name).formula;
+  return solution.u.empty() ? solution.value : solution.u;
+}
+template std::string u_text<2>(const StudySolution&);
+template std::string u_text<3>(const StudySolution&);
+
+std::string diffusivity_text(const StudySolution& solution) {
+  std::string text = solution.diffusivity;
+  for (const auto& of_group : solution.of_groups)
+    text += (text.empty() ? "" : "; ") + of_group.formula + " in group " + of_group.group;
+  return text.empty() ? "1" : text;
+}
+
 bool needs_mpi(const Study& study) {
   return !study.degrees.empty() &&
          (study.dimensions.cells == 3 || study.finite_elements.multigrid_cg != Recorded::never);

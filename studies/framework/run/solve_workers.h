@@ -13,6 +13,12 @@ template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
                                          std::span<const Point<dim>> sample);
 
+/// Returns the formulas of u and of the diffusivity as text. The text of u of a named solution also
+/// gives its diffusivity, if that is not the identity.
+template <int dim>
+std::string u_text(const StudySolution& solution);
+std::string diffusivity_text(const StudySolution& solution);
+
 /// True if a study's solves need Trilinos and so MPI: on volume meshes, and for multigrid.
 bool needs_mpi(const Study& study);
 
