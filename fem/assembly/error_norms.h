@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "fem/elements/adaptive_quadrature.h"
 #include "fem/solutions/manufactured_solution.h"
@@ -29,5 +30,19 @@ template <int dim>
 ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
                        const ManufacturedSolution<dim>& solution, const Eigen::VectorXd& exact,
                        const Eigen::VectorXd& discrete);
+
+/// The norms of u - u_h on one cell.
+struct ErrorOnCell {
+  double l2 = 0.0, h1 = 0.0;
+};
+
+/// Computes the errors of this rank's cells, in the order of the space's groups and of their cells.
+/// Parameters: see error_norms. The sums of their squares are those of error_norms, apart from
+/// rounding. Collective.
+template <int dim>
+std::vector<ErrorOnCell> cell_errors(const FiniteElementSpace<dim>& space,
+                                     const std::vector<Point<dim>>& x,
+                                     const ManufacturedSolution<dim>& solution,
+                                     const Eigen::VectorXd& exact, const Eigen::VectorXd& discrete);
 
 }  // namespace smoothfem
