@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "fem/assembly/assembly.h"
+#include "fem/assembly/error_norms.h"
 #include "fem/linear_algebra/condition_number.h"
 #include "fem/linear_algebra/conjugate_gradients.h"
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "fem/assembly/error_norms.h"
 #include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"

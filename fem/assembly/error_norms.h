@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/elements/adaptive_quadrature.h"
+#include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"
 
@@ -30,11 +31,6 @@ template <int dim>
 ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
                        const ManufacturedSolution<dim>& solution, const Eigen::VectorXd& exact,
                        const Eigen::VectorXd& discrete);
-
-/// The norms of u - u_h on one cell.
-struct ErrorOnCell {
-  double l2 = 0.0, h1 = 0.0;
-};
 
 /// Computes the errors of this rank's cells, in the order of the space's groups and of their cells.
 /// Parameters: see error_norms. The sums of their squares are those of error_norms, apart from
