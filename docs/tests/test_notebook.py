@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the notebook of the manual by Jupyter's kernel."""
 
+import importlib.util
 import os
 import tempfile
 import unittest
@@ -10,20 +11,18 @@ from launcher.tests.build_folder import BUILD
 
 from .pages import DOCS
 
-try:
-    import ipykernel  # noqa: F401  (the notebook's kernel)
-    import nbclient
-    import nbformat
-except ImportError:
-    nbclient = None
+HAS_JUPYTER = all(importlib.util.find_spec(name) for name in ("nbclient", "nbformat", "ipykernel"))
 
 NOTEBOOK = DOCS / "tutorials" / "notebook.ipynb"
-SECONDS = 120  # for each cell, beside other tests
+SECONDS = 120  # for each cell, while other tests run, too
 
 
-@unittest.skipIf(nbclient is None, "SKIPPED: python3-nbconvert or python3-ipykernel is not installed")
+@unittest.skipUnless(HAS_JUPYTER, "SKIPPED: python3-nbconvert or python3-ipykernel is not installed")
 class Notebook(unittest.TestCase):
     def test_runs_and_shows_pictures(self):
+        import nbclient
+        import nbformat
+
         notebook = nbformat.read(NOTEBOOK, as_version=4)
         nbformat.validate(notebook)
         cells = [cell for cell in notebook.cells if cell.cell_type == "code"]

@@ -23,13 +23,17 @@ _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 from . import _arguments, _core  # noqa: E402
 from ._core import InputError, Iteration, Mesh, Quality, Result, Stage, __version__  # noqa: E402
 from ._bridges import from_meshio, from_pyvista, to_meshio, to_pyvista  # noqa: E402
-from . import _cells, _plot  # noqa: E402,F401  (they add methods to Mesh)
+from ._cells import create as _create_mesh  # noqa: E402
+from ._plot import plot as _plot_mesh, png as _mesh_png  # noqa: E402
 from ._solution import Solution, diffusivities, formula, named_problem, natural_groups  # noqa: E402
 from ._study import Results, Study  # noqa: E402
 
 __all__ = ["InputError", "Iteration", "Mesh", "Quality", "Result", "Results", "Solution", "Stage", "Study", "__version__", "distort", "domains",
            "from_meshio", "from_pyvista", "generate", "methods", "metrics", "parameters", "problems", "quality", "read", "smooth", "solve",
            "summary", "to_meshio", "to_pyvista", "write"]
+
+
+Mesh.__init__, Mesh.plot, Mesh._repr_png_ = _create_mesh, _plot_mesh, _mesh_png
 
 
 def read(path):

@@ -19,7 +19,7 @@ def shown(value):
 
 
 def wrong(name, value, wanted):
-    """Returns the InputError that an argument is not what is wanted."""
+    """Returns the InputError for an argument; wanted: what it has to be."""
     return InputError(f"{name} is {shown(value)}, but has to be {wanted}")
 
 

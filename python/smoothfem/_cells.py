@@ -9,7 +9,7 @@ TYPES = {"vertex": (0, 1), "line": (1, 2), "triangle": (2, 3), "quad": (2, 4), "
          "wedge": (3, 6), "hexahedron": (3, 8)}
 
 
-_create = Mesh.__init__
+_create = Mesh.__init__  # of the compiled class
 
 
 def create(self, points, cells=None, *, fixed=None, dim=None, cell_type=None):
@@ -23,6 +23,9 @@ def create(self, points, cells=None, *, fixed=None, dim=None, cell_type=None):
     """
     rows, dim_of_types = rows_of(points, cells, cell_type)
     _create(self, points, rows, fixed, dim, dim_of_types)
+
+
+create.__qualname__ = "Mesh.__init__"  # in messages
 
 
 def rows_of(points, cells, cell_type):
@@ -64,7 +67,3 @@ def _kind(name):
     if known not in TYPES:
         raise InputError(f"cells of the type {shown(name)} cannot be taken; take cells with corners only: {', '.join(TYPES)}")
     return TYPES[known]
-
-
-create.__qualname__ = "Mesh.__init__"
-Mesh.__init__ = create

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _core
 from ._arguments import shown, wrong
-from ._core import InputError, Mesh
+from ._core import InputError
 
 COLOURS = "RdYlBu"  # low quality red, high quality blue; distinct for the colour-blind
 MAX_INLINE_CELLS = 20000
@@ -179,7 +179,3 @@ def _visible_faces(mesh, kept):
         seen.setdefault(tuple(sorted(face.tolist())), []).append(k)
     alone = [several[0] for several in seen.values() if len(several) == 1]
     return [faces[k] for k in alone], np.array(cells)[alone]
-
-
-Mesh.plot = plot
-Mesh._repr_png_ = png

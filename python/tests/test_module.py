@@ -85,8 +85,8 @@ class StudiesAsDicts(unittest.TestCase):
             study.write()
             self.assertEqual(Path("mine.prm").read_text().splitlines()[1:4], ["set meshes = m", "set methods = laplace, getme", "set degrees = 1"])
             self.assertEqual(smoothfem.Study(keys, name="mine").run().summary["method"].tolist(), ["initial", "laplace", "getme"])
-            with self.assertRaisesRegex(smoothfem.InputError, r"bad\.prm:3: there is no key 'mehtods' here; did you mean 'methods'"):
-                smoothfem.Study({"meshes": "m", "mehtods": "getme"}, name="bad").run()
+            with self.assertRaisesRegex(smoothfem.InputError, r"bad\.prm:3: there is no key 'methodz' here; did you mean 'methods'"):
+                smoothfem.Study({"meshes": "m", "methodz": "getme"}, name="bad").run()
             Path("own.prm").write_text("set meshes = m\n")
             with self.assertRaisesRegex(smoothfem.InputError, "was not written by smoothfem.Study"):
                 smoothfem.Study(keys, name="own").write()
