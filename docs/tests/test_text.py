@@ -11,7 +11,7 @@ from .pages import BLOCK, DOCS, pages
 # Written at build time by docs/reference_pages.py.
 MADE = {"reference/commands.md", "reference/study-keys.md", "reference/columns.md", "reference/methods.md", "reference/presets.md",
         "reference/metrics.md", "reference/domains.md", "reference/solutions.md", "reference/formats.md", "reference/studies.md",
-        "explanation/claims.md", "tutorials/notebook.md"}
+        "explanation/claims.md"}
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 # Options of external programs.
 OTHERS = {"--exclusive", "--gtest"}

@@ -12,7 +12,7 @@ from ._core import InputError
 class Solution(dict):
     """The result of solve(): numbers as attributes and, as in a dict, by their names; fields on the mesh as arrays.
 
-    u_h: nodal solution, one number for each node. u: the known solution there. nodal_error: |u - u_h|. cell_l2_error, cell_h1_error: norms of
+    u_h: nodal solution, one number for each node. u: the known solution there. nodal_error: distance of u_h from u. cell_l2_error, cell_h1_error: norms of
     u - u_h on each cell. dof_points, dof_values: positions of all degrees of freedom, and u_h there. Nodes that no cell uses have NaN.
     """
 
@@ -24,7 +24,7 @@ class Solution(dict):
 
     @property
     def nodal_error(self):
-        """Returns |u - u_h| at each node."""
+        """Returns the distance of u_h from u at each node."""
         return np.abs(self.u - self.u_h)
 
     def __getattr__(self, name):
