@@ -38,7 +38,7 @@ install(FILES launcher/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash
   RENAME smoothfem COMPONENT program)
 install(FILES README.md CITATION.cff CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs/tutorials docs/how-to docs/reference docs/explanation docs/pictures
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.ipynb")
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/studies COMPONENT program
   FILES_MATCHING PATTERN "*.prm" PATTERN "*.json" PATTERN "*.csv"

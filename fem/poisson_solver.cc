@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/poisson_solver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "fem/assembly/assembly.h"
 #include "fem/assembly/error_norms.h"
@@ -245,6 +247,57 @@ std::vector<double> PoissonSolver<dim>::nodal_errors() const {
   std::vector<double> errors(work_->n_mesh_nodes, 0.0);
   for (std::size_t k = 0; k < of_ranks.size(); ++k) errors[space.nodes_of_ranks[k]] = of_ranks[k];
   return errors;
+}
+
+namespace {
+
+/// Returns the mesh's cell with these nodes.
+CellIndex cell_with(const Topology& topology, std::vector<NodeIndex> nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  for (const CellIndex c : topology.node_cells(nodes.front())) {
+    std::vector<NodeIndex> others(topology.cell_nodes(c).begin(), topology.cell_nodes(c).end());
+    std::sort(others.begin(), others.end());
+    if (others == nodes) return c;
+  }
+  throw std::logic_error("a finite element's cell is not in the mesh");
+}
+
+/// Returns the mesh's cell of each of this rank's cells, in the order of cell_errors.
+template <int dim>
+std::vector<CellIndex> mesh_cells(const FiniteElementSpace<dim>& space, const Topology& topology) {
+  std::vector<CellIndex> cells;
+  for (const ElementCells& group : space.groups) {
+    const std::size_t n = group.element.n_vertices;
+    for (std::size_t cell = 0; cell < group.n_own; ++cell) {
+      std::vector<NodeIndex> nodes(n);
+      for (std::size_t v = 0; v < n; ++v) nodes[v] = space.nodes[group.vertices[cell * n + v]];
+      cells.push_back(cell_with(topology, std::move(nodes)));
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+template <int dim>
+DiscreteSolution<dim> PoissonSolver<dim>::discrete_solution(
+    const Mesh<dim>& mesh, const ManufacturedSolution<dim>& solution) const {
+  const auto& space = *work_->space;
+  const Eigen::VectorXd& u_h = work_->discrete;
+  const auto x = space.local_coordinates(mesh.coordinates());
+  DiscreteSolution<dim> result{.dof_points = space.dof_points(x),
+                               .dof_values = {u_h.begin(), u_h.end()},
+                               .node_values = {},
+                               .cell_errors = {}};
+  result.node_values.assign(mesh.n_nodes(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t node = 0; node < space.nodes.size(); ++node)
+    if (const std::uint32_t dof = space.vertex_dof[node]; dof != space.absent)
+      result.node_values[space.nodes[node]] = u_h[dof];
+  const auto cells = mesh_cells(space, mesh.topology());
+  const auto errors = cell_errors(space, x, solution, work_->system.exact, u_h);
+  result.cell_errors.resize(mesh.n_cells());
+  for (std::size_t k = 0; k < cells.size(); ++k) result.cell_errors[cells[k]] = errors[k];
+  return result;
 }
 
 template <int dim>

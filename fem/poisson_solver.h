@@ -42,6 +42,15 @@ struct PoissonOptions {
   Recorded multigrid_cg = Recorded::never;
 };
 
+/// A finite element function u_h, and how far it is from u.
+template <int dim>
+struct DiscreteSolution {
+  std::vector<Point<dim>> dof_points;    ///< positions of the dofs
+  std::vector<double> dof_values;        ///< u_h there
+  std::vector<double> node_values;       ///< u_h at each mesh node; NaN at nodes that no cell uses
+  std::vector<ErrorOnCell> cell_errors;  ///< norms of u - u_h on each cell of the mesh
+};
+
 /// Solves -div(A grad u) = f for meshes of one topology, with Dirichlet boundary values, and
 /// natural ones on the groups of the options. Computations that depend on the topology alone are
 /// done once, at construction. Copies share their results and are otherwise independent, so that
@@ -64,6 +73,10 @@ class PoissonSolver {
   /// Returns, on the root, |u - u_h| of the last solve at each mesh node; 0 at nodes that no cell
   /// uses. Collective.
   std::vector<double> nodal_errors() const;
+
+  /// Returns the last solution. mesh, solution: those of the last solve. For one process only.
+  DiscreteSolution<dim> discrete_solution(const Mesh<dim>& mesh,
+                                          const ManufacturedSolution<dim>& solution) const;
 
   /// Returns, on the root, the start vectors of the next verified condition number; empty if there
   /// are none. Their order depends on the number of ranks. Collective.

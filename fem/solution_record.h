@@ -25,4 +25,9 @@ struct SolutionRecord {
   std::string status;  ///< "ok", or the problem with the numbers
 };
 
+/// The norms of u - u_h on one cell.
+struct ErrorOnCell {
+  double l2 = 0.0, h1 = 0.0;
+};
+
 }  // namespace smoothfem

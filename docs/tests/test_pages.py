@@ -74,7 +74,7 @@ EXPECTED = {
     "how-to/many-meshes": r"(?sm)^gear3\.smooth,complete,$",
     "how-to/latex": r"(?s)history\S*\.pdf.*tab:gear:",
     "how-to/pandas": r"(?m)^tri +1 ",
-    "how-to/python": r"(?sm)^\d+/\d+ Quality\(q_min=0\.\d.*getme",
+    "how-to/python": r"(?sm)^\d+/\d+ Quality\(q_min=0\.\d.*untangled \d+ .*python:Spring.*smoothfem\.Solution: degree 2.*getme",
     "how-to/restart-and-mpi": r"volume",
     "explanation/reducing-the-error": r"(?s)energy-descent.*\| moving \|",
 }

@@ -100,10 +100,10 @@ bool is_near(const SquareSums& coarse, const SquareSums& fine, const SquareSums&
   return true;
 }
 
-/// Handles the cells of this rank whose rule is chosen. Collective.
-template <int dim>
-void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
-                               adaptive_quadrature::Use& points) {
+/// Calls visit(sums) for the cells of this rank whose rule is chosen, in their order. Collective.
+template <int dim, class Visit>
+void for_each_cell_by_chosen_rule(const Errors<dim>& errors, const Visit& visit,
+                                  adaptive_quadrature::Use& points) {
   SquareSums mean;
   std::vector<SquareSums> of_cells;  // by the first rule
   for_each_group(
@@ -138,7 +138,7 @@ void add_cells_by_chosen_rules(const Errors<dim>& errors, SquareSums& total,
             sums = finer;
           }
           points.note(level, is_settled);
-          total.add(sums);
+          visit(sums);
         }
       });
 }
@@ -159,7 +159,9 @@ ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<P
     for (std::size_t cell = 0; cell < group.n_own; ++cell)
       errors.template add_cell<n_dofs, n_vertices>(group, cell, group.element.errors, squares);
   });
-  if constexpr (dim == 3) add_cells_by_chosen_rules(errors, squares, points);
+  if constexpr (dim == 3)
+    for_each_cell_by_chosen_rule(
+        errors, [&](const SquareSums& sums) { squares.add(sums); }, points);
   const auto& of_cells = squares.sums;
   std::array sums{at_dofs.sum(), of_cells[0], of_cells[1], of_cells[2], of_cells[3]};
   space.ranks.sum(sums);
@@ -172,11 +174,47 @@ ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<P
           .points = points};
 }
 
+template <int dim>
+std::vector<ErrorOnCell> cell_errors(const FiniteElementSpace<dim>& space,
+                                     const std::vector<Point<dim>>& x,
+                                     const ManufacturedSolution<dim>& solution,
+                                     const Eigen::VectorXd& exact,
+                                     const Eigen::VectorXd& discrete) {
+  const Errors<dim> errors{space, x, solution, exact, discrete};
+  const auto error_of = [](const SquareSums& s) {
+    return ErrorOnCell{.l2 = std::sqrt(s.sums[2]), .h1 = std::sqrt(s.sums[2] + s.sums[3])};
+  };
+  std::vector<ErrorOnCell> chosen;
+  if constexpr (dim == 3) {
+    adaptive_quadrature::Use ignored;
+    for_each_cell_by_chosen_rule(
+        errors, [&](const SquareSums& sums) { chosen.push_back(error_of(sums)); }, ignored);
+  }
+  std::vector<ErrorOnCell> of_cells;
+  auto next = chosen.begin();
+  for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
+    for (std::size_t cell = 0; cell < group.n_own; ++cell)
+      of_cells.push_back(group.element.n_rules() > 1
+                             ? *next++
+                             : error_of(errors.template of_cell<n_dofs, n_vertices>(
+                                   group, cell, group.element.errors)));
+  });
+  return of_cells;
+}
+
 template ErrorNorms error_norms(const FiniteElementSpace<2>&, const std::vector<Point<2>>&,
                                 const ManufacturedSolution<2>&, const Eigen::VectorXd&,
                                 const Eigen::VectorXd&);
 template ErrorNorms error_norms(const FiniteElementSpace<3>&, const std::vector<Point<3>>&,
                                 const ManufacturedSolution<3>&, const Eigen::VectorXd&,
                                 const Eigen::VectorXd&);
+template std::vector<ErrorOnCell> cell_errors(const FiniteElementSpace<2>&,
+                                              const std::vector<Point<2>>&,
+                                              const ManufacturedSolution<2>&,
+                                              const Eigen::VectorXd&, const Eigen::VectorXd&);
+template std::vector<ErrorOnCell> cell_errors(const FiniteElementSpace<3>&,
+                                              const std::vector<Point<3>>&,
+                                              const ManufacturedSolution<3>&,
+                                              const Eigen::VectorXd&, const Eigen::VectorXd&);
 
 }  // namespace smoothfem

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "fem/elements/adaptive_quadrature.h"
+#include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"
 
@@ -29,5 +31,14 @@ template <int dim>
 ErrorNorms error_norms(const FiniteElementSpace<dim>& space, const std::vector<Point<dim>>& x,
                        const ManufacturedSolution<dim>& solution, const Eigen::VectorXd& exact,
                        const Eigen::VectorXd& discrete);
+
+/// Computes the errors of this rank's cells, in the order of the space's groups and of their cells.
+/// Parameters: see error_norms. The sums of their squares are those of error_norms, apart from
+/// rounding. Collective.
+template <int dim>
+std::vector<ErrorOnCell> cell_errors(const FiniteElementSpace<dim>& space,
+                                     const std::vector<Point<dim>>& x,
+                                     const ManufacturedSolution<dim>& solution,
+                                     const Eigen::VectorXd& exact, const Eigen::VectorXd& discrete);
 
 }  // namespace smoothfem

@@ -238,6 +238,23 @@ TEST_P(PoissonSolverTest, NodalErrorsAreThoseAtTheMeshNodes) {
   });
 }
 
+TEST_P(PoissonSolverTest, TheDiscreteSolutionHasTheErrorsOfTheRecord) {
+  GetParam().on_mesh(3, 3, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
+    PoissonSolver<dim> solver(&mesh, exact_options());
+    const auto& solution = manufactured_solution<dim>("sine");
+    const auto record = solver.solve(mesh.coordinates(), solution);
+    const auto found = solver.discrete_solution(mesh, solution);
+    const auto errors = solver.nodal_errors();
+    for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
+      EXPECT_EQ(std::abs(solution.value(mesh.coordinates()[i]) - found.node_values[i]), errors[i]);
+    EXPECT_EQ(found.dof_values.size(), record.n_dofs);
+    ASSERT_EQ(found.cell_errors.size(), mesh.n_cells());
+    double square = 0.0;
+    for (const ErrorOnCell& error : found.cell_errors) square += error.h1 * error.h1;
+    EXPECT_NEAR(std::sqrt(square) / record.h1_error, 1.0, 1e-12);
+  });
+}
+
 TEST_P(PoissonSolverTest, LimitsAreReportedInTheStatus) {
   GetParam().on_mesh(8, 6, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto solve = [&](const PoissonOptions& options) {

@@ -14,10 +14,6 @@ namespace {
 
 using Coordinates = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-bool has_whole_numbers(const py::array& array) {
-  return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
-}
-
 NodeIndex node_index(std::int64_t number, std::size_t cell) {
   if (number < 0 || number > std::numeric_limits<NodeIndex>::max())
     throw CellError(cell,
@@ -56,27 +52,6 @@ CompressedRows<NodeIndex> rows_of(const py::object& cells) {
   return rows;
 }
 
-/// Converts flags or numbers of nodes to one flag for each node; no flags for None.
-std::optional<std::vector<bool>> flags_of(const py::object& given, std::size_t n_nodes) {
-  if (given.is_none()) return std::nullopt;
-  const auto fixed = py::array::ensure(given);
-  const bool is_row = fixed && fixed.ndim() == 1;
-  if (is_row && fixed.dtype().kind() == 'b' && static_cast<std::size_t>(fixed.size()) == n_nodes)
-    return py::cast<std::vector<bool>>(fixed.attr("tolist")());
-  if (!is_row || (!has_whole_numbers(fixed) && fixed.size() > 0))
-    throw InputError("fixed is an array of " + std::to_string(n_nodes) +
-                     " truth values, one a node, or of the numbers of the fixed nodes");
-  std::vector<bool> flags(n_nodes, false);
-  for (const py::handle entry : fixed) {
-    const auto node = py::cast<std::int64_t>(entry);
-    if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
-      throw InputError("fixed has the node number " + std::to_string(node) +
-                       ", but the mesh has the nodes 0 to " + std::to_string(n_nodes - 1));
-    flags[static_cast<std::size_t>(node)] = true;
-  }
-  return flags;
-}
-
 template <int spacedim>
 std::vector<Point<spacedim>> points_of(const Coordinates& array) {
   std::vector<Point<spacedim>> points(static_cast<std::size_t>(array.shape(0)));
@@ -93,33 +68,57 @@ AnyMesh mesh_of(const Coordinates& points, CompressedRows<NodeIndex> cells,
       points_of<dim>(points));
 }
 
+bool is_flat(const std::vector<Point<3>>& points) {
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Point<3>& point) { return point.z() == points.front().z(); });
+}
+
 /// Quadrilaterals of meshio have points in space; they would become tetrahedra.
 void require_clear_dimension(const CompressedRows<NodeIndex>& rows,
                              const std::vector<Point<3>>& points) {
-  const bool is_flat = std::all_of(points.begin(), points.end(), [&](const Point<3>& point) {
-    return point.z() == points.front().z();
-  });
-  if (is_flat && !rows.empty() && rows[0].size() == 4)
+  if (is_flat(points) && !rows.empty() && rows[0].size() == 4)
     throw InputError(
         "the cells have four nodes, and all points have the same z: give points[:, :2] for planar "
-        "quadrilaterals, dim=2 for a surface, or dim=3 for tetrahedra");
+        "quadrilaterals, cell_type=\"quad\" or \"tetra\", dim=2 for a surface, or dim=3");
 }
 
-PythonMesh make_mesh(const py::object& given, const py::object& cells, const py::object& fixed,
-                     std::optional<int> dim) {
+/// Returns the dimension of cells from an argument of Python.
+std::optional<int> dimension_of(const py::object& dim) {
+  if (dim.is_none()) return std::nullopt;
+  const std::string text = py::cast<std::string>(py::str(dim));
+  if (!py::isinstance<py::int_>(dim) || (text != "2" && text != "3"))
+    throw InputError("dim is the dimension of the cells: 2, or in space 3; it is given as " + text);
+  return text == "2" ? 2 : 3;
+}
+
+/// cells: rows. dim: as users give it; dim_of_types: that of the types that users name; or None.
+PythonMesh make_mesh(const py::object& given, const py::object& rows_given, const py::object& fixed,
+                     const py::object& dim, const py::object& dim_of_types) {
   const auto points = Coordinates::ensure(given);
-  if (!points || points.ndim() != 2 || (points.shape(1) != 2 && points.shape(1) != 3))
+  if (!points || points.ndim() != 2 || (points.shape(1) != 2 && points.shape(1) != 3)) {
+    PyErr_Clear();
     throw InputError("points is an array of n x 2 or n x 3 numbers");
+  }
   const int spacedim = static_cast<int>(points.shape(1));
-  const int cell_dim = dim.value_or(spacedim);
-  if ((cell_dim != 2 && cell_dim != 3) || cell_dim > spacedim)
+  const auto asked = dimension_of(dim);
+  const auto of_types = dimension_of(dim_of_types);
+  if (asked && of_types && *asked != *of_types)
+    throw InputError("dim is " + std::to_string(*asked) + ", but the cells have dimension " +
+                     std::to_string(*of_types));
+  const int cell_dim = asked ? *asked : of_types.value_or(spacedim);
+  if (cell_dim > spacedim)
     throw InputError("dim is the dimension of the cells: 2, or in space 3; it is given as " +
-                     std::to_string(cell_dim));
-  auto rows = rows_of(cells);
-  auto flags = flags_of(fixed, static_cast<std::size_t>(points.shape(0)));
-  if (cell_dim == 3 && !dim) require_clear_dimension(rows, points_of<3>(points));
+                     std::to_string(cell_dim) + ", but points have 2 coordinates");
+  auto rows = rows_of(rows_given);
+  auto flags = node_flags("fixed", fixed, static_cast<std::size_t>(points.shape(0)));
+  if (cell_dim == 3 && !asked && !of_types) require_clear_dimension(rows, points_of<3>(points));
   if (cell_dim == 3) return PythonMesh(mesh_of<3>(points, std::move(rows), std::move(flags)));
   if (spacedim == 2) return PythonMesh(mesh_of<2>(points, std::move(rows), std::move(flags)));
+  // meshio and Gmsh give planar meshes a third coordinate.
+  if (of_types && !asked && is_flat(points_of<3>(points)))
+    return PythonMesh(
+        mesh_of<2>(Coordinates(points[py::make_tuple(py::ellipsis(), py::slice(0, 2, 1))]),
+                   std::move(rows), std::move(flags)));
   return PythonMesh(make_surface_mesh(std::move(rows), points_of<3>(points), {}, std::move(flags)));
 }
 
@@ -213,19 +212,8 @@ void bind_mesh(py::module_& module) {
     return m.visit([]<int d, int s>(const Mesh<d, s>&) { return mesh_kind_name(d, s); });
   };
   py::class_<PythonMesh, std::shared_ptr<PythonMesh>>(
-      module, "Mesh",
-      "A mesh with constant cells and variable points.\n\n"
-      "points: (n, 2) or (n, 3) finite numbers. cells: an array (n, k) or a sequence of sequences "
-      "of\n"
-      "node numbers, counted from 0; planar cells are counterclockwise. fixed: the nodes that "
-      "smoothing\n"
-      "must not move, as numbers or as n truth values (default: nodes of the boundary). dim: "
-      "dimension\n"
-      "of the cells, 2 or 3 (default: number of coordinates of a point); with points in space and "
-      "dim=2\n"
-      "the mesh is a surface. Raises InputError that names the first invalid cell.")
-      .def(py::init(&make_mesh), py::arg("points"), py::arg("cells"), py::kw_only(),
-           py::arg("fixed") = py::none(), py::arg("dim") = py::none())
+      module, "Mesh", "A mesh with constant cells and variable points.")
+      .def(py::init(&make_mesh))
       .def_property(
           "points", [](const py::object& self) { return self.cast<PythonMesh&>().points(self); },
           &PythonMesh::set_points,
@@ -238,6 +226,22 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly(
           "blocks", [](const PythonMesh& m) { return m.arrays().blocks().attr("copy")(); },
           "Node numbers of the cells of each type: {'triangle': (n, 3), ...}; read-only.")
+      .def_property_readonly(
+          "cells_dict", [](const PythonMesh& m) { return m.arrays().cells_dict().attr("copy")(); },
+          "As blocks, with meshio's names of types: 'triangle', 'quad', 'polygon5', 'tetra', "
+          "'pyramid', 'wedge', 'hexahedron'.")
+      .def_property_readonly(
+          "edges", [](const PythonMesh& m) { return m.arrays().edges(); },
+          "The ends of each edge, (n_edges, 2), ascending; read-only.")
+      .def_property_readonly(
+          "node_neighbours", [](const PythonMesh& m) { return m.arrays().node_neighbours(); },
+          "(offsets, nodes): an edge joins node i with each of nodes[offsets[i]:offsets[i+1]]; "
+          "read-only.")
+      .def_property_readonly(
+          "boundary_facets",
+          [](const PythonMesh& m) { return m.arrays().boundary_facets().attr("copy")(); },
+          "Node numbers of the sides (faces) that one cell has alone: {'line': (n, 2)}, or "
+          "'triangle', 'quad' of volume meshes; read-only.")
       .def_property_readonly(
           "free", [](const PythonMesh& m) { return m.arrays().free_nodes(); },
           "Numbers of the nodes that smoothing may move, ascending; read-only.")

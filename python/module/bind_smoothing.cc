@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/stl.h>
 
+#include "meshes/preparation/prepare_mesh.h"
 #include "python/module/bind.h"
 #include "python/module/interruptible.h"
 #include "python/module/python_mesh.h"
@@ -10,7 +11,6 @@
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/python_methods.h"
 #include "smoothing/loop/smooth.h"
-#include "smoothing/periodic/mesh_rules.h"
 #include "smoothing/quality/cell_targets.h"
 
 namespace smoothfem {
@@ -21,6 +21,7 @@ namespace {
 struct Result : SmoothingResult {
   std::string method;
   std::vector<IterationRecord> history;
+  std::vector<std::string> notes, warnings;
 };
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
@@ -60,52 +61,81 @@ class Threads {
   int before_;
 };
 
-/// What a user wants for the nodes that stay by default, and for the ideal cells.
-struct Rules {
-  MeshRules nodes;
+/// What users ask for besides the method.
+struct Options {
+  MeshOptions mesh;
   std::optional<TargetKind> target;
+  const PythonMesh* target_mesh = nullptr;
+  bool allow_worse = true;
 
   template <int dim, int spacedim>
-  Mesh<dim, spacedim> apply(const Mesh<dim, spacedim>& mesh) const {
-    if constexpr (dim == spacedim) {
-      const auto ruled = with_rules(mesh, nodes);
-      return target ? with_initial_targets(ruled, *target) : ruled;
+  Mesh<dim, spacedim> with_target(Mesh<dim, spacedim> work) const {
+    if (!target && target_mesh == nullptr) return work;
+    if constexpr (dim != spacedim) {
+      throw InputError("target is for planar and volume meshes; leave it out");
     } else {
-      if (target || nodes.boundary_slides || nodes.joins_periodic)
-        throw InputError(
-            "boundary, periodic and target are for planar and volume meshes; leave them out");
-      return with_interface_rule(mesh, nodes.interfaces);
+      if (target) return with_initial_targets(work, *target);
+      return target_mesh->visit([&](const auto& reference) {
+        return with_cells_as_targets(work, AnyMesh(reference), "this mesh", "the target");
+      });
     }
-  }
-  template <int dim, int spacedim>
-  SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
-                         const Observer<dim, spacedim>& observer) const {
-    if constexpr (dim == spacedim)
-      return smooth_by_rules(mesh, method, nodes, observer);
-    else
-      return smoothfem::smooth(mesh, method, observer);
   }
 };
 
-/// words: the arguments interfaces, boundary, periodic and target.
-Rules rules_of(const std::map<std::string, std::string>& words) {
-  const auto word = [&](const std::string& key, const std::vector<std::string>& known) {
-    return find_named(key, words.at(key), known);
+/// words: the arguments of smooth() by name. None: the default.
+Options options_of(const py::dict& words, std::size_t n_nodes, bool is_surface) {
+  const auto text = [&](const char* key, const std::vector<std::string>& known) {
+    return find_named(key, py::cast<std::string>(words[key]), known);
   };
-  std::vector<std::string> targets{"regular"};
-  targets.insert(targets.end(), initial_target_names.begin(), initial_target_names.end());
-  Rules rules;
-  rules.nodes.interfaces = interface_rule(words.at("interfaces"));
-  rules.nodes.boundary_slides = word("boundary", {"fixed", "slide"}) == "slide";
-  rules.nodes.joins_periodic = word("periodic", {"fixed", "smooth"}) == "smooth";
-  rules.target = initial_target(word("target", targets));
-  return rules;
+  const auto number = [&](const char* key) { return py::cast<std::optional<double>>(words[key]); };
+  Options options;
+  MeshOptions& mesh = options.mesh;
+  mesh.examines = false;
+  mesh.interfaces = text("interfaces", {interface_rule_names.begin(), interface_rule_names.end()});
+  mesh.boundary = text("boundary", {"fixed", "slide"});
+  if (is_surface && mesh.boundary == "fixed") mesh.boundary.clear();
+  mesh.periodic = text("periodic", {"fixed", "smooth"});
+  if (!words["fix"].is_none())
+    mesh.fix = parse_fixed_nodes_rule(py::cast<std::string>(words["fix"]));
+  if (const auto groups = py::cast<std::vector<std::string>>(words["fix_groups"]); !groups.empty())
+    mesh.fix = FixedNodesRule{FixedNodesRule::Kind::groups, groups};
+  if (const auto flags = node_flags("fix", words["fix_nodes"], n_nodes)) mesh.also_fixed = *flags;
+  mesh.feature_angle = number("feature_angle");
+  mesh.slide_distance = number("slide_distance");
+  mesh.only_below = number("only_below");
+  mesh.rings = py::cast<int>(words["rings"]);
+  mesh.keep_layers = py::cast<std::optional<std::string>>(words["keep_layers"]);
+  mesh.untangle = py::cast<bool>(words["untangle"]);
+  options.allow_worse = py::cast<bool>(words["allow_worse"]);
+  if (py::isinstance<PythonMesh>(words["target"])) {
+    options.target_mesh = words["target"].cast<const PythonMesh*>();
+  } else {
+    std::vector<std::string> targets{"regular"};
+    targets.insert(targets.end(), initial_target_names.begin(), initial_target_names.end());
+    options.target = initial_target(text("target", targets));
+  }
+  return options;
+}
+
+/// Adds the sentences of the preparation to a result.
+NoteTaker notes_for(Result& result) {
+  const auto note = [&](const std::string& sentence) { result.notes.push_back(sentence); };
+  const auto warn = [&](const std::string& sentence) { result.warnings.push_back(sentence); };
+  return {.warn = warn, .note = warn, .tell = note};
+}
+
+/// Adds warnings about the cells and nodes of a result.
+void add_warnings(std::size_t n_cells, Result& result) {
+  for (const auto& text :
+       {floor_text(result), invalid_cells_text(result.quality.n_invalid, n_cells)})
+    if (!text.empty()) result.warnings.push_back(text);
 }
 
 /// The GIL must be held; others may run meanwhile. Python's arrays look at the memory of `mesh`, so
 /// that another one is smoothed, whose points come back into it.
 template <int dim, int spacedim>
-Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method, const Rules& rules,
+Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
+                       const Options& options,
                        const std::function<void(const IterationRecord&)>& callback,
                        bool keep_history) {
   Result result;
@@ -122,32 +152,37 @@ Result smooth_in_place(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
       callback(record);
     };
   const py::gil_scoped_release others_may_run;
-  auto work = rules.apply(Mesh<dim, spacedim>(mesh.shared_topology(), mesh.copied_coordinates(),
-                                              mesh.shared_constraints()));
+  auto work = prepared_mesh(Mesh<dim, spacedim>(mesh.shared_topology(), mesh.copied_coordinates(),
+                                                mesh.shared_constraints()),
+                            options.mesh, notes_for(result));
   try {
-    static_cast<SmoothingResult&>(result) = rules.smooth(work, method, observer);
+    untangle_as_asked(options.mesh, method, {}, notes_for(result), work);
+    work = options.with_target(std::move(work));
+    if (!options.allow_worse) method.floor = 1;
+    static_cast<SmoothingResult&>(result) = smooth_prepared(work, method, options.mesh, observer);
   } catch (...) {
     mesh.set_coordinates(work.coordinates());
     throw;
   }
   mesh.set_coordinates(work.coordinates());
+  add_warnings(work.n_cells(), result);
   return result;
 }
 
 Result smooth_mesh(const py::object& object, const py::object& method, const py::object& callback,
                    const std::string& preset, const Settings& settings, bool history, int threads,
-                   const std::map<std::string, std::string>& words) {
+                   const py::dict& words) {
   if (threads < 0 || threads > 1024)
     throw InputError("threads is " + std::to_string(threads) +
                      ", but has to be from 1 to 1024, or 0 for all cores");
   const Threads of_this_call(threads);
-  const Rules rules = rules_of(words);
   std::function<void(const IterationRecord&)> call;
   if (!callback.is_none()) call = [&](const IterationRecord& record) { callback(record, object); };
   return object.cast<PythonMesh&>().visit([&]<int dim, int spacedim>(Mesh<dim, spacedim>& mesh) {
     auto configured = configured_method<dim, spacedim>(method, preset, settings);
     check_parameters(configured);
-    return smooth_in_place(mesh, configured, rules, call, history);
+    const Options options = options_of(words, mesh.n_nodes(), dim != spacedim);
+    return smooth_in_place(mesh, configured, options, call, history);
   });
 }
 
@@ -219,6 +254,8 @@ void bind_results(py::module_& module) {
                     "number of the iteration whose mesh is the result")
       .def_readonly("history", &Result::history,
                     "the iterations, the initial mesh first; empty unless requested")
+      .def_readonly("notes", &Result::notes, "sentences on what was done before smoothing")
+      .def_readonly("warnings", &Result::warnings, "sentences that smooth() has warned with")
       .def("__repr__", [](const Result& r) {
         return "<smoothfem.Result: " + r.method + ", " + r.iterations_text() + " iterations>";
       });

@@ -2,10 +2,14 @@
 #include <mpi.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <optional>
 
+#include "fem/materials/materials_of_mesh.h"
 #include "fem/poisson_solver.h"
 #include "fem/ranks/mpi_session.h"
+#include "fem/solutions/check_pieces.h"
 #include "python/module/bind.h"
 #include "python/module/python_mesh.h"
 #include "smoothing/base/find_named.h"
@@ -36,14 +40,62 @@ ConditionNumberMethod condition_number_method(const std::string& name) {
                             : ConditionNumberMethod::verified;
 }
 
-/// Converts a name, or (value, gradient, load) as expressions.
+/// The problem that users give.
+struct Given {
+  py::object problem;  ///< a name, or (value, gradient, load) as expressions; None: u counts
+  std::string u, diffusivity;
+  std::vector<GroupDiffusivity> of_groups;
+};
+
 template <int dim>
-ManufacturedSolution<dim> solution_of(const py::object& problem, const Mesh<dim>& mesh) {
-  if (py::isinstance<py::str>(problem))
-    return manufactured_solution<dim>(py::cast<std::string>(problem));
+ManufacturedSolution<dim> named_or_parsed_solution(const Given& given, const Mesh<dim>& mesh) {
+  if (py::isinstance<py::str>(given.problem))
+    return manufactured_solution<dim>(py::cast<std::string>(given.problem));
   const auto [value, gradient, load] =
-      py::cast<std::tuple<std::string, std::string, std::string>>(problem);
+      py::cast<std::tuple<std::string, std::string, std::string>>(given.problem);
   return parsed_solution<dim>(value, gradient, load, mesh.coordinates());
+}
+
+/// Derives gradient and load, as studies do.
+template <int dim>
+ManufacturedSolution<dim> solution_by_formula(const Given& given, const Mesh<dim>& mesh) {
+  const auto& points = mesh.coordinates();
+  std::vector<Point<dim>> sample;
+  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
+    sample.push_back(points[i]);
+  auto solution = derived_solution<dim>(given.u, given.diffusivity, sample, given.of_groups);
+  if (!given.of_groups.empty()) return with_materials_of(std::move(solution), mesh);
+  check_pieces(solution, mesh);
+  return solution;
+}
+
+template <class Value>
+py::array_t<Value> array_of(const std::vector<Value>& values) {
+  return py::array_t<Value>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// The nodal solution and its errors.
+template <int dim>
+py::dict fields_of(const PoissonSolver<dim>& solver, const Mesh<dim>& mesh,
+                   const ManufacturedSolution<dim>& solution) {
+  const auto found = solver.discrete_solution(mesh, solution);
+  std::vector<double> u(mesh.n_nodes()), l2, h1;
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) u[i] = solution.value(mesh.coordinates()[i]);
+  for (const ErrorOnCell& error : found.cell_errors) {
+    l2.push_back(error.l2);
+    h1.push_back(error.h1);
+  }
+  py::array_t<double> points({static_cast<py::ssize_t>(found.dof_points.size()), py::ssize_t{dim}});
+  if (!found.dof_points.empty())
+    std::copy_n(found.dof_points.data()->data(), points.size(), points.mutable_data());
+  py::dict fields;
+  fields["u_h"] = array_of(found.node_values);
+  fields["u"] = array_of(u);
+  fields["dof_points"] = points;
+  fields["dof_values"] = array_of(found.dof_values);
+  fields["cell_l2_errors"] = array_of(l2);
+  fields["cell_h1_errors"] = array_of(h1);
+  return fields;
 }
 
 py::dict record_of(const SolutionRecord& r) {
@@ -62,29 +114,39 @@ py::dict record_of(const SolutionRecord& r) {
       "status"_a = r.status);
 }
 
-py::dict solve(const PythonMesh& mesh, const py::object& problem, int degree,
-               const std::string& condition_number, bool multigrid, double cg_tolerance) {
+/// Returns the record, and the fields on the mesh.
+py::tuple solve(const PythonMesh& mesh, const Given& given, const std::vector<std::string>& natural,
+                int degree, const std::string& condition_number, bool multigrid,
+                double cg_tolerance) {
   if (degree != 1 && degree != 2)
     throw InputError("finite elements of degree " + std::to_string(degree) +
                      " are not available; choose 1 or 2");
   // All other settings are those of studies, so that records can be compared.
   const PoissonOptions options{.degree = degree,
+                               .natural_groups = natural,
                                .cg_tolerance = cg_tolerance,
                                .boundary_in_norm = true,
                                .condition_number = condition_number_method(condition_number),
                                .multigrid_cg = multigrid ? Recorded::always : Recorded::never};
-  return record_of(mesh.visit([&]<int dim, int spacedim>(const Mesh<dim, spacedim>& m) {
+  return mesh.visit([&]<int dim, int spacedim>(const Mesh<dim, spacedim>& m) {
     if constexpr (dim != spacedim) {
       throw InputError("finite elements are not solved on surface meshes");
-      return SolutionRecord{};
+      return py::tuple();
     } else {
-      const auto solution = solution_of<dim>(problem, m);
       if (dim == 3) require_mpi();
-      const py::gil_scoped_release others_may_run;
-      require_valid(m);
-      return PoissonSolver<dim>(&m, options).solve(m.coordinates(), solution);
+      ManufacturedSolution<dim> solution;
+      if (!given.problem.is_none()) solution = named_or_parsed_solution<dim>(given, m);
+      std::optional<PoissonSolver<dim>> solver;
+      SolutionRecord record;
+      {
+        const py::gil_scoped_release others_may_run;
+        require_valid(m);
+        if (!given.u.empty()) solution = solution_by_formula<dim>(given, m);
+        record = solver.emplace(&m, options).solve(m.coordinates(), solution);
+      }
+      return py::make_tuple(record_of(record), fields_of(*solver, m, solution));
     }
-  }));
+  });
 }
 
 /// name -> formula of the solution
@@ -101,7 +163,15 @@ py::dict problems(int dim) {
 }  // namespace
 
 void bind_solving(py::module_& module) {
-  module.def("solve", &solve);
+  using Groups = std::vector<std::pair<std::string, std::string>>;
+  module.def("solve", [](const PythonMesh& mesh, const py::object& problem, const std::string& u,
+                         const std::string& diffusivity, const Groups& groups,
+                         const std::vector<std::string>& natural, int degree,
+                         const std::string& condition_number, bool multigrid, double tolerance) {
+    Given given{problem, u, diffusivity, {}};
+    for (const auto& [group, formula] : groups) given.of_groups.push_back({group, formula});
+    return solve(mesh, given, natural, degree, condition_number, multigrid, tolerance);
+  });
   module.def("problems", &problems);
 }
 

@@ -4,11 +4,13 @@
 #include "python/module/python_smoother.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/interruption.h"
+#include "smoothing/base/option_text.h"
 #include "smoothing/base/text.h"
 #include "smoothing/loop/python_methods.h"
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of smoothfem.";
+  module.attr("__version__") = SMOOTHFEM_VERSION;
   pybind11::register_exception<smoothfem::InputError>(module, "InputError", PyExc_ValueError);
   smoothfem::bind_mesh(module);
   smoothfem::bind_files(module);
@@ -25,7 +27,9 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   // A program that has started the interpreter has its own handlers.
-  if (!smoothfem::started_python())
+  if (!smoothfem::started_python()) {
     smoothfem::interruption_hook() = smoothfem::ask_python_for_signals;
+    smoothfem::options_are_arguments() = true;
+  }
   smoothfem::set_python_methods(smoothfem::make_python_method);
 }

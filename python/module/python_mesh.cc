@@ -44,6 +44,35 @@ std::string block_name(int dim, std::size_t n_nodes) {
                                       : std::string(name_of(type));
 }
 
+std::string meshio_name(int dim, std::size_t n_nodes) {
+  if (dim == 1) return "line";
+  switch (element_type(dim, n_nodes)) {
+    case ElementType::quadrilateral:
+      return "quad";
+    case ElementType::polygon:
+      return "polygon" + std::to_string(n_nodes);
+    case ElementType::tetrahedron:
+      return "tetra";
+    case ElementType::prism:
+      return "wedge";
+    default:
+      return std::string(name_of(element_type(dim, n_nodes)));
+  }
+}
+
+/// Name of each type of cells -> array, shorter cells first.
+using NameOf = std::string (*)(int dim, std::size_t n_nodes);
+py::dict by_type(const CompressedRows<NodeIndex>& rows, int dim, NameOf name_of) {
+  std::map<std::size_t, std::vector<NodeIndex>> by_size;
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    by_size[rows[c].size()].insert(by_size[rows[c].size()].end(), rows[c].begin(), rows[c].end());
+  py::dict arrays;
+  for (const auto& [size, numbers] : by_size)
+    arrays[name_of(dim, size).c_str()] =
+        copy_of(numbers, {signed_size(numbers.size() / size), signed_size(size)});
+  return arrays;
+}
+
 }  // namespace
 
 const py::object& TopologyArrays::cells() {
@@ -61,20 +90,56 @@ const py::object& TopologyArrays::cells() {
   return cells_;
 }
 
-const py::dict& TopologyArrays::blocks() {
-  if (!blocks_.empty()) return blocks_;
+py::dict TopologyArrays::cells_by_type(std::string (*name)(int, std::size_t)) {
   const auto& rows = topology_->cells();
-  if (const std::size_t size = common_cell_size(rows); size > 0) {
-    blocks_[block_name(topology_->dimension(), size).c_str()] = cells();
-    return blocks_;
-  }
-  std::map<std::size_t, std::vector<NodeIndex>> by_size;
-  for (std::size_t c = 0; c < rows.size(); ++c)
-    by_size[rows[c].size()].insert(by_size[rows[c].size()].end(), rows[c].begin(), rows[c].end());
-  for (const auto& [size, numbers] : by_size)
-    blocks_[block_name(topology_->dimension(), size).c_str()] =
-        copy_of(numbers, {signed_size(numbers.size() / size), signed_size(size)});
+  const std::size_t size = common_cell_size(rows);
+  if (size == 0) return by_type(rows, topology_->dimension(), name);
+  py::dict all;
+  all[name(topology_->dimension(), size).c_str()] = cells();
+  return all;
+}
+
+const py::dict& TopologyArrays::blocks() {
+  if (blocks_.empty()) blocks_ = cells_by_type(&block_name);
   return blocks_;
+}
+
+const py::dict& TopologyArrays::cells_dict() {
+  if (cells_dict_.empty()) cells_dict_ = cells_by_type(&meshio_name);
+  return cells_dict_;
+}
+
+const py::array& TopologyArrays::edges() {
+  if (edges_) return *edges_;
+  std::vector<NodeIndex> ends;
+  ends.reserve(2 * topology_->n_edges());
+  for (NodeIndex i = 0; i < topology_->n_nodes(); ++i)
+    for (const NodeIndex j : topology_->node_neighbours(i))
+      if (i < j) ends.insert(ends.end(), {i, j});
+  edges_ = copy_of(ends, {signed_size(ends.size() / 2), 2});
+  return *edges_;
+}
+
+const py::tuple& TopologyArrays::node_neighbours() {
+  if (node_neighbours_) return *node_neighbours_;
+  std::vector<std::int64_t> offsets{0};
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex i = 0; i < topology_->n_nodes(); ++i) {
+    const auto neighbours = topology_->node_neighbours(i);
+    nodes.insert(nodes.end(), neighbours.begin(), neighbours.end());
+    offsets.push_back(static_cast<std::int64_t>(nodes.size()));
+  }
+  node_neighbours_ = py::make_tuple(
+      read_only(py::array_t<std::int64_t>(signed_size(offsets.size()), offsets.data())),
+      copy_of(nodes, {signed_size(nodes.size())}));
+  return *node_neighbours_;
+}
+
+const py::dict& TopologyArrays::boundary_facets() {
+  if (boundary_facets_.empty())
+    boundary_facets_ =
+        by_type(topology_->boundary_facets(), topology_->dimension() - 1, &meshio_name);
+  return boundary_facets_;
 }
 
 const py::array& TopologyArrays::free_nodes() {
@@ -90,6 +155,31 @@ const py::array& TopologyArrays::fixed_nodes() {
     if (topology_->is_fixed(i)) nodes.push_back(i);
   fixed_ = copy_of(nodes, {signed_size(nodes.size())});
   return fixed_;
+}
+
+bool has_whole_numbers(const py::array& array) {
+  return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
+}
+
+std::optional<std::vector<bool>> node_flags(const std::string& name, const py::object& given,
+                                            std::size_t n_nodes) {
+  if (given.is_none()) return std::nullopt;
+  const auto fixed = py::array::ensure(given);
+  const bool is_row = fixed && fixed.ndim() == 1;
+  if (is_row && fixed.dtype().kind() == 'b' && static_cast<std::size_t>(fixed.size()) == n_nodes)
+    return py::cast<std::vector<bool>>(fixed.attr("tolist")());
+  if (!is_row || (!has_whole_numbers(fixed) && fixed.size() > 0))
+    throw InputError(name + " is an array of " + std::to_string(n_nodes) +
+                     " truth values, one a node, or of the numbers of the fixed nodes");
+  std::vector<bool> flags(n_nodes, false);
+  for (const py::handle entry : fixed) {
+    const auto node = py::cast<std::int64_t>(entry);
+    if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
+      throw InputError(name + " has the node number " + std::to_string(node) +
+                       ", but the mesh has the nodes 0 to " + std::to_string(n_nodes - 1));
+    flags[static_cast<std::size_t>(node)] = true;
+  }
+  return flags;
 }
 
 struct PythonMesh::Kept {

@@ -5,6 +5,8 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -14,6 +16,13 @@
 namespace smoothfem {
 
 namespace py = pybind11;
+
+bool has_whole_numbers(const py::array& array);
+
+/// Converts flags or numbers of nodes to one flag for each node; no flags for None. name: of the
+/// argument in messages. Throws InputError for other objects.
+std::optional<std::vector<bool>> node_flags(const std::string& name, const py::object& given,
+                                            std::size_t n_nodes);
 
 /// What Python sees of a topology: read-only arrays of node numbers, made when they are first asked
 /// for. None is a copy where the topology has the same numbers one after the other.
@@ -29,13 +38,22 @@ class TopologyArrays {
   const py::object& cells();
   /// "tetrahedron" -> (n, 4) and so on; of polygons "5-gon" and so on. In the order of the cells.
   const py::dict& blocks();
+  /// As blocks, with meshio's names.
+  const py::dict& cells_dict();
+  const py::array& edges();            ///< (n, 2)
+  const py::tuple& node_neighbours();  ///< offsets and nodes
+  const py::dict& boundary_facets();   ///< by type, with meshio's names
   const py::array& free_nodes();
   const py::array& fixed_nodes();
 
  private:
+  py::dict cells_by_type(std::string (*name)(int dim, std::size_t n_nodes));
+
   std::shared_ptr<const Topology> topology_;
   py::object cells_;
-  py::dict blocks_;
+  py::dict blocks_, cells_dict_, boundary_facets_;
+  std::optional<py::array> edges_;
+  std::optional<py::tuple> node_neighbours_;
   py::array free_, fixed_;
 };
 

@@ -5,34 +5,44 @@
     mesh = smoothfem.generate("gear", elements="triangles", edge_scale=3)
     smoothfem.distort(mesh, 0.45)
     result = smoothfem.smooth(mesh, "getme")
-    print(result.quality, smoothfem.solve(mesh, "gear")["e_l2"])
+    solution = smoothfem.solve(mesh, u="sin(x/20)*y")
+    print(result.quality, solution.h1_error)
+    mesh.plot(values=solution.nodal_error)
 
 `mesh.points` is the memory of the mesh itself. An input that cannot be used raises InputError, a ValueError. Its
-text names the problem, its place and a remedy. The numbers are bitwise identical to those of the program smoothfem.
+text names the problem, its place and a remedy. With the same options, numbers are bitwise identical to those of the program smoothfem.
 """
 
 import operator as _operator
 import os as _os
+import warnings as _warnings
 
 # The command smoothfem has the same setting: waiting threads sleep, and leave the cores to other programs.
 _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
-from . import _core  # noqa: E402
-from ._core import InputError, Iteration, Mesh, Quality, Result, Stage  # noqa: E402
+from . import _arguments, _core  # noqa: E402
+from ._core import InputError, Iteration, Mesh, Quality, Result, Stage, __version__  # noqa: E402
 from ._bridges import from_meshio, from_pyvista, to_meshio, to_pyvista  # noqa: E402
+from ._cells import create as _create_mesh  # noqa: E402
+from ._plot import plot as _plot_mesh, png as _mesh_png  # noqa: E402
+from ._solution import Solution, diffusivities, formula, named_problem, natural_groups  # noqa: E402
 from ._study import Results, Study  # noqa: E402
 
-__all__ = ["InputError", "Iteration", "Mesh", "Quality", "Result", "Results", "Stage", "Study", "distort", "domains",
+__all__ = ["InputError", "Iteration", "Mesh", "Quality", "Result", "Results", "Solution", "Stage", "Study", "__version__", "distort", "domains",
            "from_meshio", "from_pyvista", "generate", "methods", "metrics", "parameters", "problems", "quality", "read", "smooth", "solve",
            "summary", "to_meshio", "to_pyvista", "write"]
+
+
+Mesh.__init__, Mesh.plot, Mesh._repr_png_ = _create_mesh, _plot_mesh, _mesh_png
 
 
 def read(path):
     """Reads a mesh from a file: .msh, .vtk, .vtu, .mesh or .inp.
 
-    Its cells may be invalid. Cells whose only fault is the direction of their nodes are turned over, with a UserWarning. Raises InputError with the text "path:line: problem" for a file without a mesh.
+    Its cells may be invalid. Cells whose only fault is the direction of their nodes are turned over, with a UserWarning. Raises InputError with
+    the text "path:line: problem" for a file without a mesh.
     """
-    return _core.read(_os.fsencode(path))
+    return _core.read(_path(path))
 
 
 def write(mesh, path, *, cell=None, point=None):
@@ -41,7 +51,9 @@ def write(mesh, path, *, cell=None, point=None):
     cell, point: {name: n_cells (n_nodes) numbers}, written with the mesh in formats that support it. Raises
     InputError for an unknown suffix, a cell that the format does not support, and a file that cannot be written.
     """
-    _core.write(mesh, _os.fsencode(path), cell or {}, point or {})
+    mesh = _arguments.mesh(mesh)
+    _core.write(mesh, _path(path), _arguments.fields("cell", cell or {}, mesh.n_cells, "cells"),
+                _arguments.fields("point", point or {}, mesh.n_nodes, "nodes"))
 
 
 def domains():
@@ -55,7 +67,8 @@ def generate(domain, *, elements="", edge_scale=1.0, seed=1):
     elements: one of domains()[domain], such as "triangles". edge_scale: factor of the edge lengths, at
     least 1. seed: seed of the random numbers. Raises InputError for unknown names and invalid numbers.
     """
-    return _core.generate(domain, elements, edge_scale, seed)
+    return _core.generate(_arguments.text("domain", domain), _arguments.text("elements", elements), _arguments.number("edge_scale", edge_scale),
+                          _arguments.whole("seed", seed, 0, 2**64 - 1))
 
 
 def distort(mesh, q_mean=None, *, radius=None, kind="worst-candidate", seed=1, candidates=None, sweeps=1, least_quality=0.0):
@@ -66,7 +79,10 @@ def distort(mesh, q_mean=None, *, radius=None, kind="worst-candidate", seed=1, c
     sweeps: how many times all nodes are moved. least_quality: mean ratio that every cell keeps, in [0, 1). Raises
     InputError, with the mesh unchanged, for an invalid mesh and for a quality that no radius reaches.
     """
-    return _core.distort(mesh, q_mean, radius, kind, seed, candidates, sweeps, least_quality)
+    return _core.distort(
+        _arguments.mesh(mesh), _arguments.optional_number("q_mean", q_mean), _arguments.optional_number("radius", radius), _arguments.text("kind", kind),
+        _arguments.whole("seed", seed, 0, 2**64 - 1), None if candidates is None else _arguments.whole("candidates", candidates),
+        _arguments.whole("sweeps", sweeps), _arguments.number("least_quality", least_quality))
 
 
 def quality(mesh, metric="mean_ratio"):
@@ -76,7 +92,7 @@ def quality(mesh, metric="mean_ratio"):
     and volume meshes). metrics() has the other names; such a metric is NaN for types of cells that it does not support.
     Raises InputError for other names.
     """
-    return _core.quality(mesh, metric)
+    return _core.quality(_arguments.mesh(mesh), _arguments.text("metric", metric))
 
 
 def metrics():
@@ -89,7 +105,7 @@ def metrics():
 
 def summary(mesh):
     """Returns the quality of a whole mesh: q_min, q_star_min, q_mean, n_invalid."""
-    return _core.summary(mesh)
+    return _core.summary(_arguments.mesh(mesh))
 
 
 def methods():
@@ -105,62 +121,119 @@ def parameters(method, kind="planar"):
 
     kind: the kind of mesh: "planar", "volume" or "surface". In methods of several stages the names are "stage.name"."""
     keys = ("default", "description", "range")
-    return {name: dict(zip(keys, entry)) for name, entry in _core.parameters(_method(method), kind).items()}
+    return {name: dict(zip(keys, entry)) for name, entry in _core.parameters(_method(method), _arguments.text("kind", kind)).items()}
 
 
-def smooth(mesh, method, callback=None, *, preset="", history=False, threads=0, interfaces="fixed", boundary="fixed", periodic="fixed",
-           target="regular", **parameters):
+def smooth(mesh, method, callback=None, *, boundary="fixed", fix=None, interfaces="fixed", periodic="fixed", untangle=False, only_below=None,
+           rings=2, target="regular", keep_layers=None, slide_distance=None, feature_angle=None, allow_worse=True, preset="", history=False,
+           threads=0, **parameters):
     """Smooths a mesh in place, and returns a Result: stages, iterations, times, quality, history.
 
-    method: a name of methods(), "python:FILE:CLASS", or a class with step(self, mesh). callback(iteration,
-    mesh) is called for the initial mesh and after each iteration, with the current mesh.points. Its changes of
+    method: a name of methods(), "python:FILE:CLASS", a class or an object with step(self, mesh), or a function of the mesh. step and the
+    function change mesh.points in place, or return an array of all points. parameters: parameters of the method, for example rho=0.5, with _
+    for -. Parameters of a stage are a dict: sequential={"patience": 5}. A dict `parameters` may hold them all.
+    callback(iteration, mesh) is called for the initial mesh and after each iteration, with the current mesh.points. Its changes of
     mesh.points are lost, and its time does not count. An exception in it ends the run and is passed on.
-    preset: parameters of an experiment in the literature, for example "thesis-6.3". history: if True, the result
-    has a record of each iteration; a record costs a pass over all cells. threads: number of threads (default: all
-    cores); the result does not depend on it. parameters: parameters of the method, for example rho=0.5, with _
-    for -. Parameters of a stage are a dict: sequential={"patience": 5}.
 
-    interfaces: "fixed", "slide" or "free": nodes between cells of different tags. boundary: "fixed" or "slide". periodic: "fixed", or
-    "smooth" as inner nodes. target: "regular" cells, or cells with the shape and size ("initial") or the size ("initial-size") that they
-    have now; Result.quality is then relative to the target.
+    Which nodes move: boundary: "fixed" or "slide". fix: nodes that stay besides: names of groups, numbers of nodes, or a truth value for
+    each node; or the rules "boundary", "file" (as read) or "free" (none). interfaces: "fixed", "slide" or "free": nodes between cells of different
+    tags. periodic: "fixed", or "smooth" as inner nodes. only_below: smooths only around cells with a lower mean ratio; rings: rings of cells
+    around them whose nodes move, too. keep_layers: True, or the name of a group: keeps layers of thin cells along the boundary.
+    slide_distance, feature_angle: see `smoothfem smooth --help`.
 
-    After an exception, and after Ctrl-C (between two iterations), the mesh is partially smoothed. Other threads
-    of Python run during smoothing; they see new points after callbacks and at the end. Raises InputError for
-    invalid cells if the method needs a valid mesh, for unknown parameters and invalid values, and for smoothers
-    that violate the rules.
+    untangle: if True, makes a tangled mesh valid first. target: "regular" cells; cells with the shape and size ("initial") or the size
+    ("initial-size") that they have now; or a mesh with the same cells, whose shapes and sizes they get. Result.quality is then relative to the
+    target. allow_worse: if False, nodes are reset until no cell is worse than the worst one before, as the command smooth does by default.
+
+    preset: parameters of an experiment in the literature, for example "thesis-6.3". history: if True, the result has a record of each iteration;
+    a record costs a pass over all cells. threads: number of threads (default: all cores); the result does not depend on it.
+
+    A UserWarning tells if the resulting mesh has invalid cells. After an exception, and after Ctrl-C (between two iterations), the mesh is
+    partially smoothed. Other threads of Python run during smoothing; they see new points after callbacks and at the end. Raises InputError for
+    invalid cells if the method needs a valid mesh, for unknown parameters and invalid values, and for smoothers that violate the rules.
     """
-    method = _method(method)
+    mesh, method = _arguments.mesh(mesh), _method(method)
+    given = parameters.pop("parameters", None) or {}
+    if not hasattr(given, "items"):
+        raise _arguments.wrong("parameters", given, "a dict {name: value}")
+    parameters = {**given, **parameters}
     settings = _settings(parameters, _core.parameters(method, mesh.kind)) if parameters else []
-    words = {"interfaces": interfaces, "boundary": boundary, "periodic": periodic, "target": target}
-    return _core.smooth(mesh, method, callback, preset, settings, history, threads, words)
+    rule, groups, nodes = _fix(fix)
+    words = {"boundary": _arguments.text("boundary", boundary), "interfaces": _arguments.text("interfaces", interfaces),
+             "periodic": _arguments.text("periodic", periodic), "target": target if isinstance(target, Mesh) else _arguments.text("target", target),
+             "fix": rule, "fix_groups": groups, "fix_nodes": nodes, "untangle": bool(untangle), "allow_worse": bool(allow_worse),
+             "only_below": _arguments.optional_number("only_below", only_below, 0, 1), "rings": _arguments.whole("rings", rings, 0, 1000),
+             "slide_distance": _arguments.optional_number("slide_distance", slide_distance),
+             "feature_angle": _arguments.optional_number("feature_angle", feature_angle),
+             "keep_layers": {True: "", False: None, None: None}[keep_layers] if keep_layers in (True, False, None) else
+             "group=" + _arguments.text("keep_layers", keep_layers)}
+    result = _core.smooth(mesh, method, _arguments.function("callback", callback), _arguments.text("preset", preset), settings, bool(history),
+                          _arguments.whole("threads", threads), words)
+    for sentence in result.warnings:
+        _warnings.warn(sentence, stacklevel=2)
+    return result
 
 
 def problems(dim=2):
     """Returns {name: formula of the solution} of the problems for solve() on meshes of this dimension, 2 or 3."""
-    return _core.problems(dim)
+    return _core.problems(_arguments.whole("dim", dim))
 
 
-def solve(mesh, problem, degree=1, *, condition_number="verified", multigrid=False, cg_tolerance=1e-8):
-    """Solves -laplace(u) = f with a known u by finite elements.
+def solve(mesh, problem=None, degree=1, *, u=None, diffusivity=None, natural=(), condition_number="verified", multigrid=False, cg_tolerance=1e-8):
+    """Solves -div(A grad u) = f with a known u by finite elements; returns a Solution.
 
-    Returns a dict with names of columns of iterations.csv: condition_number, cg_iterations, e_max, e_mean, e_l2, e_h1,
-    l2_error, h1_error and more.
+    A Solution has the nodal solution u_h, errors of nodes and cells, and numbers with the names of columns of iterations.csv:
+    condition_number, cg_iterations, e_max, e_mean, e_l2, e_h1, l2_error, h1_error and more. `solution.h1_error` and `solution["h1_error"]` are the same.
 
-    mesh: a mesh of triangles and quadrilaterals, of tetrahedra or of hexahedra. problem: a name of problems(), or
-    (u, gradient, f) as expressions: ("x^2", "2*x ; 0", "-2"). degree: 1 or 2. condition_number: "none",
-    "lanczos" or "verified". multigrid: if True, also runs CG with algebraic multigrid. cg_tolerance: largest
-    relative residual, above 0. Raises InputError for invalid or unsupported cells, and for an unknown problem.
+    mesh: a planar mesh of triangles and quadrilaterals, or a volume mesh; degree 2 needs tetrahedra only or hexahedra only in space. degree: 1 or 2.
+    The words are those of studies. u: a formula in x, y (and z), as "sin(x)*y"; gradient and f are derived from it. diffusivity: A as a formula, a
+    number, or a tensor of these, as [[2, 0], [0, "1+x^2"]] (default: 1, so that f = -laplace(u)). A dict {group: A} has A of groups of cells, by names
+    or tags, and by None that of all others. natural: names or tags of boundary groups where A grad u . n is given; elsewhere u is.
+    problem: in place of u: a name of problems(), or (u, gradient, f) as texts, as ("x^2", "2*x ; 0", "-2"). condition_number: "none", "lanczos" or
+    "verified". multigrid: if True, also runs CG with algebraic multigrid. cg_tolerance: largest relative residual, above 0. Raises InputError for
+    invalid or unsupported cells, for formulas that cannot be read, and for unknown problems and groups.
     """
-    return _core.solve(mesh, problem, degree, condition_number, multigrid, cg_tolerance)
+    mesh = _arguments.mesh(mesh)
+    if (problem is None) == (u is None):
+        raise InputError("solve needs a formula u or a problem, and not both: solve(mesh, u='sin(x)*y') or solve(mesh, 'gear')")
+    if u is None and diffusivity is not None:
+        raise InputError("diffusivity needs a formula u, from which f is derived; a problem has its own")
+    text, groups = diffusivities(diffusivity)
+    record, fields = _core.solve(
+        mesh, None if problem is None else named_problem(problem, _core.problems(mesh.dim)), "" if u is None else formula("u", u), text, groups,
+        natural_groups(natural), _arguments.whole("degree", degree), _arguments.text("condition_number", condition_number), bool(multigrid),
+        _arguments.number("cg_tolerance", cg_tolerance))
+    return Solution(record, fields)
+
+
+def _path(path):
+    """Returns the bytes of a path."""
+    try:
+        return _os.fsencode(path)
+    except TypeError:
+        raise _arguments.wrong("path", path, "the name of a file") from None
+
+
+def _fix(fix):
+    """Returns (rule or None, names of groups, numbers or flags of nodes or None)."""
+    if fix is None:
+        return None, [], None
+    if isinstance(fix, str):
+        return (fix, [], None) if fix in ("boundary", "file", "free") else (None, [fix], None)
+    if not hasattr(fix, "__iter__"):
+        raise _arguments.wrong("fix", fix, "a rule, or a list of groups, numbers of nodes or truth values")
+    if hasattr(fix, "dtype"):
+        return None, [], fix
+    fix = list(fix)
+    groups, nodes = [entry for entry in fix if isinstance(entry, str)], [entry for entry in fix if not isinstance(entry, str)]
+    return None, groups, nodes or None
 
 
 def _method(method):
-    """Returns the method for the compiled part: a name, or the definition of a class."""
+    """Returns the method for the compiled part: a name, or the definition of a smoother."""
     if isinstance(method, str):
         return method
     from ._smoothers import Definition
-    if not isinstance(method, type):
-        raise InputError(f"method is {method!r}, but has to be a name or a class with step(self, mesh)")
     return Definition(method)
 
 
@@ -183,4 +256,4 @@ def _text(value):
     try:
         return str(_operator.index(value))
     except TypeError:
-        return repr(float(value))
+        return repr(_arguments.number("a parameter", value))

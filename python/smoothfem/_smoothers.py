@@ -12,6 +12,7 @@ import types
 
 import numpy as np
 
+from ._arguments import shown
 from ._core import InputError
 
 STOPPING = {"tolerance": 1e-4, "patience": 0, "max_iterations": 10000}  # defaults of QualityGainStopping
@@ -71,16 +72,23 @@ def _run_file(path, source):
 
 
 class Definition:
-    """The attributes of a class as a smoother. Raises InputError if the class is not a smoother."""
+    """The attributes of a smoother. Raises InputError if it is none.
 
-    def __init__(self, cls, method_name=None, path=None):
-        self.cls, self.path = cls, path or getattr(sys.modules.get(cls.__module__), "__file__", None)
-        self.name = cls.__name__
+    given: a class or an object with step(self, mesh), or a function of the mesh. Classes are created for each run."""
+
+    def __init__(self, given, method_name=None, path=None):
+        self.given = given
+        self.is_function = not hasattr(given, "step") and callable(given) and not inspect.isclass(given)
+        cls = given if inspect.isclass(given) else type(given)
+        self.path = path or (_file_of(given) if self.is_function else getattr(sys.modules.get(cls.__module__), "__file__", None))
+        self.name = _unicode(getattr(given, "__name__", cls.__name__)).strip("<>")
         self.method_name = method_name or f"python:{self.name}"
-        if not callable(getattr(cls, "step", None)):
-            raise InputError(f"the class {self.name} is not a smoother: it has no step(self, mesh)")
+        if not self.is_function and not callable(getattr(given, "step", None)):
+            raise InputError(f"the class {self.name} is not a smoother: it has no step(self, mesh)" if inspect.isclass(given) else
+                             f"the method is {shown(given)}, but has to be a name, a class or object with step(self, mesh), or a function of the mesh")
+        cls = given  # parameters and rules may be attributes of the object or of the function
         self.title = _unicode(getattr(cls, "title", self.name))
-        documentation = (cls.__doc__ or "a smoother written in Python").strip().splitlines()[0]
+        documentation = ((cls.__doc__ or "").strip() or "a smoother written in Python").splitlines()[0]
         self.description = _unicode(getattr(cls, "description", documentation.rstrip(".")))
         self.source = _unicode(getattr(cls, "source", "a class in Python"))
         self.parameters = [self._parameter(*entry) for entry in getattr(cls, "parameters", {}).items()]
@@ -93,9 +101,12 @@ class Definition:
             value, reason = declared
         except (TypeError, ValueError):
             raise InputError(f"{self.name}: parameter {name} has to be declared as (default, 'reason')") from None
-        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", str(name)) or name in STOPPING or hasattr(self.cls, name):
+        of_class = self.given if inspect.isclass(self.given) else type(self.given)
+        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", str(name)) or name in STOPPING or hasattr(of_class, name):
             raise InputError(f"{self.name}: a parameter cannot be called '{name}'; choose another name, of letters, "
                              "digits and _, that is not an attribute of the class")
+        if not inspect.isclass(self.given):
+            value = getattr(self.given, name, value)
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
             raise InputError(f"{self.name}: parameter {name} has the default {value!r}; it has to be a number or a string")
         if isinstance(value, float) and not math.isfinite(value) or isinstance(value, int) and abs(value) > MOST:
@@ -120,13 +131,19 @@ class Run:
         """values: the values of its parameters, by name. mesh: a lent mesh; its points are a read-only copy."""
         self.definition = definition
         self.fixed = mesh.fixed
-        self.smoother = self._with_context("cannot be created", lambda: self._made(definition.cls, values))
+        self.smoother = self._with_context("cannot be created", lambda: self._made(definition.given, values))
+        self.do_step = self.smoother if definition.is_function else self.smoother.step
         if hasattr(self.smoother, "initialize"):
             self._with_context("initialize failed", lambda: self.smoother.initialize(mesh))
 
     @staticmethod
-    def _made(cls, values):
-        smoother = cls.__new__(cls)
+    def _made(given, values):
+        """Returns a new object of a class; objects and functions are taken as they are."""
+        if not inspect.isclass(given):
+            for name, value in values.items():
+                setattr(given, name, value)
+            return given
+        smoother = given.__new__(given)
         for name, value in values.items():
             setattr(smoother, name, value)
         smoother.__init__()
@@ -139,7 +156,7 @@ class Run:
         """Does one step. Raises InputError and restores the mesh if the smoother violates a rule."""
         before = mesh.points.copy()
         try:
-            returned = self._with_context("step failed", lambda: self.smoother.step(mesh))
+            returned = self._with_context("step failed", lambda: self.do_step(mesh))
             if returned is not None and returned is not mesh.points:
                 mesh.points[:] = self._new_points(returned, before.shape)
             self._require_allowed(mesh.points, before)
@@ -163,6 +180,12 @@ class Run:
         if moved.any():
             raise InputError(f"{self.definition.name}: step has moved the fixed node {self.fixed[np.argmax(moved)]}; only "
                              "the nodes in mesh.free may move")
+
+
+def _file_of(function):
+    """Returns the file of a function; None if it is in none, as in a notebook."""
+    path = getattr(getattr(function, "__code__", None), "co_filename", "")
+    return path if os.path.isfile(path) else None
 
 
 def _unicode(text):

@@ -3,27 +3,58 @@
 
 import functools
 import json
+import operator
 import os
+import re
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
+from ._arguments import number, shown, text, wrong
 from ._core import InputError
 
 PREFIX = "smoothfem: "  # of the program's messages
+MARK = "# Written by smoothfem.Study; a run replaces it."  # first line of files that were dicts
 
 
 class Study:
-    """A study, given by its file or the name of a built-in study, with an optional scale."""
+    """A study, given by its file, by the name of a built-in study, or by a dict with the keys of a study file.
 
-    def __init__(self, file, scale=None):
-        self.file, self.scale = os.fspath(file), scale
+    In a dict, keys are as in files, a subsection is a dict ({"solution": {"u": "sin(x)*y"}}), and a list stands for values with commas. run()
+    writes it as the file NAME.prm in the current folder, where relative names of files in it belong, and so do the messages of the program.
+    """
+
+    def __init__(self, file, scale=None, *, name="study"):
+        self.scale, self.text = None if scale is None else text("scale", scale), None
+        if hasattr(file, "items"):
+            if not re.fullmatch(r"[A-Za-z0-9][\w.-]*", text("name", name), re.ASCII):
+                raise wrong("name", name, "of letters, digits, '.', '_' and '-'")
+            self.text = "\n".join([MARK, *_lines(file)]) + "\n"
+            file = f"{name}.prm"
+        try:
+            self.file = os.fspath(file)
+        except TypeError:
+            raise wrong("the study", file, "a file, the name of a built-in study, or a dict of keys") from None
+
+    def __repr__(self):
+        return f"<smoothfem.Study: {self.file}{'' if self.scale is None else f', scale {self.scale}'}>"
 
     @property
     def name(self):
         """Returns the file's name without its suffix."""
         return Path(self.file).name.removesuffix(".prm")
+
+    def write(self):
+        """Writes a study that is a dict as its file; does nothing for others. A file that is not from here is not replaced."""
+        if self.text is None:
+            return
+        path = Path(self.file)
+        if path.exists() and not path.read_text(encoding="utf-8", errors="replace").startswith(MARK):
+            raise InputError(f"{path} exists and was not written by smoothfem.Study; give the study another name=")
+        unfinished = path.with_name(f".{path.name}.part")
+        unfinished.write_text(self.text, encoding="utf-8")
+        unfinished.replace(path)
 
     def run(self, out=None, *, force=False, mesh_dir=None, threads=None, smoothing_threads=None, quiet=True):
         """Runs the study in a separate process, and returns its Results.
@@ -34,6 +65,7 @@ class Study:
         InputError with the program's message if an input cannot be used. After Ctrl-C the program writes the rows
         that are complete.
         """
+        self.write()
         out = Path(out or Path("results") / self.name)
         words = [_program(), "study", self.file, "--out", out]
         for option, value in (("--scale", self.scale), ("--mesh-dir", mesh_dir), ("--threads", threads),
@@ -82,6 +114,38 @@ class Results:
     def provenance(self):
         """Returns the origin of the numbers: program, machine, meshes, parameters."""
         return json.loads((self.folder / "provenance.json").read_text(encoding="utf-8"))
+
+
+def _lines(keys, subsection=""):
+    """Returns the lines of a study file for a dict of keys."""
+    lines = []
+    for key, value in keys.items():
+        place = f"{subsection}{key if isinstance(key, str) else shown(key)}"
+        if not isinstance(key, str) or not key.strip() or any(c in key for c in "\n#"):
+            raise InputError(f"the study's key {shown(key)} is not a key of a study file")
+        if hasattr(value, "items"):
+            lines += [f"subsection {key}", *(f"  {line}" for line in _lines(value, f"{place} / ")), "end"]
+        elif value is not None:
+            lines.append(f"set {key} = {_value(place, value)}")
+    return lines
+
+
+def _value(place, value):
+    """Returns a value of a dict as the text of a study file."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        if "\n" in value or "#" in value:
+            raise InputError(f"the value of the study's key '{place}' has a line break or #, which study files cannot hold")
+        return value
+    if hasattr(value, "__fspath__"):
+        return os.fspath(value)
+    if hasattr(value, "__iter__"):
+        return ", ".join(_value(place, entry) for entry in value)
+    try:
+        return str(operator.index(value))
+    except TypeError:
+        return repr(number(f"the value of the study's key '{place}'", value))
 
 
 def _pandas():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Provides the built package smoothfem, the program, and small meshes."""
 
+import functools
 import itertools
 import sys
 
@@ -24,6 +25,11 @@ MESHES = {"triangles": ("gear", 4.0, 0.45), "quadrilaterals": ("gear", 3.0, 0.5)
 
 def distorted(elements):
     """Returns a valid, distorted mesh."""
+    return _distorted(elements).copy()
+
+
+@functools.lru_cache
+def _distorted(elements):
     domain, edge_scale, q_mean = MESHES[elements]
     mesh = smoothfem.generate(domain, elements=elements, edge_scale=edge_scale)
     smoothfem.distort(mesh, q_mean)

@@ -31,6 +31,32 @@ class Meshes(unittest.TestCase):
         np.testing.assert_array_equal(mesh.blocks["triangle"], [[1, 2, 4], [2, 5, 4]])
         np.testing.assert_array_equal(mesh.blocks["quadrilateral"], [cells[0], cells[3], cells[4]])
 
+    def test_cells_by_meshios_names(self):
+        cells = {"line": [[0, 1]], "triangle": [[1, 2, 4], [2, 5, 4]], "quad": [[0, 1, 4, 3], [3, 4, 7, 6], [4, 5, 8, 7]]}
+        flat = np.column_stack([SQUARE, np.full(9, 2.0)])
+        for points in (SQUARE, flat):
+            mesh = smoothfem.Mesh(points, cells)
+            self.assertEqual((mesh.kind, sorted(mesh.cells_dict)), ("planar", ["quad", "triangle"]))
+            np.testing.assert_array_equal(mesh.cells_dict["quad"], cells["quad"])
+        self.assertEqual(smoothfem.Mesh(flat, QUADRILATERALS, cell_type="quad").kind, "planar")
+        self.assertEqual(smoothfem.Mesh(flat, {"quad": QUADRILATERALS}, dim=2).kind, "surface")
+        pentagon = smoothfem.Mesh(SQUARE, {"polygon5": [[0, 1, 2, 4, 3]]})
+        self.assertEqual(list(pentagon.cells_dict), ["polygon5"])
+        for name, points in CELLS.items():
+            self.assertEqual(list(smoothfem.Mesh(np.array(points, float), {name: [range(len(points))]}).cells_dict), [name])
+
+    def test_edges_neighbours_and_boundary(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        self.assertEqual(mesh.edges.shape, (12, 2))
+        self.assertIs(mesh.edges, mesh.edges)
+        offsets, nodes = mesh.node_neighbours
+        self.assertEqual(nodes[offsets[4]:offsets[5]].tolist(), [1, 3, 5, 7])
+        self.assertEqual(sorted(np.unique(mesh.boundary_facets["line"])), mesh.fixed.tolist())
+        self.assertEqual(mesh.boundary_facets["line"].shape, (8, 2))
+        wedge = smoothfem.Mesh(np.array(CELLS["wedge"], float), {"wedge": [range(6)]})
+        self.assertEqual({name: len(rows) for name, rows in wedge.boundary_facets.items()}, {"triangle": 2, "quad": 3})
+        self.assertEqual(len(wedge.edges), 9)
+
     def test_volume_and_surface(self):
         corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
         self.assertEqual(smoothfem.Mesh(corners, [[0, 1, 2, 3]]).kind, "volume")
@@ -110,7 +136,15 @@ class Meshes(unittest.TestCase):
                 ("cell 0", lambda: smoothfem.Mesh(SQUARE, [[0, 1, 9]])),
                 ("nodes 0 to 8", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=[9])),
                 ("one a node", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, fixed=[True])),
-                ("dimension of the cells", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, dim=3))):
+                ("dimension of the cells", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, dim=3)),
+                ("given as x", lambda: smoothfem.Mesh(SQUARE, QUADRILATERALS, dim="x")),
+                ("needs points and cells", lambda: smoothfem.Mesh(SQUARE)),
+                ("type 'tri' cannot be taken", lambda: smoothfem.Mesh(SQUARE, {"tri": []})),
+                ("no planar or volume cells", lambda: smoothfem.Mesh(SQUARE, {"line": [[0, 1]]})),
+                ("this type have 4 nodes", lambda: smoothfem.Mesh(SQUARE, {"quad": [[0, 1, 4]]})),
+                ("dim is 3, but the cells have dimension 2", lambda: smoothfem.Mesh(SQUARE, {"quad": QUADRILATERALS}, dim=3)),
+                ("n x 2 or n x 3", lambda: smoothfem.Mesh("points", QUADRILATERALS)),
+                ("cells is 3", lambda: smoothfem.Mesh(SQUARE, 3))):
             with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
                 make()
         mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
@@ -192,6 +226,11 @@ class Bridges(unittest.TestCase):
         mesh = smoothfem.from_meshio(self.two_triangles())
         there = smoothfem.to_meshio(mesh)
         self.assertIsInstance(there, meshio.Mesh)
+        self.assertEqual(smoothfem.Mesh(there.points, there.cells_dict).cells.tolist(), mesh.cells.tolist())
+        self.assertEqual(meshio.Mesh(mesh.points, mesh.cells_dict).cells_dict["triangle"].tolist(), mesh.cells.tolist())
+        for call in (smoothfem.Mesh, smoothfem.quality, lambda m: smoothfem.smooth(m, "getme")):
+            with self.assertRaisesRegex(smoothfem.InputError, "mesh of meshio: call smoothfem.from_meshio"):
+                call(there)
         self.assertEqual({block.type: len(block.data) for block in there.cells}, {"line": 1, "triangle": 2})
         self.assertEqual([part.tolist() for part in there.cell_data["gmsh:physical"]], [[7], [1, 2]])
         self.assertEqual(there.field_data["wall"].tolist(), [7, 1])

@@ -72,7 +72,50 @@ class QualityAndDistortion(unittest.TestCase):
             smoothfem.generate("gaer")
 
 
+class StudiesAsDicts(unittest.TestCase):
+    def test_are_files_of_the_program(self):
+        keys = {"meshes": "m", "methods": ["laplace", "getme"], "degrees": [1], "mesh m": {"file": Path("m.vtu")}, "solution": {"u": "x*y"},
+                "record initial": None}
+        self.addCleanup(os.chdir, os.getcwd())
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            smoothfem.write(distorted("triangles"), "m.vtu")
+            study = smoothfem.Study(keys, name="mine")
+            self.assertEqual((repr(study), study.name), ("<smoothfem.Study: mine.prm>", "mine"))
+            study.write()
+            self.assertEqual(Path("mine.prm").read_text().splitlines()[1:4], ["set meshes = m", "set methods = laplace, getme", "set degrees = 1"])
+            self.assertEqual(smoothfem.Study(keys, name="mine").run().summary["method"].tolist(), ["initial", "laplace", "getme"])
+            with self.assertRaisesRegex(smoothfem.InputError, r"bad\.prm:3: there is no key 'methodz' here; did you mean 'methods'"):
+                smoothfem.Study({"meshes": "m", "methodz": "getme"}, name="bad").run()
+            Path("own.prm").write_text("set meshes = m\n")
+            with self.assertRaisesRegex(smoothfem.InputError, "was not written by smoothfem.Study"):
+                smoothfem.Study(keys, name="own").write()
+
+    def test_refusals_are_sentences(self):
+        for sentence, call in (("the study is 3", lambda: smoothfem.Study(3)), ("name is 'a b'", lambda: smoothfem.Study({}, name="a b")),
+                               ("is not a key", lambda: smoothfem.Study({1: 2})), ("'solution / u' has a line break", lambda: smoothfem.Study(
+                                   {"solution": {"u": "x\ny"}})), ("scale is 3", lambda: smoothfem.Study("gear", 3))):
+            with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
+                call()
+
+
 class WhatThereIs(unittest.TestCase):
+    def test_version(self):
+        self.assertIn(smoothfem.__version__, run(PROGRAM, "--version", folder=".").stdout)
+
+    def test_arguments_of_wrong_types_are_sentences(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        for sentence, call in (
+                ("edge_scale is 'x', but has to be a number", lambda: smoothfem.generate("gear", edge_scale="x")),
+                ("seed is -1", lambda: smoothfem.generate("gear", seed=-1)), ("domain is None", lambda: smoothfem.generate(None)),
+                ("path is 3", lambda: smoothfem.read(3)), ("metric is 3", lambda: smoothfem.quality(mesh, 3)),
+                ("mesh is 'm', but has to be a smoothfem.Mesh", lambda: smoothfem.summary("m")),
+                ("q_mean is 'x'", lambda: smoothfem.distort(mesh, "x")), ("threads is 1.5", lambda: smoothfem.smooth(mesh, "getme", threads=1.5)),
+                (r"cell\['q'\] has the shape \(1,\)", lambda: smoothfem.write(mesh, "m.vtu", cell={"q": [1.0]})),
+                ("cell is 3", lambda: smoothfem.write(mesh, "m.vtu", cell=3)), ("dim is 'x'", lambda: smoothfem.problems("x"))):
+            with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
+                call()
+
     def test_methods_and_their_parameters(self):
         methods = smoothfem.methods()
         self.assertIn("planar", methods["getme"]["meshes"])
@@ -120,11 +163,14 @@ class Smoothing(unittest.TestCase):
         self.assertEqual(result.history[0].stage, "initial")
         self.assertGreater(result.smoothing_seconds, 0.0)
         self.assertIn(result.quality.q_min, [i.quality.q_min for i in result.history])
-        self.assertEqual(smoothfem.smooth(mesh, "laplace").history, [])
+        with self.assertWarnsRegex(UserWarning, "2 of 896 cells of the smoothed mesh are invalid"):
+            self.assertEqual(smoothfem.smooth(mesh, "laplace").history, [])
 
     def test_parameters_are_the_methods_own(self):
         mesh = distorted("triangles")
-        self.assertEqual(smoothfem.smooth(mesh.copy(), "laplace", tolerance=0.0, max_iterations=np.int64(3)).iterations, "3")
+        for given in ({"tolerance": 0.0, "max_iterations": np.int64(3)}, {"parameters": {"tolerance": 0.0, "max_iterations": 3}}):
+            with self.assertWarns(UserWarning):
+                self.assertEqual(smoothfem.smooth(mesh.copy(), "laplace", **given).iterations, "3")
         for wrong, sentence in (({"tolerance": -1}, "outside its range"), ({"tolerence": 1}, "did you mean 'tolerance'"),
                                 ({"max_iterations": 2.5}, "whole number"), ({"threads": -1}, "threads is -1")):
             with self.subTest(wrong), self.assertRaisesRegex(smoothfem.InputError, sentence):
@@ -223,7 +269,7 @@ os._exit(0)
         mesh.points[4] = 2.5, 2.5
         with self.assertRaisesRegex(smoothfem.InputError, "invalid"):
             smoothfem.smooth(mesh, "getme")
-        with self.assertRaisesRegex(smoothfem.InputError, "name or a class"):
+        with self.assertRaisesRegex(smoothfem.InputError, "a name, a class or object with step"):
             smoothfem.smooth(mesh, 3)
 
 

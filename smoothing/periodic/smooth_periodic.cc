@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smoothing/base/option_text.h"
 #include "smoothing/loop/best_mesh.h"
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/mesh/fixed_nodes.h"
@@ -56,7 +57,8 @@ template <int dim>
 class PeriodicMesh {
  public:
   explicit PeriodicMesh(const Mesh<dim>& mesh) : maps_(periodic_maps(mesh)) {
-    if (maps_.empty()) throw InputError("the mesh has no periodic partners; leave out --periodic");
+    if (maps_.empty())
+      throw InputError("the mesh has no periodic partners; leave out " + option_text("periodic"));
     is_periodic_.assign(mesh.n_nodes(), false);
     for (const auto& map : maps_)
       for (const auto& pair : map.nodes) is_periodic_[pair[0]] = is_periodic_[pair[1]] = true;

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <vector>
 
+#include "smoothing/base/option_text.h"
 #include "smoothing/quality/mesh_quality.h"
 
 namespace smoothfem {
@@ -26,7 +27,7 @@ std::vector<bool> fixed_away_from_bad_cells(const Mesh<dim, spacedim>& mesh, dou
     if (ratios[c] < q) cells.push_back(c);
   if (cells.empty())
     throw InputError("no cell has a mean ratio below " + text(q) +
-                     ", so there is nothing to smooth; raise --only-below");
+                     ", so there is nothing to smooth; raise " + option_text("only-below"));
   std::vector<bool> fixed(mesh.n_nodes(), true);
   bool any_free = false;
   for (int ring = 0; ring <= rings; ++ring) {
@@ -43,7 +44,8 @@ std::vector<bool> fixed_away_from_bad_cells(const Mesh<dim, spacedim>& mesh, dou
   }
   if (!any_free)
     throw InputError("no node near the cells with a mean ratio below " + text(q) +
-                     " is free; free nodes by --fix, or use more --rings");
+                     " is free; free nodes by " + option_text("fix") + ", or use more " +
+                     option_text("rings"));
   return fixed;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "smoothing/base/option_text.h"
 #include "smoothing/simd/cells.h"
 #include "smoothing/transformations/scaling.h"
 
@@ -110,7 +111,8 @@ std::shared_ptr<const CellTargets<dim>> targets_of(const Mesh<dim>& reference, T
     if (!map.allFinite() || !(map.determinant() > 0.0)) {
       const auto& ids = reference.topology().labels().cell_ids;
       throw InputError("cell " + std::to_string(ids.empty() ? c : ids[c]) +
-                       " is invalid, so that it cannot be a target; repair the mesh (--untangle)");
+                       " is invalid, so that it cannot be a target; repair the mesh (" +
+                       option_text("untangle") + ")");
     }
     maps.push_back(map);
   }

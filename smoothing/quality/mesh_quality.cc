@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "smoothing/base/option_text.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/geometry/cell_size.h"
 #include "smoothing/quality/mean_ratio.h"
@@ -169,9 +170,9 @@ template <class W>
 std::string advice(std::size_t n_inverted, std::size_t n_cells) {
   if (n_inverted == n_cells) return std::string(W::all) + "; " + W::fix;
   if (n_inverted > 0)
-    return std::string(W::fix_some) +
-           ", or untangle the mesh first (--untangle) if they are inverted";
-  return "untangle the mesh first (--untangle)";
+    return std::string(W::fix_some) + ", or untangle the mesh first (" + option_text("untangle") +
+           ") if they are inverted";
+  return "untangle the mesh first (" + option_text("untangle") + ")";
 }
 
 template <int dim>

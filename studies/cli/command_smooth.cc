@@ -4,16 +4,14 @@
 #include <memory>
 #include <optional>
 
-#include "meshes/doctor/examine_boundary.h"
 #include "meshes/io/atomic_file.h"
 #include "meshes/io/mesh_file.h"
+#include "meshes/preparation/prepare_mesh.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
 #include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/mesh/fixed_nodes.h"
-#include "smoothing/periodic/mesh_rules.h"
-#include "smoothing/quality/bad_places.h"
 #include "smoothing/quality/cell_targets.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/mesh_notes.h"
@@ -39,73 +37,6 @@ Method<dim, spacedim> configured_method(const SmoothArguments& arguments) {
   return method;
 }
 
-MeshRules rules_of(const SmoothArguments& arguments) {
-  return {.interfaces = interface_rule(arguments.interfaces),
-          .boundary_slides = arguments.boundary == "slide",
-          .joins_periodic = arguments.periodic == "smooth",
-          .features = features_of(arguments),
-          .slide_distance = slide_distance_of(arguments)};
-}
-
-/// The mesh with the constraints that --boundary, --interfaces, --slide-distance and
-/// --feature-angle ask for.
-template <int dim, int spacedim>
-Mesh<dim, spacedim> with_constraints(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
-  const bool boundary_slides = arguments.boundary == "slide",
-             slides = boundary_slides || arguments.interfaces == "slide";
-  if (arguments.slide_distance && !slides)
-    throw InputError(
-        "--slide-distance is for '--boundary slide' and '--interfaces slide'; leave it out");
-  if constexpr (spacedim > dim) {
-    if (arguments.slide_distance)
-      throw InputError("--slide-distance is for planar and volume meshes; leave it out");
-    if (!arguments.boundary.empty())
-      throw InputError(
-          "--boundary is for planar and volume meshes, but this is a surface mesh; leave it out");
-    const FeatureParameters features = features_of(arguments);
-    return with_interface_rule(arguments.feature_angle ? with_features(mesh, features) : mesh,
-                               interface_rule(arguments.interfaces), features);
-  } else {
-    if (arguments.feature_angle && !slides)
-      throw InputError(
-          "--feature-angle is for surface meshes, '--boundary slide' and '--interfaces slide'; "
-          "leave it out");
-    return with_rules(mesh, rules_of(arguments));
-  }
-}
-
-/// The mesh with the nodes fixed that --fix names.
-template <int dim, int spacedim>
-Mesh<dim, spacedim> with_rule(Mesh<dim, spacedim> mesh, const std::string& rule) {
-  if (rule.empty()) return mesh;
-  auto fixed = fixed_nodes(mesh.topology(), parse_fixed_nodes_rule(rule));
-  return with_fixed_nodes(std::move(mesh), std::move(fixed));
-}
-
-/// --only-below: the nodes that are not near a bad cell are fixed, too.
-template <int dim, int spacedim>
-Mesh<dim, spacedim> fix_nodes_away_from_bad_cells(Mesh<dim, spacedim> mesh,
-                                                  const SmoothArguments& arguments) {
-  if (!arguments.only_below) return mesh;
-  auto fixed = fixed_away_from_bad_cells(mesh, *arguments.only_below, arguments.rings);
-  return with_fixed_nodes(std::move(mesh), std::move(fixed));
-}
-
-/// The mesh with the nodes of seams fixed, whose sides would come apart. Warns about them.
-template <int dim, int spacedim>
-Mesh<dim, spacedim> with_fixed_seams(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
-  // In tangled meshes boundary nodes may lie anywhere.
-  const bool is_valid = mesh_quality(mesh).n_invalid == 0;
-  if (!is_valid && !(dim == 2 && mesh.constraints())) return mesh;
-  const auto [findings, seam_nodes] = examine_boundary(mesh);
-  if (is_valid) warn_about(arguments.in, findings);
-  if (seam_nodes.empty()) return mesh;
-  auto reasons = mesh.topology().fixed_reasons();
-  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i)
-    if (seam_nodes[i]) reasons[i] |= bit(FixedReason::hanging);
-  return with_fixed_nodes(std::move(mesh), std::move(reasons));
-}
-
 /// The mesh with the targets that --target asks for.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> with_target_option(Mesh<dim, spacedim> mesh, const SmoothArguments& arguments) {
@@ -119,11 +50,7 @@ Mesh<dim, spacedim> with_target_option(Mesh<dim, spacedim> mesh, const SmoothArg
       throw InputError("--target is '" + arguments.target +
                        "', which is no file; give initial, initial-size or a mesh file");
     const MeshFile file = read_mesh(arguments.target);
-    const auto* reference = std::get_if<Mesh<dim>>(&file.mesh);
-    if (reference == nullptr || !(reference->topology().cells() == mesh.topology().cells()))
-      throw InputError(arguments.target + " has other cells than " + arguments.in +
-                       "; --target needs a mesh with the same cells in the same order");
-    return with_targets(mesh, targets_of(*reference, TargetKind::shape_and_size));
+    return with_cells_as_targets(mesh, file.mesh, arguments.in, arguments.target);
   }
 }
 
@@ -154,19 +81,29 @@ void require_different_files(const SmoothArguments& arguments) {
                      "; give two file names");
 }
 
-/// Runs the method. Periodic partners move together if the boundary slides, or as inner nodes with
-/// --periodic smooth.
+/// Prints the sentences of the preparation.
+NoteTaker printed_notes(const SmoothArguments& arguments) {
+  return {.warn =
+              [&](const std::string& sentence) {
+                std::fprintf(stderr, "smoothfem: warning: %s: %s\n", arguments.in.c_str(),
+                             sentence.c_str());
+              },
+          .note = [&](const std::string& sentence) { print_notes(arguments.in, {sentence}); },
+          .tell =
+              [&](const std::string& sentence) {
+                if (!arguments.quiet) std::printf("%s\n", sentence.c_str());
+              }};
+}
+
+/// Throws InputError if a stage needs a valid mesh and this one is not, unless it is untangled.
 template <int dim, int spacedim>
-SmoothingResult run_method(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
-                           const Observer<dim, spacedim>& observer,
-                           const SmoothArguments& arguments) {
-  if constexpr (spacedim == dim) {
-    return smooth_by_rules(mesh, method, rules_of(arguments), observer);
-  } else {
-    if (arguments.periodic == "smooth")
-      throw InputError("--periodic is for planar and volume meshes; leave it out");
-    return smooth(mesh, method, observer);
-  }
+void require_valid_if_needed(const SmoothArguments& arguments, const Method<dim, spacedim>& method,
+                             const Mesh<dim, spacedim>& mesh,
+                             const std::vector<std::size_t>& cell_lines) {
+  const bool needs_valid =
+      std::any_of(method.stages.begin(), method.stages.end(),
+                  [](const auto& stage) { return stage->traits().needs_valid_mesh; });
+  if (needs_valid && !arguments.untangle) require_valid(mesh, arguments.in, cell_lines);
 }
 
 /// Smooths a mesh. The method and its tables are freed before the mesh is written: writing needs
@@ -175,14 +112,8 @@ template <int dim, int spacedim>
 Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& arguments,
                          Mesh<dim, spacedim>& mesh, const std::vector<std::size_t>& cell_lines,
                          Recorder& recorder) {
-  make_valid(arguments, method, mesh, cell_lines);
-  if constexpr (dim == spacedim)
-    if (arguments.untangle && mesh.constraints() && !keeps_constraints(method)) {
-      mesh = with_fixed_surfaces(mesh);
-      if (!arguments.quiet)
-        std::printf("%s keeps no nodes on surfaces: from here on the nodes that slide stay\n",
-                    method.info.name.c_str());
-    }
+  require_valid_if_needed(arguments, method, mesh, cell_lines);
+  untangle_as_asked(arguments, method, arguments.in, printed_notes(arguments), mesh);
   mesh = with_target_option(std::move(mesh), arguments);
   if (!arguments.allow_worse) method.floor = 1;
   Observer<dim, spacedim>
@@ -191,7 +122,7 @@ Outcome smooth_by_method(Method<dim, spacedim> method, const SmoothArguments& ar
     observer = [&](const auto& record, const auto& now) { recorder.observe(record, now); };
   use_folders(method, {});
   try {
-    return {method.info.title, run_method(mesh, method, observer, arguments)};
+    return {method.info.title, smooth_prepared(mesh, method, arguments, observer)};
   } catch (const Interrupted&) {
     recorder.write_log();
     std::fprintf(stderr, "Interrupted: no mesh is written%s%s.\n",
@@ -227,18 +158,11 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   if (!arguments.log.empty() || method_in_file(arguments.method)) notice_signals();
   auto method = configured_method<dim, spacedim>(arguments);
   const auto topology_of_file = mesh.shared_topology();
-  mesh = with_constraints(std::move(mesh), arguments);
-  mesh = with_rule(std::move(mesh), arguments.fix);
-  if constexpr (dim == spacedim)
-    mesh = with_layer_rule(std::move(mesh), arguments);
-  else if (arguments.keep_layers)
-    throw InputError("--keep-layers is for planar and volume meshes; leave it out");
-  mesh = with_fixed_seams(std::move(mesh), arguments);
-  mesh = fix_nodes_away_from_bad_cells(std::move(mesh), arguments);
+  mesh = prepared_mesh(std::move(mesh), arguments, printed_notes(arguments));
   const MeshQuality before = mesh_quality(mesh);
   const std::vector<double> sizes_before = cell_sizes(mesh);
   std::vector<Point<spacedim>> initial;  // empty if periodic partners stay
-  if (dim == spacedim && moves_partners(mesh.topology(), rules_of(arguments)))
+  if (dim == spacedim && moves_partners(mesh.topology(), arguments.rules()))
     initial = mesh.copied_coordinates();
   Recorder recorder(arguments);
   const Outcome outcome =
@@ -251,9 +175,8 @@ void smooth_mesh(const SmoothArguments& arguments, Mesh<dim, spacedim> mesh,
   warn_about_invalid_cells(arguments, outcome.smoothing.quality.n_invalid, mesh.n_cells());
   fields.cell["mean_ratio"] = cell_mean_ratios(mesh);
   // Mesh files do not store that a boundary slides, so its nodes are fixed there.
-  const bool slides = arguments.boundary == "slide" || arguments.interfaces == "slide";
   write_mesh(arguments.out,
-             slides || arguments.only_below || arguments.periodic == "smooth"
+             arguments.slides() || arguments.only_below || arguments.periodic == "smooth"
                  ? Mesh<dim, spacedim>(topology_of_file, mesh.copied_coordinates(),
                                        mesh.shared_constraints())
                  : mesh,
@@ -300,6 +223,8 @@ void smooth_file(SmoothArguments arguments) {
   if (arguments.in.empty() && arguments.keep_layers &&
       !arguments.keep_layers->starts_with("group="))
     std::swap(arguments.in, *arguments.keep_layers);
+  if (!arguments.fix_rule.empty()) arguments.fix = parse_fixed_nodes_rule(arguments.fix_rule);
+  arguments.has_target = !arguments.target.empty();
   if (arguments.in.empty()) throw CLI::RequiredError("in");
   const WriteTarget target = parse_write_target(arguments.to);
   if (arguments.out.empty()) arguments.out = default_output(arguments.in, target.extension);
@@ -349,7 +274,7 @@ void add_smooth_command(CLI::App& app) {
   command->add_option("--set", arguments->settings, "parameter of the method: key=value")
       ->allow_extra_args(false);
   command->add_option(
-      "--fix", arguments->fix,
+      "--fix", arguments->fix_rule,
       "nodes that stay: boundary, file, free or group=NAME[,NAME] (default: as in the file, "
       "otherwise the boundary); group= adds to the default");
   command

@@ -27,11 +27,6 @@ std::vector<double> cell_sizes(const Mesh<dim, spacedim>& mesh);
 /// empty if they are the same.
 std::string size_changes(const std::vector<double>& before, const std::vector<double>& after);
 
-/// Returns the mesh with the nodes of its layers fixed, as --keep-layers asks for. Otherwise warns
-/// before a run that makes them isotropic.
-template <int dim>
-Mesh<dim> with_layer_rule(Mesh<dim> mesh, const SmoothArguments& arguments);
-
 /// Returns by how much the size of the domain has changed, if by more than 1e-9 of it: "the area
 /// has changed from 1 to 1.2 (by 20 %)". kind: "area" or "volume".
 std::string domain_change(const std::string& kind, const std::vector<double>& before,

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "meshes/io/atomic_file.h"
+#include "meshes/preparation/prepare_mesh.h"
 
 namespace smoothfem {
 
@@ -32,29 +33,26 @@ void print_stages(const SmoothingResult& result, std::size_t n_free_nodes) {
 
 void report_floor(const std::string& method, const SmoothingResult& result, std::size_t n_cells,
                   bool quiet) {
-  if (result.n_floor_reset == 0) return;
-  const char* rule =
-      "nodes are back at their initial positions, so that no cell is worse than the worst one "
-      "before "
-      "(--allow-worse leaves them)";
+  const std::string text = floor_text(result);
+  if (text.empty()) return;
   if (result.n_floor_invalid > 0)
-    std::fprintf(stderr, "smoothfem: warning: %s made %zu of %zu cells invalid; %zu %s\n",
-                 method.c_str(), result.n_floor_invalid, n_cells, result.n_floor_reset, rule);
+    std::fprintf(stderr, "smoothfem: warning: %s made %zu of %zu cells invalid; %s\n",
+                 method.c_str(), result.n_floor_invalid, n_cells, text.c_str());
   else if (!quiet)
-    std::printf("%zu %s\n", result.n_floor_reset, rule);
+    std::printf("%s\n", text.c_str());
 }
 
 void warn_about_invalid_cells(const SmoothArguments& arguments, std::size_t n_invalid,
                               std::size_t n_cells) {
-  if (n_invalid == 0) return;
-  const std::string what = std::to_string(n_invalid) + " of " + std::to_string(n_cells) +
-                           " cells of the smoothed mesh are invalid";
-  const std::string method =
-      "choose a method that keeps cells valid, for example smart-laplace or getme";
-  if (arguments.fail_if_invalid)
-    throw InputError(what + ", so " + arguments.out + " is not written; " + method);
-  std::fprintf(stderr, "smoothfem: warning: %s; %s, and --fail-if-invalid to make it an error\n",
-               what.c_str(), method.c_str());
+  const std::string text = invalid_cells_text(n_invalid, n_cells);
+  if (text.empty()) return;
+  if (arguments.fail_if_invalid) {
+    const auto advice = text.find(';');
+    throw InputError(text.substr(0, advice) + ", so " + arguments.out + " is not written" +
+                     text.substr(advice));
+  }
+  std::fprintf(stderr, "smoothfem: warning: %s, and --fail-if-invalid to make it an error\n",
+               text.c_str());
 }
 
 }  // namespace smoothfem
