@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Callable
 
 from .claims.check import check_claims, read_claims
-from .claims.report import claims_as_markdown
+from .claims.report import claims_as_markdown, totals
 from .report.reload import make_final, make_reloading
 from .results.collection import read_collection_results
 from .results.polygons import read_polygon_results
@@ -97,7 +97,8 @@ def smoothing_outputs(folder, request):
         return write_report(results, outcomes, against, path)
     tables = (*([chosen_table(results, request.columns)] if request.columns else []), *make_tables(results, printed),
               *make_seed_tables(results), *make_energy_tables(of_all_degrees))
-    return Outputs(results.folder, results.study_title, tables, plan, screen(results), plan_of_meshes, texts,
+    shown = screen(results) + (f"{totals(outcomes)} (tables/claims.md).\n" if outcomes and not results.is_quick else "")
+    return Outputs(results.folder, results.study_title, tables, plan, shown, plan_of_meshes, texts,
                    () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page,
                    provenance=results.provenance)
 

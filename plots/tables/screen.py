@@ -5,6 +5,8 @@ import math
 
 from ..results.smoothing import INITIAL
 from .number_format import MISSING, format_quality, seconds_text
+from .sessions import times_sentence
+from .smoothing import invalid_meshes
 
 MAX_ROWS = 40  # of all meshes and degrees together; the tables have the others
 BEST = "*"
@@ -61,7 +63,7 @@ def screen(results):
     that failed, with its reason."""
     has_solutions = any(row.get("h1_error") for row in results.summary.records())
     columns = (*QUALITY, *(SOLUTION if has_solutions else ()), *TIME)
-    lines, n_rows, left_out = [], 0, 0
+    lines, n_rows, left_out = problem_lines(results.provenance), 0, 0
     for mesh in results.meshes:
         for degree in results.degrees or ("",):
             rows = {row["method"]: row for row in results.summary.select(mesh=mesh).records() if row.get("degree", "") == degree}
@@ -73,10 +75,23 @@ def screen(results):
             n_rows += len(block)
     lines += [f"Failed: {results.title(method)} on {results.title(mesh)}: {status}"
               for (mesh, method), status in results.failures.items()]
+    lines += [f"Invalid: {sentence}" for _, sentence in invalid_meshes(results.summary.records(), results)]
     if left_out:
         lines.append(f"{left_out} more blocks of meshes and degrees are in the tables.")
     lines.append(f"{BEST} best of the methods." + (f" {ERRORS}" if has_solutions else ""))
+    lines += [sentence for sentence in [times_sentence(results)] if sentence]
     return "\n".join(lines) + "\n"
+
+
+def problem_lines(provenance):
+    """The problem that is solved: one line for each solution, and one for the boundary and the load."""
+    problem = provenance.get("problem")
+    if not problem:
+        return []
+    lines = [f"Problem{' ' + entry['label'] if 'label' in entry else ''}: -div(A grad u) = f, u = {entry['u']}"
+             + (f", A = {entry['A']}" if entry["A"] != "1" else "") for entry in problem["solutions"]]
+    natural = f"natural conditions on {', '.join(problem['natural'])}, u given elsewhere" if problem.get("natural") else "u given"
+    return lines + [f"Boundary: {natural}. Load: {problem['load']}."]
 
 
 def block_lines(results, mesh, degree, rows, columns):

@@ -14,6 +14,7 @@ from .descriptions import DETAILS, KEY_HEADINGS, MEANINGS, NORMS_MEANING, TABLES
 from .method_order import order_notes
 from .notes import Notes
 from .number_format import BELOW_CLOCK, CLOCK, MISSING, format_seconds, relative_difference
+from .sessions import times_sentence
 from .table import Cell, Group, Table, escape_tex, number_cell
 
 
@@ -69,6 +70,8 @@ def make_table(description, results, printed):
         caption = f"Table {printed.number}: {caption}"
     if in_thesis and not compared:
         sentences += (("", f"Not compared with Table {printed.number} of the thesis: meshes of the scale `quick` are too coarse."),)
+    if any(measure.format is format_seconds for measure in groups) and (sentence := times_sentence(results)):
+        sentences += (("", sentence),)
     if compared:
         sentences = tuple(("", sentence) for sentence in (
             *comparison_notes(printed, results), COLUMNS_NOTE,

@@ -112,9 +112,10 @@ class PythonSmoother final : public Smoother<dim> {
 
   SmootherOrigin origin() override {
     return with_python([&] {
-      const py::object path = python_.definition.attr("path");
-      return path.is_none() ? SmootherOrigin{}
-                            : SmootherOrigin{.files = {py::cast<std::string>(path)}, .version = {}};
+      SmootherOrigin origin;
+      for (const auto& file : python_.definition.attr("files"))
+        origin.files.emplace_back(py::cast<std::string>(file));
+      return origin;
     });
   }
 

@@ -95,6 +95,16 @@ class Definition:
         for key, default in STOPPING.items():
             setattr(self, key, self._number(key, getattr(cls, key, default), type(default)))
 
+    @property
+    def files(self):
+        """The smoother's file and those of the modules that it imports from the same folder: its code."""
+        if not self.path:
+            return []
+        folder = os.path.dirname(os.path.abspath(self.path))
+        modules = (getattr(module, "__file__", None) for module in list(sys.modules.values()))
+        others = {file for file in modules if file and os.path.dirname(os.path.abspath(file)) == folder and os.path.isfile(file)}
+        return [self.path, *sorted(others - {self.path})]
+
     def _parameter(self, name, declared):
         """Returns (name, default, reason)."""
         try:

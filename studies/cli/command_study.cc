@@ -11,6 +11,7 @@
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/interruption.h"
 #include "studies/cli/commands.h"
+#include "studies/cli/watched_files.h"
 #include "studies/framework/definition/find_study.h"
 #include "studies/framework/definition/study.h"
 #include "studies/framework/run/peak_memory.h"
@@ -29,6 +30,7 @@ struct StudyArguments {
   bool published = false;
   bool no_figures = false;
   bool verbose = false;
+  bool watch = false;
   StudyOptions options;
 };
 
@@ -88,7 +90,8 @@ void run_on_all_ranks(StudyArguments& arguments) {
 
 /// Prints the launcher's work for a study, one item a line. "ranks N": number of processes that is
 /// fastest on this machine. "out FOLDER": results folder. "draw OPTION": option for drawing. "fetch
-/// NAME": published meshes are wanted. Prints nothing about the program's own work. Runs no code
+/// NAME": published meshes are wanted. "watch FILE": a file or folder that the study depends on,
+/// with --watch. Prints nothing about the program's own work. Runs no code
 /// that the study names.
 void print_plan(const StudyArguments& arguments) {
   if (arguments.list || arguments.options.dry_run) return;
@@ -96,9 +99,15 @@ void print_plan(const StudyArguments& arguments) {
   unsigned n_ranks = 1;
   std::string name = std::filesystem::path(arguments.study).stem();
   const OnlyLook only_look;
+  const auto watch = [&](const std::vector<std::filesystem::path>& files) {
+    for (const auto& file : files) std::printf("watch %s\n", file.c_str());
+  };
+  const std::filesystem::path file = find_study(arguments.study);
+  if (arguments.watch) watch(files_of(StudyText(file)));
   try {
     const ReadyStudy study = read(arguments);
     name = study.header.name;
+    if (arguments.watch) watch(named_files(study.header.parameters, file.parent_path()));
     if (study.benefits_from_mpi) n_ranks = std::max(1U, std::thread::hardware_concurrency());
   } catch (const InputError&) {  // published meshes may be missing yet; the run itself reports what
                                  // is wrong
@@ -169,6 +178,10 @@ void smoothfem_add_study_command(CLI::App& app) {
   // For the launcher, which draws. This program never draws.
   command->add_flag("--no-figures", arguments->no_figures, "make tables, but draw nothing")
       ->envname("SMOOTHFEM_NO_FIGURES");
+  // For the launcher, too.
+  command->add_flag("--watch", arguments->watch,
+                    "run again when the study, a smoother's file or a mesh changes, until Ctrl-C; "
+                    "report.html in an open browser shows the new results by itself");
   command->add_flag("--dry-run", arguments->options.dry_run,
                     "only show what would run, the estimated time, memory and disk space; no code "
                     "that the study names is run");
@@ -189,6 +202,10 @@ void smoothfem_add_study_command(CLI::App& app) {
     if (arguments->study.empty())
       throw InputError("which study? 'smoothfem study --list' shows the available ones");
     if (arguments->print_plan) return print_plan(*arguments);
+    if (arguments->watch)
+      throw InputError(
+          "--watch is for the command smoothfem by itself and a study that runs: leave out mpirun, "
+          "--dry-run and --print-plan");
     // The launcher fetches, and passes on the folder.
     if (arguments->published && arguments->options.mesh_dir.empty())
       throw InputError(

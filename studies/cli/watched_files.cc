@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/cli/watched_files.h"
 
+#include <set>
 #include <sstream>
 
 #include "smoothing/loop/method_scheme.h"
@@ -39,21 +40,22 @@ std::vector<fs::path> files_of(const StudyText& text) {
 }
 
 std::vector<fs::path> named_files(const StudyParameters& parameters, const fs::path& folder) {
-  std::vector<fs::path> files;
+  std::set<fs::path> files;
   std::error_code ignored;  // a word that is no path
   for (const auto& [key, value] : parameters)
     for (const auto& word : words_of(value)) {
       const fs::path path = folder / path_in(word);
       if (word.find_first_of("*?") != std::string::npos) {
-        if (fs::is_directory(path.parent_path(), ignored)) files.push_back(path.parent_path());
+        if (fs::is_directory(path.parent_path(), ignored)) files.insert(path.parent_path());
       } else if (fs::is_regular_file(path, ignored)) {
-        files.push_back(path);
+        files.insert(path);
         if (path.extension() != ".py") continue;
-        for (const auto& entry : fs::directory_iterator(path.parent_path().empty() ? "." : path.parent_path()))
-          if (entry.path().extension() == ".py" && entry.path() != path) files.push_back(entry.path());
+        for (const auto& entry :
+             fs::directory_iterator(path.parent_path().empty() ? "." : path.parent_path()))
+          if (entry.path().extension() == ".py") files.insert(entry.path());
       }
     }
-  return files;
+  return {files.begin(), files.end()};
 }
 
 }  // namespace smoothfem

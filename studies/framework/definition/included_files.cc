@@ -125,7 +125,8 @@ void StudyText::add(const std::string& text, const std::vector<fs::path>& includ
       continue;
     }
     const fs::path included = file.parent_path() / name;
-    require_end(included, including, ++n_includes_, positions_.size(), position);
+    included_.push_back(included);
+    require_end(included, including, included_.size(), positions_.size(), position);
     std::vector<fs::path> further = including;
     further.push_back(included);
     add(content_of(included, position), further);

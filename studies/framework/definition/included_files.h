@@ -39,7 +39,6 @@ class StudyText {
   std::string text_;
   std::vector<std::string> positions_;
   std::vector<std::filesystem::path> included_;
-  std::size_t n_includes_ = 0;
 };
 
 }  // namespace smoothfem
