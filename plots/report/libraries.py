@@ -2,7 +2,6 @@
 """The page's libraries, from Debian's packages: Plotly (curves, meshes), jQuery and DataTables (tables)."""
 
 import contextlib
-import hashlib
 import os
 import shutil
 import subprocess
@@ -29,8 +28,10 @@ def library(path, package):
 
 def minified(path, package):
     """Returns the content of a file without blanks and comments."""
-    digest = hashlib.sha256(library(path, package).encode()).hexdigest()
-    known = cache_folder() / f"{path.stem}-{digest[:32]}.min.js"
+    if not path.is_file():
+        library(path, package)
+    state = path.stat()
+    known = cache_folder() / f"{path.stem}-{state.st_size}-{state.st_mtime_ns}.min.js"
     with contextlib.suppress(OSError):
         return known.read_text(encoding="utf-8")
     if not shutil.which("esbuild"):

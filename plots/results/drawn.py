@@ -67,7 +67,7 @@ class Drawn:
         self.figures[name] = (self.inputs, [path.name for path in paths])
 
     def save(self, all_names=None):
-        """Writes what is known. all_names: of all figures that there are; files of others are removed."""
+        """Writes the list. all_names: of all figures that there are; files of others are removed."""
         if all_names is not None:
             for name in set(self.figures) - set(all_names):
                 for file in self.figures.pop(name)[1]:

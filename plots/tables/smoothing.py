@@ -9,7 +9,7 @@ from dataclasses import replace
 from ..results.printed_values import comparison_notes
 from ..results.rows import ResultsError
 from ..results.smoothing import INITIAL
-from ..results.symbols import SYMBOLS, Heading
+from ..results.symbols import SYMBOLS, THESIS_NORMS, Heading
 from .descriptions import DETAILS, KEY_HEADINGS, MEANINGS, NORMS_MEANING, TABLES
 from .method_order import order_notes
 from .notes import Notes
@@ -37,6 +37,8 @@ def make_table(description, results, printed):
     rows = getattr(results, description.source).records()
     if description.degree_independent:
         rows = [row for row in rows if row.get("degree", "") == first_degree(row, rows)]
+    if "error" in description.keys:
+        rows = chosen_errors(rows, in_thesis=printed is not None)
     if not has_what_it_needs(description, rows):
         return None
     reference = printed.rows if printed else []
@@ -82,6 +84,14 @@ def make_table(description, results, printed):
                  left_aligned=("Status", "cond(A) by"), notes=sentences)
 
 
+def chosen_errors(rows, in_thesis):
+    """The rows of the true errors; of the norms of the thesis where its table is compared, or where the results, of an
+    earlier version, have no others."""
+    of_norms = [row for row in rows if row["error"] in THESIS_NORMS]
+    others = [row for row in rows if row["error"] not in THESIS_NORMS]
+    return of_norms if in_thesis else others or of_norms
+
+
 def has_what_it_needs(description, rows):
     """True if the rows have something in the column that the table depends on."""
     return not description.needs or any(row.get(description.needs) for row in rows)
@@ -123,7 +133,7 @@ def without_noise(rows):
 def meanings(keys, groups, rows):
     """A note on what the headings mean, and one on times that are too short."""
     shown = list(dict.fromkeys(MEANINGS[measure.column] for measure in groups if measure.column in MEANINGS))
-    shown += [NORMS_MEANING] if "error" in keys and rows else []
+    shown += [NORMS_MEANING] if any(row.get("error") in THESIS_NORMS for row in rows) else []
     texts = {cell.text for measure, group in groups.items() if measure.format is format_seconds
              for row in group.cells for cell in row}
     return (*([("", "; ".join(shown) + ".")] if shown else []), *([("", CLOCK_NOTE)] if BELOW_CLOCK in texts else []))

@@ -23,7 +23,10 @@ std::string plots_command(const std::vector<std::string>& words) {
   const fs::path find_python = fs::canonical("/proc/self/exe").parent_path() / "find_python";
   std::string command = "python=$(" + shell_quoted(find_python) +
                         ") && PYTHONPATH=" + shell_quoted(data_folder()) +
-                        "${PYTHONPATH:+:$PYTHONPATH} PYTHONSAFEPATH=1 exec \"$python\" -B -m plots";
+                        "${PYTHONPATH:+:$PYTHONPATH} PYTHONSAFEPATH=1 "
+                        // Compiled files go where they are in nobody's way.
+                        "PYTHONPYCACHEPREFIX=\"${XDG_CACHE_HOME:-$HOME/.cache}/smoothfem\" "
+                        "exec \"$python\" -m plots";
   for (const std::string& word : words) command += " " + shell_quoted(word);
   return command;
 }

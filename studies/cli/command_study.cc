@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -27,6 +29,7 @@ struct StudyArguments {
   bool quick = false;
   bool list = false;
   bool print_plan = false;
+  int plan_to = -1;  ///< file descriptor; -1: none
   bool published = false;
   bool no_figures = false;
   bool verbose = false;
@@ -88,19 +91,29 @@ void run_on_all_ranks(StudyArguments& arguments) {
   }
 }
 
-/// Prints the launcher's work for a study, one item a line. "ranks N": number of processes that is
-/// fastest on this machine. "out FOLDER": results folder. "draw OPTION": option for drawing. "fetch
-/// NAME": published meshes are wanted. "watch FILE": a file or folder that the study depends on,
-/// with --watch. Prints nothing about the program's own work. Runs no code
-/// that the study names.
-void print_plan(const StudyArguments& arguments) {
-  if (arguments.list || arguments.options.dry_run) return;
+/// The launcher's work for a study.
+struct LauncherPlan {
+  /// One item a line. "ranks N": number of processes that is fastest on this machine. "out FOLDER":
+  /// results folder. "draw OPTION": option for drawing. "fetch NAME": published meshes are wanted.
+  /// "watch FILE": a file or folder that the study depends on, with --watch.
+  std::string text;
+  bool comes_first = false;  ///< before the program's own work
+};
+
+/// Plans the launcher's work. The plan is empty if there is none. Runs no code that the study
+/// names.
+LauncherPlan launcher_plan(const StudyArguments& arguments) {
+  if (arguments.list || arguments.options.dry_run) return {};
   // More processes speed up a study if they share the finite elements of volume meshes.
   unsigned n_ranks = 1;
   std::string name = std::filesystem::path(arguments.study).stem();
   const OnlyLook only_look;
+  LauncherPlan plan;
+  const auto add = [&](const std::string& what, const std::string& value) {
+    plan.text += what + " " + value + "\n";
+  };
   const auto watch = [&](const std::vector<std::filesystem::path>& files) {
-    for (const auto& file : files) std::printf("watch %s\n", file.c_str());
+    for (const auto& file : files) add("watch", file.string());
   };
   const std::filesystem::path file = find_study(arguments.study);
   if (arguments.watch) watch(files_of(StudyText(file)));
@@ -109,17 +122,28 @@ void print_plan(const StudyArguments& arguments) {
     name = study.header.name;
     if (arguments.watch) watch(named_files(study.header.parameters, file.parent_path()));
     if (study.benefits_from_mpi) n_ranks = std::max(1U, std::thread::hardware_concurrency());
-  } catch (const InputError&) {  // published meshes may be missing yet; the run itself reports what
-                                 // is wrong
-    if (!arguments.published) throw;
+  } catch (const InputError&) {
+    // Published meshes may be missing yet, and a study that is watched is being edited; the run
+    // itself reports what is wrong.
+    if (!arguments.published && !arguments.watch) throw;
   }
   const auto& out = arguments.options.out;
-  std::printf("ranks %u\nout %s\n", n_ranks,
-              (out.empty() ? std::filesystem::path("results") / name : out).c_str());
-  if (arguments.options.quiet) std::printf("draw --quiet\n");
-  if (arguments.verbose) std::printf("draw --verbose\n");
-  if (arguments.no_figures) std::printf("draw --no-figures\n");
-  if (arguments.published) std::printf("fetch %s\n", arguments.study.c_str());
+  add("ranks", std::to_string(n_ranks));
+  add("out", (out.empty() ? std::filesystem::path("results") / name : out).string());
+  if (arguments.options.quiet) add("draw", "--quiet");
+  if (arguments.verbose) add("draw", "--verbose");
+  if (arguments.no_figures) add("draw", "--no-figures");
+  if (arguments.published) add("fetch", arguments.study);
+  plan.comes_first = n_ranks > 1 || arguments.published;
+  return plan;
+}
+
+/// Writes the plan to the file descriptor that the launcher has opened for it.
+void send_plan(const LauncherPlan& plan, int descriptor) {
+  if (::write(descriptor, plan.text.data(), plan.text.size()) !=
+      static_cast<ssize_t>(plan.text.size()))
+    throw InputError("the plan of the study cannot be written; start the command smoothfem");
+  ::close(descriptor);
 }
 
 void list_studies() {
@@ -186,6 +210,7 @@ void smoothfem_add_study_command(CLI::App& app) {
                     "only show what would run, the estimated time, memory and disk space; no code "
                     "that the study names is run");
   command->add_flag("--print-plan", arguments->print_plan)->group("");  // for the launcher
+  command->add_option("--plan-to", arguments->plan_to)->group("");      // for the launcher
   command->add_option("--task-socket", arguments->options.task_socket)->group("");  // not shown
   add_plugin_option(*command);
   add_examples(*command, {"smoothfem study gear --quick", "smoothfem study my.prm --dry-run",
@@ -201,11 +226,17 @@ void smoothfem_add_study_command(CLI::App& app) {
                        "; give one of them");
     if (arguments->study.empty())
       throw InputError("which study? 'smoothfem study --list' shows the available ones");
-    if (arguments->print_plan) return print_plan(*arguments);
+    if (arguments->print_plan)
+      return void(std::fputs(launcher_plan(*arguments).text.c_str(), stdout));
     if (arguments->watch)
       throw InputError(
           "--watch is for the command smoothfem by itself and a study that runs: leave out mpirun, "
           "--dry-run and --print-plan");
+    if (arguments->plan_to >= 0) {
+      const LauncherPlan plan = launcher_plan(*arguments);
+      send_plan(plan, arguments->plan_to);
+      if (plan.comes_first) return;
+    }
     // The launcher fetches, and passes on the folder.
     if (arguments->published && arguments->options.mesh_dir.empty())
       throw InputError(

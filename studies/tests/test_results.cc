@@ -218,6 +218,7 @@ std::vector<IterationRow> curve(const std::string& method, const std::vector<dou
     }
     SolutionRecord record;
     record.e_max = record.e_mean = record.e_l2 = record.e_h1 = errors[i];
+    record.l2_error = record.h1_error = errors[i];
     row.solved = record;
   }
   return rows;
@@ -234,7 +235,7 @@ TEST(Thresholds, AreReachedByTheFirstRowBelowThem) {
   const auto rows = reach_thresholds(
       joined(curve("reference", {10, 4, 2, 2.1}), curve("other", {10, 2.15, 5, 1})), "reference",
       0.1);
-  ASSERT_EQ(rows.size(), 4u) << "one for each error";
+  ASSERT_EQ(rows.size(), 6u) << "one for each error";
   for (const auto& row : rows) {
     EXPECT_EQ(row.mesh, "tri");
     EXPECT_EQ(row.degree, 2);
@@ -246,6 +247,7 @@ TEST(Thresholds, AreReachedByTheFirstRowBelowThem) {
   }
   EXPECT_EQ(rows[0].error, "e_max");
   EXPECT_EQ(rows[3].error, "e_h1");
+  EXPECT_EQ(rows[5].error, "h1_error");
   const auto csv = CsvTable(thresholds_csv("study", rows)).rows.at(0);
   EXPECT_EQ(csv.at("speedup"), "2");
 }

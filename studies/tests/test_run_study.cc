@@ -239,7 +239,7 @@ TEST_F(RunStudy, NumbersDependNeitherOnTheThreadsNorOnTheRun) {
   const fs::path two = run(study(thresholds), "two", 2);
   expect_same_but_for_times(run(study(thresholds), "one", 1), two);
   expect_same_but_for_times(run(study(thresholds), "again", 2), two);
-  EXPECT_EQ(table(two, "thresholds.csv").rows.size(), 2u * 4u);
+  EXPECT_EQ(table(two, "thresholds.csv").rows.size(), 2u * 6u);
 }
 
 TEST_F(RunStudy, MethodsThatSolveSayHowOftenAndForHowLong) {

@@ -75,10 +75,12 @@ struct NamedError {
   const char* name;
   double SolutionRecord::*value;
 };
-constexpr std::array<NamedError, 4> threshold_errors{{{"e_max", &SolutionRecord::e_max},
+constexpr std::array<NamedError, 6> threshold_errors{{{"e_max", &SolutionRecord::e_max},
                                                       {"e_mean", &SolutionRecord::e_mean},
                                                       {"e_l2", &SolutionRecord::e_l2},
-                                                      {"e_h1", &SolutionRecord::e_h1}}};
+                                                      {"e_h1", &SolutionRecord::e_h1},
+                                                      {"l2_error", &SolutionRecord::l2_error},
+                                                      {"h1_error", &SolutionRecord::h1_error}}};
 
 using Curve = std::vector<const IterationRow*>;  ///< one method's solved rows, in time
 
