@@ -124,7 +124,7 @@ LauncherPlan launcher_plan(const StudyArguments& arguments) {
     if (study.benefits_from_mpi) n_ranks = std::max(1U, std::thread::hardware_concurrency());
   } catch (const InputError&) {
     // Published meshes may be missing yet, and a study that is watched is being edited; the run
-    // itself reports what is wrong.
+    // itself reports the fault.
     if (!arguments.published && !arguments.watch) throw;
   }
   const auto& out = arguments.options.out;
