@@ -249,17 +249,23 @@ def make_study(options):
 
 
 def make_all(options, outputs):
-    """Makes all tables, the page and those figures that have changed."""
+    """Makes all tables, the page and those figures that have changed. Problems of the results are found before the first
+    file is written."""
+    drawn = Drawn(outputs.folder, inputs_of(outputs.folder, outputs.provenance, [options.width, options.format]))
+    figures, sentences, planned = drawn.all_paths(), [], None
+    if figures is None:
+        planned = planned_figures(outputs, Request(), (), options.width, sentences.append)
     show_results(options, outputs, outputs.tables)
     paths = write_tables(outputs, outputs.tables, outputs.texts, outputs.folder)
-    # The page takes as long as some figures: it is made at the same time.
-    tasks = [lambda: write_page(outputs, options.reload), lambda: draw_all(options, outputs)]
-    made = dict(finished(tasks))
-    for found, sentences in made.values():
-        paths += found
-        for sentence in sentences:
-            warn(sentence)
-    show_paths(options, outputs, paths, outputs.folder)
+    tasks = [lambda: write_page(outputs, options.reload)]
+    if planned is not None:  # the page takes as long as some figures, so it is made at the same time
+        tasks.append(lambda: draw_changed(options, planned, drawn, sentences))
+    for made, remarks in dict(finished(tasks)).values():
+        paths += made
+        sentences += remarks
+    for sentence in sentences:
+        warn(sentence)
+    show_paths(options, outputs, paths + (figures or []), outputs.folder)
 
 
 def write_page(outputs, reload):
@@ -270,18 +276,14 @@ def write_page(outputs, reload):
         return [], [str(error)]
 
 
-def draw_all(options, outputs):
-    """Draws the figures that have changed; returns the paths of all of them and sentences for the user."""
-    folder = outputs.folder / "figures"
-    drawn = Drawn(folder, inputs_of(outputs.folder, outputs.provenance, [options.width, options.format]))
-    paths, sentences = drawn.all_paths(), []
-    if paths is None:
-        progress = FigureProgress(options.quiet)
-        from .figures.planned import save_figures
-        planned = planned_figures(outputs, Request(), (), options.width, sentences.append)
-        paths = save_figures(planned, folder, options.format, sentences.append, drawn, progress.show)
-        drawn.save(None if sentences else [figure.name for figure in planned])
-        progress.end()
+def draw_changed(options, planned, drawn, left_out):
+    """Draws the figures that have changed; returns the paths of all of them and sentences for the user. left_out: sentences on
+    figures that could not be planned; the next run tries them again."""
+    from .figures.planned import save_figures
+    progress, sentences = FigureProgress(options.quiet), []
+    paths = save_figures(planned, drawn.folder, options.format, sentences.append, drawn, progress.show)
+    drawn.save(None if left_out or sentences else [figure.name for figure in planned])
+    progress.end()
     return paths, sentences
 
 

@@ -31,7 +31,6 @@ SHORTER = {
     "smoothfem study subdivision --scale quick --quiet": "smoothfem study subdivision --scale quick --dry-run",
     "smoothfem plot merged --quiet": "smoothfem plot merged --quiet --no-figures",
     "smoothfem study energy-layer --scale quick": "begin_and_stop smoothfem study energy-layer --scale quick",
-    "smoothfem study gear --quick --quiet --force": "begin_and_stop smoothfem study gear --quick --force",
     "smoothfem study gear --quick --quiet --retime": "begin_and_stop smoothfem study gear --quick --retime",
     "smoothfem study polygons --quick --quiet": "begin_and_stop smoothfem study polygons --quick",
     # Coarser meshes and no optimization: test_new_smoother.py and test_installed.py in launcher/tests run the unchanged templates.
@@ -49,6 +48,7 @@ NEED_PUBLISHED = ("--published", "--mesh-dir")
 CONSOLE = {
     "how-to/many-meshes": "mpirun across machines, SLURM and GNU parallel are not available; `--shard` and `merge` are run above them",
     "how-to/restart-and-mpi": "a study of hours on several processes; studies/tests/test_resume.cc runs studies with mpirun",
+    "tutorials/smoother-in-python": "it runs until Ctrl-C; launcher/tests/test_watch.py changes a study that is watched",
     "how-to/latex": "LaTeX is optional; plots/tests/test_latex.py makes the figures and tables of this page and compiles its document",
     "how-to/cpp-libraries": "needs an installation; launcher/tests/test_installed.py builds and runs this program",
     "how-to/develop": "the fuzzers are built by clang in a folder of their own; plots/tests/test_manual.py checks the generated blocks",

@@ -30,7 +30,7 @@ class PlannedFigure:
 
 
 def save_figures(planned, folder, formats, report, drawn=None, show=lambda n_done, n: None):
-    """Draws figures into files in a folder; returns the paths, also of those that are up to date.
+    """Draws figures into files in a folder; returns the paths of all, drawn now or before.
 
     report: takes a sentence on each figure that cannot be drawn here. drawn: the known figures of the folder; None: draw all.
     show: takes the numbers of finished figures and of all that are to be drawn. Figures are drawn in several processes; those

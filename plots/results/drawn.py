@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Remembers what the figures in a folder were made of, so that only those that changed are drawn again."""
+"""Remembers what the figures in a folder were made of, so that only changed figures are drawn again."""
 
 import hashlib
 import json
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from .write_files import write_atomically
@@ -32,18 +32,26 @@ def inputs_of(folder, provenance, more):
     folder = Path(folder)
     shown = {key: value for key, value in provenance.items() if key not in NOT_SHOWN}
     data = [path for pattern in ("*.csv", "*.csv.xz", "meshes/*.vtu") for path in folder.glob(pattern)]
-    text = json.dumps([shown, digest_of_files(data), digest_of_files(PACKAGE.rglob("*.py")), version("matplotlib"), more], sort_keys=True,
-                      default=str)
+    code = digest_of_files(PACKAGE.rglob("*.py"))
+    text = json.dumps([shown, digest_of_files(data), code, version_of_matplotlib(), more], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
+def version_of_matplotlib():
+    """The version; empty without matplotlib."""
+    try:
+        return version("matplotlib")
+    except PackageNotFoundError:
+        return ""
+
+
 class Drawn:
-    """The figures that a folder has, by name: the digest of what they were made of, and their files."""
+    """The figures of a results folder, by name: the digest of what they were made of, and their files."""
 
     def __init__(self, folder, inputs):
-        self.folder, self.inputs = Path(folder), inputs
+        self.list, self.folder, self.inputs = Path(folder) / FILE, Path(folder) / "figures", inputs
         try:
-            known = json.loads((self.folder / FILE).read_text(encoding="utf-8"))
+            known = json.loads(self.list.read_text(encoding="utf-8"))
             self.figures = {str(name): (str(inputs), [str(file) for file in files]) for name, (inputs, files) in known["figures"].items()}
             self.whole = str(known["whole"])
         except (OSError, ValueError, KeyError, TypeError, AttributeError):  # nothing is known, so all are drawn
@@ -73,4 +81,4 @@ class Drawn:
                 for file in self.figures.pop(name)[1]:
                     (self.folder / Path(file).name).unlink(missing_ok=True)
             self.whole = self.inputs
-        write_atomically(self.folder / FILE, json.dumps({"whole": self.whole, "figures": self.figures}, indent=1))
+        write_atomically(self.list, json.dumps({"whole": self.whole, "figures": self.figures}, indent=1))

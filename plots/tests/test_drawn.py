@@ -29,28 +29,30 @@ class Processes(InFolder):
 
 class KnownFigures(InFolder):
     def test_files_and_inputs_decide(self):
-        (self.folder / "a.png").write_bytes(b"")
+        (self.folder / "figures").mkdir()
+        (self.folder / "figures" / "a.png").write_bytes(b"")
         drawn = Drawn(self.folder, "one")
-        drawn.note("a", [self.folder / "a.png"])
+        drawn.note("a", [self.folder / "figures" / "a.png"])
         drawn.note("empty", [])
         drawn.save(["a", "empty"])
         again = Drawn(self.folder, "one")
-        self.assertEqual(again.paths("a"), [self.folder / "a.png"])
+        self.assertEqual(again.paths("a"), [self.folder / "figures" / "a.png"])
         self.assertEqual(again.paths("empty"), [])
         self.assertIsNone(again.paths("b"))
-        self.assertEqual(again.all_paths(), [self.folder / "a.png"])
+        self.assertEqual(again.all_paths(), [self.folder / "figures" / "a.png"])
         self.assertIsNone(Drawn(self.folder, "two").paths("a"))
-        (self.folder / "a.png").unlink()
+        (self.folder / "figures" / "a.png").unlink()
         self.assertIsNone(again.all_paths())
 
     def test_files_of_figures_that_are_gone_are_removed(self):
+        (self.folder / "figures").mkdir()
         for name in ("a.png", "b.png", "mine.png"):
-            (self.folder / name).write_bytes(b"")
+            (self.folder / "figures" / name).write_bytes(b"")
         drawn = Drawn(self.folder, "one")
-        drawn.note("a", [self.folder / "a.png"])
-        drawn.note("b", [self.folder / "b.png"])
+        drawn.note("a", [self.folder / "figures" / "a.png"])
+        drawn.note("b", [self.folder / "figures" / "b.png"])
         drawn.save(["b"])
-        self.assertEqual(sorted(path.name for path in self.folder.glob("*.png")), ["b.png", "mine.png"])
+        self.assertEqual(sorted(path.name for path in self.folder.glob("figures/*.png")), ["b.png", "mine.png"])
 
     def test_a_damaged_list_is_no_list(self):
         for text in ("", "[]", '{"figures": 1}', '{"figures": {"a": 1}, "whole": ""}'):

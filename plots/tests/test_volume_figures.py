@@ -215,7 +215,7 @@ class VolumeStudy(InFolder):
 
     def test_without_a_server_the_other_figures_are_made(self):
         folder = write_volume_results(self.folder / "r")
-        with mock.patch("shutil.which", return_value=None):
+        with mock.patch("shutil.which", return_value=None), mock.patch.dict("os.environ", XDG_CACHE_HOME=str(self.folder)):
             errors, names = self.run_main(folder)
         self.assertEqual([line.partition(":")[0] for line in errors.splitlines()],
                          ["No pictures of volume meshes and surfaces", "No report.html"])  # both need a program

@@ -232,7 +232,8 @@ void smoothfem_add_study_command(CLI::App& app) {
       throw InputError(
           "--watch is for the command smoothfem by itself and a study that runs: leave out mpirun, "
           "--dry-run and --print-plan");
-    if (arguments->plan_to >= 0) {
+    // The processes of a collection have the same command line.
+    if (arguments->plan_to >= 0 && arguments->options.task_socket < 0) {
       const LauncherPlan plan = launcher_plan(*arguments);
       send_plan(plan, arguments->plan_to);
       if (plan.comes_first) return;

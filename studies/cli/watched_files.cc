@@ -52,7 +52,7 @@ std::vector<fs::path> named_files(const StudyParameters& parameters, const fs::p
         if (path.extension() != ".py") continue;
         for (const auto& entry :
              fs::directory_iterator(path.parent_path().empty() ? "." : path.parent_path()))
-          if (entry.path().extension() == ".py") files.insert(entry.path());
+          if (entry.path().extension() == ".py") files.insert(entry.path().lexically_normal());
       }
     }
   return {files.begin(), files.end()};
