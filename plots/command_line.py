@@ -257,12 +257,13 @@ def make_all(options, outputs):
         planned = planned_figures(outputs, Request(), (), options.width, sentences.append)
     show_results(options, outputs, outputs.tables)
     paths = write_tables(outputs, outputs.tables, outputs.texts, outputs.folder)
-    tasks = [lambda: write_page(outputs, options.reload)]
-    if planned is not None:  # the page takes as long as some figures, so it is made at the same time
-        tasks.append(lambda: draw_changed(options, planned, drawn, sentences))
-    for made, remarks in dict(finished(tasks)).values():
-        paths += made
-        sentences += remarks
+    draw = [] if planned is None else [lambda: draw_changed(options, planned, drawn, sentences)]
+    page = [lambda: write_page(outputs, options.reload)]
+    # The page takes as long as some figures, so it is made at the same time, unless it shows them.
+    for tasks in (draw, page) if outputs.page_shows_figures else (draw + page,):
+        for made, remarks in dict(finished(tasks)).values():
+            paths += made
+            sentences += remarks
     for sentence in sentences:
         warn(sentence)
     show_paths(options, outputs, paths + (figures or []), outputs.folder)

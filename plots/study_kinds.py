@@ -48,6 +48,7 @@ class Outputs:
     write_report: Callable = None  # (against, path) -> the path of the page written; None: that of tables and figures
     plots: Callable = lambda: None  # of that page in place of figures, as data
     provenance: dict = field(default_factory=dict)
+    page_shows_figures: bool = False  # whether the page is made of the files of figures
 
     def write_page(self, against=None, path=None, reload=False):
         """Writes report.html, or to a path; returns where. reload: a page that is open in a browser shows the next version by
@@ -112,7 +113,7 @@ def polygon_outputs(folder, request):
         return plan_polygon_figures(results)
     tables = tuple(make_polygon_tables(results))
     return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH,
-                   provenance=read_provenance(results.folder / "provenance.json"))
+                   page_shows_figures=True, provenance=read_provenance(results.folder / "provenance.json"))
 
 
 def regularization_outputs(folder, request):
@@ -124,7 +125,7 @@ def regularization_outputs(folder, request):
         return plan_regularization_figures(results)
     tables = tuple(make_regularization_tables(results))
     return Outputs(results.folder, results.study_title, tables, plan, as_text(tables[0]), least_width=LEAST_WIDTH,
-                   provenance=read_provenance(results.folder / "provenance.json"))
+                   page_shows_figures=True, provenance=read_provenance(results.folder / "provenance.json"))
 
 
 def collection_outputs(folder, request):
