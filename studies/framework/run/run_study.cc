@@ -85,9 +85,9 @@ class StudyRun {
   bool is_alone() const { return options_.kept.empty(); }
 
   /// Removes earlier results, and kept ones that no results are made of any more.
-  void remove_replaced() const {
+  void remove_replaced() {
     remove_earlier_results(options_.out, options_.keep);
-    data_.kept.keep_only(used_results(options_.out));
+    progress_.say(data_.kept.keep_only(used_results(options_.out)));
   }
 
   std::vector<MeshFacts> mesh_facts() const { return {data_.meshes.begin(), data_.meshes.end()}; }

@@ -111,7 +111,7 @@ class CollectionRun {
     write_provenance(is_complete() ? "complete" : "interrupted");
     if (is_complete()) {
       remove_earlier_results(options_.out, options_.keep);
-      KeptResults(options_.out / kept_folder).keep_only(used_results(options_.out));
+      progress_.say(KeptResults(options_.out / kept_folder).keep_only(used_results(options_.out)));
     }
     report();
   }

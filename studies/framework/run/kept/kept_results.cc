@@ -2,6 +2,7 @@
 #include "studies/framework/run/kept/kept_results.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -145,13 +146,22 @@ bool KeptResults::has_solved(const std::string& name) const {
   return fs::exists(folder_ / (name + ".solved"));
 }
 
-void KeptResults::keep_only(const std::set<std::string>& names) const {
-  if (!fs::exists(folder_)) return;
+std::string KeptResults::keep_only(const std::set<std::string>& names) const {
+  constexpr double large = 1e9;  // bytes
+  if (!fs::exists(folder_)) return {};
   std::vector<fs::path> unused;
   for (const auto& entry : fs::directory_iterator(folder_))
     if (!names.contains(entry.path().stem().string())) unused.push_back(entry.path());
   std::error_code ignored;  // leftovers are harmless
   for (const auto& path : unused) fs::remove_all(path, ignored);
+  double bytes = 0.0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_))
+    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+  if (bytes < large) return {};
+  char size[32];
+  std::snprintf(size, sizeof(size), "%.1f GB", 1e-9 * bytes);
+  return "The results kept for changes of the study take " + std::string(size) +
+         ". You may remove " + folder_.string() + ": you lose only time.";
 }
 
 template <int dim>

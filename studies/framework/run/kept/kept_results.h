@@ -57,8 +57,9 @@ class KeptResults {
   bool has_trajectory(const std::string& name) const;
   bool has_solved(const std::string& name) const;
 
-  /// Removes all results but those of these names.
-  void keep_only(const std::set<std::string>& names) const;
+  /// Removes all results but those of these names. Returns a sentence with the size of the others
+  /// if they are large; otherwise nothing.
+  std::string keep_only(const std::set<std::string>& names) const;
 
  private:
   static std::string numbers_name(const std::string& name, std::size_t record);
