@@ -36,9 +36,16 @@ install(PROGRAMS launcher/find_python launcher/fetch_published
 install(FILES launcher/smoothfem.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES launcher/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME smoothfem COMPONENT program)
-install(FILES README.md CITATION.cff CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-install(DIRECTORY docs/tutorials docs/how-to docs/reference docs/explanation docs/pictures
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.ipynb")
+# The manual: its pages as they are, and pages that the program makes. Links between all of them work.
+install(FILES README.md CONTRIBUTING.md CITATION.cff CHANGELOG.md LICENSE packages.txt
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.csv" PATTERN "*.ipynb"
+  PATTERN doxygen.md EXCLUDE PATTERN build EXCLUDE PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)
+install(CODE "execute_process(
+  COMMAND ${SMOOTHFEM_PYTHON} -B ${PROJECT_SOURCE_DIR}/docs/reference_pages.py ${PROJECT_BINARY_DIR}/bin/smoothfem
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/docs\" COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 install(DIRECTORY studies/ DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/studies COMPONENT program
   FILES_MATCHING PATTERN "*.prm" PATTERN "*.json" PATTERN "*.csv"

@@ -246,6 +246,16 @@ def make_study(options):
         from .figures.planned import save_figures
         paths += save_figures([figure for figure in figures if figure.name in wanted], folder / "figures", options.format, warn)
     show_paths(options, outputs, paths, folder)
+    if options.no_figures and not options.out:
+        warn_about_old_figures(options, outputs)
+
+
+def warn_about_old_figures(options, outputs):
+    """Says that the figures and the page are of earlier results, if they are."""
+    drawn = Drawn(outputs.folder, inputs_of(outputs.folder, outputs.provenance, [options.width, options.format]))
+    if drawn.figures and drawn.all_paths() is None:
+        warn(f"The figures and report.html in {outputs.folder} are of earlier results; 'smoothfem plot {outputs.folder}' makes new "
+             "ones.")
 
 
 def make_all(options, outputs):
@@ -373,7 +383,9 @@ def make_chosen_table(options, tables):
         raise ResultsError(f"{options.out} has room for one table, but there are {len(tables)}"
                            f"{': ' if tables else ''}{listed([table.name for table in tables])}; choose one by --only or --columns, or "
                            "give a folder.")
-    path = write_atomically(options.out, TABLE_FORMATS[suffix_of(options.out)](tables[0]))
+    # The label in LaTeX comes from the name: a paper may have several such tables.
+    table = replace(tables[0], name=options.out.stem)
+    path = write_atomically(options.out, TABLE_FORMATS[suffix_of(options.out)](table))
     if not options.quiet:
         say(f"{as_text(tables[0])}wrote {path}")
 
@@ -413,6 +425,9 @@ def run(arguments):
     except (ResultsError, NoLibrary) as error:
         print(error, file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print("Interrupted; the same command makes the other files.", file=sys.stderr)
+        return 130
     except OSError as error:
         print(f"The files cannot be written: {error}.", file=sys.stderr)
         return 2

@@ -50,6 +50,20 @@ class Installed(Study, unittest.TestCase):
             if path.is_file():
                 self.assertNotIn(str(SOURCE).encode(), path.read_bytes(), path)
 
+    def test_links_of_the_manual_lead_to_installed_files(self):
+        """Each link of each installed page, also of the pages that the program makes."""
+        manual = self.prefix / "share" / "doc" / "smoothfem"
+        for name in ("README.md", "CONTRIBUTING.md", "packages.txt", "docs/index.md", "docs/tutorials/first-study.md",
+                     "docs/reference/commands.md", "docs/explanation/claims.md"):
+            self.assertTrue((manual / name).is_file(), name)
+        n_links = 0
+        for page in self.prefix.rglob("*.md"):
+            for link in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)):
+                if "://" not in link and not link.startswith(("#", "mailto:")):
+                    n_links += 1
+                    self.assertTrue((page.parent / link.partition("#")[0]).exists(), f"{page.relative_to(self.prefix)}: {link}")
+        self.assertGreater(n_links, 50)
+
     def test_smooths_and_draws(self):
         self.assertRegex(self.smoothfem_run("--version").stdout, r"^smoothfem \d+\.\d+\.\d+ \(vector registers: \w+\)$")
         self.smoothfem_run("generate", "gear", "-o", "in.msh", "--edge-scale", "4", "--distort-to", "0.45")
@@ -105,6 +119,9 @@ class Installed(Study, unittest.TestCase):
         self.assertNotIn("laplace", complete("smooth", "in.vtu", "-m", "getme"))
         self.assertEqual(complete("smooth", "in.vtu", "--preset", "thesis-6"), ["thesis-6.3"])
         self.assertEqual(complete("study", "nonu"), ["nonuniform-grid"])
+        self.assertEqual(complete("list", "preset"), ["presets"])
+        self.assertEqual(complete("list", "smart"), ["smart-laplace"])
+        self.assertEqual(complete("list", "--study-keys", "coll"), ["collection"])
         self.assertEqual(complete("generate", "fl"), ["flange"])
         self.assertEqual(complete("smooth", "--untan"), ["--untangle"])
         self.assertEqual(complete("plot", "results/gear", "--wid"), ["--width"])

@@ -25,6 +25,17 @@ class Rank:
     ratio: float  # geometric mean of error / initial error at the budget
     ratio_interval: tuple
     p_value: float  # of the paired test against the best method; NaN for that one
+    n_groups: int  # families or meshes that the test swaps together
+
+
+@dataclass(frozen=True)
+class Shared:
+    """Problems on which methods can be compared: each of the methods has a result on each of them."""
+
+    problems: tuple
+    methods: tuple  # that are compared
+    missing: dict  # method -> number of all problems on which it has no result, where there are any
+    n_all: int  # problems
 
 
 @dataclass(frozen=True)
@@ -41,6 +52,31 @@ class Payoff:
     at_equal_time: float  # median of the error over the unsmoothed mesh's after the same time in all; NaN: not known
     at_equal_time_interval: tuple
     n_problems: int
+
+
+def has_result(problem, method):
+    """True if the method has reached its end without invalid cells."""
+    return method in problem.curves and method not in problem.broken
+
+
+def shared_problems(problems, methods):
+    """Returns the problems on which all methods have a result. If there are none, the methods with the fewest results are left out
+    one by one."""
+    missing = {method: sum(not has_result(problem, method) for problem in problems) for method in methods}
+    compared = [method for method in methods if missing[method] < len(problems)]
+    while True:
+        shared = [problem for problem in problems if all(has_result(problem, method) for method in compared)]
+        if shared or not compared:
+            break
+        compared.remove(max(compared, key=lambda method: missing[method]))
+    return Shared(tuple(shared) if compared else (), tuple(compared), {method: n for method, n in missing.items() if n}, len(problems))
+
+
+def results_alone(shared):
+    """(method, geometric mean of resulting over initial error), the smallest first: whatever the methods' times."""
+    ratios = {method: geometric_mean(np.array([problem.curves[method][ERROR][-1] / problem.curves[method][ERROR][0]
+                                               for problem in shared.problems])) for method in shared.methods if shared.problems}
+    return sorted(ratios.items(), key=lambda entry: entry[1])
 
 
 def solving_costs(problems, methods):
@@ -84,15 +120,15 @@ def ranking(problems, methods):
         method, float(np.mean(ranks[method])), interval(lambda rows, m=method: np.mean(ranks[m][rows]), groups, N_SAMPLES),
         geometric_mean(errors[method]),
         interval(lambda rows, m=method: geometric_mean(errors[m][rows]), groups, N_SAMPLES),
-        np.nan if method == best else paired_test(np.log(errors[method]), np.log(errors[best]), groups))
+        np.nan if method == best else paired_test(np.log(errors[method]), np.log(errors[best]), groups), len(set(groups)))
         for method in methods]
     return sorted(found, key=lambda entry: entry.rank)
 
 
-def payoffs(problems, methods):
+def payoffs(problems, methods, all_problems=None):
     """Returns the payoffs of every method in every family at every degree, without changes and with every cell split. The unsmoothed
-    mesh also has the next degree."""
-    by_key = {(problem.member, problem.degree): problem for problem in problems}
+    mesh also has the next degree, which is looked up in all_problems (default: problems)."""
+    by_key = {(problem.member, problem.degree): problem for problem in all_problems or problems}
     collected = {}
     for problem in problems:
         first = next(iter(problem.curves.values()))

@@ -9,7 +9,7 @@ import numpy as np
 from ..results.collection import OUTCOMES, QUALITIES
 from ..statistics.bootstrap import interval, intervals
 from ..statistics.correlation import good_enough, ranks, spearman
-from .problems import group_column, kinds_of_meshes
+from .problems import ERROR, group_column, kinds_of_meshes
 
 N_SAMPLES = 200
 MOST_ROWS = 2000  # of one correlation with interval: more would take long and change little
@@ -41,6 +41,7 @@ class Sample:
     degree: str
     members: np.ndarray
     groups: np.ndarray
+    families: np.ndarray
     qualities: dict
     relative: dict
 
@@ -56,7 +57,7 @@ def samples_of(results):
         fingerprints = list(zip(chosen.text("member"), *(chosen.text(q) for q in QUALITIES)))
         chosen = chosen.where(sorted({key: number for number, key in reversed(list(enumerate(fingerprints)))}.values()))
         members = chosen.text("member")
-        found.append(Sample(elements, degree, members, chosen.text(group_column(chosen)),
+        found.append(Sample(elements, degree, members, chosen.text(group_column(chosen)), chosen.text("family"),
                             {name: chosen.number(name) for name in results.qualities},
                             {name: relative_to_least(chosen.number(name), members) for name in OUTCOMES}))
     return found
@@ -139,4 +140,17 @@ def thresholds(results, gain=0.05):
             between = interval(lambda rows: good_enough(q[some][rows], error[some][rows], gain),
                                sample.groups[some].astype(str), N_SAMPLES)
             found.append((sample.elements, sample.degree, quality, good_enough(q[known], error[known], gain), between))
+    return found
+
+
+def thresholds_of_families(results, gain=0.05):
+    """(elements, degree, family, least q_mean beyond which the H1 error falls by less than `gain`), where it is known."""
+    found = []
+    for sample in samples_of(results):
+        q, error = sample.qualities["q_mean"], sample.relative[ERROR]
+        for family in sorted(set(sample.families)):
+            known = np.flatnonzero(np.isfinite(q) & np.isfinite(error) & (sample.families == family))
+            value = good_enough(q[known], error[known], gain) if len(known) >= 3 else np.nan
+            if np.isfinite(value):
+                found.append((sample.elements, sample.degree, family, float(value)))
     return found

@@ -42,6 +42,7 @@ class CollectionResults:
     refined: Rows = Rows(Path("refined.csv"), {})  # REFINED: initial and resulting meshes with every cell split
     summary: Rows = Rows(Path("summary.csv"), {})  # SUMMARY
     solving: frozenset = frozenset()  # methods that solve by themselves
+    interpreted: frozenset = frozenset()  # methods in Python
     qualities: tuple = QUALITIES  # columns of iterations: what may predict an outcome
 
     def title(self, name):
@@ -124,4 +125,6 @@ def read_collection_results(folder):
         methods=tuple(name for name in order_of(iterations.text("method"), provenance, "methods") if name != INITIAL),
         titles=titles, members=members, iterations=iterations, refined=refined,
         summary=summary, solving=frozenset(iterations.text("method")[iterations.text("n_solves") != ""]),
+        interpreted=frozenset(entry["name"] for entry in entries(provenance, "methods")
+                              if str(entry.get("type", "")).startswith("python:")),
         qualities=(*QUALITIES, *of_metrics))

@@ -2,8 +2,12 @@
 """Runs functions in processes that are copies of this one."""
 
 import os
+import signal
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
+
+from .rows import ResultsError
 
 _tasks = []  # of this process, which its copies inherit
 
@@ -22,10 +26,14 @@ def finished(tasks):
     first = len(_tasks)
     _tasks.extend(tasks)
     try:
-        with ProcessPoolExecutor(n_processes, get_context("fork")) as pool:
+        # Ctrl-C ends the copies at once and without a word.
+        with ProcessPoolExecutor(n_processes, get_context("fork"), signal.signal, (signal.SIGINT, signal.SIG_DFL)) as pool:
             running = {pool.submit(_run, first + number): number for number in range(len(tasks))}
             try:
                 yield from ((running[future], future.result()) for future in as_completed(running))
+            except BrokenProcessPool as error:
+                raise ResultsError("A process that draws was ended, for example because the memory was full; start the command "
+                                   "again.") from error
             finally:
                 pool.shutdown(cancel_futures=True)
     finally:

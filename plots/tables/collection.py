@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tables of a collection."""
 
+import math
+
 from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, payoffs, ranking
 from ..collections.findings import findings_as_markdown
-from ..collections.prediction import predictions, thresholds
+from ..collections.prediction import predictions, thresholds, thresholds_of_families
 from ..collections.problems import problems_of
 from ..results.rows import groups_of
 from ..results.symbols import symbol_of
@@ -24,7 +26,7 @@ def make_collection_tables(results):
     tables = (members_table(results), prediction_table(results, predicted), threshold_table(results, enough),
               ranking_table(results, ranks), payoff_table(results, gains), gains_table(results))
     return ([table for table in tables if table.keys],
-            findings_as_markdown(results, problems, predicted, enough, ranks, gains))
+            findings_as_markdown(results, problems, predicted, enough, thresholds_of_families(results), ranks))
 
 
 def members_table(results):
@@ -68,7 +70,7 @@ def threshold_table(results, found):
         [("From", [("", [number(value, ".3f") for *_, value, _ in found]),
                    ("interval", [between(low_high, ".3f") for *_, low_high in found])])],
         ["By the decreasing function of quality that is nearest to the logarithm of the relative error. The relative error is "
-         "the error over the smallest error of the same member.", INTERVALS])
+         "the error over the smallest error of the same member. All families together; findings.md has their own numbers.", INTERVALS])
 
 
 def ranking_table(results, found):
@@ -94,6 +96,8 @@ def way_of(results, p):
 
 def payoff_table(results, found):
     """Does smoothing pay?"""
+    no_times = [] if any(math.isfinite(p.at_equal_time) for p in found) else [
+        "Error / unsmoothed at equal time needs solutions with split cells: `set refined degrees = 1` in the study, for example."]
     return table_of(
         results, "table_payoff", "does smoothing pay?",
         [("Family", [text_cell(p.family) for p in found]), ("d", [number_cell(p.degree) for p in found]),
@@ -109,5 +113,6 @@ def payoff_table(results, found):
          "with the diagonal, or with multigrid and its setup. Cells split: into 4, in space into 8. At equal time: median of the "
          "error over that of the unsmoothed mesh after the same total time. Errors of the unsmoothed mesh follow the power law "
          "through its error and the error with split cells. Below 1 smoothing pays. Problems that a method leaves with invalid "
-         "cells are not counted.",
+         "cells are not counted: rows with different numbers of problems cannot be compared, the sentences of findings.md can.",
+         *no_times,
          "Intervals hold 95 % of bootstrap samples that draw meshes. A dash marks a missing number."])

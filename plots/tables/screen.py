@@ -63,21 +63,21 @@ def screen(results):
     that failed, with its reason."""
     has_solutions = any(row.get("h1_error") for row in results.summary.records())
     columns = (*QUALITY, *(SOLUTION if has_solutions else ()), *TIME)
-    lines, n_rows, left_out = problem_lines(results.provenance), 0, 0
+    lines, n_rows, left_out = problem_lines(results.provenance), 0, []
     for mesh in results.meshes:
         for degree in results.degrees or ("",):
             rows = {row["method"]: row for row in results.summary.select(mesh=mesh).records() if row.get("degree", "") == degree}
             block = block_lines(results, mesh, degree, rows, columns)
             if n_rows and n_rows + len(block) > MAX_ROWS:
-                left_out += 1
+                left_out.append(block[0])
                 continue
             lines += block
             n_rows += len(block)
-    lines += [f"Failed: {results.title(method)} on {results.title(mesh)}: {status}"
+    lines += [f"Failed: {results.title(method)} on {results.title(mesh)}: {status.removeprefix('failed: ')}"
               for (mesh, method), status in results.failures.items()]
     lines += [f"Invalid: {sentence}" for _, sentence in invalid_meshes(results.summary.records(), results)]
     if left_out:
-        lines.append(f"{left_out} more blocks of meshes and degrees are in the tables.")
+        lines.append(f"The tables also have: {'; '.join(left_out[:5])}{' and others' if len(left_out) > 5 else ''}.")
     lines.append(f"{BEST} best of the methods." + (f" {ERRORS}" if has_solutions else ""))
     lines += [sentence for sentence in [times_sentence(results)] if sentence]
     return "\n".join(lines) + "\n"

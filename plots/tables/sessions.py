@@ -3,14 +3,13 @@
 
 
 def times_sentence(results):
-    """A sentence on smoothing times that were not measured in one session; empty if they were."""
-    sessions = {}
+    """A sentence on the times of methods that were not measured in one session on the same mesh; empty if all were."""
+    sessions = {mesh: set() for mesh in results.meshes}
     for entry in results.provenance.get("results", []):
-        if entry["mesh"] in results.meshes and entry["method"] in results.methods and "smoothed" in entry:
-            sessions.setdefault(entry["smoothed"], []).append(results.title(entry["method"]))
-    if len(sessions) < 2:
+        if entry["mesh"] in sessions and entry["method"] in results.methods and "smoothed" in entry:
+            sessions[entry["mesh"]].add(entry["smoothed"])
+    n = max(map(len, sessions.values()), default=0)
+    if n < 2:
         return ""
-    newest = max(sessions)
-    others = list(dict.fromkeys(title for session, titles in sessions.items() if session != newest for title in titles))
-    return (f"Times are of {len(sessions)} sessions: those of {', '.join(others)} are older. Compare them with care, or measure all in "
-            "one session by --retime.")
+    return (f"The smoothing times of a mesh come from up to {n} sessions: compare them with care, or measure all in one session by "
+            "--retime.")

@@ -6,14 +6,16 @@ import csv
 import io
 import json
 import lzma
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from plots.__main__ import main
-from plots.collections.comparison import AS_IS, NEXT_DEGREE, SPLIT, Payoff, error_in_time, errors_at_budget, payoffs, ranking
-from plots.collections.findings import verdict, what_got_worse
-from plots.collections.prediction import predictions, relative_to_least, thresholds
+from plots.collections.comparison import (AS_IS, NEXT_DEGREE, SPLIT, Payoff, error_in_time, errors_at_budget, payoffs, ranking,
+                                          shared_problems)
+from plots.collections.findings import verdict, what_got_worse, what_is_enough, what_pays, which_method
+from plots.collections.prediction import predictions, relative_to_least, thresholds, thresholds_of_families
 from plots.collections.problems import problems_of
 from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, REFINED, STATISTICS, SUMMARY, read_collection_results
 from plots.results.rows import SOLVING, ResultsError, Rows, solving_seconds
@@ -104,6 +106,8 @@ class Collection(InFolder):
         self.assertAlmostEqual(higher.time, 1.0)
         self.assertNotIn(("one", "2", "initial", NEXT_DEGREE), found)
         self.assertTrue(np.isnan(good.at_equal_time))
+        self.assertEqual(main([str(self.folder / "r"), "--quiet", "--only", "table_payoff"]), 0)
+        self.assertIn("`set refined degrees = 1`", (self.folder / "r" / "tables" / "table_payoff.md").read_text())
 
     def test_what_knowing_the_solution_gains(self):
         """`good` solves, and halves the errors on the meshes of `idle`, but on one, where it is 4 times as large."""
@@ -158,6 +162,40 @@ class Collection(InFolder):
         text = "\n".join(what_got_worse(self.results, problems))
         self.assertIn("Good ends with invalid cells in 88 % (62 to 100) of 16 problems.", text)
         self.assertIn("in 0 % (no interval: one mesh only) of 2 problems", text)
+        # Statements count the same problems for each method, and say where one has no result.
+        pays = what_pays(self.results, problems)
+        self.assertEqual(len(pays), 4)
+        self.assertIn("(Good has none on 4 and is not compared): Idle leaves 1.000", pays[2])
+        self.assertTrue(pays[0].startswith("one, d = 1, on the 1 of 4 problems where every compared method has a result without "
+                                           "invalid cells (Good has none on 3): Good leaves 0.500"), pays[0])
+        which = which_method(self.results, problems, ranking(problems, self.results.methods))
+        self.assertIn("(1 on 14 of 16 problems, where it ends with invalid cells or has no result)", " ".join(which))
+        self.assertEqual(which[-1], "By their results alone, whatever their time, on the 2 of 16 problems where every compared method has a "
+                                    "result without invalid cells (Good has none on 14): Good 0.500, Idle 1.000 of the initial error.")
+
+    def test_methods_that_share_no_problem_are_left_out_one_by_one(self):
+        problems = problems_of(self.results)
+        for number, problem in enumerate(problems):
+            problem.broken["good" if number else "idle"] = 0.0
+        shared = shared_problems(problems, ("good", "idle"))
+        self.assertEqual((shared.methods, len(shared.problems), shared.missing, shared.n_all),
+                         (("idle",), 15, {"good": 15, "idle": 1}, 16))
+        self.assertEqual(shared_problems([], ("good",)).problems, ())
+
+    def test_few_meshes_and_interpreted_methods_are_said(self):
+        results = read_collection_results(write_collection(self.folder / "few", n_members=4))
+        problems = problems_of(results)
+        which = which_method(results, problems, ranking(problems, results.methods))
+        self.assertTrue(which[1].endswith("; 4 meshes are too few to tell it from the first."), which[1])
+        self.assertEqual(which[2:], ["By their results alone, whatever their time: Good 0.500, Idle 1.000 of the initial error."])
+        results = replace(results, interpreted=frozenset({"idle"}))
+        self.assertIn("Times of Idle include the Python interpreter", which_method(results, problems, ranking(problems, results.methods))[-1])
+
+    def test_thresholds_are_those_of_each_family(self):
+        of_families = thresholds_of_families(self.results)
+        self.assertEqual([entry[:3] for entry in of_families[:2]], [("triangles", "1", "one"), ("triangles", "1", "two")])
+        said = what_is_enough([("triangles", "1", "q_mean", 0.8, (0.7, 0.9))], [("triangles", "1", "b", 0.7), ("triangles", "1", "a", 0.9)])
+        self.assertEqual(said, ["Triangles, d = 1: the error falls by less than 5 % from q_mean 0.700 (b), 0.900 (a) on."])
 
     def test_the_power_law_needs_two_points(self):
         self.assertAlmostEqual(error_in_time(1.0, 1.0, 0.5, 4.0)(16.0), 0.25)

@@ -62,12 +62,19 @@ def _read(path):
 
 
 def _run_file(path, source):
-    """Runs the file as a module and returns it. The module path is not searched, and no byte code is written next to
-    the file."""
+    """Runs the file as a module and returns it. It can import the modules in its folder, unless their names are those of
+    installed ones. No byte code is written next to the file."""
     module = types.ModuleType(f"smoothfem method {path}")
     module.__file__ = path
     sys.modules[module.__name__] = module  # dataclasses look for it
-    exec(compile(source, path, "exec"), module.__dict__)  # the file is the program of a user
+    folder = os.path.dirname(os.path.abspath(path))
+    if folder not in sys.path:
+        sys.path.append(folder)
+    sys.dont_write_bytecode, before = True, sys.dont_write_bytecode
+    try:
+        exec(compile(source, path, "exec"), module.__dict__)  # the file is the program of a user
+    finally:
+        sys.dont_write_bytecode = before
     return module
 
 

@@ -48,7 +48,7 @@ std::vector<fs::path> named_files(const StudyParameters& parameters, const fs::p
       if (word.find_first_of("*?") != std::string::npos) {
         if (fs::is_directory(path.parent_path(), ignored)) files.insert(path.parent_path());
       } else if (fs::is_regular_file(path, ignored)) {
-        files.insert(path);
+        files.insert(path.lexically_normal());
         if (path.extension() != ".py") continue;
         for (const auto& entry :
              fs::directory_iterator(path.parent_path().empty() ? "." : path.parent_path()))

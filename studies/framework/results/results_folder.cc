@@ -51,32 +51,64 @@ void make_results_folder(const fs::path& folder, std::optional<FolderLock>& lock
                       " in the meantime; start this one again, or take another --out");
 }
 
+namespace {
+
+/// Returns the section of a key, such as "method getme"; empty if it is not of a labelled section.
+std::string section_of(const std::string& key) {
+  const auto end = key.find('/');
+  const std::string section = key.substr(0, end);
+  const bool is_labelled = section.starts_with("method ") || section.starts_with("mesh ") ||
+                           section.starts_with("solution ");
+  return end != std::string::npos && is_labelled ? section : "";
+}
+
+bool has_section(const std::map<std::string, std::string>& settings, const std::string& section) {
+  const auto first = settings.lower_bound(section + "/");
+  return first != settings.end() && first->first.starts_with(section + "/");
+}
+
+}  // namespace
+
 std::string differences_from(const EarlierRun& earlier, const StudyHeader& study,
                              const std::vector<MeshFacts>& meshes,
                              const std::vector<StudyMethod>& methods) {
   if (earlier.status.empty()) return {};
-  auto settings = settings_of(study, meshes, methods);
+  const auto settings = settings_of(study, meshes, methods);
   std::string differences;
   int n_differences = 0;
-  const auto note = [&](const std::string& key, const std::string& then, const std::string& now) {
+  const auto add = [&](const std::string& difference) {
     constexpr int most = 5;
     ++n_differences;
     if (n_differences == most + 1) differences += "; and more";
-    if (n_differences > most) return;
-    if (n_differences > 1) differences += "; ";
+    if (n_differences <= most) differences += (n_differences > 1 ? "; " : "") + difference;
+  };
+  const auto note = [&](const std::string& key, const std::string& then, const std::string& now) {
     // The values of contents are checksums, which nobody wants to read.
-    differences += key.starts_with("content of ")
-                       ? key + " has changed"
-                       : key + " was '" + then + "' and is '" + now + "'";
+    add(key.starts_with("content of ") ? key + " has changed"
+                                       : key + " was '" + then + "' and is '" + now + "'");
+  };
+  std::set<std::string> noted;  // sections that are new or gone
+  const auto is_section_noted = [&](const std::string& key, const auto& others, const char* what) {
+    const std::string section = section_of(key);
+    if (section.empty() || has_section(others, section)) return false;
+    if (noted.insert(section).second) add(section + what);
+    return true;
   };
   for (const auto& [key, then] : earlier.settings) {
     const bool of_file =
         key.find(" of mesh ") != std::string::npos || key.starts_with("content of method ");
-    if (of_file && meshes.empty()) continue;
-    if (settings[key] != then) note(key, then, settings[key]);
+    if (of_file && (meshes.empty() || !settings.contains(key))) continue;
+    if (is_section_noted(key, settings, " is gone")) continue;
+    const auto now = settings.find(key);
+    const std::string value = now == settings.end() ? "" : now->second;
+    if (value != then) note(key, then, value);
   }
-  for (const auto& [key, now] : settings)
-    if (!earlier.settings.contains(key) && !now.empty()) note(key, "", now);
+  for (const auto& [key, now] : settings) {
+    if (earlier.settings.contains(key) || now.empty()) continue;
+    if (key.find(" of mesh ") != std::string::npos || key.starts_with("content of method "))
+      continue;
+    if (!is_section_noted(key, earlier.settings, " is new")) note(key, "", now);
+  }
   return differences;
 }
 

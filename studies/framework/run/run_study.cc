@@ -215,8 +215,16 @@ class StudyRun {
   /// Removes files that the run of a changed study may not write again.
   void remove_outdated_files() const {
     std::error_code ignored;  // the folder is writable
-    for (const char* name : {"meshes", "logs", "refined.csv", "solutions.csv", "metrics.csv"})
+    for (const char* name : {"meshes", "refined.csv", "solutions.csv", "metrics.csv"})
       fs::remove_all(options_.out / name, ignored);
+    // A log stays as long as its method: kept results have no new one.
+    std::set<std::string> logs;
+    for (const auto& mesh : study_.meshes)
+      for (const auto& method : study_.methods) logs.insert(log_name(mesh.name, method.name));
+    std::vector<fs::path> others;
+    for (const auto& entry : fs::directory_iterator(options_.out / "logs", ignored))
+      if (!logs.contains(entry.path().filename().string())) others.push_back(entry.path());
+    for (const auto& path : others) fs::remove(path, ignored);
   }
 
   /// Smooths all meshes. A smoother that waits for another program notices the interruption by
@@ -278,7 +286,7 @@ class StudyRun {
     std::map<std::size_t, std::string> contents;  // by record
     Trajectory trajectory = record_trajectory(
         prepared.mesh, method, study_, is_of_results_only(prepared), problem_of(m, method),
-        folders_of(prepared.description.name + "_" + method.name),
+        folders_of(log_name(prepared.description.name, method.name)),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           const auto numbers = numbers_of<spacedim>(coordinates);
           data_.kept.save_numbers(name, record, numbers);
@@ -305,10 +313,13 @@ class StudyRun {
                   " of " + std::to_string(data_.tasks.size()) + " finite element solves.");
   }
 
-  /// Returns the folders for a method's files. trajectory: its name.
-  SmootherFolders folders_of(const std::string& trajectory) const {
-    return {study_.folder,
-            std::filesystem::absolute(options_.out) / "logs" / (trajectory + ".log")};
+  static std::string log_name(const std::string& mesh, const std::string& method) {
+    return mesh + "_" + method + ".log";
+  }
+
+  /// Returns the folders for a method's files. log: name of its log.
+  SmootherFolders folders_of(const std::string& log) const {
+    return {study_.folder, std::filesystem::absolute(options_.out) / "logs" / log};
   }
 
   void solve() {

@@ -65,7 +65,11 @@ template <int dim, int spacedim>
 class Plan {
  public:
   Plan(const Study& study, const StudyOptions& options)
-      : study_(study), options_(options), kept_(options.out / kept_folder) {}
+      : study_(study),
+        options_(options),
+        kept_(options.out / kept_folder),
+        has_results_(!options.retime && !options.force &&
+                     read_provenance(options.out / "provenance.json").status == "complete") {}
 
   void print() {
     std::printf("%s\n\nMeshes\n", study_.header.title.c_str());
@@ -74,13 +78,17 @@ class Plan {
     for (const auto& method : study_.methods) {
       std::printf("  %-24s %s", method.name.c_str(), method.type.c_str());
       for (const auto& [key, value] : method.settings)
-        std::printf(", %s = %s", key.c_str(), value.c_str());
+        if (!value.empty()) std::printf(", %s = %s", key.c_str(), value.c_str());
       std::printf("\n");
     }
     print_kept();
-    std::printf("\nSmoothing: %zu of %zu runs are to do, each %d time%s for its median time.\n",
-                n_open_, study_.meshes.size() * study_.methods.size(), study_.timing_runs,
-                study_.timing_runs == 1 ? "" : "s");
+    std::printf("\nSmoothing: %zu of %zu runs are to do%s, each %d time%s for its median time.\n",
+                n_open_, study_.meshes.size() * study_.methods.size(),
+                n_unknown_ > 0 ? (", and " + std::to_string(n_unknown_) +
+                                  " more if code outside of this program has changed")
+                                     .c_str()
+                               : "",
+                study_.timing_runs, study_.timing_runs == 1 ? "" : "s");
     if (!study_.degrees.empty())
       std::printf(
           "Finite elements: about %.0f solves if each method makes %d iterations, about %s by a "
@@ -107,12 +115,6 @@ class Plan {
       std::printf("  %-24s %s\n", study_.meshes[m].name.c_str(),
                   names.empty() ? "nothing" : names.c_str());
     }
-    for (const auto& method : study_.methods)
-      if (method.is_stand_in)
-        std::printf(
-            "  %s is computed again if its code has changed, which a dry run does not look "
-            "at.\n",
-            method.name.c_str());
   }
 
   unsigned int threads_of(const StudyMethod& method) const {
@@ -140,7 +142,7 @@ class Plan {
                 .trajectories = std::vector<std::string>(study_.methods.size())};
     for (std::size_t k = 0; k < study_.methods.size(); ++k) {
       const StudyMethod& method = study_.methods[k];
-      if (method.is_stand_in || options_.retime) continue;
+      if (is_of_other_code(method) || options_.retime) continue;
       const bool only_results =
           study_.only_results_of_seeds && !prepared.description.repeats.empty();
       const auto trajectory = kept_.load_trajectory(
@@ -198,9 +200,20 @@ class Plan {
 
   void note_kept(const Known& known) {
     auto& names = kept_methods_.emplace_back();
-    for (std::size_t k = 0; k < known.trajectories.size(); ++k)
-      if (!known.trajectories[k].empty()) names.push_back(study_.methods[k].name);
-    n_open_ += study_.methods.size() - names.size();
+    for (std::size_t k = 0; k < study_.methods.size(); ++k) {
+      const bool is_kept = !known.content.empty() && !known.trajectories[k].empty();
+      if (is_kept)
+        names.push_back(study_.methods[k].name);
+      else if (has_results_ && is_of_other_code(study_.methods[k]))
+        ++n_unknown_;
+      else
+        ++n_open_;
+    }
+  }
+
+  /// True if looking at the method's code would run it.
+  static bool is_of_other_code(const StudyMethod& method) {
+    return method.is_stand_in || method.type == "command";
   }
 
   void plan_solves(std::size_t m, std::size_t d, const PreparedMesh<dim, spacedim>& prepared,
@@ -237,6 +250,8 @@ class Plan {
   const KeptResults kept_;
   std::vector<std::vector<std::string>> kept_methods_;  ///< of each mesh
   std::size_t n_open_ = 0;                              ///< smoothing runs to do
+  std::size_t n_unknown_ = 0;  ///< runs to do if code has changed that a dry run does not run
+  bool has_results_ = false;   ///< complete ones of an earlier run
   Totals totals_;
 };
 

@@ -29,8 +29,8 @@ std::string seal(const std::string& name, std::string_view content) {
 void refuse_damaged(const fs::path& path) {
   throw InputError(
       path.string() +
-      " is damaged: an earlier run of this version has not written it like this; start "
-      "the study anew with --force, which keeps its results under another name");
+      " is damaged: an earlier run of this version has not written it like this; remove the folder "
+      "'kept' of the results and start the study again, which computes its content anew");
 }
 
 void write_sealed(const fs::path& folder, const std::string& name, std::string_view content) {
