@@ -427,7 +427,12 @@ class StudyRun {
       write_provenance("running");
       last_write = Clock::now();
     }
-    queue.rethrow();
+    try {
+      queue.rethrow();
+    } catch (const Interrupted&) {  // a solver has noticed it before this thread
+      stop_if_interrupted();
+      throw;
+    }
   }
 
   /// Ends the process if the user has interrupted it. Tasks may run on other threads for a long
