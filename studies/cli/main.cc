@@ -31,7 +31,8 @@ std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || given.empty())
     return std::string(error.what()) + "; 'smoothfem --help' shows the commands";
   for (const auto* option : given.front()->get_options())
-    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+    if (!option->get_group().empty())  // hidden ones are not for users
+      for (const auto& name : option->get_lnames()) names.push_back("--" + name);
   const auto extras = given.front()->remaining();
   const std::string wanted =
       extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
