@@ -17,6 +17,8 @@ _smoothfem() {
       --scale) words='quick paper' ;;
       --format) words='pdf png svg' ;;
       --methods) words=$("$program" complete methods 2>/dev/null) ;;
+      list) words="methods presets studies domains solutions metrics formats $("$program" complete methods 2>/dev/null)" ;;
+      --study-keys) words='smoothing collection polygons regularization' ;;
       study) words="$("$program" complete studies 2>/dev/null) all" ;;
       generate) words=$("$program" generate --list 2>/dev/null | sed 's/ .*//') ;;
     esac

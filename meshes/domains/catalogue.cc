@@ -2,8 +2,11 @@
 #include "meshes/domains/catalogue.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <utility>
 
+#include "meshes/tools/outline.h"
 #include "smoothing/base/registry.h"
 
 namespace smoothfem {
@@ -13,6 +16,28 @@ namespace {
 Registry<Domain>& registry() {
   static Registry<Domain> domains("domain");
   return domains;
+}
+
+/// Returns the name that a word such as "quads" or "tet" begins like; otherwise the word.
+std::string unabbreviated(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::size_t n_letters = 3;
+  for (const auto& name : names)
+    if (word.size() >= n_letters && name.starts_with(word.substr(0, n_letters))) return name;
+  return word;
+}
+
+/// Explains that a mesh cannot have so few edges, by the edge scale, which users know.
+InputError too_large_scale(const Domain& domain, const DomainParameters& wanted,
+                           const TooFewEdges& error) {
+  // Numbers of edges may be rounded up by half a step.
+  const double n_edges = static_cast<double>(error.n_edges) - 0.5 * error.multiple_of;
+  const double largest = wanted.edge_scale * n_edges / static_cast<double>(error.n_least);
+  std::ostringstream text;
+  text << "the edge scale " << wanted.edge_scale << " is too large for " << wanted.elements
+       << " of the domain " << domain.name << ", whose boundary has curves that need "
+       << error.n_least << " edges together; give an edge scale of at most "
+       << std::floor(10.0 * largest) / 10.0;
+  return InputError(text.str());
 }
 
 }  // namespace
@@ -34,7 +59,7 @@ const std::string& Domain::elements_named(const std::string& wanted) const {
   const auto found = std::find(elements.begin(), elements.end(), wanted);
   if (found == elements.end())
     throw InputError("the domain '" + name + "' has no mesh of '" + wanted + "'; " +
-                     choose_one_of(elements, wanted));
+                     choose_one_of(elements, unabbreviated(wanted, elements)));
   return *found;
 }
 
@@ -46,7 +71,12 @@ bool Domain::is_random(const std::string& wanted) const {
 AnyMesh Domain::generate(const DomainParameters& parameters) const {
   DomainParameters known = parameters;
   known.elements = elements_named(parameters.elements);
-  return make(known);
+  try {
+    return make(known);
+  } catch (const TooFewEdges& error) {
+    if (known.edge_scale > 1.0) throw too_large_scale(*this, known, error);
+    throw;
+  }
 }
 
 const std::vector<std::string>& element_names() {

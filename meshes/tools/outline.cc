@@ -73,11 +73,15 @@ std::vector<std::vector<Point<2>>> divide(const std::vector<Outline>& outlines, 
   std::vector<double> lengths;
   for (const auto& outline : outlines)
     for (const auto& curve : outline) lengths.push_back(curve.length);
-  if (n_edges % multiple_of != 0 || n_edges < multiple_of * lengths.size())
-    throw InputError("the boundary consists of " + std::to_string(lengths.size()) +
-                     " curves and cannot have " + std::to_string(n_edges) +
-                     " edges; give a multiple of " + std::to_string(multiple_of) + " from " +
-                     std::to_string(multiple_of * lengths.size()) + " on");
+  const std::size_t n_least = multiple_of * lengths.size();
+  if (n_edges % multiple_of != 0 || n_edges < n_least) {
+    const std::string message = "the boundary consists of " + std::to_string(lengths.size()) +
+                                " curves and cannot have " + std::to_string(n_edges) +
+                                " edges; give a multiple of " + std::to_string(multiple_of) +
+                                " from " + std::to_string(n_least) + " on";
+    if (n_edges < n_least) throw TooFewEdges(message, n_edges, n_least, multiple_of);
+    throw InputError(message);
+  }
   const std::vector<std::size_t> counts = portions(lengths, n_edges / multiple_of);
   std::vector<std::vector<Point<2>>> polygons;
   std::size_t index = 0;

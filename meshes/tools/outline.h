@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "smoothing/base/input_error.h"
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
@@ -32,8 +33,22 @@ Curve polyline(std::vector<Point<2>> points);
 Outline closed(const std::vector<Point<2>>& corners);
 Outline circle(const Point<2>& centre, double radius);
 
+/// Error of `divide`: the curves need at least n_least edges.
+struct TooFewEdges : InputError {
+  TooFewEdges(const std::string& message, std::size_t wanted, std::size_t least,
+              std::size_t multiple)
+      : InputError(message),
+        n_edges(wanted),
+        n_least(least),
+        multiple_of(static_cast<double>(multiple)) {}
+
+  std::size_t n_edges, n_least;
+  double multiple_of;
+};
+
 /// Returns closed polygons with n_edges edges altogether, of nearly equal length, with a multiple
-/// of `multiple_of` on each curve. Throws InputError if that is not possible.
+/// of `multiple_of` on each curve. Throws InputError if that is not possible, TooFewEdges if
+/// n_edges is too small.
 Polygons divide(const std::vector<Outline>& outlines, std::size_t n_edges, std::size_t multiple_of);
 
 /// Area inside the first polygon and outside the others.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "meshes/domains/catalogue.h"
 #include "meshes/io/mesh_file.h"
 #include "meshes/metrics/metric.h"
+#include "smoothing/base/find_named.h"
 #include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/list_columns.h"
@@ -21,9 +23,10 @@ namespace smoothfem {
 namespace {
 
 struct ListArguments {
+  std::string what;               ///< a part or a method; empty: everything
   std::filesystem::path studies;  ///< empty: the built-in studies
-  bool study_keys = false;
-  std::string columns;  ///< CSV file; empty: all
+  std::string kind;               ///< of the study keys; empty: all
+  std::string columns;            ///< CSV file; empty: all
 };
 
 /// Prints a parameter with its range. only_for: the kind of meshes, if only one has the parameter.
@@ -55,36 +58,58 @@ void list_parameters(const std::string& method) {
       list_parameter(parameter, planar ? " [volume meshes]" : "");
 }
 
+void list_method(const MethodInfo& info) {
+  std::printf("  %s: %s\n      %s. Source: %s.\n      Meshes: %s.\n", info.name.c_str(),
+              info.title.c_str(), info.description.c_str(), info.source.c_str(),
+              joined(mesh_kinds(info.name)).c_str());
+  list_parameters(info.name);
+}
+
+constexpr const char* methods_heading = "METHODS (smooth -m NAME, 'methods' in study files)\n";
+constexpr const char* methods_in_files =
+    "\nA smoother written in Python is a method, too: python:FILE:CLASS, as the tutorial shows.\n";
+
 void list_methods() {
-  std::printf("METHODS (smooth -m NAME, 'methods' in study files)\n");
+  std::printf("%s", methods_heading);
   for (const auto& info : method_catalogue(true)) {
-    std::printf("\n  %s: %s\n      %s. Source: %s.\n      Meshes: %s.\n", info.name.c_str(),
-                info.title.c_str(), info.description.c_str(), info.source.c_str(),
-                joined(mesh_kinds(info.name)).c_str());
-    list_parameters(info.name);
+    std::printf("\n");
+    list_method(info);
   }
-  std::printf(
-      "\nA smoother written in Python is a method, too: python:FILE:CLASS, as the tutorial "
-      "shows.\n");
-  std::printf("\nPRESETS (smooth --preset NAME)\n\n");
+  std::printf("%s\n", methods_in_files);
+}
+
+/// Prints one line for each method.
+void list_method_names() {
+  std::printf("%s\n", methods_heading);
+  for (const auto& info : method_catalogue(true))
+    std::printf("  %-28s %s (%s)\n", info.name.c_str(), info.title.c_str(),
+                joined(mesh_kinds(info.name)).c_str());
+  std::printf("%s'smoothfem list METHOD' shows its parameters.\n", methods_in_files);
+}
+
+void list_presets() {
+  std::printf("PRESETS (smooth --preset NAME)\n\n");
   for (const auto& preset : presets())
     std::printf("  %-16s %s. Source: %s.\n", preset.name.c_str(), preset.description.c_str(),
                 preset.source.c_str());
 }
 
 void list_studies(const std::filesystem::path& folder) {
-  std::printf("\nSTUDIES (study NAME, or FILE for your own)\n\n");
+  std::printf("STUDIES (study NAME, or FILE for your own)\n\n");
   for (const auto& file : study_files(folder))
     std::printf("  %-16s %s (%s)\n", file.stem().c_str(), read_any_study(file).header.title.c_str(),
                 file.c_str());
 }
 
-void list_the_rest() {
-  std::printf("\nDOMAINS (generate NAME, 'domain' in study files)\n\n");
+void list_domains() {
+  std::printf("DOMAINS (generate NAME, 'domain' in study files)\n\n");
   for (const auto& domain : domains())
     std::printf("  %-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
                 joined(domain.elements).c_str());
-  std::printf("\nSOLUTIONS ('solution' in study files)\n\n");
+}
+
+void list_solutions() {
+  std::printf("SOLUTIONS ('solution' in study files)\n\n");
   for (const int dimension : {2, 3})
     with_dimension(dimension, [&]<int dim>() {
       for (const auto& solution : manufactured_solutions<dim>())
@@ -92,14 +117,74 @@ void list_the_rest() {
                     dim == 2 ? "planar:" : "volume:", solution.formula.c_str(),
                     solution.source.c_str());
     });
-  std::printf("\nMETRICS (quality --metrics, 'metrics' in study files)\n\n");
+}
+
+void list_metrics() {
+  std::printf("METRICS (quality --metrics, 'metrics' in study files)\n\n");
   for (const auto& metric : metric_catalogue())
     std::printf("  %-16s %s; %s is better\n", metric.name.c_str(), metric.meaning.c_str(),
                 metric.larger_is_better ? "larger" : "smaller");
-  std::printf("\nFORMATS\n\n");
+}
+
+void list_formats() {
+  std::printf("FORMATS\n\n");
   for (const auto& format : mesh_formats())
     std::printf("  %-8s %s: %s\n", format.extension.c_str(), format.name.c_str(),
                 format.description.c_str());
+}
+
+/// A part of the list. in_short: prints it where it is asked for alone.
+struct Part {
+  const char* name;
+  std::function<void()> print, in_short;
+};
+
+std::vector<Part> parts(const std::filesystem::path& studies) {
+  const auto print_studies = [studies] {
+    list_studies(studies.empty() ? built_in_studies() : studies);
+  };
+  return {{"methods", list_methods, list_method_names},  {"presets", list_presets, list_presets},
+          {"studies", print_studies, print_studies},     {"domains", list_domains, list_domains},
+          {"solutions", list_solutions, list_solutions}, {"metrics", list_metrics, list_metrics},
+          {"formats", list_formats, list_formats}};
+}
+
+void list_everything(const std::vector<Part>& all) {
+  for (const Part& part : all) {
+    if (&part != &all[0] && &part != &all[1]) std::printf("\n");
+    part.print();
+  }
+}
+
+/// Prints the part or the method of this name. Throws InputError if there is none.
+void list_what(const std::string& what, const std::vector<Part>& all) {
+  std::vector<std::string> names;
+  for (const Part& part : all) {
+    if (what == part.name) return part.in_short();
+    names.emplace_back(part.name);
+  }
+  const auto methods = method_catalogue(true);
+  for (const auto& info : methods) {
+    if (info.name == what) return list_method(info);
+    names.push_back(info.name);
+  }
+  const std::string nearest = nearest_name(what, names);
+  names.resize(all.size());
+  throw InputError("there is no part and no method '" + what + "'; " +
+                   (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+                   choose_one_of(names) + ", or a method");
+}
+
+/// Prints the keys of a kind of studies; of all kinds, the default one first, for an empty name.
+void list_study_keys(const std::string& wanted) {
+  std::vector<std::string> names{default_study_kind};
+  for (const auto& kind : study_kinds())
+    if (kind.name != default_study_kind) names.push_back(kind.name);
+  if (!wanted.empty()) names = {find_named("study kind", wanted, names)};
+  for (const auto& name : names)
+    for (const auto& kind : study_kinds())
+      if (kind.name == name)
+        std::printf("# Keys of studies of the kind %s\n%s\n", name.c_str(), kind.keys().c_str());
 }
 
 }  // namespace
@@ -107,9 +192,18 @@ void list_the_rest() {
 void smoothfem_add_list_command(CLI::App& app) {
   auto arguments = std::make_shared<ListArguments>();
   auto* command = add_subcommand(app, "list");
+  command->add_option("what", arguments->what,
+                      "a part: methods, presets, studies, domains, solutions, metrics or formats; "
+                      "or a method, with its parameters (default: everything)");
   command->add_option("--studies", arguments->studies,
                       "folder with study files (default: the built-in studies)");
-  command->add_flag("--study-keys", arguments->study_keys, "the keys of a study file");
+  const auto* study_keys =
+      command
+          ->add_option("--study-keys", arguments->kind,
+                       "the keys of study files, or of one kind of studies: smoothing, "
+                       "collection, polygons or regularization")
+          ->expected(0, 1)
+          ->type_name("[KIND]");
   const auto* columns =
       command
           ->add_option("--columns", arguments->columns,
@@ -117,22 +211,20 @@ void smoothfem_add_list_command(CLI::App& app) {
           ->expected(0, 1)
           ->type_name("[FILE]");
   add_plugin_option(*command);
-  add_examples(*command, {"smoothfem list", "smoothfem list --study-keys",
-                          "smoothfem list --columns summary.csv"});
-  command->callback([arguments, columns] {
+  add_examples(*command,
+               {"smoothfem list methods", "smoothfem list getme",
+                "smoothfem list --study-keys smoothing", "smoothfem list --columns summary.csv"});
+  command->callback([arguments, columns, study_keys] {
     if (columns->count() > 0) {
       list_columns(arguments->columns);
       return;
     }
-    if (arguments->study_keys) {
-      for (const auto& kind : study_kinds())
-        std::printf("# Keys of studies of the kind %s\n%s\n", kind.name.c_str(),
-                    kind.keys().c_str());
+    if (study_keys->count() > 0) {
+      list_study_keys(arguments->kind);
       return;
     }
-    list_methods();
-    list_studies(arguments->studies.empty() ? built_in_studies() : arguments->studies);
-    list_the_rest();
+    const auto all = parts(arguments->studies);
+    arguments->what.empty() ? list_everything(all) : list_what(arguments->what, all);
   });
 }
 

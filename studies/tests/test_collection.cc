@@ -99,16 +99,58 @@ TEST_F(Collections, BrokenMeshesAreRowsWithTheReason) {
   EXPECT_THAT(again.err, ::testing::HasSubstr("nothing to do"));
 }
 
+TEST_F(Collections, FilesAreDistortedForEachSeed) {
+  fs::create_directories(file("meshes"));
+  write_mesh(file("meshes/grid.vtk"), shaken_grid(5, 0.2));
+  const std::string content = content_of(file("meshes/grid.vtk"));
+  const auto study_with = [&](const std::string& more) {
+    file_with("all.prm",
+              "set kind = collection\nset collection = meshes/*\nset methods = laplace\n"
+              "set degrees =\nset timing runs = 1\nset seeds = 1, 2\n" +
+                  more);
+    return smoothfem({"study", "all.prm", "--out", "out"});
+  };
+  const std::string distortions = "set distortions = none, 0.6, 0.999\n";
+  EXPECT_THAT(study_with(distortions).err,
+              ::testing::HasSubstr("3 members are complete, 2 have failed"));
+  const CsvTable members = table("out/members.csv");
+  std::set<std::string> names;
+  for (const auto& row : members.rows) names.insert(row.at("member"));
+  EXPECT_EQ(names, (std::set<std::string>{"grid", "grid.q0.6.r1", "grid.q0.6.r2", "grid.q0.999.r1",
+                                          "grid.q0.999.r2"}));
+  EXPECT_EQ(members.select({{"member", "grid"}, {"seed", ""}, {"distortion", ""}}).size(), 1u);
+  const auto distorted = members.select({{"distortion", "0.6"}, {"status", "complete"}});
+  ASSERT_EQ(distorted.size(), 2u);
+  for (const auto& row : distorted) EXPECT_NEAR(std::stod(row.at("q_mean")), 0.6, 1e-3);
+  EXPECT_EQ(distorted[1].at("seed"), "2");
+  EXPECT_NE(distorted[0].at("q_min"), distorted[1].at("q_min"));
+  for (const auto& row : members.select({{"distortion", "0.999"}}))
+    EXPECT_THAT(row.at("reason"), ::testing::HasSubstr("because the mesh itself has"));
+  EXPECT_EQ(content_of(file("meshes/grid.vtk")), content);
+  EXPECT_THAT(smoothfem({"study", "all.prm", "--dry-run"}).out,
+              ::testing::HasSubstr("    5 from 1 mesh file; as they are; distorted to 0.6, 0.999; "
+                                   "seeds 1, 2\n"));
+
+  // Families change no mesh. Without distortions the seeds change nothing, which is said.
+  EXPECT_EQ(members.select({{"family", "meshes"}}).size(), 5u);
+  EXPECT_EQ(study_with(distortions + "set families by = file\n").exit_code, 0);
+  EXPECT_EQ(table("out/members.csv").select({{"family", "grid"}}).size(), 5u);
+  EXPECT_THAT(study_with("").err, ::testing::HasSubstr("'seeds' changes nothing"));
+  const Outcome refused = study_with("set distortions = much\n");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, ::testing::HasSubstr("all.prm:7: 'distortions' has 'much'"));
+}
+
 TEST_F(Collections, MergedShardsAreTheWhole) {
-  write_good_meshes(5);
+  write_good_meshes(3);
   write_study(
       "set solutions = sine, wave\nset domains = gear: 6\nset elements = triangles\n"
       "set distortions = 0.6\nset seeds = 1, 2\n"
       "subsection solution wave\n set u = sin(3*X)*cos(2*Y) + Z\nend\n");
   ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "whole", "--quiet"}).exit_code, 0);
   const CsvTable whole = table("whole/members.csv");
-  EXPECT_EQ(whole.rows.size(), 14u);
-  EXPECT_EQ(whole.select({{"status", "complete"}}).size(), 14u);
+  EXPECT_EQ(whole.rows.size(), 16u);
+  EXPECT_EQ(whole.select({{"status", "complete"}}).size(), 16u);
   std::size_t n_members = 0;
   for (const std::string part : {"1", "2"}) {
     const Outcome outcome =
@@ -116,7 +158,7 @@ TEST_F(Collections, MergedShardsAreTheWhole) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     n_members += table("part" + part + "/members.csv").rows.size();
   }
-  EXPECT_EQ(n_members, 14u);
+  EXPECT_EQ(n_members, 16u);
   ASSERT_EQ(smoothfem({"merge", "part2", "part1", "--out", "both"}).exit_code, 0);
   expect_same_tables("whole", "both");
   const Outcome again = smoothfem({"study", "all.prm", "--out", "both"});
@@ -125,8 +167,8 @@ TEST_F(Collections, MergedShardsAreTheWhole) {
   // Without a part, the merged folder says what it lacks, and the study completes it.
   const Outcome half = smoothfem({"merge", "part2", "part2", "--out", "half"});
   EXPECT_EQ(half.exit_code, 2);
-  EXPECT_THAT(half.err, ::testing::ContainsRegex("of 14 members are not complete.*belong to 1/2"));
-  EXPECT_EQ(table("half/members.csv").rows.size(), 14u);
+  EXPECT_THAT(half.err, ::testing::ContainsRegex("of 16 members are not complete.*belong to 1/2"));
+  EXPECT_EQ(table("half/members.csv").rows.size(), 16u);
   EXPECT_THAT(content_of(file("half/provenance.json")),
               ::testing::HasSubstr("\"status\": \"interrupted\""));
   ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "half", "--quiet"}).exit_code, 0);
@@ -177,7 +219,7 @@ TEST_F(Collections, MembersWhoseProcessWasKilledAreOpenAgain) {
       "{ touch {folder}/again; kill -9 $PPID; }; cp {in} {out}\nend\n");
   const Outcome killed = smoothfem({"study", "all.prm", "--out", "out"});
   EXPECT_EQ(killed.exit_code, 0) << killed.err;
-  EXPECT_THAT(killed.err, ::testing::HasSubstr("1 members are complete, 0 have failed"));
+  EXPECT_THAT(killed.err, ::testing::HasSubstr("1 member is complete, 0 have failed"));
   EXPECT_THAT(killed.err, ::testing::HasSubstr("1 did not reach their end"));
   const auto open = table("out/members.csv").select({{"status", "meshed"}});
   ASSERT_EQ(open.size(), 1u);
@@ -208,10 +250,10 @@ TEST_F(Collections, ChangedMeshFilesAreSeen) {
     more.insert(more.begin(), {"study", "all.prm", "--out", "out"});
     return smoothfem(more);
   };
-  EXPECT_THAT(run({}).err, ::testing::HasSubstr("2 members are complete, 1 have failed"));
+  EXPECT_THAT(run({}).err, ::testing::HasSubstr("2 members are complete, 1 has failed"));
   EXPECT_THAT(run({}).err, ::testing::HasSubstr("nothing to do"));
   EXPECT_THAT(run({"--retry-failed"}).err,
-              ::testing::HasSubstr("2 members are complete, 1 have failed"));
+              ::testing::HasSubstr("2 members are complete, 1 has failed"));
   write_mesh(file("meshes/rubbish.vtk"), shaken_grid(3, 0.2));
   EXPECT_THAT(run({}).err, ::testing::HasSubstr("3 members are complete, 0 have failed"));
   write_mesh(file("meshes/good1.vtu"), shaken_grid(3, 0.2));

@@ -267,6 +267,31 @@ TEST_F(BadInput, StudyFile) {
   expect_refused({"study", "bad.prm", "--out", "results"}, {"bad.prm:2: "});
   expect_refused({"study", "bad.prm", "--shard", ""}, {"--shard is empty"});
   expect_refused({"study", "gear", "--retry-failed"}, {"--retry-failed is for collections"});
+  expect_refused({"study", "bad.prn"}, {"there is no study bad.prn; did you mean bad.prm?"});
+  expect_refused({"study", "./bad"}, {"did you mean ./bad.prm?"});
+}
+
+TEST_F(BadInput, FormulasAndGroupsOfStudiesHaveTheirLine) {
+  const auto study_with = [&](const std::string& solution) {
+    file_with(".s.prm",
+              "set meshes = m\nset methods = laplace\nset degrees = 1\nsubsection mesh m\n"
+              " set file = good.mesh\nend\nsubsection solution\n" +
+                  solution + "end\n");
+  };
+  study_with(" set u = sin(2*x\n");
+  expect_refused({"study", ".s.prm", "--out", ".r", "--quiet"}, {".s.prm:8: the solution's 'u'"});
+  study_with(" set u = x\n set diffusivity = x*\n");
+  expect_refused({"study", ".s.prm", "--out", ".r", "--quiet"}, {".s.prm:9: ", "'diffusivity'"});
+  study_with(" set u = x\n set diffusivity group=steel = 2\n");
+  expect_refused({"study", ".s.prm", "--out", ".r", "--quiet"}, {".s.prm:9: ", "steel"});
+}
+
+TEST_F(BadInput, ListOfWhat) {
+  expect_refused({"list", "getmee"}, {"there is no part and no method 'getmee'", "'getme'?"});
+  expect_refused({"list", "domain"}, {"did you mean 'domains'?"});
+  expect_refused({"list", "--study-keys", "smooth"}, {"there is no study kind 'smooth'"});
+  const Outcome hidden = smoothfem({"study", "--magic"});
+  EXPECT_EQ(hidden.err.find("--task-socket"), std::string::npos) << hidden.err;
 }
 
 TEST_F(BadInput, SmootherName) {
@@ -287,6 +312,11 @@ TEST_F(BadInput, Generator) {
   expect_refused({"generate", "gear", "-o", "out.mesh", "--edge-scale", "0"}, {});
   expect_refused({"generate", "gear", "-o", "out.mesh", "--edge-scale", "nan"}, {});
   expect_refused({"generate", "gear", "-o", "out.mesh", "--elements", "stars"}, {"stars"});
+  expect_refused({"generate", "gear", "-o", "out.mesh", "--elements", "quads"},
+                 {"did you mean 'quadrilaterals'?"});
+  expect_refused(
+      {"generate", "gear", "-o", "out.mesh", "--elements", "quadrilaterals", "--edge-scale", "6"},
+      {"the edge scale 6 is too large", "give an edge scale of at most 3.1"});
   expect_refused({"generate", "gear", "-o", "out.mesh", "--distort-to", "-1"}, {"-1"});
   expect_refused({"generate", "gear", "-o", "out.mesh", "--distort-to", "nan"}, {"nan"});
   expect_refused({"generate", "gear", "-o", "out.mesh", "--seed", "-1"}, {"-1"});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Output of smooth and quality about their results.
+#include <algorithm>
+
 #include "smoothing/quality/mesh_quality.h"
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/tests/command_line.h"
@@ -152,6 +154,34 @@ TEST_F(Results, ListShowsRangesAndWhichMeshesAParameterIsFor) {
                           HasSubstr("; opposite-face-normals or dual-element [volume meshes]"),
                           HasSubstr("(Eq. 3.12); (0, 1]\n")));
   EXPECT_THAT(smoothfem({"list", "--study-keys"}).out, HasSubstr("subsection method LABEL"));
+}
+
+TEST_F(Results, ListHasParts) {
+  const std::string method = smoothfem({"list", "laplace"}).out;
+  EXPECT_TRUE(method.starts_with("  laplace: Laplace\n")) << method;
+  EXPECT_THAT(method, HasSubstr("max_iterations"));
+  EXPECT_EQ(method.find("smart-laplace"), std::string::npos);
+  const std::string methods = smoothfem({"list", "methods"}).out;
+  EXPECT_THAT(methods, HasSubstr("  getme "));
+  EXPECT_EQ(methods.find("max_iterations"), std::string::npos) << "one line each";
+  std::string all;
+  for (const std::string part : {"presets", "studies", "domains", "solutions", "metrics"})
+    all += smoothfem({"list", part}).out + "\n";
+  EXPECT_THAT(smoothfem({"list"}).out, HasSubstr(all + smoothfem({"list", "formats"}).out));
+}
+
+TEST_F(Results, StudyKeysBeginWithWhatMostStudiesSet) {
+  const std::string all = smoothfem({"list", "--study-keys"}).out;
+  EXPECT_TRUE(all.starts_with("# Keys of studies of the kind smoothing\n"));
+  std::vector<std::size_t> places;
+  for (const std::string key :
+       {"set kind", "set title", "set meshes", "set methods", "set degrees", "set preset",
+        "subsection mesh LABEL", "subsection solution", " set u ", " set value "})
+    places.push_back(all.find(key));
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end()));
+  EXPECT_NE(places.back(), std::string::npos);
+  EXPECT_TRUE(smoothfem({"list", "--study-keys", "collection"})
+                  .out.starts_with("# Keys of studies of the kind collection\n"));
 }
 
 }  // namespace

@@ -143,7 +143,8 @@ std::vector<int> read_degrees(const std::string& list, const std::string& file) 
 }
 
 /// Reads the solutions of the list; the first one is for the records.
-void read_solutions(ParameterHandler& p, const std::vector<std::string>& labels, Study& study) {
+void read_solutions(ParameterHandler& p, const StudyText& text,
+                    const std::vector<std::string>& labels, Study& study) {
   {
     const Subsection subsection(p, "solution");
     for (const std::string key : {"name", "u", "diffusivity", "value", "gradient", "load"})
@@ -156,9 +157,9 @@ void read_solutions(ParameterHandler& p, const std::vector<std::string>& labels,
     throw InputError(
         "the study has a list 'solutions', but also a diffusivity of a group in the subsection "
         "'solution'; move it to the subsection of a solution");
-  study.solution = read_solution(p, labels.front());
+  study.solution = read_solution(p, text, labels.front());
   for (std::size_t s = 1; s < labels.size(); ++s)
-    study.further_solutions.push_back(read_solution(p, labels[s]));
+    study.further_solutions.push_back(read_solution(p, text, labels[s]));
 }
 
 /// Sets the solution's name if the study gives none: "expression" if it has formulas, otherwise
@@ -190,7 +191,8 @@ std::vector<const Metric*> read_metrics(const std::string& list, const std::stri
   }
 }
 
-void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
+void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
+  const std::string file = text.file().string();
   study.degrees = read_degrees(p.get("degrees"), file);
   study.refined_degrees = read_degrees(p.get("refined degrees"), file);
   study.constrain_hanging_nodes = p.get("hanging nodes") == "constrain";
@@ -208,8 +210,17 @@ void read_problem(ParameterHandler& p, const std::string& file, Study& study) {
     if (study.solution.label.empty())
       study.solution = {p.get("name"), p.get("value"), p.get("gradient"),
                         p.get("load"), p.get("u"),     p.get("diffusivity")};
-    if (study.solution.label.empty()) study.solution.of_groups = std::move(of_groups);
+    const KeyLines lines = lines_of_section(text, "solution");
+    if (study.solution.label.empty()) {
+      study.solution.of_groups = std::move(of_groups);
+      study.solution.lines = lines;
+    }
     study.finite_elements.natural_groups = read_groups(p.get("natural"));
+    if (const auto natural = lines.find("natural"); natural != lines.end()) {
+      study.natural_lines = {*natural};
+      for (const auto& group : study.finite_elements.natural_groups)
+        study.natural_lines[group] = natural->second;
+    }
   }
   {
     const Subsection subsection(p, "finite elements");
@@ -450,7 +461,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
   if (solutions.empty())
     name_solution(p);
   else
-    in_file(file, [&] { read_solutions(p, solutions, study); });
+    in_file(file, [&] { read_solutions(p, text, solutions, study); });
   study.header = read_header(p, file, scale);
   study.folder = std::filesystem::absolute(file).parent_path();
   study.dimensions = dimensions;
@@ -463,7 +474,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
       return read_method_section(p, dimensions, method, type_of[method], file.parent_path(),
                                  is_not_run(type_of[method], !plugins.empty()));
     }));
-  read_problem(p, file.string(), study);
+  read_problem(p, text, study);
   in_file(file, [&] { check_study(study); });
   return study;
 }

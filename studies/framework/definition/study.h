@@ -75,6 +75,9 @@ struct StudyMethod {
   bool needs_problem(MeshDimensions dimensions) const;
 };
 
+/// "FILE:LINE" of keys, for messages.
+using KeyLines = std::map<std::string, std::string>;
+
 /// The manufactured solution: a name, one formula, or expressions of all parts.
 struct StudySolution {
   std::string name;  ///< "expression": given by the other fields
@@ -83,6 +86,7 @@ struct StudySolution {
   std::string diffusivity;                    ///< empty: the identity
   std::string label{};                        ///< in results; empty: the study has one solution
   std::vector<GroupDiffusivity> of_groups{};  ///< of groups of cells
+  KeyLines lines{};                           ///< of its keys
 
   bool is_piecewise_by_tag() const { return diffusivity == "piecewise by tag"; }
   /// True if the diffusivity is that of the cells' groups, not of the position.
@@ -115,6 +119,7 @@ struct Study {
   /// for.
   std::vector<StudySolution> further_solutions{};
   PoissonOptions finite_elements;         ///< its degree and its ties are not used
+  KeyLines natural_lines{};               ///< of 'natural', and of its groups
   bool constrain_hanging_nodes = false;   ///< otherwise meshes with hanging nodes are refused
   bool constrain_periodic_nodes = false;  ///< otherwise u is given on periodic boundaries
   StudyThresholds thresholds;

@@ -136,6 +136,37 @@ std::vector<std::pair<std::string, std::string>> keys_of_sections(const StudyTex
   return keys;
 }
 
+std::map<std::string, std::string> lines_of_section(const StudyText& text,
+                                                    const std::string& section) {
+  std::map<std::string, std::string> found;
+  std::vector<std::string> sections;
+  std::istringstream lines(text.text());
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const StudyLine read = study_line(line);
+    if (read.kind == StudyLine::Kind::subsection) sections.push_back(read.name);
+    if (read.kind == StudyLine::Kind::end && !sections.empty()) sections.pop_back();
+    const std::string here = sections.empty() ? "" : sections[0];
+    if (read.kind == StudyLine::Kind::set && sections.size() < 2 && here == section)
+      found[read.name] = text.position(number);
+  }
+  return found;
+}
+
+std::string with_line(const std::map<std::string, std::string>& lines, const std::string& message) {
+  constexpr std::string_view of_group = "diffusivity group ";
+  for (const auto& [key, position] : lines) {
+    const std::string group = key.starts_with(of_group) ? key.substr(of_group.size()) : key;
+    for (const auto& name : {key, group})
+      if (message.find("'" + name + "'") != std::string::npos) return position + ": " + message;
+  }
+  for (const std::string key : {"u", "value"})
+    if (const auto found = lines.find(key); found != lines.end())
+      return found->second + ": " + message;
+  return message;
+}
+
 StudyParameters all_parameters(ParameterHandler& p) {
   StudyParameters result;
   std::ostringstream text;
@@ -179,7 +210,7 @@ void apply_scale(ParameterHandler& p, const std::string& scale, const std::strin
 
 std::string commented_keys(ParameterHandler& p) {
   std::ostringstream text;
-  p.print_parameters(text, ParameterHandler::PRM);
+  p.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
   return text.str();
 }
 

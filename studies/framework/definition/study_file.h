@@ -4,6 +4,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,25 @@ StudyLine study_line(std::string_view line);
 
 /// Returns the keys that a text sets in subsections of its top level: subsection and key.
 std::vector<std::pair<std::string, std::string>> keys_of_sections(const StudyText& text);
+
+/// Returns the lines of the keys that a text sets in a subsection of its top level, or in the top
+/// level itself for an empty name; the last one of each key.
+std::map<std::string, std::string> lines_of_section(const StudyText& text,
+                                                    const std::string& section);
+
+/// Returns a message with the line of the key or group that it names in quotes, or else of 'u' or
+/// 'value'; unchanged if none is known.
+std::string with_line(const std::map<std::string, std::string>& lines, const std::string& message);
+
+/// Calls a function, and adds file and line to its InputError messages, as with_line.
+template <class Call>
+decltype(auto) at_line(const std::map<std::string, std::string>& lines, const Call& call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError(with_line(lines, error.what()));
+  }
+}
 
 /// Returns all keys with their present values.
 StudyParameters all_parameters(dealii::ParameterHandler& p);

@@ -62,8 +62,6 @@ void declare_lists(ParameterHandler& p) {
   p.declare_entry("kind", "smoothing", Patterns::Selection("smoothing"),
                   "Kind of study; other kinds have other keys.");
   p.declare_entry("title", "", Patterns::Anything(), "Title in tables and figures.");
-  p.declare_entry("note", "", Patterns::Anything(),
-                  "How far results can be compared with the literature, in one sentence.");
   p.declare_entry("preset", "", Patterns::Anything(),
                   "Parameters of the methods (see 'list'); empty: their defaults.");
   p.declare_entry("dimension", "", Patterns::Selection("|2|3"),
@@ -87,6 +85,8 @@ void declare_lists(ParameterHandler& p) {
       "(see 'list') or has a subsection 'solution LABEL' with 'name', or 'u' and, if necessary, "
       "'diffusivity'. Records are those of the "
       "first, solutions.csv has errors of all. Empty: the solution of the subsection 'solution'.");
+  p.declare_entry("note", "", Patterns::Anything(),
+                  "How far results can be compared with the literature, in one sentence.");
 }
 
 void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
@@ -305,7 +305,7 @@ std::vector<GroupDiffusivity> read_group_diffusivities(ParameterHandler& p,
   return of_groups;
 }
 
-StudySolution read_solution(ParameterHandler& p, const std::string& name) {
+StudySolution read_solution(ParameterHandler& p, const StudyText& text, const std::string& name) {
   auto of_groups = read_group_diffusivities(p, "solution " + name);
   const Subsection subsection(p, "solution " + name);
   const std::string formula = p.get("u"), named = p.get("name");
@@ -321,7 +321,8 @@ StudySolution read_solution(ParameterHandler& p, const std::string& name) {
           .u = formula,
           .diffusivity = p.get("diffusivity"),
           .label = name,
-          .of_groups = std::move(of_groups)};
+          .of_groups = std::move(of_groups),
+          .lines = lines_of_section(text, "solution " + name)};
 }
 
 void declare_scale(ParameterHandler& p, const std::string& name) {
@@ -341,16 +342,22 @@ void declare_scale(ParameterHandler& p, const std::string& name) {
 
 std::string study_template() {
   ParameterHandler p;
-  declare_lists(p);
-  declare_problem(p);
-  declare_scale(p, "NAME");
+  // Keys are printed in the order of their first declaration. Most studies set these:
+  for (const std::string key : {"kind", "title", "meshes", "methods", "degrees"})
+    p.declare_entry(key, "", Patterns::Anything());
   declare_mesh(p, 2, "LABEL");
+  p.enter_subsection("solution");
+  p.declare_entry("u", "", Patterns::Anything());
+  p.leave_subsection();
   {
     const Subsection subsection(p, "method LABEL");
     p.declare_entry("type", "LABEL", Patterns::Anything(), method_type_help);
     declare_method_header(p, "LABEL");
     declare_mesh_rules(p);
   }
+  declare_lists(p);
+  declare_problem(p);
+  declare_scale(p, "NAME");
   return commented_keys(p);
 }
 

@@ -32,7 +32,8 @@ std::vector<GroupDiffusivity> read_group_diffusivities(dealii::ParameterHandler&
                                                        const std::string& section);
 /// Reads that subsection: its formula, or the program's solution of its name. Throws InputError if
 /// it has both.
-StudySolution read_solution(dealii::ParameterHandler& p, const std::string& name);
+StudySolution read_solution(dealii::ParameterHandler& p, const StudyText& text,
+                            const std::string& name);
 
 /// Declares the subsection of one scale.
 void declare_scale(dealii::ParameterHandler& p, const std::string& name);

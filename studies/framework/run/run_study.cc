@@ -14,6 +14,7 @@
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
 #include "studies/framework/definition/seeds.h"
+#include "studies/framework/definition/study_file.h"
 #include "studies/framework/results/folder_lock.h"
 #include "studies/framework/results/method_files.h"
 #include "studies/framework/results/provenance.h"
@@ -153,9 +154,10 @@ class StudyRun {
       if (given.has_materials()) try {
           return with_materials_of(solution, prepared.mesh);
         } catch (const InputError& error) {
-          throw InputError("mesh " + prepared.description.name + ": " + error.what());
+          throw InputError(
+              with_line(given.lines, "mesh " + prepared.description.name + ": " + error.what()));
         }
-      check_pieces(solution, prepared.mesh);
+      at_line(given.lines, [&] { check_pieces(solution, prepared.mesh); });
     }
     return solution;
   }
@@ -444,7 +446,11 @@ class StudyRun {
       std::_Exit(130);
     }
     const auto rows = write_iterations();
-    write_provenance("interrupted");
+    try {
+      write_provenance("interrupted");
+    } catch (const Interrupted&) {  // Python, which describes its methods, has got the signal, too
+      write_provenance("interrupted");
+    }
     progress_.say("Interrupted: the " + std::to_string(rows) + " rows finished so far are in " +
                   (options_.out / "iterations.csv").string() +
                   "; the same command resumes from here.");

@@ -7,6 +7,7 @@
 #include "meshes/refinement/split_cells.h"
 #include "smoothing/base/scoped_timer.h"
 #include "smoothing/quality/mesh_quality.h"
+#include "studies/framework/definition/study_file.h"
 
 namespace smoothfem {
 
@@ -170,10 +171,12 @@ template <int dim>
 ManufacturedSolution<dim> study_solution(const StudySolution& solution,
                                          std::span<const Point<dim>> sample) {
   if (solution.name != "expression") return manufactured_solution<dim>(solution.name);
-  if (!solution.u.empty())
-    return derived_solution<dim>(solution.u, solution.diffusivity, sample, solution.of_groups);
-  return parsed_solution<dim>(solution.value, solution.gradient, solution.load, sample,
-                              solution.diffusivity);
+  return at_line(solution.lines, [&] {
+    if (!solution.u.empty())
+      return derived_solution<dim>(solution.u, solution.diffusivity, sample, solution.of_groups);
+    return parsed_solution<dim>(solution.value, solution.gradient, solution.load, sample,
+                                solution.diffusivity);
+  });
 }
 template ManufacturedSolution<2> study_solution(const StudySolution&, std::span<const Point<2>>);
 template ManufacturedSolution<3> study_solution(const StudySolution&, std::span<const Point<3>>);

@@ -9,6 +9,7 @@
 #include "meshes/io/mesh_file.h"
 #include "smoothing/geometry/extreme_size.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "studies/framework/definition/study_file.h"
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/constraints/hanging_nodes.h"
 #include "studies/framework/run/constraints/periodic_nodes.h"
@@ -197,7 +198,9 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
         ties = ties_of(mesh, seam, study, changes);
       }
     for (const int degree : study.degrees)
-      require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
+      at_line(study.natural_lines, [&] {
+        require_finite_elements<dim>(mesh.topology(), degree, study.finite_elements.natural_groups);
+      });
     if (const int exponent = extreme_exponent(std::as_const(mesh).coordinates()); exponent != 0)
       throw InputError(
           "mesh " + description.name + " is about 2^" + std::to_string(exponent) +

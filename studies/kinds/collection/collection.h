@@ -15,11 +15,14 @@ namespace smoothfem {
 /// with its own results folder.
 struct Member {
   std::string name;          ///< in tables, and of its folder; a label
-  std::string family;        ///< the domain, or the folder of the file
+  std::string family;        ///< the domain; of a file its folder, or its own label
   StudyMesh mesh;            ///< all members with the same initial mesh share its name
   std::string solution;      ///< one of Collection::solutions
   std::string size{};        ///< edge scale of a generated mesh, as the study file writes it
   std::string distortion{};  ///< mean quality after distortion; empty: not distorted
+
+  /// True if another seed gives another mesh, or if the mesh is generated.
+  bool has_seed() const { return !mesh.domain.empty() || is_distorted(mesh); }
 };
 
 /// The part of a collection's members that runs here: part k of n.
@@ -44,7 +47,8 @@ struct Collection {
   /// Solutions. Formulas may use X, Y and Z: coordinates in the mesh's bounding box, from 0 to 1
   /// along its longest side.
   std::map<std::string, StudySolution> solutions;
-  std::vector<Member> members;  ///< sorted by name
+  std::vector<Member> members;       ///< sorted by name
+  std::vector<std::string> notes{};  ///< sentences about keys that change nothing
   /// Seconds that a member may take for each phase of run_collection; 0: no limit.
   double time_limit = 0.0;
 };

@@ -35,9 +35,9 @@ class OwnLines {
     } else if (read.kind == StudyLine::Kind::end) {
       if (!sections_.empty()) sections_.pop_back();
     } else if (read.kind == StudyLine::Kind::set && has_own_keys()) {
-      own_line_ =
-          own_line_ || contains(collection_lists, read.name) ||
-          (sections_.empty() && contains({"kind", "write meshes", "time limit"}, read.name));
+      own_line_ = own_line_ || contains(collection_lists, read.name) ||
+                  (sections_.empty() &&
+                   contains({"kind", "families by", "write meshes", "time limit"}, read.name));
     }
     return own_line_;
   }
@@ -62,9 +62,6 @@ class OwnLines {
 void declare_collection(ParameterHandler& p) {
   p.declare_entry("kind", "collection", Patterns::Selection("collection"),
                   "Kind of study; other kinds have other keys.");
-  declare_scales(p);
-  p.declare_entry("meshes", "", Patterns::Anything(),
-                  "Not for collections; the keys below name their meshes.");
   p.declare_entry("collection", "", Patterns::Anything(),
                   "Mesh files of any format, relative to this file, with the shell's * and ?, "
                   "separated by commas.");
@@ -76,11 +73,15 @@ void declare_collection(ParameterHandler& p) {
                   "empty: all.");
   p.declare_entry("sizes", "1", Patterns::List(Patterns::Double(0.0), 1),
                   "Edge scales of generated meshes: 2 has edges twice as long.");
-  p.declare_entry("distortions", "0", Patterns::List(Patterns::Double(0.0, 1.0), 1),
-                  "Mean qualities to distort generated meshes to; 0: not distorted.");
+  p.declare_entry("distortions", "none", Patterns::Anything(),
+                  "Mean qualities to distort the meshes to, separated by commas; 'none' or 0: as "
+                  "they are. Files are not changed.");
   p.declare_entry("seeds", "1", Patterns::Anything(),
-                  "Seeds, separated by commas; generated meshes that depend on chance are made "
-                  "once for each.");
+                  "Seeds, separated by commas; distorted meshes, and generated ones that depend on "
+                  "chance, are made once for each.");
+  p.declare_entry("families by", "folder", Patterns::Selection("folder|file"),
+                  "Families of mesh files in tables and findings: the folder of the file, or each "
+                  "file with its distorted meshes. Generated meshes: their domain.");
   p.declare_entry("solutions", "", Patterns::Anything(),
                   "Solutions, separated by commas; each is one of the program's (see 'list') or "
                   "has a subsection 'solution NAME'. Empty: the one of the subsection 'solution'.");
@@ -89,6 +90,9 @@ void declare_collection(ParameterHandler& p) {
   p.declare_entry("time limit", "0", Patterns::Double(0.0),
                   "Largest time, in seconds, that a member may take for each of its mesh, its "
                   "smoothing and its finite elements; a slower one fails. 0: no limit.");
+  declare_scales(p);
+  p.declare_entry("meshes", "", Patterns::Anything(),
+                  "Not for collections; the keys above name their meshes.");
 }
 
 void declare_collection_scale(ParameterHandler& p, const std::string& scale) {

@@ -4,6 +4,7 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 #include "meshes/domains/catalogue.h"
@@ -57,9 +58,59 @@ void number_equal_labels(std::vector<Member>& members) {
   }
 }
 
+/// Returns the qualities of a list; an empty text stands for a mesh as it is. Throws InputError for
+/// anything else.
+std::vector<std::string> read_distortions(const std::string& list) {
+  std::vector<std::string> distortions;
+  for (const auto& item : split_list(list)) {
+    double quality = 0.0;
+    const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), quality);
+    const bool is_number = error == std::errc() && end == item.data() + item.size();
+    if (item != "none" && !(is_number && quality >= 0.0 && quality < 1.0))
+      throw InputError("'distortions' has '" + item +
+                       "'; write mean qualities of at least 0 and below 1, and 'none' or 0 for "
+                       "meshes as they are");
+    distortions.push_back(quality > 0.0 ? item : "");
+  }
+  if (distortions.empty()) distortions.emplace_back();
+  return distortions;
+}
+
+/// The distortions and seeds of a collection, which make several initial meshes of one.
+class Variations {
+ public:
+  explicit Variations(ParameterHandler& p)
+      : distortions_(read_distortions(p.get("distortions"))), seeds_(read_seeds(p.get("seeds"))) {
+    if (seeds_.empty()) seeds_.push_back(1);
+  }
+
+  /// Adds the variants of a mesh. depends_on_seed: also where the mesh is not distorted.
+  void add(const Member& mesh, bool depends_on_seed, std::vector<Member>& members) const {
+    for (const auto& distortion : distortions_)
+      for (const auto seed : seeds_) {
+        Member member = mesh;
+        const bool is_random = depends_on_seed || !distortion.empty();
+        member.distortion = distortion;
+        if (!distortion.empty()) {
+          member.name += ".q" + distortion;
+          member.mesh.distort_to_q_mean = std::stod(distortion);
+        }
+        if (is_random && seeds_.size() > 1) member.name += ".r" + std::to_string(seed);
+        if (is_random || !member.mesh.domain.empty()) member.mesh.seed = seed;
+        member.mesh.name = member.mesh.title = member.name;
+        members.push_back(std::move(member));
+        if (!is_random) break;
+      }
+  }
+
+ private:
+  std::vector<std::string> distortions_;
+  std::vector<std::uint64_t> seeds_;
+};
+
 /// Makes one member per file. Files with the same name get their folder, and if
 /// necessary their extension, or a number, as part of their name.
-std::vector<Member> file_members(const std::vector<fs::path>& files) {
+std::vector<Member> file_members(const std::vector<fs::path>& files, bool is_family_each) {
   std::map<std::string, int> n_called, n_in_folder;
   for (const auto& file : files) {
     ++n_called[label_of(file.stem())];
@@ -78,7 +129,8 @@ std::vector<Member> file_members(const std::vector<fs::path>& files) {
     members.push_back(std::move(member));
   }
   number_equal_labels(members);
-  for (auto& member : members) member.mesh.name = member.mesh.title = member.name;
+  if (is_family_each)
+    for (auto& member : members) member.family = member.name;
   return members;
 }
 
@@ -111,58 +163,37 @@ std::vector<std::string> elements_of(const Domain& domain, const std::vector<std
 
 class GeneratedMembers {
  public:
-  explicit GeneratedMembers(ParameterHandler& p)
+  GeneratedMembers(ParameterHandler& p, const Variations& variations)
       : elements_(split_list(p.get("elements"))),
         sizes_(split_list(p.get("sizes"))),
-        distortions_(split_list(p.get("distortions"))),
-        seeds_(read_seeds(p.get("seeds"))) {
+        variations_(variations) {
     for (const auto& name : elements_)
       (void)find_named("kind of elements", name, element_names(), [](const auto& n) { return n; });
-    if (seeds_.empty()) seeds_.push_back(1);
   }
 
-  void add(const Domain& domain, double factor) {
+  void add(const Domain& domain, double factor, std::vector<Member>& members) const {
     const auto elements = elements_of(domain, elements_);
     if (elements.empty())
       throw InputError("the domain " + domain.name + " has none of the elements " +
                        joined(elements_) + "; it has " + joined(domain.elements));
     for (const auto& name : elements)
-      for (const auto& size : sizes_)
-        for (const auto& distortion : distortions_) add(domain, factor, name, size, distortion);
+      for (const auto& size : sizes_) {
+        Member member{.name = domain.name + "." + name + ".s" + size,
+                      .family = domain.name,
+                      .mesh = {},
+                      .solution = {},
+                      .size = size};
+        member.mesh.domain = domain.name;
+        member.mesh.elements = name;
+        member.mesh.edge_scale = factor * std::stod(size);
+        member.mesh.distortion_candidates = default_candidates(domain.dimension);
+        variations_.add(member, domain.is_random(name), members);
+      }
   }
-
-  std::vector<Member> take() { return std::move(members_); }
 
  private:
-  void add(const Domain& domain, double factor, const std::string& elements,
-           const std::string& size, const std::string& distortion) {
-    const bool is_distorted = std::stod(distortion) > 0.0;
-    for (const auto seed : seeds_) {
-      Member member{.name = domain.name + "." + elements + ".s" + size +
-                            (is_distorted ? ".q" + distortion : ""),
-                    .family = domain.name,
-                    .mesh = {},
-                    .solution = {},
-                    .size = size,
-                    .distortion = is_distorted ? distortion : ""};
-      const bool is_random = is_distorted || domain.is_random(elements);
-      if (is_random && seeds_.size() > 1) member.name += ".r" + std::to_string(seed);
-      StudyMesh& mesh = member.mesh;
-      mesh.name = mesh.title = member.name;
-      mesh.domain = domain.name;
-      mesh.elements = elements;
-      mesh.edge_scale = factor * std::stod(size);
-      mesh.distort_to_q_mean = std::stod(distortion);
-      mesh.distortion_candidates = default_candidates(domain.dimension);
-      mesh.seed = seed;
-      members_.push_back(std::move(member));
-      if (!is_random) return;
-    }
-  }
-
-  std::vector<std::string> elements_, sizes_, distortions_;
-  std::vector<std::uint64_t> seeds_;
-  std::vector<Member> members_;
+  std::vector<std::string> elements_, sizes_;
+  const Variations& variations_;
 };
 
 std::vector<Member> with_solutions(const std::vector<Member>& meshes,
@@ -189,13 +220,16 @@ std::vector<Member> expand_members(ParameterHandler& p, const fs::path& folder) 
   for (const fs::path pattern : split_list(p.get("collection")))
     for (const auto& file : matching_files(pattern.is_relative() ? folder / pattern : pattern))
       files.insert(file);
-  auto meshes = file_members({files.begin(), files.end()});
-  GeneratedMembers generated(p);
+  const Variations variations(p);
+  std::vector<Member> meshes;
+  for (const auto& member :
+       file_members({files.begin(), files.end()}, p.get("families by") == "file"))
+    variations.add(member, false, meshes);
+  const GeneratedMembers generated(p, variations);
   for (const auto& item : split_list(p.get("domains"))) {
     const auto [name, factor] = read_domain(item);
-    generated.add(find_domain(name), factor);
+    generated.add(find_domain(name), factor, meshes);
   }
-  for (auto& member : generated.take()) meshes.push_back(std::move(member));
   if (meshes.empty())
     throw InputError("the collection has no meshes; name files by 'collection', or 'domains'");
   auto members = with_solutions(meshes, split_list(p.get("solutions")));

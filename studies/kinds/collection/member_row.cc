@@ -95,14 +95,13 @@ const std::vector<std::string>& leading_columns() {
 }
 
 MemberRow row_of(const Member& member) {
-  const bool is_generated = !member.mesh.domain.empty();
   return {{"member", member.name},
           {"family", member.family},
           {"domain", member.mesh.domain},
           {"elements", member.mesh.elements},
           {"size", member.size},
           {"distortion", member.distortion},
-          {"seed", is_generated ? std::to_string(member.mesh.seed) : ""},
+          {"seed", member.has_seed() ? std::to_string(member.mesh.seed) : ""},
           {"solution", member.solution},
           {"file", member.mesh.file.filename().string()},
           {"status", member_open}};

@@ -119,14 +119,16 @@ std::string in_box(const std::string& formula, const Eigen::AlignedBox3d& box) {
 
 MeshOutline outline_of(const Collection& collection, const Member& member, const fs::path& folder) {
   const fs::path initial = folder / "meshes" / (member.mesh.name + "_initial.mesh");
-  const AnyMesh mesh =
-      fs::exists(initial) ? read_mesh(initial).mesh : undistorted_mesh(collection, member.mesh);
+  const AnyMesh mesh = !folder.empty() && fs::exists(initial)
+                           ? read_mesh(initial).mesh
+                           : undistorted_mesh(collection, member.mesh);
   return std::visit([](const auto& m) { return outline(m); }, mesh);
 }
 
 Study member_study(const Collection& collection, const Member& member, const MeshOutline& outline) {
   Study study = common_study(collection, outline.dimensions);
   study.meshes = {member.mesh};
+  study.meshes.front().distortion_candidates = default_candidates(outline.dimensions.cells);
   study.solution = solution_of(collection, member, study, outline);
   study.header.title += ", " + member.name;
   study.header.built_in = false;

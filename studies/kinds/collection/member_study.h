@@ -14,9 +14,9 @@ struct MeshOutline {
   Eigen::AlignedBox3d box;
 };
 
-/// Returns the outline of the initial mesh in the member's folder. If that does not exist yet, it
-/// is the outline of the member's file or of its domain's mesh. Distortion does not change the
-/// outline. Throws InputError for a file that cannot be read.
+/// Returns the outline of the initial mesh in the member's folder. If that does not exist yet, or
+/// the folder is empty, it is the outline of the member's file or of its domain's mesh. Distortion
+/// does not change the outline. Throws InputError for a file that cannot be read.
 MeshOutline outline_of(const Collection& collection, const Member& member,
                        const std::filesystem::path& folder);
 

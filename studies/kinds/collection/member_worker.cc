@@ -40,7 +40,9 @@ MemberWorker::MemberWorker(const Collection& collection, const StudyOptions& opt
 
 std::string MemberWorker::run(const Member& member) {
   options_.out = member_folder(out_, member.name);
-  const MeshOutline outline = outline_of(collection_, member, options_.out);
+  // A mesh that an earlier run has left may be that of another file.
+  const bool has_mesh = options_.until != RunUntil::meshes;
+  const MeshOutline outline = outline_of(collection_, member, has_mesh ? options_.out : "");
   const Study study = member_study(collection_, member, outline);
   // Methods that need the problem also solve it while they smooth.
   if (options_.until != RunUntil::meshes && needs_mpi(study)) {

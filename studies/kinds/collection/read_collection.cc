@@ -102,11 +102,17 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
   apply_scale(p, scale, file.string(), {}, collection_lists);
 
   Collection collection;
-  in_file(file, [&] {
+  KeyLines lines = scale.empty() ? KeyLines{} : lines_of_section(text, "scale " + scale);
+  lines.merge(lines_of_section(text, ""));
+  try {
     for (const auto& name : split_list(p.get("solutions")))
-      collection.solutions.emplace(name, read_solution(p, name));
+      collection.solutions.emplace(name, read_solution(p, text, name));
     collection.members = expand_members(p, std::filesystem::absolute(file).parent_path());
-  });
+    collection.notes = unused_keys(collection.members, read_seeds(p.get("seeds")).size());
+  } catch (const InputError& error) {
+    const std::string message = with_line(lines, error.what());
+    throw InputError(message == error.what() ? file.string() + ": " + message : message);
+  }
   read_common(collection, without_collection_keys(text, solutions), scale);
   for (auto& [dimension, study] : collection.common)
     study.write_meshes = p.get_bool("write meshes");

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "meshes/doctor/finding.h"
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
 #include "studies/framework/results/folder_lock.h"
@@ -18,6 +19,7 @@
 #include "studies/framework/run/kept/result_names.h"
 #include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
+#include "studies/kinds/collection/expand_members.h"
 #include "studies/kinds/collection/member_row.h"
 #include "studies/kinds/collection/member_worker.h"
 #include "studies/kinds/collection/task_team.h"
@@ -101,6 +103,7 @@ class CollectionRun {
     const std::string changes = differences_from(earlier_, header_, {}, {});
     if (earlier_.status == "complete" && changes.empty() && is_complete()) return report_complete();
     begin_writing(changes);
+    for (const auto& note : collection_.notes) progress_.say(note);
     write_provenance("running");
     try {
       for (const Phase& phase : phases) times_.measure(phase.name, [&] { run_phase(phase); });
@@ -119,9 +122,13 @@ class CollectionRun {
   void print_plan() const {
     std::map<std::string, std::size_t> families;
     for (const Member* member : members_) ++families[member->family];
-    std::printf("%s\n\n%zu members in %zu families\n", collection_.header.title.c_str(),
-                members_.size(), families.size());
+    std::printf("%s\n\n%s in %s\n", collection_.header.title.c_str(),
+                count_of(members_.size(), "member").c_str(),
+                families.size() == 1 ? "1 family"
+                                     : (std::to_string(families.size()) + " families").c_str());
     for (const auto& [family, n] : families) std::printf("  %-24s %zu\n", family.c_str(), n);
+    std::printf("\nMembers\n%s", origins_of(members_).c_str());
+    for (const auto& note : collection_.notes) std::printf("\n%s\n", note.c_str());
     std::printf("\nMethods\n");
     for (const auto& method : collection_.common.begin()->second.methods)
       std::printf("  %s\n", method.name.c_str());
@@ -149,7 +156,7 @@ class CollectionRun {
 
   /// Returns a digest of what makes the rows of a member.
   std::string digest_of(const Member& member) {
-    std::string text = member.name + '\n' + member.mesh.name + '\n';
+    std::string text = member.name + '\n' + member.mesh.name + '\n' + member.family + '\n';
     const auto content = contents_.find(content_setting(member));
     for (const auto& [dimension, common] : collection_.common) {
       text += kept_mesh_name(member.mesh, content == contents_.end() ? "" : content->second,
@@ -194,10 +201,13 @@ class CollectionRun {
   /// Notes the content of all mesh files, also those of other shards: shards whose files differ do
   /// not belong together.
   void note_contents_of_files() {
+    std::map<fs::path, std::string> of_file;
     for (const auto& member : collection_.members)
       if (const auto setting = content_setting(member);
           !member.mesh.file.empty() && !contents_.contains(setting))
-        contents_[setting] = sha256_of_file(member.mesh.file);
+        contents_[setting] = of_file.contains(member.mesh.file)
+                                 ? of_file[member.mesh.file]
+                                 : of_file[member.mesh.file] = sha256_of_file(member.mesh.file);
     header_.file_parameters.insert(header_.file_parameters.end(), contents_.begin(),
                                    contents_.end());
   }
@@ -289,14 +299,15 @@ class CollectionRun {
   void report() {
     const std::size_t n_complete = count(member_complete), n_failed = count(member_failed),
                       n_open = rows_.size() - n_complete - n_failed;
-    progress_.say(std::to_string(n_complete) + " members are complete, " +
-                  std::to_string(n_failed) + " have failed; " +
-                  (options_.out / "members.csv").string() + " says why." +
-                  (n_failed > 0 ? " --retry-failed tries failed members again." : "") +
-                  (n_open > 0 ? " " + std::to_string(n_open) +
-                                    " did not reach their end, for example because their process "
-                                    "was killed; the same command tries them again."
-                              : ""));
+    progress_.say(
+        count_of(n_complete, "member") + (n_complete == 1 ? " is" : " are") + " complete, " +
+        std::to_string(n_failed) + (n_failed == 1 ? " has" : " have") + " failed" +
+        (n_failed > 0 ? "; " + (options_.out / "members.csv").string() + " says why." : ".") +
+        (n_failed > 0 ? " --retry-failed tries failed members again." : "") +
+        (n_open > 0 ? " " + std::to_string(n_open) +
+                          " did not reach their end, for example because their process "
+                          "was killed; the same command tries them again."
+                    : ""));
     require_results();
   }
 
