@@ -31,7 +31,7 @@ std::string trajectory_name(const std::string& mesh_content, const StudyMethod& 
                             const Study& study, bool only_results, unsigned int threads);
 
 /// Returns digests of a snapshot, and of a trajectory's snapshots. contents: of the snapshots, by
-/// record; without those that are not kept.
+/// record; without records that are not kept.
 std::string content_of(const std::vector<double>& coordinates);
 std::string content_of(const Trajectory& trajectory,
                        const std::map<std::size_t, std::string>& contents);
