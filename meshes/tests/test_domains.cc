@@ -116,6 +116,8 @@ TEST(Domains, UnknownNamesAreRefusedWithTheNearestName) {
   EXPECT_THAT(input_error_of([] { find_domain("gear").generate({.elements = "hexahedra"}); }),
               HasSubstr("the domain 'gear' has no mesh of 'hexahedra'; choose one of triangles, "
                         "quadrilaterals"));
+  EXPECT_THAT(input_error_of([] { find_domain("flange").generate({.elements = "hex"}); }),
+              HasSubstr("did you mean 'hexahedra'?"));
 }
 
 }  // namespace

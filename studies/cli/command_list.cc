@@ -12,6 +12,7 @@
 #include "meshes/io/mesh_file.h"
 #include "meshes/metrics/metric.h"
 #include "smoothing/base/find_named.h"
+#include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/list_columns.h"
@@ -163,6 +164,7 @@ void list_what(const std::string& what, const std::vector<Part>& all) {
     if (what == part.name) return part.in_short();
     names.emplace_back(part.name);
   }
+  if (const auto in_file = method_in_file(what)) return list_method(make_entry(*in_file).info);
   const auto methods = method_catalogue(true);
   for (const auto& info : methods) {
     if (info.name == what) return list_method(info);
