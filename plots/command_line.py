@@ -246,14 +246,14 @@ def make_study(options):
         from .figures.planned import save_figures
         paths += save_figures([figure for figure in figures if figure.name in wanted], folder / "figures", options.format, warn)
     show_paths(options, outputs, paths, folder)
-    if options.no_figures and not options.out:
+    if options.no_figures and not options.out and Drawn(outputs.folder, "").figures:
         warn_about_old_figures(options, outputs)
 
 
 def warn_about_old_figures(options, outputs):
     """Says that the figures and the page are of earlier results, if they are."""
     drawn = Drawn(outputs.folder, inputs_of(outputs.folder, outputs.provenance, [options.width, options.format]))
-    if drawn.figures and drawn.all_paths() is None:
+    if drawn.all_paths() is None:
         warn(f"The figures and report.html in {outputs.folder} are of earlier results; 'smoothfem plot {outputs.folder}' makes new "
              "ones.")
 

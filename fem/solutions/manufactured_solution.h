@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -89,6 +90,15 @@ ManufacturedSolution<dim> parsed_solution(const std::string& value, const std::s
                                           const std::string& load,
                                           std::span<const Point<dim>> sample,
                                           const std::string& diffusivity = {});
+
+/// Returns some 20 to 40 of the points (all, if they are fewer), to check formulas at.
+template <int dim>
+std::vector<Point<dim>> sample_of(std::span<const Point<dim>> points) {
+  std::vector<Point<dim>> sample;
+  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
+    sample.push_back(points[i]);
+  return sample;
+}
 
 /// The diffusivity of a group of cells, as given: formulas as in derived_solution.
 struct GroupDiffusivity {

@@ -59,11 +59,8 @@ ManufacturedSolution<dim> named_or_parsed_solution(const Given& given, const Mes
 /// Derives gradient and load, as studies do.
 template <int dim>
 ManufacturedSolution<dim> solution_by_formula(const Given& given, const Mesh<dim>& mesh) {
-  const auto& points = mesh.coordinates();
-  std::vector<Point<dim>> sample;
-  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
-    sample.push_back(points[i]);
-  auto solution = derived_solution<dim>(given.u, given.diffusivity, sample, given.of_groups);
+  auto solution = derived_solution<dim>(given.u, given.diffusivity,
+                                        sample_of<dim>(mesh.coordinates()), given.of_groups);
   if (!given.of_groups.empty()) return with_materials_of(std::move(solution), mesh);
   check_pieces(solution, mesh);
   return solution;

@@ -134,6 +134,11 @@ struct Study {
   bool write_meshes = true;            ///< the resulting meshes with their fields
 };
 
+/// True if only the results on this mesh are solved, not the records on the way.
+inline bool is_of_results_only(const Study& study, const StudyMesh& mesh) {
+  return study.only_results_of_seeds && !mesh.repeats.empty();
+}
+
 /// Returns all solutions of a study. The solution of the records is the first.
 std::vector<const StudySolution*> solutions_of(const Study& study);
 

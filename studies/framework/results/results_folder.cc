@@ -62,6 +62,11 @@ std::string section_of(const std::string& key) {
   return end != std::string::npos && is_labelled ? section : "";
 }
 
+/// True if the setting is the source or the content of a mesh or a method.
+bool is_of_file(const std::string& key) {
+  return key.find(" of mesh ") != std::string::npos || key.starts_with("content of method ");
+}
+
 bool has_section(const std::map<std::string, std::string>& settings, const std::string& section) {
   const auto first = settings.lower_bound(section + "/");
   return first != settings.end() && first->first.starts_with(section + "/");
@@ -95,9 +100,7 @@ std::string differences_from(const EarlierRun& earlier, const StudyHeader& study
     return true;
   };
   for (const auto& [key, then] : earlier.settings) {
-    const bool of_file =
-        key.find(" of mesh ") != std::string::npos || key.starts_with("content of method ");
-    if (of_file && (meshes.empty() || !settings.contains(key))) continue;
+    if (is_of_file(key) && (meshes.empty() || !settings.contains(key))) continue;
     if (is_section_noted(key, settings, " is gone")) continue;
     const auto now = settings.find(key);
     const std::string value = now == settings.end() ? "" : now->second;
@@ -105,8 +108,7 @@ std::string differences_from(const EarlierRun& earlier, const StudyHeader& study
   }
   for (const auto& [key, now] : settings) {
     if (earlier.settings.contains(key) || now.empty()) continue;
-    if (key.find(" of mesh ") != std::string::npos || key.starts_with("content of method "))
-      continue;
+    if (is_of_file(key)) continue;
     if (!is_section_noted(key, earlier.settings, " is new")) note(key, "", now);
   }
   return differences;

@@ -131,10 +131,7 @@ class StudyRun {
 
   /// Makes the solutions. Expressions are checked at nodes of the first mesh.
   void make_solutions() {
-    const auto& points = data_.meshes.front().mesh.coordinates();
-    std::vector<Point<spacedim>> sample;
-    for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 20))
-      sample.push_back(points[i]);
+    const auto sample = sample_of<spacedim>(data_.meshes.front().mesh.coordinates());
     data_.solutions.resize(data_.meshes.size());
     for (const StudySolution* given : solutions_of(study_)) {
       const auto solution = study_solution<spacedim>(*given, sample);
@@ -266,17 +263,13 @@ class StudyRun {
     return record.stage + " " + std::to_string(record.iteration) + ", q_mean " + q_mean;
   }
 
-  bool is_of_results_only(const MeshFacts& mesh) const {
-    return study_.only_results_of_seeds && !mesh.description.repeats.empty();
-  }
-
   Trajectory trajectory_of(const PreparedMesh<dim, spacedim>& prepared, const StudyMethod& method,
                            const WatchIteration& watch) {
     const auto m = static_cast<std::size_t>(&prepared - data_.meshes.data());
-    const auto threads =
-        method.threads > 0 ? static_cast<unsigned int>(method.threads) : options_.smoothing_threads;
-    const std::string name = trajectory_name(data_.mesh_contents[m], method, study_,
-                                             is_of_results_only(prepared), threads);
+    const unsigned int threads = options_.threads_of(method);
+    const std::string name =
+        trajectory_name(data_.mesh_contents[m], method, study_,
+                        is_of_results_only(study_, prepared.description), threads);
     data_.trajectory_names[m].push_back(name);
     // What failed is tried again: the reason may be gone.
     if (!options_.retime)
@@ -287,8 +280,8 @@ class StudyRun {
     set_n_threads(static_cast<int>(threads));
     std::map<std::size_t, std::string> contents;  // by record
     Trajectory trajectory = record_trajectory(
-        prepared.mesh, method, study_, is_of_results_only(prepared), problem_of(m, method),
-        folders_of(log_name(prepared.description.name, method.name)),
+        prepared.mesh, method, study_, is_of_results_only(study_, prepared.description),
+        problem_of(m, method), folders_of(log_name(prepared.description.name, method.name)),
         [&](std::size_t record, std::span<const Point<spacedim>> coordinates) {
           const auto numbers = numbers_of<spacedim>(coordinates);
           data_.kept.save_numbers(name, record, numbers);
@@ -468,7 +461,7 @@ class StudyRun {
   std::vector<IterationRow> rows_with_every_record() const {
     auto rows = finished_rows(data_);
     for (const auto& mesh : data_.meshes)
-      if (is_of_results_only(mesh))
+      if (is_of_results_only(study_, mesh.description))
         std::erase_if(rows, [&](const auto& row) { return row.mesh == mesh.description.name; });
     return rows;
   }

@@ -223,7 +223,8 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
                   .changes = std::move(changes),
                   .source_sha256 = source_sha256,
                   .sha256 = {}};
-  return {std::move(facts), std::move(mesh), std::move(ties), std::move(kept_name)};
+  return {std::move(facts), std::move(mesh), std::move(ties), std::move(kept_name),
+          found.has_value()};
 }
 
 void require_unchanged_meshes(const EarlierRun& run, const std::filesystem::path& out) {
@@ -241,8 +242,7 @@ void write_initial_mesh(PreparedMesh<dim, spacedim>& prepared, const std::filesy
   const std::filesystem::path path = out / prepared.file;
   write_mesh(path, prepared.mesh);
   prepared.sha256 = sha256_of_file(path);
-  if (!prepared.kept_name.empty() && !kept.find_mesh(prepared.kept_name))
-    kept.save_mesh(prepared.kept_name, path);
+  if (!prepared.kept_name.empty() && !prepared.is_kept) kept.save_mesh(prepared.kept_name, path);
 }
 
 #define SMOOTHFEM_INSTANTIATE(...)                                                           \

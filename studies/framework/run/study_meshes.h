@@ -18,6 +18,7 @@ struct PreparedMesh : MeshFacts {
   Mesh<dim, spacedim> mesh;
   std::shared_ptr<const NodeTies> ties{};  ///< constraints of the finite elements; null: none
   std::string kept_name{};  ///< of its kept file; empty: none, because it is read or a surface
+  bool is_kept = false;     ///< that file is there
 };
 
 /// Reads or generates one mesh, and distorts it if the study says so. mesh_dir: folder of published

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "fem/ranks/ranks.h"
+#include "studies/framework/definition/study.h"
 
 namespace smoothfem {
 
@@ -35,6 +36,11 @@ struct StudyOptions {
   /// Set by other code to stop the run. The finished rows are then written, and the process ends
   /// with exit code 130.
   const std::atomic<bool>* interrupted = nullptr;
+
+  /// Returns a method's own number of threads, or that of all methods.
+  unsigned int threads_of(const StudyMethod& method) const {
+    return method.threads > 0 ? static_cast<unsigned int>(method.threads) : smoothing_threads;
+  }
 
   /// Returns n_threads, or the number of cores.
   unsigned int threads() const {

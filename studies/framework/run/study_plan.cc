@@ -117,11 +117,6 @@ class Plan {
     }
   }
 
-  unsigned int threads_of(const StudyMethod& method) const {
-    return method.threads > 0 ? static_cast<unsigned int>(method.threads)
-                              : options_.smoothing_threads;
-  }
-
   /// True if a dry run can have the mesh as smoothing gets it. Distortion may take long, so a mesh
   /// is not distorted here.
   bool is_at_hand(const StudyMesh& mesh) const {
@@ -143,10 +138,9 @@ class Plan {
     for (std::size_t k = 0; k < study_.methods.size(); ++k) {
       const StudyMethod& method = study_.methods[k];
       if (is_of_other_code(method) || options_.retime) continue;
-      const bool only_results =
-          study_.only_results_of_seeds && !prepared.description.repeats.empty();
-      const auto trajectory = kept_.load_trajectory(
-          trajectory_name(known.content, method, study_, only_results, threads_of(method)));
+      const auto trajectory = kept_.load_trajectory(trajectory_name(
+          known.content, method, study_, is_of_results_only(study_, prepared.description),
+          options_.threads_of(method)));
       if (trajectory && trajectory->failure.empty()) known.trajectories[k] = trajectory->content;
     }
     return known;
@@ -233,8 +227,8 @@ class Plan {
                                                    .polynomial_degree = degree,
                                                    .record = 0});
     };
-    const bool only_results = study_.only_results_of_seeds && !study_.meshes[m].repeats.empty();
-    const double n_records = only_results ? 2.0 : records_per_method();
+    const double n_records =
+        is_of_results_only(study_, study_.meshes[m]) ? 2.0 : records_per_method();
     const auto& refined = study_.refined_degrees;
     const bool refines = std::find(refined.begin(), refined.end(), degree) != refined.end();
     for (std::size_t k = 0; k <= study_.methods.size(); ++k) {

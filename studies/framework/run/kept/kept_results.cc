@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "meshes/io/atomic_file.h"
+#include "smoothing/base/text.h"
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/kept/sealed_file.h"
 
@@ -124,11 +123,9 @@ std::optional<SolvedRecords> KeptResults::load_solved(const std::string& name) c
 }
 
 void KeptResults::save_mesh(const std::string& name, const fs::path& file) const {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  write_atomically(mesh_file(folder_, name), content.view());
-  write_sealed(folder_, name + ".sum", sha256(content.view()));
+  const std::string content = file_content(file);
+  write_atomically(mesh_file(folder_, name), content);
+  write_sealed(folder_, name + ".sum", sha256(content));
 }
 
 std::optional<fs::path> KeptResults::find_mesh(const std::string& name) const {
@@ -136,10 +133,6 @@ std::optional<fs::path> KeptResults::find_mesh(const std::string& name) const {
   const auto sum = read_sealed(folder_, name + ".sum");
   if (!sum || sha256_of_file(file) != *sum) return std::nullopt;
   return file;
-}
-
-bool KeptResults::has_trajectory(const std::string& name) const {
-  return fs::exists(folder_ / (name + ".trajectory"));
 }
 
 bool KeptResults::has_solved(const std::string& name) const {

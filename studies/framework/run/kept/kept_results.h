@@ -31,8 +31,6 @@ class KeptResults {
  public:
   explicit KeptResults(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  const std::filesystem::path& folder() const { return folder_; }
-
   /// Saves one array of numbers per record: coordinates of a trajectory or nodal errors of solved
   /// records.
   void save_numbers(const std::string& name, std::size_t record,
@@ -53,8 +51,7 @@ class KeptResults {
   /// Returns the path of that copy, or nothing if there is none or it has been changed.
   std::optional<std::filesystem::path> find_mesh(const std::string& name) const;
 
-  /// True if there is a trajectory, or solved records, of this name.
-  bool has_trajectory(const std::string& name) const;
+  /// True if there are solved records of this name.
   bool has_solved(const std::string& name) const;
 
   /// Removes all results but those of these names. Returns a sentence with the size of the others

@@ -10,10 +10,17 @@
 #include "smoothing/mesh/node_constraints.h"
 #include "studies/framework/results/provenance.h"
 #include "studies/framework/results/sha256.h"
+#include "studies/framework/run/kept/kept_results.h"
 
 namespace smoothfem {
 
 namespace {
+
+template <class T>
+std::string sha256_of_bytes(const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return sha256({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
 
 /// The text of everything that determines a result, one line for each.
 class Ingredients {
@@ -33,8 +40,7 @@ class Ingredients {
   }
   template <class T>
   void add_bytes(const std::string& what, const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    add(what, sha256({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}));
+    add(what, sha256_of_bytes(values));
   }
   void add_program() {
     add("sources", std::string(SMOOTHFEM_RESULTS_VERSION));
@@ -164,11 +170,8 @@ template <int dim, int spacedim>
 std::string mesh_content(const Mesh<dim, spacedim>& mesh, const MeshFacts& facts) {
   Ingredients made_of;
   const Topology& topology = mesh.topology();
-  std::vector<double> coordinates;
-  for (const auto& point : mesh.coordinates())
-    coordinates.insert(coordinates.end(), point.begin(), point.end());
   made_of.add("dimension", dim);
-  made_of.add_bytes("coordinates", coordinates);
+  made_of.add_bytes("coordinates", numbers_of<spacedim>(mesh.coordinates()));
   add_rows("cells", topology.cells(), made_of);
   made_of.add_bytes("fixed", topology.fixed_reasons());
   add_labels(topology.labels(), made_of);
@@ -203,8 +206,7 @@ std::string trajectory_name(const std::string& mesh_content, const StudyMethod& 
 }
 
 std::string content_of(const std::vector<double>& coordinates) {
-  return sha256(
-      {reinterpret_cast<const char*>(coordinates.data()), coordinates.size() * sizeof(double)});
+  return sha256_of_bytes(coordinates);
 }
 
 std::string content_of(const Trajectory& trajectory,
