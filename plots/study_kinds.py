@@ -98,10 +98,17 @@ def smoothing_outputs(folder, request):
         return write_report(results, outcomes, against, path)
     tables = (*([chosen_table(results, request.columns)] if request.columns else []), *make_tables(results, printed),
               *make_seed_tables(results), *make_energy_tables(of_all_degrees))
-    shown = screen(results) + (f"{totals(outcomes)} (tables/claims.md).\n" if outcomes and not results.is_quick else "")
+    shown = screen(results) + (claims_sentence(outcomes, results) if outcomes and not results.is_quick else "")
     return Outputs(results.folder, results.study_title, tables, plan, shown, plan_of_meshes, texts,
                    () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page,
                    provenance=results.provenance)
+
+
+def claims_sentence(outcomes, results):
+    """The number of claims that hold, and whether the meshes are those that the thesis speaks about."""
+    generated = "" if any(map(results.is_published, results.meshes)) else (
+        " The thesis speaks of other meshes than these, which this program has generated.")
+    return f"{totals(outcomes)} (tables/claims.md).{generated}\n"
 
 
 def polygon_outputs(folder, request):
