@@ -105,7 +105,7 @@ def smoothing_outputs(folder, request):
 
 
 def claims_sentence(outcomes, results):
-    """The number of claims that hold, and whether the meshes are those that the thesis speaks about."""
+    """The number of claims that hold, and a warning if the meshes are not those of the thesis."""
     generated = "" if any(map(results.is_published, results.meshes)) else (
         " The thesis speaks of other meshes than these, which this program has generated.")
     return f"{totals(outcomes)} (tables/claims.md).{generated}\n"
