@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
-#include "fem/assembly/assembly.h"
+#include "fem/assembly/best_approximation.h"
 #include "fem/assembly/error_norms.h"
 #include "fem/linear_algebra/condition_number.h"
 #include "fem/linear_algebra/conjugate_gradients.h"
@@ -17,6 +18,18 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point started) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+}
+
+/// Sets the values at tied dofs from those at the others.
+template <int dim>
+void set_tied_values(const FiniteElementSpace<dim>& space, Eigen::VectorXd& values) {
+  for (auto dof = static_cast<std::uint32_t>(space.n_local - space.ties.size());
+       dof < space.n_local; ++dof) {
+    double mean = 0.0;
+    space.for_each_master(
+        dof, [&](std::uint32_t master, double weight) { mean += weight * values[master]; });
+    values[dof] = mean;
+  }
 }
 
 }  // namespace
@@ -57,6 +70,26 @@ struct PoissonSolver<dim>::Workspace {
                                     space->ranks);
     return needs_multigrid() ? iterative.compute(*trilinos) : cholesky.compute(system.matrix);
   }
+
+  /// Returns the errors of the best approximation to u; nothing if CG does not find it. Replaces
+  /// the system by that of the approximation. Collective.
+  std::optional<ErrorNorms> best_errors(const std::vector<Point<dim>>& x,
+                                        const ManufacturedSolution<dim>& solution, Norm norm,
+                                        ConjugateGradientsOptions options) {
+    options.tolerance = 1e-10;  // the error of the norm is about its square
+    options.norm_offset = 0.0;
+    options.stop_if_indefinite = true;
+    assemble_projection(*space, x, solution, norm, system);
+    sliced.set_values(system.matrix);
+    Eigen::VectorXd best;
+    const auto run = conjugate_gradients(sliced, system.right_hand_side, best, options,
+                                         jacobi_preconditioner(sliced));
+    if (run.end != ConjugateGradientsEnd::converged) return {};
+    Eigen::VectorXd values = system.exact;
+    values.head(best.size()) = best;
+    set_tied_values(*space, values);
+    return error_norms(*space, x, solution, system.exact, values);
+  }
 };
 
 template <int dim>
@@ -85,18 +118,6 @@ double boundary_square_sum(const FiniteElementSpace<dim>& space, const Eigen::Ve
                              .segment(static_cast<Eigen::Index>(space.n_columns),
                                       static_cast<Eigen::Index>(space.n_own_boundary))
                              .squaredNorm());
-}
-
-/// Sets the values at tied dofs from those at the others.
-template <int dim>
-void set_tied_values(const FiniteElementSpace<dim>& space, Eigen::VectorXd& values) {
-  for (auto dof = static_cast<std::uint32_t>(space.n_local - space.ties.size());
-       dof < space.n_local; ++dof) {
-    double mean = 0.0;
-    space.for_each_master(
-        dof, [&](std::uint32_t master, double weight) { mean += weight * values[master]; });
-    values[dof] = mean;
-  }
 }
 
 void add_remark(const std::string& remark, SolutionRecord& record) {
@@ -175,8 +196,7 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
                         (options_.condition_number == ConditionNumberMethod::lanczos && is_result);
   const auto x = space.local_coordinates(coordinates);
   const auto started = std::chrono::steady_clock::now();
-  assemble(space, x, solution, options_.galerkin_load ? Load::quadrature : Load::nodal,
-           work.system);
+  assemble(space, x, solution, options_.load, work.system);
   if (const std::size_t n = space.ranks.sum(work.system.n_folded_cells); n > 0)
     add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") + " folded inside", record);
   work.sliced.set_values(work.system.matrix);
@@ -198,6 +218,8 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
   if (asked_for(options_.jacobi_cg)) {
     const auto jacobi = run(jacobi_preconditioner(work.sliced));
     record_cost("Jacobi", jacobi, record.jacobi_cg_iterations, record.jacobi_cg_seconds, record);
+    if (const auto scaled = lanczos_condition_number(jacobi.lanczos); scaled.lambda_min > 0.0)
+      record.jacobi_condition_number = scaled.value();
   }
   if (with_multigrid_cg || (verified && work.needs_multigrid()))
     record.amg_setup_seconds = work.set_up_multigrid();
@@ -230,6 +252,13 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
     add_remark("numbers have overflowed", record);
   }
   record_points(work.system.points, norms.points, space.ranks, record);
+  if (asked_for(options_.best_approximation)) {
+    const auto in_l2 = work.best_errors(x, solution, Norm::l2, cg_options),
+               in_h1 = work.best_errors(x, solution, Norm::h1, cg_options);
+    if (in_l2) record.l2_best = in_l2->l2_error;
+    if (in_h1) record.h1_best = in_h1->h1_error;
+    if (!in_l2 || !in_h1) add_remark("CG did not find the best approximation", record);
+  }
   return record;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/assembly/assembly.h"
 #include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"
@@ -24,8 +25,8 @@ enum class ConditionNumberMethod {
 
 /// Contents and method of a finite element record (thesis, Section 6.1).
 struct PoissonOptions {
-  int degree = 1;              ///< of the Lagrange elements: 1 or 2
-  bool galerkin_load = false;  ///< load by quadrature instead of the thesis' nodal load
+  int degree = 1;  ///< of the Lagrange elements: 1 or 2
+  Load load = Load::quadrature;
   std::vector<std::string> natural_groups{};  ///< see make_finite_element_space
   std::shared_ptr<const NodeTies> ties{};     ///< on the root; null: none
   TensorPoints tensor_points{};
@@ -40,6 +41,7 @@ struct PoissonOptions {
   ConditionNumberMethod condition_number = ConditionNumberMethod::verified;
   Recorded jacobi_cg = Recorded::always;
   Recorded multigrid_cg = Recorded::never;
+  Recorded best_approximation = Recorded::never;  ///< errors of the best approximations to u
 };
 
 /// A finite element function u_h, and how far it is from u.

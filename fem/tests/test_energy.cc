@@ -133,7 +133,7 @@ TEST_P(EnergyTest, ChangesAsTheSquareOfTheTrueErrorDoes) {
     auto even = mesh;
     even.set_coordinates(unit_mesh<dim>(dim == 2 ? 6 : 4, GetParam().cells, 0.0).coordinates());
     const PoissonOptions options{.degree = GetParam().degree,
-                                 .galerkin_load = true,
+                                 .load = Load::quadrature,
                                  .cg_tolerance = 1e-12,
                                  .condition_number = ConditionNumberMethod::none,
                                  .jacobi_cg = Recorded::never};
@@ -230,7 +230,7 @@ TEST_P(EnergyTest, RecoveryEstimatesTheSizeOfTheError) {
       double square = 0.0;  // of cells of one size
       for (const double e : indicators) square += e * e / static_cast<double>(mesh.n_cells());
       PoissonSolver<dim> errors(&mesh, {.degree = 1,
-                                        .galerkin_load = true,
+                                        .load = Load::quadrature,
                                         .condition_number = ConditionNumberMethod::none,
                                         .jacobi_cg = Recorded::never});
       return std::sqrt(square) / errors.solve(mesh.coordinates(), solution).h1_error;

@@ -141,7 +141,7 @@ TEST_P(ErrorIndicatorTest, ResidualEstimatesTheSizeOfTheError) {
       for (const double e : solved<dim>(*problem, mesh)->residual_indicators())
         square += e * e / static_cast<double>(mesh.n_cells());
       PoissonSolver<dim> errors(&mesh, {.degree = GetParam().degree,
-                                        .galerkin_load = true,
+                                        .load = Load::quadrature,
                                         .condition_number = ConditionNumberMethod::none,
                                         .jacobi_cg = Recorded::never});
       return std::sqrt(square) / errors.solve(mesh.coordinates(), solution).h1_error;

@@ -25,7 +25,7 @@ class MaterialsTest : public testing::TestWithParam<Case> {
                               bool galerkin, const std::vector<std::string>& natural = {}) {
     PoissonOptions options;
     options.degree = GetParam().degree;
-    options.galerkin_load = galerkin;
+    options.load = galerkin ? Load::quadrature : Load::nodal;
     options.natural_groups = natural;
     options.cg_tolerance = 1e-14;
     options.condition_number = ConditionNumberMethod::none;

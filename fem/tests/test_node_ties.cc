@@ -44,7 +44,7 @@ TEST_P(NodeTiesTest, PeriodicSolutionConvergesWithTheExpectedOrder) {
     GetParam().on_mesh(8 * refinement, 4 * refinement, 0.15, [&]<int dim>(const Mesh<dim>& mesh) {
       const auto solution = derived_solution<dim>("sin(2*pi*x + 1)*cos(y)", "", {});
       PoissonOptions options{.degree = GetParam().degree,
-                             .galerkin_load = true,
+                             .load = Load::quadrature,
                              .cg_tolerance = 1e-12,
                              .condition_number = ConditionNumberMethod::none,
                              .jacobi_cg = Recorded::never};

@@ -53,7 +53,7 @@ class OwnProblemTest : public testing::TestWithParam<Case> {
   static SolutionRecord solve(const Mesh<dim>& mesh, const ManufacturedSolution<dim>& solution,
                               const std::vector<std::string>& natural, bool galerkin) {
     auto options = exact_options(natural);
-    options.galerkin_load = galerkin;
+    options.load = galerkin ? Load::quadrature : Load::nodal;
     return PoissonSolver<dim>(&mesh, options).solve(mesh.coordinates(), solution);
   }
 

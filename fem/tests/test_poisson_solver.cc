@@ -5,14 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <filesystem>
 #include <set>
 
-#include "fem/assembly/assembly.h"
+#include "fem/assembly/best_approximation.h"
 #include "fem/assembly/error_norms.h"
 #include "fem/linear_algebra/conjugate_gradients.h"
 #include "fem/linear_algebra/trilinos_matrix.h"
+#include "fem/tests/random_vector.h"
 #include "fem/tests/unit_mesh.h"
 
 namespace smoothfem {
@@ -83,7 +85,8 @@ TEST_P(PoissonSolverTest, SolutionInTheSpaceIsFoundUpToRoundOff) {
   const auto check = [&]<int dim>(const Mesh<dim>& mesh) {
     for (const bool galerkin : {false, true}) {
       PoissonOptions options = exact_options();
-      options.galerkin_load = galerkin;
+      options.load = galerkin ? Load::quadrature : Load::nodal;
+      options.best_approximation = Recorded::always;
       const std::string name = GetParam().degree == 1 ? "linear" : "quadratic";
       const auto record = PoissonSolver<dim>(&mesh, options)
                               .solve(mesh.coordinates(), manufactured_solution<dim>(name));
@@ -92,10 +95,67 @@ TEST_P(PoissonSolverTest, SolutionInTheSpaceIsFoundUpToRoundOff) {
       EXPECT_LT(record.e_h1, 1e-10);
       EXPECT_LT(record.l2_error, 1e-11);
       EXPECT_LT(record.h1_error, 1e-10);
+      EXPECT_LT(record.l2_best, 1e-9);
+      EXPECT_LT(record.h1_best, 1e-9);
     }
   };
   GetParam().on_mesh(6, 5, 0.0, check);
   GetParam().on_mesh(6, 5, 0.25, check);
+}
+
+TEST_P(PoissonSolverTest, NoFunctionOfTheSpaceIsCloserThanTheBestApproximation) {
+  GetParam().on_mesh(5, 4, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
+    const auto& u = manufactured_solution<dim>("sine");
+    auto options = exact_options();
+    options.best_approximation = Recorded::always;
+    const auto record = PoissonSolver<dim>(&mesh, options).solve(mesh.coordinates(), u);
+    EXPECT_EQ(record.status, "ok");
+    EXPECT_LT(record.l2_best, record.l2_error);
+    EXPECT_LE(record.h1_best, record.h1_error);
+    EXPECT_GT(record.h1_best, 0.5 * record.h1_error);
+
+    const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
+    const auto x = mesh.copied_coordinates();
+    auto system = make_system(*space);
+    const auto n = static_cast<Eigen::Index>(space->n_free);
+    for (const Norm norm : {Norm::l2, Norm::h1}) {
+      const bool in_l2 = norm == Norm::l2;
+      assemble_projection(*space, x, u, norm, system);
+      Eigen::VectorXd best = system.exact;
+      best.head(n) = Eigen::MatrixXd(system.matrix).llt().solve(system.right_hand_side);
+      const auto of_best = error_norms(*space, x, u, system.exact, best);
+      const double least = in_l2 ? of_best.l2_error : of_best.h1_error;
+      EXPECT_NEAR(in_l2 ? record.l2_best : record.h1_best, least, 1e-9 * least);
+      // The error of the best approximation is orthogonal to the space: Pythagoras.
+      Eigen::VectorXd other = best;
+      other.head(n) += 0.1 * least * random_vector(n, 1);
+      const auto of_other = error_norms(*space, x, u, best, other);
+      const double distance = in_l2 ? of_other.e_l2 : of_other.e_h1;
+      const double error = in_l2 ? of_other.l2_error : of_other.h1_error;
+      EXPECT_NEAR(error, std::hypot(least, distance), 1e-4 * error);
+      EXPECT_GT(distance, 0.001 * least);
+    }
+  });
+}
+
+TEST_P(PoissonSolverTest, JacobiConditionNumberIsThatOfTheScaledMatrix) {
+  GetParam().on_mesh(4, 3, 0.3, [&]<int dim>(const Mesh<dim>& mesh) {
+    const auto& u = manufactured_solution<dim>("sine");
+    auto options = exact_options();
+    options.jacobi_cg = Recorded::always;
+    options.cg_tolerance = 1e-8;
+    const auto record = PoissonSolver<dim>(&mesh, options).solve(mesh.coordinates(), u);
+    const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
+    auto system = make_system(*space);
+    assemble(*space, mesh.copied_coordinates(), u, Load::quadrature, system);
+    const Eigen::MatrixXd a(system.matrix);
+    const Eigen::VectorXd scale = a.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * a *
+                                                               scale.asDiagonal());
+    const double expected = eigen.eigenvalues()[a.rows() - 1] / eigen.eigenvalues()[0];
+    EXPECT_LE(record.jacobi_condition_number, (1.0 + 1e-9) * expected);
+    EXPECT_GE(record.jacobi_condition_number, 0.99 * expected);
+  });
 }
 
 TEST_P(PoissonSolverTest, TrueErrorsFallWithTheExpectedOrders) {
@@ -104,7 +164,7 @@ TEST_P(PoissonSolverTest, TrueErrorsFallWithTheExpectedOrders) {
   for (const std::size_t refinement : {1UL, 2UL, 4UL})
     GetParam().on_mesh(8 * refinement, 5 * refinement, 0.15, [&]<int dim>(const Mesh<dim>& mesh) {
       PoissonOptions options = exact_options();
-      options.galerkin_load = true;
+      options.load = Load::quadrature;
       const auto record = PoissonSolver<dim>(&mesh, options)
                               .solve(mesh.coordinates(), manufactured_solution<dim>("sine"));
       l2.push_back(record.l2_error);
@@ -124,7 +184,7 @@ TEST_P(PoissonSolverTest, DiscreteSolutionAgreesWithADenseSolve) {
     const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
     const auto& solution = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
     PoissonSystem system = make_system(*space);
-    assemble(*space, mesh.copied_coordinates(), solution, Load::nodal, system);
+    assemble(*space, mesh.copied_coordinates(), solution, Load::quadrature, system);
     const Eigen::VectorXd free =
         Eigen::MatrixXd(system.matrix).ldlt().solve(system.right_hand_side);
     const Eigen::VectorXd errors = (free - system.exact.head(free.size())).cwiseAbs();
@@ -140,8 +200,8 @@ TEST_P(PoissonSolverTest, PreconditionersLeadToTheSameSolutionInFewerIterations)
   GetParam().on_mesh(20, 16, 0.15, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto space = make_finite_element_space(&mesh, GetParam().degree, TensorPoints{});
     PoissonSystem system = make_system(*space);
-    assemble(*space, mesh.copied_coordinates(), manufactured_solution<dim>("sine"), Load::nodal,
-             system);
+    assemble(*space, mesh.copied_coordinates(), manufactured_solution<dim>("sine"),
+             Load::quadrature, system);
     const SlicedMatrix sliced(system.matrix);
     TrilinosMatrix trilinos(*space);
     trilinos.set_values(system.matrix);
@@ -319,7 +379,8 @@ TEST(PoissonSolver, ChosenRulesAgreeWithTwentyPointsOnHexahedra) {
       for (const bool galerkin : {false, true}) {
         const auto mesh = unit_cube(4, Cells::hexahedra, distortion);
         const auto solve = [&](int n_points) {
-          PoissonOptions options{.degree = degree, .galerkin_load = galerkin};
+          PoissonOptions options{.degree = degree,
+                                 .load = galerkin ? Load::quadrature : Load::nodal};
           options.tensor_points.hexahedron = n_points;
           options.cg_tolerance = 1e-10;
           return PoissonSolver<3>(&mesh, options)
@@ -357,8 +418,8 @@ TEST(PoissonSolver, StiffnessOfHexahedraWithChosenRulesAgreesWithTwentyPoints) {
         const auto space =
             make_finite_element_space(&mesh, degree, TensorPoints{.hexahedron = n_points});
         PoissonSystem system = make_system(*space);
-        assemble(*space, mesh.copied_coordinates(), manufactured_solution<3>("sine"), Load::nodal,
-                 system);
+        assemble(*space, mesh.copied_coordinates(), manufactured_solution<3>("sine"),
+                 Load::quadrature, system);
         return system.matrix;
       };
       const SparseMatrix chosen = matrix(0), twenty = matrix(20);

@@ -78,7 +78,8 @@ TEST_P(SeveralRanksTest, RecordAndNodalErrorsEqualThoseOfOneProcess) {
     GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
       const auto& solution = manufactured_solution<dim>(dim == 2 ? "gear" : "volume");
       auto both = options();
-      both.galerkin_load = both.boundary_in_norm = galerkin;
+      both.load = galerkin ? Load::quadrature : Load::nodal;
+      both.boundary_in_norm = galerkin;
       PoissonSolver<dim> solver(on_root(mesh), both, all_ranks());
       const auto record = solver.solve(mesh.coordinates(), solution);
       const auto errors = solver.nodal_errors();
@@ -131,7 +132,7 @@ TEST_P(SeveralRanksTest, TiedNodesEqualThoseOfOneProcess) {
   GetParam().on_mesh(14, 7, 0.25, [&]<int dim>(const Mesh<dim>& mesh) {
     const auto solution = derived_solution<dim>("sin(2*pi*x + 1)*cos(y)", "", {});
     auto periodic = options();
-    periodic.galerkin_load = true;
+    periodic.load = Load::quadrature;
     periodic.ties = std::make_shared<const NodeTies>(periodic_in_x(mesh));
     const auto alone = periodic;
     if (!all_ranks().is_root()) periodic.ties = nullptr;  // only the root knows the mesh

@@ -57,7 +57,7 @@ class EveryMethodWithAProblem : public testing::TestWithParam<std::string> {
 TEST_P(EveryMethodWithAProblem, LowersTheTrueErrorBelowThatOfItsStart) {
   in_every_dimension([]<int dim>() {
     for (const auto& mesh : distorted_meshes<dim>()) {
-      PoissonSolver<dim> solver(&mesh, {.galerkin_load = true,
+      PoissonSolver<dim> solver(&mesh, {.load = Load::quadrature,
                                         .condition_number = ConditionNumberMethod::none,
                                         .jacobi_cg = Recorded::never});
       const auto error_of = [&](const Mesh<dim>& m) {
@@ -87,7 +87,7 @@ TEST_P(EveryMethodWithAProblem, LowersTheErrorOfEachSolution) {
       for (const auto& parameter : made.parameters())
         if (parameter.name.ends_with(".solves")) made.set(parameter.name, "20");
       smooth(result, made);
-      PoissonSolver<dim> solver(&mesh, {.galerkin_load = true,
+      PoissonSolver<dim> solver(&mesh, {.load = Load::quadrature,
                                         .condition_number = ConditionNumberMethod::none,
                                         .jacobi_cg = Recorded::never});
       for (const auto& solution : solutions)
@@ -240,7 +240,7 @@ TEST(MethodsWithAProblem, CanSlideBoundaryNodes) {
                                    "indicator-mmpde", "indicator-mmpde-descent"})
     for (const Cells cells : {Cells::triangles, Cells::quadrilaterals}) {
       const auto mesh = unit_square(12, cells, 0.1);
-      PoissonSolver<2> solver(&mesh, {.galerkin_load = true,
+      PoissonSolver<2> solver(&mesh, {.load = Load::quadrature,
                                       .condition_number = ConditionNumberMethod::none,
                                       .jacobi_cg = Recorded::never});
       const auto error_with = [&](const std::string& boundary) {
@@ -273,7 +273,7 @@ TEST(MethodsWithAProblem, CanUseTheResidualIndicator) {
   for (const std::string method : {"indicator-weighted.weights", "indicator-getme.sizes"}) {
     const auto dot = method.find('.');
     for (const auto& mesh : distorted_meshes<2>()) {
-      PoissonSolver<2> solver(&mesh, {.galerkin_load = true,
+      PoissonSolver<2> solver(&mesh, {.load = Load::quadrature,
                                       .condition_number = ConditionNumberMethod::none,
                                       .jacobi_cg = Recorded::never});
       const auto error_with = [&](const std::string& indicator) {

@@ -63,6 +63,31 @@ const std::string& Domain::elements_named(const std::string& wanted) const {
   return *found;
 }
 
+std::string Domain::offers() const {
+  std::string text;
+  for (const auto& its_elements : elements) {
+    text += (text.empty() ? "" : "; ") + its_elements;
+    if (const auto known = algorithms.find(its_elements); known != algorithms.end())
+      text += " by " + joined(known->second);
+  }
+  return text;
+}
+
+std::string Domain::algorithm_named(const std::string& wanted, const std::string& elements) const {
+  const auto known = algorithms.find(elements);
+  if (known == algorithms.end()) {
+    if (wanted.empty()) return {};
+    throw InputError("the " + elements + " of the domain '" + name +
+                     "' have no choice of algorithms; leave out '" + wanted + "'");
+  }
+  const auto& names = known->second;
+  if (wanted.empty()) return names.front();
+  if (std::find(names.begin(), names.end(), wanted) == names.end())
+    throw InputError("the domain '" + name + "' has no algorithm '" + wanted + "' for " + elements +
+                     "; " + choose_one_of(names, wanted));
+  return wanted;
+}
+
 bool Domain::is_random(const std::string& wanted) const {
   return std::find(random_elements.begin(), random_elements.end(), elements_named(wanted)) !=
          random_elements.end();
@@ -71,6 +96,7 @@ bool Domain::is_random(const std::string& wanted) const {
 AnyMesh Domain::generate(const DomainParameters& parameters) const {
   DomainParameters known = parameters;
   known.elements = elements_named(parameters.elements);
+  known.algorithm = algorithm_named(parameters.algorithm, known.elements);
   try {
     return make(known);
   } catch (const TooFewEdges& error) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@ struct DomainParameters {
   double edge_scale = 1.0;  ///< factor on the edge lengths of the domain's own mesh: 3 gives a
                             ///< ninth of the planar cells, 2.1544 a tenth of the volume cells
   std::uint64_t seed = 1;   ///< seed of random parts of the domain's mesh, if there are any
+  std::string algorithm{};  ///< of the domain's list for these elements; empty: the first one
 };
 
 /// A domain that `smoothfem` can mesh; studies and the command line name it.
@@ -24,10 +27,13 @@ struct Domain {
   int dimension;                      ///< of its meshes' cells: 2 or 3
   std::vector<std::string> elements;  ///< supported names of element_names(); the default first
   std::vector<std::string> random_elements{};  ///< elements whose meshes depend on the seed
-  bool is_surface = false;                     ///< its meshes are surfaces in space
-  bool has_groups = false;                     ///< its cells have groups
-  AnyMesh (*make)(
-      const DomainParameters&);  ///< its parameter `elements` is a name of the domain's list
+  /// Algorithms of the mesh generator, by elements, the default first. Elements that are not named
+  /// have one algorithm, without a name.
+  std::map<std::string, std::vector<std::string>> algorithms{};
+  bool is_surface = false;  ///< its meshes are surfaces in space
+  bool has_groups = false;  ///< its cells have groups
+  /// Its parameters `elements` and `algorithm` are names of the domain's lists.
+  std::function<AnyMesh(const DomainParameters&)> make;
 
   /// Makes a valid mesh of the domain with fixed boundary nodes (on surfaces: constrained ones).
   /// Throws InputError for unsupported elements and for an edge scale out of range.
@@ -36,6 +42,13 @@ struct Domain {
   /// Returns the elements of a name; for an empty name the default ones. Throws InputError that
   /// lists the domain's elements.
   const std::string& elements_named(const std::string& wanted) const;
+
+  /// Returns the elements and their algorithms for users: "triangles by frontal, delaunay; quads".
+  std::string offers() const;
+
+  /// Returns the algorithm of a name; for an empty name the default one. elements: of the domain's
+  /// list. Throws InputError that lists the algorithms.
+  std::string algorithm_named(const std::string& wanted, const std::string& elements) const;
 
   /// True if meshes of these elements (a name, or empty) depend on the seed.
   bool is_random(const std::string& wanted) const;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The catalogue of domains, to which the files in meshes/domains/ register themselves.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "meshes/domains/catalogue.h"
@@ -11,16 +14,19 @@ namespace smoothfem {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 TEST(Domains, AllAreRegisteredAndSortedByName) {
   std::vector<std::string> names;
   for (const Domain& domain : domains()) names.push_back(domain.name);
   EXPECT_THAT(
       names, ::testing::ElementsAre(
-                 "aorta", "axle", "bridge", "car", "cube", "cube-halves", "fichera", "flange",
-                 "gear", "l-shape", "nonuniform-grid", "nonuniform-grid-sinh", "nonuniform-grid-z",
-                 "piston", "plate", "prosthesis", "pump", "random-planar", "ring", "roof", "sphere",
-                 "square", "square-disc", "square-halves", "subdivision", "sweep"));
+                 "aorta", "axle", "blade", "bracket", "bracket-plate", "bridge", "car", "channel",
+                 "comb", "crack", "cube", "cube-halves", "disc", "drill", "elbow", "fichera",
+                 "flange", "gear", "heat-sink", "holed-plate", "hook", "l-shape", "lake",
+                 "nonuniform-grid", "nonuniform-grid-sinh", "nonuniform-grid-z", "piston", "plate",
+                 "prosthesis", "pump", "random-planar", "ring", "roof", "sheet", "sphere", "square",
+                 "square-disc", "square-halves", "star", "subdivision", "sweep", "washer", "wing"));
 }
 
 TEST(Domains, HaveDescriptions) {
@@ -35,6 +41,85 @@ TEST(Domains, HaveDescriptions) {
     EXPECT_EQ(domain.elements_named(domain.elements.back()), domain.elements.back());
     EXPECT_EQ(&find_domain(domain.name), &domain);
   }
+}
+
+/// Area or volume by formula, and the number of nodes, which is about 100,000 at edge scale 1.
+TEST(Domains, OfShapesHaveTheirSizes) {
+  constexpr double pi = std::numbers::pi;
+  const auto expect_size = [](const std::string& name, double edge_scale, double size) {
+    for (const auto& elements : find_domain(name).elements) {
+      SCOPED_TRACE(name + " of " + elements);
+      std::visit(
+          [&](const auto& mesh) {
+            double sum = 0.0;
+            for (CellIndex c = 0; c < mesh.n_cells(); ++c) sum += signed_cell_size(mesh, c);
+            EXPECT_NEAR(sum, size, 0.03 * size);
+            const int dimension = mesh.topology().dimension();
+            const double n_nodes = 1e5 / std::pow(edge_scale, dimension);
+            EXPECT_GT(static_cast<double>(mesh.n_nodes()), 0.7 * n_nodes);
+            EXPECT_LT(static_cast<double>(mesh.n_nodes()), 2.4 * n_nodes);
+          },
+          find_domain(name).generate({.elements = elements, .edge_scale = edge_scale}));
+    }
+  };
+  constexpr double planar = 10.0, solid = 4.0;
+  expect_size("disc", planar, pi);
+  expect_size("washer", planar, pi * (1.0 - 0.36));
+  expect_size("crack", planar, pi * 345.0 / 360.0);
+  expect_size("star", planar, 5.0 * 0.45 * std::sin(pi / 5.0));
+  expect_size("comb", planar, 0.4 * (6 * 0.15 + 5 * 0.35) + 6 * 0.15 * 1.2);
+  expect_size("channel", planar, 8.0 * 0.4);
+  constexpr double l = 4.0 * 1.2 + 1.2 * 1.8 + 0.25 * (1.0 - pi / 4.0);
+  constexpr double holes = pi * (0.35 * 0.35 + 0.3 * 0.3 + 0.25 * 0.25 + 0.15 * 0.15) + 0.3;
+  expect_size("bracket", planar, l - holes);
+  expect_size("bracket-plate", solid, 0.8 * (l - holes));
+  expect_size("heat-sink", solid, 1.5 * (0.4 * (6 * 0.35 + 5 * 0.35) + 6 * 0.35 * 1.2));
+  expect_size("sheet", solid, 3.0 * 8.0 * 0.8);
+  expect_size("elbow", solid, pi * (1.0 - 0.36) * 3.0 * pi / 2.0);  // Pappus
+  expect_size("hook", solid, pi * 0.25 * 1.5 * 4.0 / 3.0 * pi);
+  expect_size("drill", solid, 3.0 * 5.0 * 0.45 * std::sin(pi / 5.0));
+  // Sections shrink to 0.6 linearly: the mean of their squared scales is (1 + 0.6 + 0.36) / 3.
+  expect_size("blade", solid, 2.0 * (1.0 + 0.6 + 0.36) / 3.0 * 0.6809 * 0.3);
+}
+
+/// The wing, the plate with a hole and the lake; a square less 0.6809 times the thickness for the
+/// section of a wing (the integral of its formula).
+TEST(Domains, OfGradedShapesHaveSmallEdgesInside) {
+  for (const auto& [name, size] : {std::pair{"wing", 6.0 - 0.6809 * 0.12},
+                                   std::pair{"holed-plate", 4.0 - 0.01 * std::numbers::pi}}) {
+    const auto mesh = std::get<PlanarMesh>(find_domain(name).generate({.edge_scale = 12.0}));
+    double sum = 0.0, least = 1.0, largest = 0.0;
+    for (CellIndex c = 0; c < mesh.n_cells(); ++c) {
+      const double area = signed_cell_size(mesh, c);
+      sum += area;
+      least = std::min(least, area);
+      largest = std::max(largest, area);
+    }
+    EXPECT_NEAR(sum, size, 0.01 * size);
+    EXPECT_GT(largest, 10.0 * least);
+  }
+}
+
+TEST(Domains, HaveAlgorithmsThatMakeOtherMeshes) {
+  for (const auto& [name, scale] : {std::pair{"disc", 16.0}, std::pair{"hook", 8.0}}) {
+    const Domain& domain = find_domain(name);
+    const auto& [elements, algorithms] = *domain.algorithms.begin();
+    EXPECT_EQ(algorithms.size(), 3u);
+    std::set<std::vector<double>> meshes;
+    for (const auto& algorithm : algorithms)
+      std::visit(
+          [&](const auto& mesh) {
+            auto& last = mesh.coordinates().back();
+            meshes.insert({static_cast<double>(mesh.n_nodes()), last[0], last[1]});
+          },
+          domain.generate({.elements = elements, .edge_scale = scale, .algorithm = algorithm}));
+    EXPECT_EQ(meshes.size(), 3u);
+    EXPECT_THAT([&] { domain.generate({.elements = elements, .algorithm = "fronta"}); },
+                ThrowsMessage<InputError>(HasSubstr("has no algorithm 'fronta'")));
+    EXPECT_THAT([&] { domain.generate({.elements = domain.elements.back(), .algorithm = "hxt"}); },
+                ThrowsMessage<InputError>(HasSubstr("have no choice of algorithms")));
+  }
+  EXPECT_EQ(find_domain("hook").offers(), "tetrahedra by delaunay, frontal, hxt; hexahedra");
 }
 
 /// Domains of two materials: every node between groups stays and lies on the interface.

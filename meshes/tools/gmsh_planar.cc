@@ -19,7 +19,6 @@ namespace smoothfem {
 
 namespace {
 
-constexpr int frontal_delaunay = 6;
 constexpr int blossom = 1;
 
 double distance(const Polygons& polygons, const Point<2>& p) {
@@ -65,11 +64,12 @@ void build_geometry(const Polygons& polygons, const std::vector<Point<2>>& inner
   for (int line = 1; line <= point; ++line) gmsh::model::mesh::setTransfiniteCurve(line, 2);
 }
 
-void set_options(GmshSession& session, double edge_length, bool recombine) {
-  session.set_option("Mesh.Algorithm", frontal_delaunay);  // 8 never ends on some domains
-  session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
+void set_options(GmshSession& session, double edge_length, bool recombine,
+                 const RegionMeshing& meshing) {
+  session.set_option("Mesh.Algorithm", static_cast<int>(meshing.algorithm));
+  session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", meshing.is_graded ? 1 : 0);
   session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
-  session.set_option("Mesh.CharacteristicLengthMin", edge_length);
+  session.set_option("Mesh.CharacteristicLengthMin", meshing.is_graded ? 0.0 : edge_length);
   session.set_option("Mesh.CharacteristicLengthMax", edge_length);
   session.set_option("Mesh.RecombineAll", recombine ? 1 : 0);
   session.set_option("Mesh.RecombinationAlgorithm", blossom);
@@ -115,11 +115,13 @@ PlanarCells mesh_of_model() {
 
 }  // namespace
 
-PlanarCells mesh_region(const Polygons& polygons, double edge_length, PlanarPattern pattern) {
+PlanarCells mesh_region(const Polygons& polygons, double edge_length, PlanarPattern pattern,
+                        const RegionMeshing& meshing) {
   constexpr double sparse = 2.0;  // adds points only where the grid leaves gaps
   const bool in_rows = pattern == PlanarPattern::quadrilaterals_in_rows;
   GmshSession session;
-  set_options(session, (in_rows ? sparse : 1.0) * edge_length, pattern != PlanarPattern::triangles);
+  set_options(session, (in_rows ? sparse : 1.0) * edge_length, pattern != PlanarPattern::triangles,
+              meshing);
   PlanarCells mesh;
   session.run("the region cannot be meshed", [&] {
     build_geometry(polygons,

@@ -11,8 +11,7 @@ namespace smoothfem {
 
 namespace {
 
-constexpr int frontal_delaunay_2d = 6;  // 8 never ends on some domains
-constexpr int delaunay_3d = 1;
+constexpr int frontal_delaunay_2d = 6;        // 8 never ends on some domains
 constexpr int triangle = 2, tetrahedron = 4;  // Gmsh's numbers of the types
 
 VolumeCells tetrahedra_of_model() {
@@ -48,6 +47,10 @@ int add_surface(const std::vector<Point<3>>& points, const CompressedRows<NodeIn
 
 }  // namespace
 
+void set_algorithm(GmshSession& session, TetrahedronAlgorithm algorithm) {
+  session.set_option("Mesh.Algorithm3D", static_cast<int>(algorithm));
+}
+
 void set_edge_length(GmshSession& session, double length) {
   session.set_option("Mesh.CharacteristicLengthMin", length);
   session.set_option("Mesh.CharacteristicLengthMax", length);
@@ -57,7 +60,7 @@ VolumeCells mesh_with_tetrahedra(const std::string& name,
                                  const std::function<void(GmshSession&)>& build) {
   GmshSession session;
   session.set_option("Mesh.Algorithm", frontal_delaunay_2d);
-  session.set_option("Mesh.Algorithm3D", delaunay_3d);
+  set_algorithm(session, TetrahedronAlgorithm::delaunay);
   session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
   session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
   VolumeCells mesh;

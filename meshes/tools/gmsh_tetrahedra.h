@@ -10,11 +10,17 @@
 
 namespace smoothfem {
 
-/// Meshes the volumes of a model with tetrahedra by Gmsh (Delaunay, one thread). build: Gmsh calls
+/// Gmsh's algorithms for tetrahedra, by its numbers. `frontal` is that of Netgen.
+enum class TetrahedronAlgorithm { delaunay = 1, frontal = 4, hxt = 10 };
+
+/// Meshes the volumes of a model with tetrahedra by Gmsh (on one thread; Delaunay, unless
+/// build sets another algorithm). build: Gmsh calls
 /// that make the model and set all edge lengths; there is no other source of edge lengths. name:
 /// for messages, for example "the piston". Throws InputError with Gmsh's message if it fails.
 VolumeCells mesh_with_tetrahedra(const std::string& name,
                                  const std::function<void(GmshSession&)>& build);
+
+void set_algorithm(GmshSession& session, TetrahedronAlgorithm algorithm);
 
 /// Sets the length of all edges without another rule.
 void set_edge_length(GmshSession& session, double length);

@@ -53,8 +53,10 @@ void divide_curves(double edge_length) {
   }
 }
 
-VolumeCells mesh_model(const std::function<void()>& build, const EdgeLengths& lengths) {
+VolumeCells mesh_model(const std::function<void()>& build, const EdgeLengths& lengths,
+                       TetrahedronAlgorithm algorithm = TetrahedronAlgorithm::delaunay) {
   return mesh_with_tetrahedra("the solid", [&](GmshSession& session) {
+    set_algorithm(session, algorithm);
     build();
     set_edge_length(session, lengths.boundary);
     divide_curves(lengths.boundary);
@@ -85,8 +87,9 @@ VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cy
   return mesh_model([&] { add_solid(joined, removed); }, lengths);
 }
 
-VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths) {
-  return mesh_model([&] { add_extrusion(polygons, length); }, lengths);
+VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths,
+                           TetrahedronAlgorithm algorithm) {
+  return mesh_model([&] { add_extrusion(polygons, length); }, lengths, algorithm);
 }
 
 }  // namespace smoothfem

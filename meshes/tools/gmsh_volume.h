@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "meshes/tools/gmsh_tetrahedra.h"
 #include "meshes/tools/mesh_cells.h"
 #include "meshes/tools/outline.h"
 
@@ -31,6 +32,7 @@ VolumeCells mesh_solid(const std::vector<Cylinder>& joined, const std::vector<Cy
                        const EdgeLengths& lengths);
 
 /// Meshes the region between polygons, swept along z from 0 to a length, in the same way.
-VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths);
+VolumeCells mesh_extrusion(const Polygons& polygons, double length, const EdgeLengths& lengths,
+                           TetrahedronAlgorithm algorithm = TetrahedronAlgorithm::delaunay);
 
 }  // namespace smoothfem

@@ -48,9 +48,9 @@ class SkippedCorners {
 };
 
 PlanarCells coarse_mesh(const Polygons& polygons, double edge_length, std::size_t stride,
-                        PlanarPattern pattern) {
+                        PlanarPattern pattern, const RegionMeshing& meshing = {}) {
   return mesh_region(every_nth(polygons, stride), static_cast<double>(stride) * edge_length,
-                     pattern);
+                     pattern, meshing);
 }
 
 /// Halves the mesh until all corners are in. Arcs reach into the cells at their chords: such cells
@@ -80,8 +80,10 @@ void smooth_quadrilaterals(PlanarCells& cells) {
   cells = cells_of(mesh);
 }
 
-PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length) {
-  return halved(coarse_mesh(polygons, edge_length, 2, PlanarPattern::quadrilaterals), polygons, 2);
+PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length,
+                                const RegionMeshing& meshing) {
+  return halved(coarse_mesh(polygons, edge_length, 2, PlanarPattern::quadrilaterals, meshing),
+                polygons, 2);
 }
 
 PlanarCells mesh_with_n_quadrilaterals(const Polygons& polygons, std::size_t n_cells,

@@ -9,7 +9,8 @@ namespace smoothfem {
 /// are even. Gmsh meshes the region of every second corner, and all its cells' edges are halved.
 /// The polygons' edges are the only boundary edges. Throws InputError with Gmsh's message if it
 /// fails.
-PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length);
+PlanarCells mesh_quadrilaterals(const Polygons& polygons, double edge_length,
+                                const RegionMeshing& meshing = {});
 
 /// Parameters for making a mesh of quadrilaterals from Gmsh's mesh.
 struct QuadrilateralMeshing {

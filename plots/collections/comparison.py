@@ -1,154 +1,176 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Comparison of methods on all problems, at equal budgets of time: which is better, and whether smoothing pays."""
+"""What smoothing gains, which method is better, and whether it pays.
+
+One statistic serves order, intervals and tests: the logarithm of the error after over that before smoothing. A family (a domain)
+is a unit: its mean over its problems counts once. Levels of distortion stay apart. The first method of the study is the reference
+of all comparisons, so that no comparison is chosen by the data."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..statistics.bootstrap import interval, paired_test
-from ..statistics.profiles import ranks_of_problems, time_to_target
-from .problems import ERROR
+from ..statistics.profiles import time_to_target
+from ..statistics.units import geometric, holm, least_p, mean_of_units, sign_flips, unit_means
+from .problems import ERROR, WORSE, kinds_of_problems
 
-N_SAMPLES = 500
 NEAR_LEAST = 1.05  # a problem counts as solved below this multiple of the smallest error of any method
+SURE = 0.05  # an adjusted p-value below this distinguishes two methods
 INITIAL_MESH = "initial"
 AS_IS, NEXT_DEGREE, SPLIT = "", "degree", "split"  # changes in addition to smoothing
+BUDGETS = (0.25, 1.0, 4.0, 16.0)  # of smoothing, in solutions on the initial mesh
 
 
 @dataclass(frozen=True)
-class Rank:
-    """A method among the others."""
+class Gain:
+    """A method on the meshes of one kind: type of elements, degree and level of distortion. Means are over families."""
 
+    elements: str
+    degree: str
+    level: str
     method: str
-    rank: float  # mean over the problems, 1 is best
-    rank_interval: tuple
-    ratio: float  # geometric mean of error / initial error at the budget
-    ratio_interval: tuple
-    p_value: float  # of the paired test against the best method; NaN for that one
-    n_groups: int  # families or meshes that the test swaps together
+    ratio: float  # geometric mean of error / initial error
+    interval: tuple
+    over_reference: float  # geometric mean of the error over the reference method's
+    over_reference_interval: tuple
+    p_value: float  # that chance makes the latter as different from 1, adjusted for all methods; NaN for the reference
+    seconds: float  # geometric mean of smoothing, over one solution on the initial mesh
+    worse: float  # share of problems with an error more than 1 % above the initial one
+    failed: float  # share of problems without a result
+    n_problems: int
+    n_families: int
 
 
 @dataclass(frozen=True)
-class Shared:
-    """Problems on which methods can be compared: each of the methods has a result on each of them."""
+class AtBudget:
+    """A method's gain within a budget of smoothing time."""
 
-    problems: tuple
-    methods: tuple  # that are compared
-    missing: dict  # method -> number of all problems on which it has no result, where there are any
-    n_all: int  # problems
+    elements: str
+    degree: str
+    level: str
+    method: str
+    budget: float  # in solutions on the initial mesh
+    ratio: float
+    interval: tuple
 
 
 @dataclass(frozen=True)
 class Payoff:
-    """Gains and costs of a method in a family at a degree, as geometric means over its problems."""
+    """Gain and cost of an alternative to the unsmoothed mesh, as geometric means over families."""
 
-    family: str
+    elements: str
     degree: str
+    level: str
     method: str  # INITIAL_MESH: the unsmoothed mesh
     change: str  # of the discretization besides: AS_IS, NEXT_DEGREE or SPLIT
     error: float  # over that of the initial mesh at this degree
     error_interval: tuple
     time: float  # smoothing and solving, over solving on the initial mesh
-    at_equal_time: float  # median of the error over the unsmoothed mesh's after the same time in all; NaN: not known
+    time_interval: tuple
+    at_equal_time: float  # the error over the unsmoothed mesh's after the same time in all; NaN: not known
     at_equal_time_interval: tuple
     n_problems: int
 
 
-def has_result(problem, method):
-    """True if the method has reached its end without invalid cells."""
-    return method in problem.curves and method not in problem.broken
+def mean_ratio(ratios, problems):
+    """(geometric mean over families, interval)."""
+    return geometric(mean_of_units(np.log(ratios), [problem.family for problem in problems]))
 
 
-def shared_problems(problems, methods):
-    """Returns the problems on which all methods have a result. If there are none, the methods with the fewest results are left out
-    one by one."""
-    missing = {method: sum(not has_result(problem, method) for problem in problems) for method in methods}
-    compared = [method for method in methods if missing[method] < len(problems)]
-    while True:
-        shared = [problem for problem in problems if all(has_result(problem, method) for method in compared)]
-        if shared or not compared:
-            break
-        compared.remove(max(compared, key=lambda method: missing[method]))
-    return Shared(tuple(shared) if compared else (), tuple(compared), {method: n for method, n in missing.items() if n}, len(problems))
+def gains(problems, methods):
+    """The gain of every method on every kind of meshes."""
+    return [gain for key, of_kind in kinds_of_problems(problems).items() for gain in gains_of_kind(key, of_kind, methods)]
 
 
-def results_alone(shared):
-    """(method, geometric mean of resulting over initial error), the smallest first: whatever the methods' times."""
-    ratios = {method: geometric_mean(np.array([problem.curves[method][ERROR][-1] / problem.curves[method][ERROR][0]
-                                               for problem in shared.problems])) for method in shared.methods if shared.problems}
-    return sorted(ratios.items(), key=lambda entry: entry[1])
+def gains_of_kind(key, problems, methods):
+    """The gains on one kind of meshes, in the order of the methods."""
+    families = [problem.family for problem in problems]
+    logs = {method: np.log([problem.ratio(method) for problem in problems]) for method in methods}
+    reference = logs[methods[0]]
+    p_values = holm([np.nan if method == methods[0] else test_of_units(logs[method] - reference, families) for method in methods])
+    found = []
+    for method, p_value in zip(methods, p_values):
+        ratio, between = geometric(mean_of_units(logs[method], families))
+        over, over_between = geometric(mean_of_units(logs[method] - reference, families))
+        times = [(np.log(max(p.results[method].seconds, 1e-3 * p.one_solve) / p.one_solve), p.family) for p in problems if method in p.results]
+        found.append(Gain(
+            *key, method, ratio, between, over, over_between, float(p_value),
+            geometric(mean_of_units(*zip(*times)))[0] if times else np.nan,
+            share(problems, lambda p, m=method: p.ratio(m) > WORSE), share(problems, lambda p, m=method: m not in p.results),
+            len(problems), len(set(families))))
+    return found
+
+
+def share(problems, test):
+    """Share of problems for which the test is true, as the mean over families."""
+    return mean_of_units([float(test(problem)) for problem in problems], [problem.family for problem in problems])[0]
+
+
+def test_of_units(differences, families):
+    """p-value of sign flips of the families' means; NaN for fewer than two families."""
+    means = list(unit_means(differences, families).values())
+    return sign_flips(means) if len(means) > 1 else np.nan
+
+
+def can_test(gain, n_methods):
+    """True if the number of families could distinguish a method from the reference."""
+    return least_p(gain.n_families, n_methods - 1) < SURE
+
+
+def at_budgets(problems, methods):
+    """Gains within budgets, on the kinds of meshes whose errors were recorded on the way."""
+    found = []
+    for key, of_kind in kinds_of_problems(problems).items():
+        of_kind = [problem for problem in of_kind if problem.is_followed]
+        for method in methods if of_kind else ():
+            for budget in BUDGETS:
+                ratios = [problem.ratio_at(method, budget * problem.one_solve) for problem in of_kind]
+                found.append(AtBudget(*key, method, budget, *mean_ratio(ratios, of_kind)))
+    return found
 
 
 def solving_costs(problems, methods):
-    """Method -> seconds of smoothing until the error is within 5 % of the least of any method; inf: never."""
+    """Method -> smoothing time until the error is within 5 % of the least of any method, in solutions on the initial mesh; inf:
+    never."""
     costs = {method: [] for method in methods}
     for problem in problems:
         least = min(np.min(curve[ERROR]) for curve in problem.curves.values())
         for method in methods:
             curve = problem.curves.get(method)
             reached = np.inf if curve is None else time_to_target(curve["seconds"], curve[ERROR], NEAR_LEAST * least)
-            costs[method].append(max(reached, 1e-6))
+            costs[method].append(max(reached, 1e-6) / problem.one_solve)
     return {method: np.array(values) for method, values in costs.items()}
 
 
-def errors_at_budget(problems, methods):
-    """Returns {method: error over the initial error} at a budget of time, the median total time of the methods.
-
-    The value is 1 if the method has no better mesh by then or ends with invalid cells: the initial mesh is used instead."""
-    errors = {method: [] for method in methods}
-    for problem in problems:
-        budget = np.median([curve["seconds"][-1] for curve in problem.curves.values()])
-        for method in methods:
-            curve = problem.curves.get(method)
-            if curve is None or problem.broken.get(method, np.inf) <= budget:
-                errors[method].append(1.0)
-                continue
-            in_time = curve[ERROR][curve["seconds"] <= budget]
-            errors[method].append(np.min(in_time, initial=curve[ERROR][0]) / curve[ERROR][0])
-    return {method: np.array(values) for method, values in errors.items()}
+def payoffs(problems, method):
+    """Alternatives to the unsmoothed mesh on every kind of meshes: the method's mesh, every cell split, the next degree."""
+    by_key = {(problem.member, problem.degree): problem for problem in problems}
+    found = []
+    for key, of_kind in kinds_of_problems(problems).items():
+        collected = {}
+        for problem in of_kind:
+            for way, (error, seconds, fair) in alternatives(problem, by_key, method).items():
+                collected.setdefault(way, []).append((problem, error / problem.initial.error, seconds / problem.one_solve, fair))
+        found += [payoff(key, way, values) for way, values in collected.items()]
+    return found
 
 
-def ranking(problems, methods):
-    """The methods by mean rank of their errors at equal budgets, the best first."""
-    if not problems:
-        return []
-    errors = errors_at_budget(problems, methods)
-    groups = np.array([problem.group for problem in problems], dtype=str)
-    ranks = ranks_of_problems(errors)
-    best = min(methods, key=lambda method: np.mean(ranks[method]))
-    found = [Rank(
-        method, float(np.mean(ranks[method])), interval(lambda rows, m=method: np.mean(ranks[m][rows]), groups, N_SAMPLES),
-        geometric_mean(errors[method]),
-        interval(lambda rows, m=method: geometric_mean(errors[m][rows]), groups, N_SAMPLES),
-        np.nan if method == best else paired_test(np.log(errors[method]), np.log(errors[best]), groups), len(set(groups)))
-        for method in methods]
-    return sorted(found, key=lambda entry: entry.rank)
-
-
-def payoffs(problems, methods, all_problems=None):
-    """Returns the payoffs of every method in every family at every degree, without changes and with every cell split. The unsmoothed
-    mesh also has the next degree, which is looked up in all_problems (default: problems)."""
-    by_key = {(problem.member, problem.degree): problem for problem in all_problems or problems}
-    collected = {}
-    for problem in problems:
-        first = next(iter(problem.curves.values()))
-        error, seconds = first[ERROR][0], max(first["solving"][0], 1e-6)
-        options = {(method, AS_IS): (curve[ERROR][-1], curve["seconds"][-1] + curve["solving"][-1])
-                   for method, curve in problem.curves.items() if method not in problem.broken}
-        higher = by_key.get((problem.member, str(int(problem.degree) + 1)))
-        if higher:
-            of_higher = next(iter(higher.curves.values()))
-            options[INITIAL_MESH, NEXT_DEGREE] = of_higher[ERROR][0], of_higher["solving"][0]
-        for method, (split_error, solving) in problem.split.items():
-            smoothing = 0.0 if method == INITIAL_MESH else problem.curves[method]["seconds"][-1]
-            options[method, SPLIT] = split_error, smoothing + solving
-        unsmoothed = error_in_time(error, seconds, *options.get((INITIAL_MESH, SPLIT), (np.nan, np.nan)))
-        for (method, change), (its_error, its_seconds) in options.items():
-            if method in (*methods, INITIAL_MESH):
-                collected.setdefault((problem.family, problem.degree, method, change), []).append(
-                    (problem.mesh, its_error / error, its_seconds / seconds,
-                     np.nan if method == INITIAL_MESH else its_error / unsmoothed(its_seconds)))
-    return [payoff(*key, values) for key, values in sorted(collected.items())]
+def alternatives(problem, by_key, method):
+    """(method, change) -> (error, seconds in all, error over the unsmoothed mesh's after the same time)."""
+    ways = {}
+    result = problem.results.get(method)
+    if result:
+        ways[method, AS_IS] = result.error, result.seconds + result.solving
+    else:  # the user solves on the initial mesh after all
+        ways[method, AS_IS] = problem.initial.error, problem.broken.get(method, 0.0) + problem.one_solve
+    higher = by_key.get((problem.member, str(int(problem.degree) + 1)))
+    if higher:
+        ways[INITIAL_MESH, NEXT_DEGREE] = higher.initial.error, higher.one_solve
+    for which, (error, solving) in problem.split.items():
+        if which == INITIAL_MESH or (which == method and result):
+            ways[which, SPLIT] = error, solving + (0.0 if which == INITIAL_MESH else result.seconds)
+    unsmoothed = error_in_time(problem.initial.error, problem.one_solve, *ways.get((INITIAL_MESH, SPLIT), (np.nan, np.nan)))
+    return {way: (error, seconds, np.nan if way[0] == INITIAL_MESH else error / unsmoothed(seconds))
+            for way, (error, seconds) in ways.items()}
 
 
 def error_in_time(error, seconds, split_error, split_seconds):
@@ -160,17 +182,9 @@ def error_in_time(error, seconds, split_error, split_seconds):
     return lambda time: error * (time / seconds)**-order
 
 
-def payoff(family, degree, method, change, values):
-    """Computes the payoff in one family; intervals are drawn from its meshes."""
-    meshes, errors, times, at_equal_time = (np.array(column) for column in zip(*values))
-    meshes, known = meshes.astype(str), np.isfinite(at_equal_time)
-    return Payoff(family, degree, method, change, geometric_mean(errors),
-                  interval(lambda rows: geometric_mean(errors[rows]), meshes, N_SAMPLES), geometric_mean(times),
-                  float(np.median(at_equal_time[known])) if known.any() else np.nan,
-                  interval(lambda rows: np.median(at_equal_time[known][rows]), meshes[known], N_SAMPLES)
-                  if known.any() else (np.nan, np.nan), len(values))
-
-
-def geometric_mean(values):
-    """The geometric mean of positive numbers."""
-    return float(np.exp(np.mean(np.log(np.maximum(values, 1e-300)))))
+def payoff(key, way, values):
+    """The payoff of an alternative on one kind of meshes."""
+    problems, errors, times, fair = zip(*values)
+    known = [(ratio, problem) for ratio, problem in zip(fair, problems) if np.isfinite(ratio)]
+    return Payoff(*key, *way, *mean_ratio(errors, problems), *mean_ratio(times, problems),
+                  *(mean_ratio(*zip(*known)) if known else (np.nan, (np.nan, np.nan))), len(values))

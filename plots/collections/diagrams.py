@@ -11,8 +11,9 @@ from .comparison import solving_costs
 from .problems import problems_of
 
 N_TIMES = 100  # of anytime curves
-LEAST_SECONDS = 1e-6  # axes of time are logarithmic
-DIAGRAMS = {"profile": "performance profiles", "runtime": "runtime to targets", "anytime": "error against time"}
+LEAST_TIME = 1e-6  # axes of time are logarithmic
+DIAGRAMS = {"profile": "performance profiles", "runtime": "time to targets", "anytime": "error against time"}
+SOLUTIONS = "Smoothing time / one solution on the initial mesh"
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,11 @@ def diagrams(results):
     return {name: diagram for name, diagram in found.items() if diagram.curves}
 
 
+def curves_of(problem):
+    """Method -> (smoothing time in solutions on the initial mesh, errors)."""
+    return {name: (seconds / problem.one_solve, errors) for name, (seconds, errors) in problem.errors().items()}
+
+
 def profile(problems, methods):
     """Dolan and More's profiles of the time to an error within 5 % of the least."""
     curves = performance_profile(solving_costs(problems, methods))
@@ -55,21 +61,21 @@ def profile(problems, methods):
 def runtime(problems):
     """COCO's distributions of runtimes to targets."""
     curves = []
-    for method, times in runtime_distribution([problem.errors() for problem in problems]).items():
+    for method, times in runtime_distribution([curves_of(problem) for problem in problems]).items():
         reached = np.sort(times[np.isfinite(times)])
         if len(reached):
-            curves.append(Curve(method, np.maximum(reached, LEAST_SECONDS), np.arange(1, len(reached) + 1) / len(times)))
-    return Diagram("Smoothing time (s)", "Share of problems and targets", True, tuple(curves))
+            curves.append(Curve(method, np.maximum(reached, LEAST_TIME), np.arange(1, len(reached) + 1) / len(times)))
+    return Diagram(SOLUTIONS, "Share of problems and targets", True, tuple(curves))
 
 
 def errors_so_far(problems, methods):
-    """Median and quartiles of the error so far over the initial one."""
-    errors = [problem.errors() for problem in problems]
+    """Median and quartiles of the error over the initial one, of problems whose errors were recorded on the way."""
+    errors = [curves_of(problem) for problem in problems if problem.is_followed]
     ends = [times[-1] for curves in errors for times, _ in curves.values() if times[-1] > 0]
     curves = []
     if ends:
-        grid = np.geomspace(max(min(ends) / 10, LEAST_SECONDS), max(ends), N_TIMES)
+        grid = np.geomspace(max(min(ends) / 10, LEAST_TIME), max(ends), N_TIMES)
         for method in methods:
             lower, median, upper = anytime(errors, method, grid)
             curves.append(Curve(method, grid, median, lower, upper))
-    return Diagram("Smoothing time (s)", "H1 error / initial", False, tuple(curves))
+    return Diagram(SOLUTIONS, "H1 error / initial", False, tuple(curves))

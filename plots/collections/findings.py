@@ -4,27 +4,26 @@
 import math
 from collections import Counter
 
-import numpy as np
-
-from ..results.collection import QUALITIES
 from ..results.symbols import symbol_of
-from ..statistics.bootstrap import interval
-from .comparison import AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT, has_result, payoffs, results_alone, shared_problems
-from .problems import ERROR
+from .comparison import (AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT, SURE, at_budgets, can_test, gains, payoffs)
+from .prediction import differ
+from .problems import AS_GENERATED, ERROR
 
-SURE = 0.05  # a paired test below this distinguishes two methods
-MOST_FAMILIES = 4  # that a sentence names
-SCALES = "Error: the true H1 error, if nothing else is said. In brackets: intervals that hold 95 % of bootstrap samples."
+SCALES = ("Error: the true H1 error. Ratios are errors after over before smoothing. Means are over families (domains), each counted once; in "
+          "brackets: 95 % intervals of these means. A method without a valid result leaves the initial mesh, ratio 1.")
+OWN_MEASURE = "q_mean"  # what methods of this program optimize
 
 
-def findings_as_markdown(results, problems, predictions, thresholds, of_families, ranks):
+def findings_as_markdown(results, problems, predictions):
     """A page of sentences, from what the tables show."""
+    found = gains(problems, results.methods)
     sections = (("What was run", what_was_run(results, problems)),
-                ("What predicts the error", what_predicts(predictions)),
-                ("How good is good enough", what_is_enough(thresholds, of_families)),
-                ("Which method", which_method(results, problems, ranks)),
+                ("How much", how_much(results, found)),
+                ("Which method", which_method(results, found)),
+                ("At equal times", at_equal_times(results, at_budgets(problems, results.methods))),
                 ("Does smoothing pay?", what_pays(results, problems)),
-                ("What speaks against it", what_got_worse(results, problems)))
+                ("What speaks against it", what_got_worse(results, found)),
+                ("What predicts the error", what_predicts(predictions)))
     lines = [f"# {results.study_title}: findings", "", SCALES]
     for heading, sentences in sections:
         if sentences:
@@ -35,12 +34,31 @@ def findings_as_markdown(results, problems, predictions, thresholds, of_families
 def bracket(low_high, form=".2f"):
     """Writes an interval as (0.12 to 0.34), or says why there is none."""
     low, high = low_high
-    return f" ({low:{form}} to {high:{form}})" if math.isfinite(low) else " (no interval: one mesh only)"
+    return f" ({low:{form}} to {high:{form}})" if math.isfinite(low) else " (no interval: one family only)"
 
 
 def counted(n, what, several=""):
     """"1 problem", "2 problems"."""
     return f"{n} {what if n == 1 else several or what + 's'}"
+
+
+def kind_of(entry):
+    """"Triangles, degree 1, distorted to 0.45"."""
+    level = entry.level if entry.level == AS_GENERATED else f"distorted to {entry.level}"
+    return f"{entry.elements.capitalize()}, degree {entry.degree}, {level}"
+
+
+def of_kinds(entries):
+    """Lists of entries of one kind of meshes, in their order."""
+    found = {}
+    for entry in entries:
+        found.setdefault((entry.elements, entry.degree, entry.level), []).append(entry)
+    return list(found.values())
+
+
+def percent(share):
+    """"4 %"; "less than 1 %" for a small share that is not 0."""
+    return "less than 1 %" if 0.0 < share < 0.01 else f"{100.0 * share:.0f} %"
 
 
 def what_was_run(results, problems):
@@ -54,129 +72,69 @@ def what_was_run(results, problems):
                         for (family, reason), n in sorted(reasons.items())]
 
 
-def what_predicts(predictions):
-    """Reports the quality with the highest correlation with the error, for each type of elements and degree."""
+def how_much(results, found):
+    """The gain of the reference method on each kind of meshes."""
+    return [f"{kind_of(gain)}: {results.title(gain.method)} leaves {gain.ratio:.3f}{bracket(gain.interval, '.3f')} of the error, on "
+            f"{counted(gain.n_problems, 'problem')} of {counted(gain.n_families, 'family', 'families')}. It raises it by more than 1 % on "
+            f"{percent(gain.worse)}" + (f", and has no valid result on {percent(gain.failed)}" if gain.failed else "") + " of them."
+            for gain in found if gain.method == results.methods[0]]
+
+
+def which_method(results, found):
+    """The errors of the other methods over the reference method's, the least first."""
     sentences = []
-    for elements, degree in sorted({(p.elements, p.degree) for p in predictions}):
-        known = [p for p in predictions if (p.elements, p.degree, p.outcome) == (elements, degree, ERROR)
-                 and math.isfinite(p.across)]
-        if not known:
+    for of_kind in of_kinds(found):
+        others = sorted((gain for gain in of_kind if gain.method != results.methods[0]), key=lambda gain: gain.over_reference)
+        if not others:
             continue
-        best = max(known, key=lambda p: abs(p.across))
-        low, high = best.across_interval
-        verdict = "goes best with the error" if low * high > 0 else "comes nearest to predicting the error, but its sign is not sure"
-        # Of many qualities: the nearest ones, and the ones that methods of this program optimize.
-        by_strength = sorted((p for p in known if p is not best), key=lambda p: -abs(p.across))
-        others = ", ".join(f"{symbol_of(p.quality).text} {p.across:.2f}{bracket(p.across_interval)}"
-                           for i, p in enumerate(by_strength) if i < 3 or p.quality in QUALITIES)
-        within = (f" Among the meshes of one member it is {best.within:.2f}{bracket(best.within_interval)} in the middle."
-                  if math.isfinite(best.within) else "")
-        sentences.append(f"{elements.capitalize()}, d = {degree}: {symbol_of(best.quality).text} {verdict}: rank correlation "
-                         f"{best.across:.2f}{bracket(best.across_interval)} over {best.n_records} meshes of "
-                         f"{best.n_members} members; {others}.{within}")
-    return sentences
-
-
-def what_is_enough(thresholds, of_families):
-    """Reports thresholds of the mean quality, the number that depends most on all cells. Families have different errors and
-    qualities, so each has its own threshold."""
-    sentences = []
-    for elements, degree, quality, value, between in thresholds:
-        if quality != "q_mean" or not math.isfinite(value):
-            continue
-        own = sorted((number, family) for *kind, family, number in of_families if kind == [elements, degree])
-        symbol = symbol_of(quality).text
-        if len(own) < 2:
-            said = f"from {symbol} {value:.3f}{bracket(between, '.3f')} on the error falls by less than 5 %"
-        elif len(own) <= MOST_FAMILIES:
-            said = (f"the error falls by less than 5 % from {symbol} "
-                    + ", ".join(f"{number:.3f} ({family})" for number, family in own) + " on")
+        text = ", ".join(f"{results.title(gain.method)} {gain.over_reference:.3f}{bracket(gain.over_reference_interval, '.3f')}"
+                         for gain in others)
+        differing = [f"{results.title(gain.method)} (p = {gain.p_value:.2g})" for gain in others if gain.p_value < SURE]
+        if not can_test(of_kind[0], len(results.methods)):
+            told = f"{counted(of_kind[0].n_families, 'family is', 'families are')} too few for any test to separate methods"
+        elif differing:
+            told = f"different from {results.title(results.methods[0])}, by an adjusted test: {', '.join(differing)}"
         else:
-            (low, lowest), (high, highest) = own[0], own[-1]
-            said = (f"the error falls by less than 5 % from a {symbol} on that lies between {low:.3f} ({lowest}) and {high:.3f} "
-                    f"({highest}) in {len(own)} families")
-        sentences.append(f"{elements.capitalize()}, d = {degree}: {said}.")
-    return sentences
-
-
-def without_results(results, shared):
-    """"where every method has a result (Laplace has none on 10)", and the methods that are not compared."""
-    said = [f"{results.title(method)} has none on {n}" + ("" if method in shared.methods else " and is not compared")
-            for method, n in shared.missing.items()]
-    return f"where every compared method has a result without invalid cells ({', '.join(said)})"
-
-
-def which_method(results, problems, ranks):
-    """The first method, the methods that cannot be distinguished from it, and the others. Then the methods by their results."""
-    if not ranks:
-        return []
-    best, others = ranks[0], ranks[1:]
-    groups = "families" if all(problem.group == problem.family for problem in problems) else "meshes"
-
-    def failures(method):
-        n = sum(not has_result(problem, method) for problem in problems)
-        return f" (1 on {n} of {counted(len(problems), 'problem')}, where it ends with invalid cells or has no result)" if n else ""
-
-    sentences = [f"At equal budgets of time {results.title(best.method)} has the lowest mean rank, "
-                 f"{best.rank:.2f}{bracket(best.rank_interval)}, and leaves {best.ratio:.3f}"
-                 f"{bracket(best.ratio_interval, '.3f')} of the initial mesh's error{failures(best.method)}."]
-    for entry in others:
-        if entry.p_value < SURE:
-            told = f"p = {entry.p_value:.2g} against the first"
-        elif 2.0 / 2.0**entry.n_groups >= SURE:
-            told = f"{entry.n_groups} {groups if entry.n_groups > 1 else 'mesh'} are too few to tell it from the first"
-        else:
-            told = f"cannot be told from the first (p = {entry.p_value:.2g})"
-        sentences.append(f"{results.title(entry.method)}: mean rank {entry.rank:.2f}{bracket(entry.rank_interval)}, "
-                         f"{entry.ratio:.3f}{bracket(entry.ratio_interval, '.3f')} of the initial error{failures(entry.method)}; {told}.")
-    shared = shared_problems(problems, results.methods)
-    if len(shared.methods) > 1:
-        where = (f", on the {len(shared.problems)} of {counted(shared.n_all, 'problem')} {without_results(results, shared)}"
-                 if shared.missing else "")
-        sentences.append(f"By their results alone, whatever their time{where}: " + ", ".join(
-            f"{results.title(method)} {ratio:.3f}" for method, ratio in results_alone(shared)) + " of the initial error.")
+            told = f"no test separates one of them from {results.title(results.methods[0])}"
+        sentences.append(f"{kind_of(of_kind[0])}, errors over those of {results.title(results.methods[0])}: {text}; {told}.")
     interpreted = [results.title(method) for method in results.methods if method in results.interpreted]
-    if interpreted and len(interpreted) < len(results.methods):
+    if sentences and interpreted and len(interpreted) < len(results.methods):
         sentences.append(f"Times of {', '.join(interpreted)} include the Python interpreter and cannot be compared with those of compiled "
                          "methods: compare the results.")
     return sentences
 
 
+def at_equal_times(results, found):
+    """The method with the lowest error within each budget, and the reference method's."""
+    sentences = []
+    for of_kind in of_kinds(found):
+        said = []
+        for budget in sorted({entry.budget for entry in of_kind}):
+            best, *others = sorted((entry for entry in of_kind if entry.budget == budget), key=lambda entry: entry.ratio)
+            near = [results.title(entry.method) for entry in others if entry.ratio < 1.01 * best.ratio]
+            said.append(f"{budget:g} of its time: {results.title(best.method)} {best.ratio:.3f}{bracket(best.interval, '.3f')}"
+                        + (f" (within 1 %: {', '.join(near)})" if near else ""))
+        sentences.append(f"{kind_of(of_kind[0])}, one solution on the initial mesh as unit, lowest ratio after {'; '.join(said)}.")
+    return sentences
+
+
 def what_pays(results, problems):
-    """Compares smoothing with the next degree and with split cells on the unsmoothed mesh, for each family and degree;
-    then the error at equal total time. Each comparison is on the problems where all methods have a result."""
-    sentences, gains = [], []
-    for family, degree in sorted({(problem.family, problem.degree) for problem in problems}):
-        shared = shared_problems([p for p in problems if (p.family, p.degree) == (family, degree)], results.methods)
-        here = {(p.method, p.change): p for p in payoffs(shared.problems, shared.methods, problems)}
-        smoothed = [p for p in here.values() if p.change == AS_IS]
-        best = min(smoothed, key=lambda p: p.error, default=None)
-        if best is None:
-            continue
-        where = f"{family}, d = {degree}"
-        if shared.missing:
-            where += f", on the {len(shared.problems)} of {counted(shared.n_all, 'problem')} {without_results(results, shared)}"
-        text = (f"{where}: {results.title(best.method)} leaves {best.error:.3f}"
-                f"{bracket(best.error_interval, '.3f')} of the error for {best.time:.2g} times the time of one solution")
-        for change, name, does in ((NEXT_DEGREE, "the next degree", f"degree {int(degree) + 1} on the unsmoothed mesh leaves"),
+    """Compares the reference method's mesh with the next degree and with split cells on the unsmoothed mesh."""
+    sentences = []
+    for of_kind in of_kinds(payoffs(problems, results.methods[0]) if results.methods else ()):
+        ways = {(p.method, p.change): p for p in of_kind}
+        smoothed = ways[results.methods[0], AS_IS]
+        text = (f"{kind_of(smoothed)}: {results.title(smoothed.method)} leaves {smoothed.error:.3f}{bracket(smoothed.error_interval, '.3f')} "
+                f"of the error, for {smoothed.time:.2g}{bracket(smoothed.time_interval, '.2g')} times the time of one solution")
+        for change, name, does in ((NEXT_DEGREE, "the next degree", f"degree {int(smoothed.degree) + 1} on the unsmoothed mesh leaves"),
                                    (SPLIT, "splitting", "splitting every cell of the unsmoothed mesh leaves")):
-            other = here.get((INITIAL_MESH, change))
+            other = ways.get((INITIAL_MESH, change))
             if other:
-                fewer = f" on {other.n_problems} of these problems" if other.n_problems < len(shared.problems) else ""
-                text += (f"; {does} {other.error:.3f}{bracket(other.error_interval, '.3f')} for {other.time:.2g} times{fewer}: "
-                         f"{verdict(best, other, name)}")
+                text += f"; {does} {other.error:.3f} for {other.time:.2g} times: {verdict(smoothed, other, name)}"
+        if math.isfinite(smoothed.at_equal_time):
+            text += (f". After the same time in all its error is {smoothed.at_equal_time:.3f}{bracket(smoothed.at_equal_time_interval, '.3f')} "
+                     "of that of the unsmoothed mesh")
         sentences.append(text + ".")
-        fair = min((p for p in smoothed if math.isfinite(p.at_equal_time)), key=lambda p: p.at_equal_time, default=None)
-        if fair:
-            gains.append(fair)
-            sentences.append(f"{where}, at equal time in all: of the methods {results.title(fair.method)} does best, with "
-                             f"{fair.at_equal_time:.3f}{bracket(fair.at_equal_time_interval, '.3f')} of the unsmoothed mesh's error.")
-    if gains:
-        better, worse = (sum(1 for p in gains if test(*p.at_equal_time_interval))
-                         for test in (lambda low, high: high < 1.0, lambda low, high: low > 1.0))
-        sentences.insert(0, f"At equal time in all the best method's error is surely lower than the unsmoothed mesh's in {better} of "
-                            f"{counted(len(gains), 'family and degree', 'families and degrees')}, surely higher in {worse}; in the "
-                            "others the interval holds 1.")
     return sentences
 
 
@@ -189,23 +147,37 @@ def verdict(smoothed, other, name):
     return f"{name} is better, and dearer" if other.error < smoothed.error else "smoothing is better, and dearer"
 
 
-def what_got_worse(results, problems):
-    """Reports how often a method ends with a larger error than it began with."""
+def what_got_worse(results, found):
+    """Reports how often methods raise the error or have no valid result."""
     sentences = []
     for method in results.methods:
-        with_it = [problem for problem in problems if method in problem.curves]
-        if any(method in problem.broken for problem in with_it):
-            sentences.append(f"{results.title(method)} ends with invalid cells in "
-                             f"{share(lambda p, m=method: m in p.broken, with_it)}.")
-        with_it = [problem for problem in with_it if method not in problem.broken]
-        if with_it:
-            sentences.append(f"{results.title(method)} ends with a larger error than the initial mesh's in "
-                             f"{share(lambda p, m=method: p.curves[m][ERROR][-1] > p.curves[m][ERROR][0], with_it)}.")
+        own = [gain for gain in found if gain.method == method]
+        for name, said in (("failed", "has no valid result"), ("worse", "raises the error by more than 1 %")):
+            most = sorted((gain for gain in own if getattr(gain, name) > 0), key=lambda gain: -getattr(gain, name))
+            if most:
+                sentences.append(f"{results.title(method)} {said} on " + ", ".join(
+                    f"{percent(getattr(gain, name))} of the problems ({kind_of(gain).lower()})" for gain in most[:3])
+                    + (f", and less often on {len(most) - 3} other kinds of meshes" if len(most) > 3 else "") + ".")
+            else:
+                sentences.append(f"{results.title(method)} never {said}." if own else "")
+    return [sentence for sentence in sentences if sentence]
+
+
+def what_predicts(predictions):
+    """Reports the quality with the highest correlation with the error, for each type of elements and degree."""
+    sentences = []
+    for elements, degree in sorted({(p.elements, p.degree) for p in predictions}):
+        known = [p for p in predictions if (p.elements, p.degree, p.outcome) == (elements, degree, ERROR) and math.isfinite(p.mean)]
+        if not known:
+            continue
+        best = max(known, key=lambda p: abs(p.mean))
+        text = (f"{elements.capitalize()}, degree {degree}: rank correlation with the error {best.mean:.2f}{bracket(best.interval)} for "
+                f"{symbol_of(best.quality).text}, the strongest of {len(known)}")
+        own = next((p for p in known if p.quality == OWN_MEASURE and p is not best), None)
+        if own:
+            p_value = differ(best, own)
+            told = ("they cannot be compared" if not math.isfinite(p_value) else
+                    f"p = {p_value:.2g} for the difference, too small because the strongest was chosen")
+            text += f"; {own.mean:.2f}{bracket(own.interval)} for {symbol_of(own.quality).text} ({told})"
+        sentences.append(text + ".")
     return sentences
-
-
-def share(test, problems):
-    """The share of problems for which the test is true: "23 % (4 to 51) of 972 problems"."""
-    percent = np.array([100.0 * test(problem) for problem in problems])
-    between = interval(lambda rows: np.mean(percent[rows]), np.array([problem.group for problem in problems], dtype=str))
-    return f"{np.mean(percent):.0f} %{bracket(between, '.0f')} of {counted(len(problems), 'problem')}"

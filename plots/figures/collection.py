@@ -42,7 +42,7 @@ def draw_prediction(results):
         rho = np.full((len(qualities), len(outcomes)), np.nan)
         for p in found:
             if (p.elements, p.degree) == kind:
-                rho[qualities.index(p.quality), outcomes.index(p.outcome)] = p.across
+                rho[qualities.index(p.quality), outcomes.index(p.outcome)] = p.mean
         image = ax.imshow(rho, vmin=-1, vmax=1, cmap="RdBu", aspect="auto")
         for (i, j), value in np.ndenumerate(rho):
             if np.isfinite(value):
@@ -60,11 +60,11 @@ def draw_prediction(results):
 
 def draw_extremes(results):
     """Scatter plots of the strongest and the weakest correlation with the H1 error."""
-    found = sorted((p for p in predictions(results) if p.outcome == "h1_error" and np.isfinite(p.across)),
-                   key=lambda p: p.across)
+    found = sorted((p for p in predictions(results) if p.outcome == "h1_error" and np.isfinite(p.mean)),
+                   key=lambda p: p.mean)
     if not found:
         return None
-    shown = [found[0]] if len(found) == 1 else [found[0], max(found, key=lambda p: -abs(p.across))]
+    shown = [found[0]] if len(found) == 1 else [found[0], max(found, key=lambda p: -abs(p.mean))]
     figure, axes = pyplot.subplots(1, len(shown), squeeze=False, constrained_layout=True,
                                    figsize=(style.full_width(), 2.8))
     for ax, p in zip(axes.flat, shown):
@@ -76,7 +76,7 @@ def draw_extremes(results):
         ax.set_yscale("log")
         ax.set_xlabel(symbol_of(p.quality).tex)
         ax.set_ylabel("H1 error / least of the member")
-        ax.set_title(f"{p.elements.capitalize()}, $d$ = {p.degree}: {p.across:.2f}")
+        ax.set_title(f"{p.elements.capitalize()}, $d$ = {p.degree}: {p.mean:.2f}")
     return figure
 
 

@@ -39,7 +39,7 @@ def diagram_data(diagram):
 
 def kind_data(sample, found, qualities, outcomes):
     """A type of elements at a degree: correlations (a row for each quality), and some of the records."""
-    rho = {(p.quality, p.outcome): p.across for p in found
+    rho = {(p.quality, p.outcome): p.mean for p in found
            if (p.elements, p.degree) == (sample.elements, sample.degree)}
     some = np.linspace(0, len(sample.members) - 1, min(len(sample.members), MOST_POINTS)).astype(int)
     return {"name": f"{sample.elements.capitalize()}, d = {sample.degree}",

@@ -19,12 +19,13 @@ OUTCOMES = ("l2_error", "h1_error", "condition_number", "cg_iterations")
 RECORD = ("member", "mesh", "method", "stage", "iteration")
 STATISTICS = ("metric", "better", "min", "mean", "max")
 # Of iterations.csv, which has many rows.
-KEYS = ("member", "family", "elements", "solution", "mesh", "method", "degree")
+KEYS = ("member", "family", "elements", "distortion", "solution", "mesh", "method", "degree")
 OPTIONAL = ("n_solves",)  # of methods that solve by themselves; results of earlier versions have no such column
 # Of refined.csv.
 REFINED = ("member", "method", "degree", *SOLVING, "h1_error")
 # Of summary.csv.
-SUMMARY = ("member", "elements", "solution", "method", "degree", "n_invalid", "q_min", "l2_error", "h1_error")
+SUMMARY = ("member", "elements", "solution", "method", "degree", "smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid",
+           "q_min", "l2_error", "h1_error")
 NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
 
 

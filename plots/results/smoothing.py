@@ -33,9 +33,9 @@ REQUIRED_NUMBERS = {"iterations.csv": ("iteration", "smoothing_seconds", "q_min"
 # Columns that hold numbers, of any of the files.
 NUMBERS = ("iteration", "smoothing_seconds", "q_min", "q_star_min", "q_mean", "n_invalid", "n_reset",
            "w_max", "w_mean", "peak_memory_gib", "degree", "n_dofs", "n_free", "assembly_seconds", "condition_number",
-           "lambda_min", "lambda_max", "condition_residual", "cg_iterations", "cg_seconds",
+           "lambda_min", "lambda_max", "condition_residual", "jacobi_condition_number", "cg_iterations", "cg_seconds",
            "jacobi_cg_iterations", "jacobi_cg_seconds", "amg_cg_iterations", "amg_setup_seconds",
-           "amg_cg_seconds", "e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error", "threshold",
+           "amg_cg_seconds", "e_max", "e_mean", "e_l2", "e_h1", "l2_error", "h1_error", "l2_best", "h1_best", "threshold",
            "reference_seconds", "method_seconds", "speedup", "n_solves", "method_solve_seconds")
 # What tells the mesh of one record from that of another.
 FINGERPRINT = ("q_min", "q_star_min", "q_mean", "n_invalid")

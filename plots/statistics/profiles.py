@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Comparing methods over many problems: performance profiles, runtime to targets, anytime curves, ranks."""
+"""Comparing methods over many problems: performance profiles, times to targets, anytime curves."""
 
 import numpy as np
-
-from .correlation import ranks
 
 
 def performance_profile(costs):
@@ -55,24 +53,15 @@ def runtime_distribution(problems, n_targets=10):
 
 
 def anytime(problems, method, grid):
-    """Median and quartiles, over the problems, of the least error so far over the initial one, at each time of the
-    grid; shape (3, len(grid)): lower quartile, median, upper quartile. Before its first record a method has the
-    initial error."""
+    """Median and quartiles, over the problems, of the error over the initial one, at each time of the grid; shape
+    (3, len(grid)): lower quartile, median, upper quartile. Before its first record a method has the initial
+    error."""
     rows = []
     for curves in problems:
         if method not in curves:
             continue
         times, errors = (np.asarray(values, dtype=float) for values in curves[method])
-        best = np.minimum.accumulate(errors) / errors[0]
+        ratios = errors / errors[0]
         at = np.searchsorted(times, grid, side="right") - 1
-        rows.append(np.where(at >= 0, best[np.maximum(at, 0)], 1.0))
+        rows.append(np.where(at >= 0, ratios[np.maximum(at, 0)], 1.0))
     return np.percentile(np.array(rows), [25, 50, 75], axis=0) if rows else np.full((3, len(grid)), np.nan)
-
-
-def ranks_of_problems(costs):
-    """Rank of each method on each problem, 1 for the least cost; methods that have not solved a problem share its last
-    ranks. {method: array of shape (n_problems,)}. costs: as for performance_profile."""
-    names = list(costs)
-    table = np.array([np.where(np.isfinite(costs[name]), costs[name], np.inf) for name in names], dtype=float)
-    by_problem = np.array([ranks(column) for column in table.T]).reshape(table.shape[1], len(names))
-    return dict(zip(names, by_problem.T))

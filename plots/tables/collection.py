@@ -3,9 +3,9 @@
 
 import math
 
-from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, payoffs, ranking
+from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, at_budgets, gains, payoffs
 from ..collections.findings import findings_as_markdown
-from ..collections.prediction import predictions, thresholds, thresholds_of_families
+from ..collections.prediction import RECORDS_OF_CURVE, predictions
 from ..collections.problems import problems_of
 from ..results.rows import groups_of
 from ..results.symbols import symbol_of
@@ -13,20 +13,31 @@ from .columns import between, number, table_of
 from .gains import gains_table
 from .table import number_cell, text_cell
 
-INTERVALS = ("Intervals hold 95 % of bootstrap samples that draw families, or meshes where there are fewer than five "
+INTERVALS = ("Means are over families, each counted once; intervals are 95 % intervals of these means, by Student's t distribution over "
              "families. A dash marks a missing number.")
+LEVELS = "Level: mean quality that the initial mesh was distorted to."
 
 
 def make_collection_tables(results):
-    """(tables, page of findings): members, correlations, thresholds, ranks, whether smoothing pays, and what knowing the
-    solution gains; tables without rows are left out."""
-    problems = problems_of(results)
-    predicted, enough = predictions(results), thresholds(results)
-    ranks, gains = ranking(problems, results.methods), payoffs(problems, results.methods)
-    tables = (members_table(results), prediction_table(results, predicted), threshold_table(results, enough),
-              ranking_table(results, ranks), payoff_table(results, gains), gains_table(results))
-    return ([table for table in tables if table.keys],
-            findings_as_markdown(results, problems, predicted, enough, thresholds_of_families(results), ranks))
+    """(tables, page of findings): members, gains, budgets, whether smoothing pays, correlations, and what knowing the solution gains;
+    tables without rows are left out."""
+    problems, predicted = problems_of(results), predictions(results)
+    tables = (members_table(results), smoothing_table(results, gains(problems, results.methods)),
+              budget_table(results, at_budgets(problems, results.methods)),
+              payoff_table(results, payoffs(problems, results.methods[0]) if results.methods else []),
+              prediction_table(results, predicted), gains_table(results))
+    return [table for table in tables if table.keys], findings_as_markdown(results, problems, predicted)
+
+
+def kind_columns(found):
+    """The columns that name the kind of meshes."""
+    return [("Elements", [text_cell(entry.elements) for entry in found]), ("d", [number_cell(entry.degree) for entry in found]),
+            ("Level", [text_cell(entry.level) for entry in found])]
+
+
+def percent(share):
+    """A share as the cell of a percentage."""
+    return number(100.0 * share, ".0f")
 
 
 def members_table(results):
@@ -42,6 +53,45 @@ def members_table(results):
         ["members.csv has the reasons of failed members."])
 
 
+def smoothing_table(results, found):
+    """What each method does to the error."""
+    reference = results.title(results.methods[0]) if results.methods else ""
+    return table_of(
+        results, "table_smoothing", "what smoothing does to the error",
+        [*kind_columns(found), ("Method", [text_cell(results.title(gain.method)) for gain in found])],
+        [("Error / initial", [("", [number(gain.ratio, ".3f") for gain in found]),
+                              ("interval", [between(gain.interval, ".3f") for gain in found])]),
+         (f"Error / {reference}", [("", [number(gain.over_reference, ".3f") for gain in found]),
+                                   ("interval", [between(gain.over_reference_interval, ".3f") for gain in found]),
+                                   ("p", [number(gain.p_value, ".2g") for gain in found])]),
+         ("Time", [("", [number(gain.seconds, ".2g") for gain in found])]),
+         ("Worse (%)", [("", [percent(gain.worse) for gain in found])]),
+         ("Failed (%)", [("", [percent(gain.failed) for gain in found])]),
+         ("Problems", [("", [number_cell(str(gain.n_problems)) for gain in found])]),
+         ("Families", [("", [number_cell(str(gain.n_families)) for gain in found])])],
+        ["True H1 error after over that before smoothing, geometric means. Failed: no result, or one with invalid cells; the initial mesh is "
+         "then used, ratio 1. Worse: the error rises by more than 1 %. Time: of smoothing, over one solution on the initial mesh by the "
+         f"fastest solver of the run. p: sign flips of the families' mean logarithms against {reference}, the first method of the study; "
+         "adjusted for all methods of these meshes (Holm).", LEVELS, INTERVALS])
+
+
+def budget_table(results, found):
+    """What each method reaches in a given time."""
+    rows = list(dict.fromkeys((entry.elements, entry.degree, entry.level, entry.method) for entry in found))
+    by_key = {(entry.elements, entry.degree, entry.level, entry.method, entry.budget): entry for entry in found}
+    budgets = sorted({entry.budget for entry in found})
+    first = [by_key[(*row, budgets[0])] for row in rows]
+    return table_of(
+        results, "table_budgets", "error after equal smoothing times",
+        [*kind_columns(first), ("Method", [text_cell(results.title(entry.method)) for entry in first])],
+        [(f"{budget:g} solutions", [("", [number(by_key[(*row, budget)].ratio, ".3f") for row in rows]),
+                                    ("interval", [between(by_key[(*row, budget)].interval, ".3f") for row in rows])])
+         for budget in budgets],
+        ["True H1 error over that of the initial mesh, geometric means. A budget is a multiple of the time of one solution on the initial "
+         "mesh. The mesh is the last one that was recorded within the budget; after a method's end it is its result. Without a valid "
+         "mesh the ratio is 1.", LEVELS, INTERVALS])
+
+
 def prediction_table(results, found):
     """Spearman's rank correlations."""
     return table_of(
@@ -49,43 +99,12 @@ def prediction_table(results, found):
         [("Elements", [text_cell(p.elements) for p in found]), ("d", [number_cell(p.degree) for p in found]),
          ("Outcome", [text_cell(symbol_of(p.outcome).text) for p in found]),
          ("Quality", [text_cell(symbol_of(p.quality).text) for p in found])],
-        [("Across members", [("", [number(p.across) for p in found]),
-                             ("interval", [between(p.across_interval) for p in found])]),
-         ("Within a member", [("median", [number(p.within) for p in found]),
-                              ("interval", [between(p.within_interval) for p in found])]),
-         ("Records", [("", [number_cell(str(p.n_records)) for p in found])]),
-         ("Members", [("", [number_cell(str(p.n_members)) for p in found])])],
-        ["Spearman's rank correlation over the recorded meshes without invalid cells. Across members, each outcome is divided by "
-         "the smallest outcome of the same member. The meshes of a member differ only in the positions of their nodes. -1: higher "
-         "quality always goes with a lower outcome.", INTERVALS])
-
-
-def threshold_table(results, found):
-    """Thresholds of a good quality."""
-    return table_of(
-        results, "table_good_enough", "quality beyond which the H1 error falls by less than 5 %",
-        [("Elements", [text_cell(elements) for elements, *_ in found]),
-         ("d", [number_cell(degree) for _, degree, *_ in found]),
-         ("Quality", [text_cell(symbol_of(quality).text) for _, _, quality, _, _ in found])],
-        [("From", [("", [number(value, ".3f") for *_, value, _ in found]),
-                   ("interval", [between(low_high, ".3f") for *_, low_high in found])])],
-        ["By the decreasing function of quality that is nearest to the logarithm of the relative error. The relative error is "
-         "the error over the smallest error of the same member. All families together; findings.md has their own numbers.", INTERVALS])
-
-
-def ranking_table(results, found):
-    """The methods at equal budgets."""
-    return table_of(
-        results, "table_ranking", "methods at equal budgets of time",
-        [("Method", [text_cell(results.title(entry.method)) for entry in found])],
-        [("Mean rank", [("", [number(entry.rank) for entry in found]),
-                        ("interval", [between(entry.rank_interval) for entry in found])]),
-         ("Error / initial", [("", [number(entry.ratio, ".3f") for entry in found]),
-                              ("interval", [between(entry.ratio_interval, ".3f") for entry in found])]),
-         ("p", [("", [number(entry.p_value, ".2g") for entry in found])])],
-        ["True H1 error over all members and degrees at equal time. This time is the median total time of the methods for the same "
-         "mesh. Error / initial is a geometric mean; it is 1 for a method that ends with invalid cells. p: p-value of a paired "
-         "test of logarithms by sign flips against the first method. The test swaps together what the intervals draw together.", INTERVALS])
+        [("Correlation", [("", [number(p.mean) for p in found]), ("interval", [between(p.interval) for p in found])]),
+         ("Meshes", [("", [number_cell(str(p.n_records)) for p in found])]),
+         ("Families", [("", [number_cell(str(len(p.by_family))) for p in found])])],
+        [f"Mean over families of Spearman's rank correlation over a family's meshes without invalid cells: up to {RECORDS_OF_CURVE} of each "
+         "method on each member. Outcomes are divided by the smallest one of the same member. -1: higher quality always goes with a "
+         "lower outcome.", INTERVALS])
 
 
 def way_of(results, p):
@@ -100,19 +119,16 @@ def payoff_table(results, found):
         "Error / unsmoothed at equal time needs solutions with split cells: `set refined degrees = 1` in the study, for example."]
     return table_of(
         results, "table_payoff", "does smoothing pay?",
-        [("Family", [text_cell(p.family) for p in found]), ("d", [number_cell(p.degree) for p in found]),
-         ("Instead", [text_cell(way_of(results, p)) for p in found])],
+        [*kind_columns(found), ("Instead", [text_cell(way_of(results, p)) for p in found])],
         [("Error / initial", [("", [number(p.error, ".3f") for p in found]),
                               ("interval", [between(p.error_interval, ".3f") for p in found])]),
-         ("Time / initial", [("", [number(p.time, ".3g") for p in found])]),
+         ("Time / initial", [("", [number(p.time, ".3g") for p in found]),
+                             ("interval", [between(p.time_interval, ".3g") for p in found])]),
          ("Error / unsmoothed at equal time", [("", [number(p.at_equal_time, ".3f") for p in found]),
                                                ("interval", [between(p.at_equal_time_interval, ".3f") for p in found])]),
          ("Problems", [("", [number_cell(str(p.n_problems)) for p in found])])],
-        ["Geometric means over a family's problems, relative to the unsmoothed mesh at degree d: true H1 error, and total time. The "
-         "time is that of smoothing with its preparations, of assembly, and of the fastest solver of the run. Solvers are CG alone, "
-         "with the diagonal, or with multigrid and its setup. Cells split: into 4, in space into 8. At equal time: median of the "
-         "error over that of the unsmoothed mesh after the same total time. Errors of the unsmoothed mesh follow the power law "
-         "through its error and the error with split cells. Below 1 smoothing pays. Problems that a method leaves with invalid "
-         "cells are not counted: rows with different numbers of problems cannot be compared, the sentences of findings.md can.",
-         *no_times,
-         "Intervals hold 95 % of bootstrap samples that draw meshes. A dash marks a missing number."])
+        ["Geometric means relative to the unsmoothed mesh at degree d: true H1 error, and total time. The time is that of smoothing with its "
+         "preparation, of assembly, and of the fastest solver of the run. Solvers are CG alone, with the diagonal, or with multigrid and "
+         "its setup. Cells split: into 4, in space into 8. At equal time: the error over that of the unsmoothed mesh after the same "
+         "total time. Errors of the unsmoothed mesh follow the power law through its error and the error with split cells. Below 1 "
+         "smoothing pays. Where the method has no valid result, the initial mesh is solved after all.", *no_times, LEVELS, INTERVALS])

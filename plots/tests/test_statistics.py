@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 from scipy import stats
 
-from plots.statistics import bootstrap, correlation, profiles
+from plots.statistics import correlation, profiles, units
 
 
 class Correlation(unittest.TestCase):
@@ -28,68 +28,36 @@ class Correlation(unittest.TestCase):
         self.assertTrue(np.isnan(correlation.spearman([1, 2], [1, 2])))
         self.assertTrue(np.isnan(correlation.spearman([1, 1, 1], [1, 2, 3])))
 
-    def test_decreasing_fit_by_hand(self):
-        steps, values = correlation.decreasing_fit([4, 1, 2, 3, 3], [0, 5, 1, 4, 2])
-        np.testing.assert_allclose(steps, [1, 2, 3, 4])
-        np.testing.assert_allclose(values, [5, 7 / 3, 7 / 3, 0])  # 1 and the two of 3 are pooled
 
-    def test_decreasing_fit_is_nearest(self):
-        """No decreasing function near it is nearer: checked by small changes that keep it decreasing."""
-        x, y = np.arange(30.0), self.random.normal(size=30) - 0.05 * np.arange(30)
-        _, fitted = correlation.decreasing_fit(x, y)
-        self.assertTrue((np.diff(fitted) <= 1e-12).all())
-        least = ((fitted - y) ** 2).sum()
-        for _ in range(500):
-            other = np.sort(fitted + 0.05 * self.random.normal(size=30))[::-1]
-            self.assertGreaterEqual(((other - y) ** 2).sum(), least)
+class Units(unittest.TestCase):
+    def test_each_unit_counts_once(self):
+        mean, (low, high) = units.mean_of_units([1.0, 3.0, 5.0, 9.0], ["a", "a", "b", "c"])
+        self.assertAlmostEqual(mean, (2 + 5 + 9) / 3)
+        np.testing.assert_allclose((low, high), stats.t.interval(0.95, 2, loc=mean, scale=stats.sem([2, 5, 9])))
+        self.assertTrue(np.isnan(units.mean_of_units([1.0, 2.0], ["a", "a"])[1]).all())
+        self.assertTrue(np.isnan(units.mean_of_units([], [])[0]))
 
-    def test_good_enough(self):
-        quality = np.linspace(0.1, 1.0, 91)
-        error = np.where(quality < 0.6, 2.0 - quality, 1.0)  # falls until .6, no more from there on
-        self.assertAlmostEqual(correlation.good_enough(quality, error, gain=0.05), 0.6, places=9)
-        self.assertAlmostEqual(correlation.good_enough(quality, np.exp(-quality), gain=0.05),
-                               next(q for q in quality if np.exp(-1.0) >= 0.95 * np.exp(-q)), places=9)
-        self.assertTrue(np.isnan(correlation.good_enough([1, 2], [1, 2])))
+    def test_interval_covers_the_mean(self):
+        """Of 400 intervals at 95 % for means of six values about 380 hold the true mean; bounds of a binomial at 1e-4."""
+        random = np.random.default_rng(3)
+        held = sum(low <= 0.0 <= high for low, high in (units.t_interval(random.normal(size=6)) for _ in range(400)))
+        self.assertGreater(held, stats.binom.ppf(1e-4, 400, 0.95))
+        self.assertLess(held, stats.binom.ppf(1 - 1e-4, 400, 0.95))
 
-
-class Bootstrap(unittest.TestCase):
-    def test_interval_of_a_mean_covers_it(self):
-        """Of 200 intervals at 90 % about 180 contain the true mean; bounds of a binomial at 1e-4."""
-        random, held = np.random.default_rng(3), 0
-        for trial in range(200):
-            x = random.normal(size=40)
-            low, high = bootstrap.interval(lambda rows, x=x: x[rows].mean(), np.arange(40), 300, 0.9, trial)
-            held += low <= 0.0 <= high
-        self.assertGreater(held, stats.binom.ppf(1e-4, 200, 0.87))
-        self.assertLess(held, stats.binom.ppf(1 - 1e-4, 200, 0.93))
-
-    def test_groups_are_drawn_whole(self):
-        """A hundred copies of each of ten numbers are no more evidence than the ten."""
-        x = np.random.default_rng(1).normal(size=10)
-        alone = bootstrap.interval(lambda rows: x[rows].mean(), np.arange(10))
-        copies, groups = np.repeat(x, 100), np.repeat(np.arange(10), 100)
-        np.testing.assert_allclose(bootstrap.interval(lambda rows: copies[rows].mean(), groups), alone)
-
-    def test_one_group_says_nothing(self):
-        self.assertTrue(np.isnan(bootstrap.interval(lambda rows: 1.0, np.zeros(5))).all())
-
-    def test_paired_test_is_scipys(self):
+    def test_sign_flips_are_scipys(self):
         random = np.random.default_rng(2)
         for n, places in ((8, 12), (60, 2)):
-            a, b = random.normal(size=(2, n)) + [[0.3], [0.0]]
-            expected = stats.permutation_test((a, b), lambda x, y, axis: np.mean(x - y, axis=axis), permutation_type="samples",
-                                              vectorized=True, n_resamples=20000, random_state=1).pvalue
-            self.assertAlmostEqual(bootstrap.paired_test(a, b), expected, places=places)
-        self.assertEqual(bootstrap.paired_test([1, 2], [1, 2]), 1.0)
-        self.assertEqual(bootstrap.paired_test([1, 1, 1, 1], [0, 0, 0, 0]), 2 / 16)
+            differences = random.normal(0.3, 1.0, n)
+            expected = stats.permutation_test((differences, np.zeros(n)), lambda x, y, axis: np.mean(x - y, axis=axis),
+                                              permutation_type="samples", vectorized=True, n_resamples=100000, random_state=1).pvalue
+            self.assertAlmostEqual(units.sign_flips(differences, 100000), expected, places=places)
+        self.assertEqual(units.sign_flips([0.0, 0.0]), 1.0)
+        self.assertEqual(units.sign_flips([1, 1, 1, 1]), 2 / 16)
+        self.assertEqual(units.least_p(4, 3), 3 * 2 / 16)
 
-    def test_pairs_of_a_group_are_swapped_together(self):
-        self.assertEqual(bootstrap.paired_test([1, 1, 1, 1], [0, 0, 0, 0], ["x", "x", "y", "y"]), 2 / 4)
-        a, groups = np.random.default_rng(3).normal(0.1, 1.0, 400), np.repeat(np.arange(100), 4)
-        sums = a.reshape(100, 4).sum(axis=1)
-        expected = stats.permutation_test((sums, np.zeros(100)), lambda x, y, axis: np.mean(x - y, axis=axis),
-                                          permutation_type="samples", vectorized=True, n_resamples=20000, random_state=1).pvalue
-        self.assertAlmostEqual(bootstrap.paired_test(a, np.zeros(400), groups), expected, places=2)
+    def test_holm_by_hand(self):
+        np.testing.assert_allclose(units.holm([0.01, 0.04, 0.03, np.nan]), [0.03, 0.06, 0.06, np.nan])
+        np.testing.assert_allclose(units.holm([0.9, 0.8]), [1.0, 1.0])
 
 
 class Profiles(unittest.TestCase):
@@ -110,17 +78,7 @@ class Profiles(unittest.TestCase):
 
     def test_anytime_by_hand(self):
         problems = [{"a": ([0, 1, 2], [4.0, 1.0, 2.0])}, {"a": ([0, 3], [1.0, 0.5])}, {"b": ([0], [1.0])}]
-        np.testing.assert_allclose(profiles.anytime(problems, "a", [0.5, 1.0, 2.5, 3.0])[1], [1.0, 0.625, 0.625, 0.375])
-
-    def test_mean_ranks_are_friedmans(self):
-        random = np.random.default_rng(4)
-        costs = {name: random.lognormal(size=25) for name in "abcd"}
-        found = {name: ranks.mean() for name, ranks in profiles.ranks_of_problems(costs).items()}
-        by_scipy = np.mean([stats.rankdata([costs[n][i] for n in "abcd"]) for i in range(25)], axis=0)
-        np.testing.assert_allclose([found[n] for n in "abcd"], by_scipy)
-        found = profiles.ranks_of_problems({"a": [np.nan, 1.0], "b": [2.0, 3.0]})
-        self.assertEqual({name: ranks.tolist() for name, ranks in found.items()}, {"a": [2.0, 1.0], "b": [1.0, 2.0]})
-        self.assertEqual(len(profiles.ranks_of_problems({"a": [], "b": []})["a"]), 0)
+        np.testing.assert_allclose(profiles.anytime(problems, "a", [0.5, 1.0, 2.5, 3.0])[1], [1.0, 0.625, 0.75, 0.5])
 
 
 if __name__ == "__main__":

@@ -102,13 +102,14 @@ py::dict record_of(const SolutionRecord& r) {
       "assembly_seconds"_a = r.assembly_seconds, "condition_number"_a = r.condition_number,
       "lambda_min"_a = r.lambda_min, "lambda_max"_a = r.lambda_max,
       "condition_method"_a = r.condition_method, "condition_residual"_a = r.condition_residual,
-      "cg_iterations"_a = r.cg_iterations, "cg_seconds"_a = r.cg_seconds,
-      "cg_converged"_a = r.cg_converged, "jacobi_cg_iterations"_a = r.jacobi_cg_iterations,
+      "jacobi_condition_number"_a = r.jacobi_condition_number, "cg_iterations"_a = r.cg_iterations,
+      "cg_seconds"_a = r.cg_seconds, "cg_converged"_a = r.cg_converged,
+      "jacobi_cg_iterations"_a = r.jacobi_cg_iterations,
       "jacobi_cg_seconds"_a = r.jacobi_cg_seconds, "amg_cg_iterations"_a = r.amg_cg_iterations,
       "amg_setup_seconds"_a = r.amg_setup_seconds, "amg_cg_seconds"_a = r.amg_cg_seconds,
       "e_max"_a = r.e_max, "e_mean"_a = r.e_mean, "e_l2"_a = r.e_l2, "e_h1"_a = r.e_h1,
-      "l2_error"_a = r.l2_error, "h1_error"_a = r.h1_error, "most_points"_a = r.most_points,
-      "status"_a = r.status);
+      "l2_error"_a = r.l2_error, "h1_error"_a = r.h1_error, "l2_best"_a = r.l2_best,
+      "h1_best"_a = r.h1_best, "most_points"_a = r.most_points, "status"_a = r.status);
 }
 
 /// Returns the record, and the fields on the mesh.
@@ -124,7 +125,8 @@ py::tuple solve(const PythonMesh& mesh, const Given& given, const std::vector<st
                                .cg_tolerance = cg_tolerance,
                                .boundary_in_norm = true,
                                .condition_number = condition_number_method(condition_number),
-                               .multigrid_cg = multigrid ? Recorded::always : Recorded::never};
+                               .multigrid_cg = multigrid ? Recorded::always : Recorded::never,
+                               .best_approximation = Recorded::always};
   return mesh.visit([&]<int dim, int spacedim>(const Mesh<dim, spacedim>& m) {
     if constexpr (dim != spacedim) {
       throw InputError("finite elements are not solved on surface meshes");

@@ -14,7 +14,7 @@ namespace smoothfem {
 namespace {
 
 struct GenerateArguments {
-  std::string domain, out, to, elements;
+  std::string domain, out, to, elements, algorithm;
   std::string distortion = distortion_kind_names[0];
   double edge_scale = 1.0, distort_to = 0.0, min_quality = 0.0;
   int sweeps = 1;
@@ -44,7 +44,7 @@ void distort_and_write(Mesh<dim, spacedim>& mesh, const GenerateArguments& argum
 void list_domains() {
   for (const Domain& domain : domains())
     std::printf("%-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
-                joined(domain.elements).c_str());
+                domain.offers().c_str());
 }
 
 void generate(GenerateArguments arguments) {
@@ -63,8 +63,10 @@ void generate(GenerateArguments arguments) {
   require_mesh_path(arguments.out);
   const Domain& domain = find_domain(arguments.domain);
   arguments.elements = domain.elements_named(arguments.elements);
-  AnyMesh mesh = domain.generate(
-      {.elements = arguments.elements, .edge_scale = arguments.edge_scale, .seed = arguments.seed});
+  AnyMesh mesh = domain.generate({.elements = arguments.elements,
+                                  .edge_scale = arguments.edge_scale,
+                                  .seed = arguments.seed,
+                                  .algorithm = arguments.algorithm});
   std::visit([&](auto& of_its_kind) { distort_and_write(of_its_kind, arguments); }, mesh);
   if (output) print_content(output->path());
 }
@@ -80,6 +82,8 @@ void smoothfem_add_generate_command(CLI::App& app) {
   command->add_option("--to", arguments->to, "format of standard output: msh, vtu, ...");
   command->add_option("--elements", arguments->elements,
                       joined(element_names()) + "; default: the domain's first (see list)");
+  command->add_option("--algorithm", arguments->algorithm,
+                      "algorithm of the mesh generator, where a domain has several (see list)");
   command->add_option("--edge-scale", arguments->edge_scale,
                       "multiply edge lengths by this factor, at least 1 (default: 1)");
   command->add_option("--distort-to", arguments->distort_to,

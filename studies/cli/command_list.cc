@@ -106,7 +106,7 @@ void list_domains() {
   std::printf("DOMAINS (generate NAME, 'domain' in study files)\n\n");
   for (const auto& domain : domains())
     std::printf("  %-16s %s (%s)\n", domain.name.c_str(), domain.description.c_str(),
-                joined(domain.elements).c_str());
+                domain.offers().c_str());
 }
 
 void list_solutions() {

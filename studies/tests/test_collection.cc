@@ -141,6 +141,20 @@ TEST_F(Collections, FilesAreDistortedForEachSeed) {
   EXPECT_THAT(refused.err, ::testing::HasSubstr("all.prm:7: 'distortions' has 'much'"));
 }
 
+TEST_F(Collections, AlgorithmsAreThoseOfMeshesAsTheyAre) {
+  file_with("all.prm",
+            "set kind = collection\nset domains = disc: 16, square: 24\nset methods = laplace\n"
+            "set degrees =\nset algorithms = frontal, delaunay\nset distortions = none, 0.6\n"
+            "set elements = triangles\n");
+  std::set<std::string> names;
+  for (const Member& member : read_collection(file("all.prm")).members)
+    names.insert(member.name + " " + member.mesh.algorithm);
+  EXPECT_EQ(names, (std::set<std::string>{"disc.triangles.s1.delaunay delaunay",
+                                          "disc.triangles.s1.frontal frontal",
+                                          "disc.triangles.s1.frontal.q0.6 frontal",
+                                          "square.triangles.s1 ", "square.triangles.s1.q0.6 "}));
+}
+
 TEST_F(Collections, MergedShardsAreTheWhole) {
   write_good_meshes(3);
   write_study(

@@ -157,7 +157,7 @@ class HangingNodes : public testing::TestWithParam<Cells> {
   template <int dim>
   static SolutionRecord solve(const Mesh<dim>& mesh, const ManufacturedSolution<dim>& solution) {
     PoissonOptions options{.degree = 1,
-                           .galerkin_load = true,
+                           .load = Load::quadrature,
                            .cg_tolerance = 1e-13,
                            .condition_number = ConditionNumberMethod::none,
                            .jacobi_cg = Recorded::never};

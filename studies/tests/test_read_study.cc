@@ -53,7 +53,8 @@ TEST(GearStudy, IsTheExampleOfTheThesis) {
   }
   EXPECT_EQ(study.degrees, (std::vector<int>{1, 2}));
   EXPECT_EQ(study.solution.name, "gear");
-  EXPECT_FALSE(study.finite_elements.galerkin_load);
+  EXPECT_EQ(study.finite_elements.load, Load::quadrature);
+  EXPECT_EQ(study.finite_elements.best_approximation, Recorded::results);
   EXPECT_EQ(study.finite_elements.tensor_points.quadrilateral, 8);
   EXPECT_EQ(study.finite_elements.tensor_points.hexahedron, 0) << "chosen for each cell";
   EXPECT_EQ(study.finite_elements.cg_tolerance, 1e-8);

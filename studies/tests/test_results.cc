@@ -38,6 +38,7 @@ SolutionRecord full_record() {
   record.lambda_max = 1.25;
   record.condition_method = "method";
   record.condition_residual = 2e-7;
+  record.jacobi_condition_number = 7.25;
   record.cg_iterations = 7;
   record.jacobi_cg_iterations = 5;
   record.cg_seconds = 1e-5;
@@ -52,6 +53,8 @@ SolutionRecord full_record() {
   record.e_h1 = 4.0;
   record.l2_error = 0.30000000000000004;
   record.h1_error = 6.0;
+  record.l2_best = 0.25;
+  record.h1_best = 5.5;
   record.status = "ok";
   return record;
 }
@@ -108,6 +111,9 @@ TEST(IterationsCsv, EveryNumberStandsUnderItsNameAndReadsBackTheSame) {
                                                           {"assembly_seconds", 5e-5},
                                                           {"jacobi_cg_seconds", 2e-5},
                                                           {"condition_residual", 2e-7},
+                                                          {"jacobi_condition_number", 7.25},
+                                                          {"l2_best", 0.25},
+                                                          {"h1_best", 5.5},
                                                           {"amg_setup_seconds", 3e-5},
                                                           {"amg_cg_seconds", 4e-5}};
   for (const auto& [column, number] : expected_numbers)
@@ -130,6 +136,7 @@ TEST(IterationsCsv, MissingValuesAreEmpty) {
                                    "lambda_min",
                                    "lambda_max",
                                    "condition_residual",
+                                   "jacobi_condition_number",
                                    "cg_iterations",
                                    "cg_seconds",
                                    "cg_converged",
@@ -143,7 +150,9 @@ TEST(IterationsCsv, MissingValuesAreEmpty) {
                                    "e_l2",
                                    "e_h1",
                                    "l2_error",
-                                   "h1_error"})
+                                   "h1_error",
+                                   "l2_best",
+                                   "h1_best"})
     EXPECT_EQ(fields.at(column), "") << column;
   EXPECT_EQ(fields.at("degree"), "2");
   EXPECT_EQ(fields.at("status"), "invalid mesh");

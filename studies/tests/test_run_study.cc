@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "meshes/distortion/distort.h"
@@ -261,24 +262,48 @@ TEST_F(RunStudy, MethodsThatSolveSayHowOftenAndForHowLong) {
   EXPECT_LT(std::stod(rows.back().at("h1_error")), std::stod(rows[1].at("h1_error")));
 }
 
-TEST_F(RunStudy, RecordEveryKeepsEveryKthTheBestAndTheLast) {
+TEST_F(RunStudy, RecordsAreThoseDueTheBestAndTheLast) {
   const std::string only = "set degrees = 1\nset methods = getme\n";
-  const fs::path all = run(study(only), "all"),
-                 some = run(study(only + "set record every = 7\n"), "some");
+  const fs::path all = run(study(only), "all");
   const auto every = rows_without_times(all / "iterations.csv");
-  const auto kept = rows_without_times(some / "iterations.csv");
   const auto result = table(all, "summary.csv").select({{"method", "getme"}}).at(0);
-  std::vector<CsvTable::Row> expected;
   std::size_t best = 0;
   for (std::size_t r = 0; r < every.size(); ++r)
     if (every[r].at("q_min") == result.at("q_min") && every[r].at("e_max") == result.at("e_max"))
       best = r;
   ASSERT_GT(best, 0u);
-  for (std::size_t r = 0; r < every.size(); ++r)
-    if (r % 7 == 0 || r == best || r + 1 == every.size()) expected.push_back(every[r]);
-  ASSERT_LT(expected.size(), every.size());
-  EXPECT_EQ(kept, expected);
-  EXPECT_EQ(rows_without_times(all / "summary.csv"), rows_without_times(some / "summary.csv"));
+  const auto expect_records = [&](const std::string& key, const auto& is_due) {
+    const fs::path some = run(study(only + key), "some" + std::to_string(key.size()));
+    std::vector<CsvTable::Row> expected;
+    for (std::size_t r = 0; r < every.size(); ++r)
+      if (is_due(r) || r == best || r + 1 == every.size()) expected.push_back(every[r]);
+    ASSERT_LT(expected.size(), every.size());
+    EXPECT_EQ(rows_without_times(some / "iterations.csv"), expected);
+    EXPECT_EQ(rows_without_times(all / "summary.csv"), rows_without_times(some / "summary.csv"));
+  };
+  expect_records("set record every = 7\n", [](std::size_t r) { return r % 7 == 0; });
+  // 20 records, then after 1.2 times as many iterations: 24, 28.8, 34.8, 42, ...
+  const std::set<std::size_t> rare{24, 29, 35, 42, 51, 62, 75, 90, 108};
+  ASSERT_LT(every.size(), 109u);
+  expect_records("set record growth = 1.2\n",
+                 [&](std::size_t r) { return r <= 20 || rare.contains(r); });
+}
+
+TEST_F(RunStudy, OtherDegreesThanRecordedOnesAreSolvedAtTheEnds) {
+  const std::string common = "set degrees = 1, 2\nset methods = getme\n";
+  const fs::path all = run(study(common), "all"),
+                 ends = run(study(common + "set record degrees = 1\n"), "ends");
+  EXPECT_EQ(rows_without_times(all / "summary.csv"), rows_without_times(ends / "summary.csv"));
+  const auto of_degree = [&](const fs::path& out, const std::string& degree) {
+    auto rows = rows_without_times(out / "iterations.csv");
+    std::erase_if(rows, [&](const auto& row) { return row.at("degree") != degree; });
+    return rows;
+  };
+  EXPECT_EQ(of_degree(ends, "1"), of_degree(all, "1"));
+  const auto few = of_degree(ends, "2"), many = of_degree(all, "2");
+  EXPECT_EQ(few.size(), 3u);  // initial, resulting and last mesh
+  EXPECT_EQ(few.front(), many.front());
+  EXPECT_EQ(few.back(), many.back());
 }
 
 TEST_F(RunStudy, WithoutDegreesItOnlySmooths) {

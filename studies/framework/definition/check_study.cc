@@ -20,7 +20,10 @@ void check_names(const Study& study) {
       with_dimension(study.dimensions.cells,
                      [&]<int dim>() { (void)manufactured_solution<dim>(solution->name); });
   for (const auto& mesh : study.meshes)
-    if (!mesh.domain.empty()) (void)find_domain(mesh.domain).elements_named(mesh.elements);
+    if (!mesh.domain.empty()) {
+      const Domain& domain = find_domain(mesh.domain);
+      (void)domain.algorithm_named(mesh.algorithm, domain.elements_named(mesh.elements));
+    }
 }
 
 /// Throws InputError if positions do not tell the materials of a solution.
@@ -127,11 +130,12 @@ void check_smooth_for(const Study& study) {
   }
 }
 
-void check_refined(const Study& study) {
-  for (const int degree : study.refined_degrees)
+/// Throws InputError if one of a key's degrees is none of the study.
+void check_degrees(const std::string& key, const std::vector<int>& chosen, const Study& study) {
+  for (const int degree : chosen)
     if (std::find(study.degrees.begin(), study.degrees.end(), degree) == study.degrees.end())
       throw InputError(
-          "'refined degrees' has " + std::to_string(degree) +
+          "'" + key + "' has " + std::to_string(degree) +
           ", which is not one of the study's degrees; add it to 'degrees' or take it out");
 }
 
@@ -165,7 +169,8 @@ void check_study(const Study& study) {
   check_problem(study);
   check_materials(study);
   check_smooth_for(study);
-  check_refined(study);
+  check_degrees("refined degrees", study.refined_degrees, study);
+  check_degrees("record degrees", study.record_degrees, study);
   check_thresholds(study);
 }
 

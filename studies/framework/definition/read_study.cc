@@ -68,6 +68,7 @@ StudyMesh read_mesh_section(ParameterHandler& p, const std::string& name,
                  .file = p.get("file"),
                  .domain = p.get("domain"),
                  .elements = p.get("elements"),
+                 .algorithm = p.get("algorithm"),
                  .published_file = p.get("published file"),
                  .edge_scale = p.get_double("edge scale"),
                  .distort_to_q_mean = p.get_double("distort to"),
@@ -195,6 +196,7 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
   const std::string file = text.file().string();
   study.degrees = read_degrees(p.get("degrees"), file);
   study.refined_degrees = read_degrees(p.get("refined degrees"), file);
+  study.record_degrees = read_degrees(p.get("record degrees"), file);
   study.constrain_hanging_nodes = p.get("hanging nodes") == "constrain";
   study.constrain_periodic_nodes = p.get("periodic") == "constrain";
   study.only_results_of_seeds = p.get("record seeds") == "results";
@@ -224,7 +226,7 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
   }
   {
     const Subsection subsection(p, "finite elements");
-    study.finite_elements.galerkin_load = p.get("load") == "quadrature";
+    study.finite_elements.load = p.get("load") == "nodal" ? Load::nodal : Load::quadrature;
     study.finite_elements.tensor_points = {static_cast<int>(p.get_integer("quadrilateral points")),
                                            hexahedron_points(p.get("hexahedron points"))};
     study.finite_elements.cg_tolerance = p.get_double("cg tolerance");
@@ -234,13 +236,14 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
     study.finite_elements.condition_number = condition_number_method(p.get("condition number"));
     study.finite_elements.jacobi_cg = recorded(p.get("jacobi cg"));
     study.finite_elements.multigrid_cg = recorded(p.get("multigrid cg"));
+    study.finite_elements.best_approximation = recorded(p.get("best approximation"));
   }
   {
     const Subsection subsection(p, "thresholds");
     study.thresholds = {p.get("reference"), p.get_double("margin")};
   }
   study.record_every = {static_cast<int>(p.get_integer("record every")),
-                        stage_numbers(p.get("record stages every"))};
+                        stage_numbers(p.get("record stages every")), p.get_double("record growth")};
   study.edge_scale = p.get_double("edge scale");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -27,6 +28,7 @@ struct StudyMesh {
   std::filesystem::path file;  ///< empty: generate
   std::string domain;          ///< which domain to generate
   std::string elements;        ///< of the generated mesh; empty: the domain's default
+  std::string algorithm{};     ///< of the mesh generator; empty: the domain's default
   /// Name of a file in the folder of --mesh-dir, in place of `file` or `domain`. It is not
   /// distorted, because published meshes are already distorted.
   std::string published_file;
@@ -103,6 +105,9 @@ struct StudyThresholds {
 struct RecordEvery {
   int default_interval = 1;           ///< every k-th iteration of a method
   std::map<std::string, int> stages;  ///< by name: every k-th iteration of this stage instead
+  /// After n_before_growth records, the number of intervals between records grows by this factor.
+  double growth = 1.0;
+  static constexpr std::size_t n_before_growth = 20;
 };
 
 /// A study as data: meshes, methods, problem and recorded numbers.
@@ -114,7 +119,9 @@ struct Study {
   std::vector<StudyMethod> methods;
   std::vector<int> degrees;          ///< of the finite elements; empty: smoothing only
   std::vector<int> refined_degrees;  ///< of these: initial and resulting meshes once more, refined
-  StudySolution solution;            ///< of the records
+  /// Of these: solved at all records; the others at initial, resulting and last meshes. Empty: all.
+  std::vector<int> record_degrees;
+  StudySolution solution;  ///< of the records
   /// Solutions that are also solved on initial and resulting meshes, and that methods may smooth
   /// for.
   std::vector<StudySolution> further_solutions{};
@@ -137,6 +144,12 @@ struct Study {
 /// True if only the results on this mesh are solved, not the records on the way.
 inline bool is_of_results_only(const Study& study, const StudyMesh& mesh) {
   return study.only_results_of_seeds && !mesh.repeats.empty();
+}
+
+/// True if finite elements of this degree are solved at all records.
+inline bool is_recorded(const Study& study, int degree) {
+  const auto& chosen = study.record_degrees;
+  return chosen.empty() || std::find(chosen.begin(), chosen.end(), degree) != chosen.end();
 }
 
 /// Returns all solutions of a study. The solution of the records is the first.

@@ -96,7 +96,10 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
                   "Mesh file, relative to this file; empty: generate.");
   p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
   p.declare_entry("elements", "", Patterns::Selection("|" + one_of(element_names())),
-                  "Elements of a generated mesh; empty: the domain's default.");
+                  "Elements of a generated mesh;
+  p.declare_entry("algorithm", "", Patterns::Anything(),
+                  "Algorithm of the mesh generator, for domains that have several (see 'list'); "
+                  "empty: the first."); empty: the domain's default.");
   p.declare_entry(
       "edge scale", "1", Patterns::Double(1.0),
       "Edges of a generated mesh longer by this factor, in addition to the study's factor.");
@@ -182,6 +185,9 @@ void declare_problem(ParameterHandler& p) {
   p.declare_entry("refined degrees", "", Patterns::Anything(),
                   "Degrees, of those above, at which initial and resulting meshes are solved once "
                   "more with every cell split: refined.csv. Empty: none.");
+  p.declare_entry("record degrees", "", Patterns::Anything(),
+                  "Degrees, of those above, to solve at every record; the others are solved on "
+                  "initial, resulting and last meshes only. Empty: all.");
   p.declare_entry("hanging nodes", "refuse", Patterns::Selection("refuse|constrain"),
                   "Meshes with hanging nodes: refuse, or constrain: the value at a hanging node is "
                   "that of the edge or face in which it lies. Elements of degree 1 only.");
@@ -193,6 +199,9 @@ void declare_problem(ParameterHandler& p) {
       "Solve at every k-th iteration, and always on the initial, the resulting and the last mesh.");
   p.declare_entry("record stages every", "", stage_numbers(),
                   "The same for stages with their own interval: 'STAGE: k, ...'.");
+  p.declare_entry("record growth", "1", Patterns::Double(1.0, 10.0),
+                  "After 20 records of a method (or of a stage with its own interval), each record "
+                  "comes after this many times as many iterations as the one before.");
   p.declare_entry("seeds", "", Patterns::Anything(),
                   "Seeds, separated by commas: meshes that depend on a seed are made once for "
                   "each, and tables have medians. Empty: the seeds of the meshes.");
@@ -240,8 +249,10 @@ void declare_problem(ParameterHandler& p) {
   }
   {
     const Subsection subsection(p, "finite elements");
-    p.declare_entry("load", "nodal", Patterns::Selection("nodal|quadrature"),
-                    "nodal: f interpolated (thesis); quadrature: Galerkin load.");
+    p.declare_entry(
+        "load", "quadrature", Patterns::Selection("quadrature|nodal"),
+        "quadrature: integrals of f, the Galerkin load; nodal: f is interpolated first, "
+        "as in the protocol of Chapter 6.");
     p.declare_entry("quadrilateral points", "8", Patterns::Integer(1, 20),
                     "Gauss points per direction on quadrilaterals.");
     p.declare_entry("hexahedron points", "auto", Patterns::Selection(hexahedron_points()),
@@ -262,6 +273,8 @@ void declare_problem(ParameterHandler& p) {
     p.declare_entry("multigrid cg", "never", Patterns::Selection("never|results|always"),
                     "Meshes for which CG also runs with algebraic multigrid. Records of planar "
                     "meshes are then solved one after the other.");
+    p.declare_entry("best approximation", "results", Patterns::Selection("never|results|always"),
+                    "Meshes for which the errors of the best approximations to u are recorded.");
   }
   const Subsection subsection(p, "thresholds");
   p.declare_entry("reference", "", Patterns::Anything(),

@@ -14,10 +14,11 @@ namespace {
 
 constexpr const char* solution_columns =
     "degree,n_dofs,n_free,assembly_seconds,condition_number,condition_method,lambda_min,lambda_max,"
-    "condition_residual,cg_iterations,cg_seconds,cg_converged,jacobi_cg_iterations,"
+    "condition_residual,jacobi_condition_number,cg_iterations,cg_seconds,cg_converged,jacobi_cg_"
+    "iterations,"
     "jacobi_cg_seconds,amg_cg_iterations,amg_setup_seconds,amg_cg_seconds,e_max,e_mean,e_l2,e_h1,"
-    "l2_error,h1_error,status";
-constexpr int n_solution_numbers = 22;  ///< between degree and status
+    "l2_error,h1_error,l2_best,h1_best,status";
+constexpr int n_solution_numbers = 25;  ///< between degree and status
 
 /// Returns the names of two columns for each threshold.
 std::string count_columns(const std::vector<CellsBelow>& counts) {
@@ -58,6 +59,7 @@ void add_solution(CsvText& csv, int degree, const std::optional<SolutionRecord>&
   csv.number(if_known(s.condition_number));
   csv.field(s.condition_method).number(if_known(s.lambda_min)).number(if_known(s.lambda_max));
   csv.number(s.condition_number > 0.0 ? std::optional(s.condition_residual) : std::nullopt);
+  csv.number(if_known(s.jacobi_condition_number));
   csv.integer(s.cg_iterations).number(s.cg_seconds).field(s.cg_converged ? "true" : "false");
   if (s.jacobi_cg_iterations > 0)
     csv.integer(s.jacobi_cg_iterations).number(s.jacobi_cg_seconds);
@@ -68,7 +70,8 @@ void add_solution(CsvText& csv, int degree, const std::optional<SolutionRecord>&
   else
     csv.field("").field("").field("");
   csv.number(s.e_max).number(s.e_mean).number(s.e_l2).number(s.e_h1);
-  csv.number(s.l2_error).number(s.h1_error).field(status);
+  csv.number(s.l2_error).number(s.h1_error);
+  csv.number(if_known(s.l2_best)).number(if_known(s.h1_best)).field(status);
 }
 
 struct NamedError {

@@ -456,10 +456,11 @@ class StudyRun {
     return rows.size();
   }
 
-  /// Rows without those of meshes for which only results are solved: they do not show when an error
-  /// fell.
+  /// Rows without those of meshes and degrees for which only results are solved: they do not show
+  /// when an error fell.
   std::vector<IterationRow> rows_with_every_record() const {
     auto rows = finished_rows(data_);
+    std::erase_if(rows, [&](const auto& row) { return !is_recorded(study_, row.degree); });
     for (const auto& mesh : data_.meshes)
       if (is_of_results_only(study_, mesh.description))
         std::erase_if(rows, [&](const auto& row) { return row.mesh == mesh.description.name; });
@@ -496,7 +497,7 @@ class StudyRun {
   ProblemFacts problem_facts() const {
     ProblemFacts facts{.solutions = {},
                        .natural = study_.finite_elements.natural_groups,
-                       .load = study_.finite_elements.galerkin_load ? "quadrature" : "nodal"};
+                       .load = study_.finite_elements.load == Load::nodal ? "nodal" : "quadrature"};
     if constexpr (dim == spacedim)
       if (!study_.degrees.empty())
         for (const StudySolution* solution : solutions_of(study_))

@@ -29,7 +29,7 @@ std::vector<Outcome> outcomes(const std::vector<int>& degrees, const Tasks& task
     const int degree = degrees[d];
     if (invalid)
       result.push_back({.degree = degree, .status = invalid_mesh});
-    else if (tasks[d]->done)
+    else if (tasks[d] != nullptr && tasks[d]->done)
       result.push_back({degree, tasks[d]->solution, tasks[d]->solution.status});
   }
   return result;
@@ -93,8 +93,9 @@ MeshFields fields_of(const StudyData<dim, spacedim>& data, std::size_t m,
   auto& exact = fields.point["exact_solution"];
   for (const auto& p : mesh.coordinates()) exact.push_back(data.solutions[m].front().value(p));
   for (std::size_t d = 0; d < tasks.size(); ++d)
-    fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
-        data.kept.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
+    if (tasks[d] != nullptr)
+      fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
+          data.kept.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
   return fields;
 }
 
@@ -138,7 +139,10 @@ class TaskMaker {
       for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s) {
         const std::size_t record = trajectory.snapshots[s];
         if (trajectory.records[record].quality.n_invalid > 0) continue;
-        of_mesh.methods[k][s].push_back(add_task(job, record, record == trajectory.result_record));
+        const bool is_result = record == trajectory.result_record;
+        const bool is_taken = is_result || s + 1 == trajectory.snapshots.size() ||
+                              is_recorded(data_.study, data_.study.degrees[d]);
+        of_mesh.methods[k][s].push_back(is_taken ? add_task(job, record, is_result) : nullptr);
       }
     }
   }

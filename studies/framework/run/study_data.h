@@ -64,7 +64,8 @@ struct SolveTask {
 /// invalid.
 struct MeshTasks {
   std::vector<SolveTask*> initial;
-  std::vector<std::vector<std::vector<SolveTask*>>> methods;  ///< [method][snapshot][degree]
+  /// By [method][snapshot][degree]; null where a degree is not recorded.
+  std::vector<std::vector<std::vector<SolveTask*>>> methods;
   /// Tasks by [method plus one; 0: initial][refined degree]. Empty for methods that improved
   /// nothing.
   std::vector<std::vector<SolveTask*>> refined{};

@@ -106,12 +106,14 @@ Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source
                               const std::filesystem::path& distorted,
                               std::vector<std::string>& changes) {
   Mesh<dim, spacedim> mesh =
-      source.file.empty() ? of_kind<dim, spacedim>(find_domain(description.domain)
-                                                       .generate({.elements = description.elements,
-                                                                  .edge_scale = edge_scale,
-                                                                  .seed = description.seed}),
-                                                   "the domain " + description.domain)
-                          : read_valid_mesh<dim, spacedim>(source.file, changes);
+      source.file.empty()
+          ? of_kind<dim, spacedim>(find_domain(description.domain)
+                                       .generate({.elements = description.elements,
+                                                  .edge_scale = edge_scale,
+                                                  .seed = description.seed,
+                                                  .algorithm = description.algorithm}),
+                                   "the domain " + description.domain)
+          : read_valid_mesh<dim, spacedim>(source.file, changes);
   if (source.published || !is_distorted(description)) return mesh;
   if (!distorted.empty()) {
     move_nodes_as_in(distorted, mesh);

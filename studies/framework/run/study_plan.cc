@@ -2,6 +2,7 @@
 #include "studies/framework/run/study_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "studies/framework/results/results_folder.h"
@@ -162,7 +163,12 @@ class Plan {
   }
 
   int records_per_method() const {
-    return std::max(1, assumed_iterations / study_.record_every.default_interval);
+    const auto& every = study_.record_every;
+    const int n = std::max(1, assumed_iterations / every.default_interval);
+    constexpr int n_even = RecordEvery::n_before_growth;
+    if (every.growth == 1.0 || n <= n_even) return n;
+    return n_even +
+           static_cast<int>(std::log(static_cast<double>(n) / n_even) / std::log(every.growth));
   }
 
   void plan_mesh(std::size_t m) {
@@ -228,7 +234,9 @@ class Plan {
                                                    .record = 0});
     };
     const double n_records =
-        is_of_results_only(study_, study_.meshes[m]) ? 2.0 : records_per_method();
+        is_of_results_only(study_, study_.meshes[m]) || !is_recorded(study_, degree)
+            ? 2.0
+            : records_per_method();
     const auto& refined = study_.refined_degrees;
     const bool refines = std::find(refined.begin(), refined.end(), degree) != refined.end();
     for (std::size_t k = 0; k <= study_.methods.size(); ++k) {

@@ -2,6 +2,7 @@
 #include "studies/framework/run/trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "studies/framework/run/peak_memory.h"
 
@@ -42,24 +43,50 @@ class RecordTimes {
   std::vector<double> smoothing_, preparation_, solves_;
 };
 
-/// Decides for each record whether it is kept. Every k-th record is kept, counted in its stage if
-/// the stage has its own interval.
+/// The intervals after which records are due: 1, 2, ..., n_before_growth, then rarer and rarer.
+class DueIntervals {
+ public:
+  /// True if a record is due after n intervals. Call it for ascending n.
+  bool contain(std::size_t n, double growth) {
+    while (next_ < n)
+      next_ =
+          next_ < RecordEvery::n_before_growth
+              ? next_ + 1
+              : std::max(next_ + 1,
+                         static_cast<std::size_t>(std::ceil(growth * static_cast<double>(next_))));
+    return next_ == n;
+  }
+
+ private:
+  std::size_t next_ = 1;
+};
+
+/// Decides for each record whether it is kept. Records are due after intervals of k iterations,
+/// counted in their stage if the stage has its own interval.
 class Schedule {
  public:
   explicit Schedule(const RecordEvery& every) : every_(every) {}
 
   bool is_due(const IterationRecord& record) {
-    if (record.stage != stage_) n_in_stage_ = 0;
+    if (record.stage != stage_) {
+      n_in_stage_ = 0;
+      due_in_stage_ = {};
+    }
     stage_ = record.stage;
     ++n_in_stage_;
     const auto own = every_.stages.find(stage_);
-    return own == every_.stages.end()
-               ? record.record % static_cast<std::size_t>(every_.default_interval) == 0
-               : n_in_stage_ % static_cast<std::size_t>(own->second) == 0;
+    return own == every_.stages.end() ? is_due_after(record.record, every_.default_interval, due_)
+                                      : is_due_after(n_in_stage_, own->second, due_in_stage_);
   }
 
  private:
+  bool is_due_after(std::size_t n_iterations, int interval, DueIntervals& due) const {
+    const auto k = static_cast<std::size_t>(interval);
+    return n_iterations % k == 0 && due.contain(n_iterations / k, every_.growth);
+  }
+
   const RecordEvery& every_;
+  DueIntervals due_, due_in_stage_;
   std::string stage_;
   std::size_t n_in_stage_ = 0;
 };

@@ -71,6 +71,10 @@ void declare_collection(ParameterHandler& p) {
   p.declare_entry("elements", "", Patterns::Anything(),
                   "Elements of generated meshes, separated by commas, where a domain has them; "
                   "empty: all.");
+  p.declare_entry("algorithms", "", Patterns::Anything(),
+                  "Algorithms of the mesh generator, separated by commas, where a domain has them "
+                  "(see 'list'); distorted meshes have the first one only. Empty: the domain's "
+                  "first.");
   p.declare_entry("sizes", "1", Patterns::List(Patterns::Double(0.0), 1),
                   "Edge scales of generated meshes: 2 has edges twice as long.");
   p.declare_entry("distortions", "none", Patterns::Anything(),

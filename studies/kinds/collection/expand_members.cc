@@ -85,9 +85,12 @@ class Variations {
   }
 
   /// Adds the variants of a mesh. depends_on_seed: also where the mesh is not distorted.
-  void add(const Member& mesh, bool depends_on_seed, std::vector<Member>& members) const {
+  /// only_as_it_is: leaves out the distorted ones.
+  void add(const Member& mesh, bool depends_on_seed, std::vector<Member>& members,
+           bool only_as_it_is = false) const {
     for (const auto& distortion : distortions_)
       for (const auto seed : seeds_) {
+        if (only_as_it_is && !distortion.empty()) break;
         Member member = mesh;
         const bool is_random = depends_on_seed || !distortion.empty();
         member.distortion = distortion;
@@ -161,14 +164,27 @@ std::vector<std::string> elements_of(const Domain& domain, const std::vector<std
   return elements;
 }
 
+/// Returns the names of the mesh generator's algorithms for any domain.
+std::vector<std::string> all_algorithms() {
+  std::set<std::string> names;
+  for (const Domain& domain : domains())
+    for (const auto& [elements, of_elements] : domain.algorithms)
+      names.insert(of_elements.begin(), of_elements.end());
+  return {names.begin(), names.end()};
+}
+
 class GeneratedMembers {
  public:
   GeneratedMembers(ParameterHandler& p, const Variations& variations)
       : elements_(split_list(p.get("elements"))),
+        algorithms_(split_list(p.get("algorithms"))),
         sizes_(split_list(p.get("sizes"))),
         variations_(variations) {
     for (const auto& name : elements_)
       (void)find_named("kind of elements", name, element_names(), [](const auto& n) { return n; });
+    const auto known = all_algorithms();
+    for (const auto& name : algorithms_)
+      (void)find_named("algorithm", name, known, [](const auto& n) { return n; });
   }
 
   void add(const Domain& domain, double factor, std::vector<Member>& members) const {
@@ -187,12 +203,31 @@ class GeneratedMembers {
         member.mesh.elements = name;
         member.mesh.edge_scale = factor * std::stod(size);
         member.mesh.distortion_candidates = default_candidates(domain.dimension);
-        variations_.add(member, domain.is_random(name), members);
+        const auto algorithms = algorithms_of(domain, name);
+        for (std::size_t a = 0; a < algorithms.size(); ++a) {
+          Member by_algorithm = member;
+          if (!algorithms[a].empty() && algorithms.size() > 1)
+            by_algorithm.name += "." + algorithms[a];
+          by_algorithm.mesh.algorithm = algorithms[a];
+          variations_.add(by_algorithm, domain.is_random(name), members, a > 0);
+        }
       }
   }
 
  private:
-  std::vector<std::string> elements_, sizes_;
+  /// Returns the wanted algorithms that the domain has for these elements; without any its first.
+  std::vector<std::string> algorithms_of(const Domain& domain, const std::string& elements) const {
+    const auto known = domain.algorithms.find(elements);
+    if (known == domain.algorithms.end()) return {""};
+    std::vector<std::string> algorithms;
+    for (const auto& name : algorithms_)
+      if (std::find(known->second.begin(), known->second.end(), name) != known->second.end())
+        algorithms.push_back(name);
+    if (algorithms.empty()) algorithms.push_back(known->second.front());
+    return algorithms;
+  }
+
+  std::vector<std::string> elements_, algorithms_, sizes_;
   const Variations& variations_;
 };
 

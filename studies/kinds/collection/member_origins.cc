@@ -50,6 +50,7 @@ std::string origin_line(const std::string& domain, const Members& members) {
   return number + " from " +
          (domain.empty() ? count_of(files.size(), "mesh file") : "the domain " + domain) +
          listed("elements", members, [](const Member& m) { return m.mesh.elements; }) +
+         listed("algorithms", members, [](const Member& m) { return m.mesh.algorithm; }) +
          listed("sizes", members, [](const Member& m) { return m.size; }) +
          (some_as_they_are ? "; as they are" : "") +
          listed("distorted to", members, [](const Member& m) { return m.distortion; }) +

@@ -83,8 +83,9 @@ class CollectedTable {
 
 const std::vector<std::string>& member_columns() {
   static const std::vector<std::string> columns{
-      "member", "family",    "domain",  "elements", "size",  "distortion", "seed",   "solution",
-      "file",   "dimension", "n_nodes", "n_cells",  "q_min", "q_mean",     "status", "reason"};
+      "member",  "family",   "domain",    "elements", "size",      "distortion",
+      "seed",    "solution", "algorithm", "file",     "dimension", "n_nodes",
+      "n_cells", "q_min",    "q_mean",    "status",   "reason"};
   return columns;
 }
 
@@ -99,6 +100,7 @@ MemberRow row_of(const Member& member) {
           {"family", member.family},
           {"domain", member.mesh.domain},
           {"elements", member.mesh.elements},
+          {"algorithm", member.mesh.algorithm},
           {"size", member.size},
           {"distortion", member.distortion},
           {"seed", member.has_seed() ? std::to_string(member.mesh.seed) : ""},

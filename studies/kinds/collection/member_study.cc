@@ -45,7 +45,10 @@ AnyMesh undistorted_mesh(const Collection& collection, const StudyMesh& mesh) {
   if (mesh.domain.empty()) return read_mesh(mesh.file).mesh;
   const Domain& domain = find_domain(mesh.domain);
   const double edge_scale = collection.common.at(domain.dimension).edge_scale * mesh.edge_scale;
-  return domain.generate({.elements = mesh.elements, .edge_scale = edge_scale, .seed = mesh.seed});
+  return domain.generate({.elements = mesh.elements,
+                          .edge_scale = edge_scale,
+                          .seed = mesh.seed,
+                          .algorithm = mesh.algorithm});
 }
 
 /// Returns for example "((x - 0.5) / 2)". Six digits are enough, because any box near the mesh's
@@ -85,6 +88,7 @@ StudyParameters own_parameters(const Study& study) {
                              {"meshes", mesh.name},
                              {section + "domain", mesh.domain},
                              {section + "elements", mesh.elements},
+                             {section + "algorithm", mesh.algorithm},
                              {section + "edge scale", scale},
                              {"solution/name", study.solution.name},
                              {"solution/u", study.solution.u},

@@ -40,10 +40,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record
                                    failure, session, content)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, assembly_seconds,
                                    condition_number, lambda_min, lambda_max, condition_method,
-                                   condition_residual, cg_iterations, jacobi_cg_iterations,
-                                   amg_cg_iterations, cg_seconds, jacobi_cg_seconds,
-                                   amg_setup_seconds, amg_cg_seconds, cg_converged, e_max, e_mean,
-                                   e_l2, e_h1, l2_error, h1_error, most_points, status)
+                                   condition_residual, jacobi_condition_number, cg_iterations,
+                                   jacobi_cg_iterations, amg_cg_iterations, cg_seconds,
+                                   jacobi_cg_seconds, amg_setup_seconds, amg_cg_seconds,
+                                   cg_converged, e_max, e_mean, e_l2, e_h1, l2_error, h1_error,
+                                   l2_best, h1_best, most_points, status)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, seconds, eigenvectors, session)
 
 namespace {

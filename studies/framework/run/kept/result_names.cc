@@ -66,6 +66,7 @@ void add_rows(const std::string& what, const CompressedRows<T>& rows, Ingredient
 void add_recipe(const StudyMesh& mesh, Ingredients& made_of) {
   made_of.add("domain", mesh.domain);
   made_of.add("elements", mesh.elements);
+  made_of.add("algorithm", mesh.algorithm);
   made_of.add("edge scale", mesh.edge_scale);
   made_of.add("seed", mesh.seed);
   if (!is_distorted(mesh)) return;
@@ -110,7 +111,7 @@ void add_solution(const StudySolution& solution, Ingredients& made_of) {
 
 /// Adds the options of all degrees and meshes.
 void add_options(const PoissonOptions& options, Ingredients& made_of) {
-  made_of.add("galerkin load", options.galerkin_load);
+  made_of.add("load", static_cast<int>(options.load));
   for (const auto& group : options.natural_groups) made_of.add("natural", group);
   made_of.add("quadrilateral points", options.tensor_points.quadrilateral);
   made_of.add("hexahedron points", options.tensor_points.hexahedron);
@@ -121,6 +122,7 @@ void add_options(const PoissonOptions& options, Ingredients& made_of) {
   made_of.add("condition number", static_cast<int>(options.condition_number));
   made_of.add("jacobi", static_cast<int>(options.jacobi_cg));
   made_of.add("multigrid", static_cast<int>(options.multigrid_cg));
+  made_of.add("best approximation", static_cast<int>(options.best_approximation));
 }
 
 /// Adds the method's parts and parameters, and the files of its code.
@@ -198,6 +200,7 @@ std::string trajectory_name(const std::string& mesh_content, const StudyMethod& 
   made_of.add("every", study.record_every.default_interval);
   for (const auto& [stage, interval] : study.record_every.stages)
     made_of.add("every of " + stage, interval);
+  made_of.add("growth", study.record_every.growth);
   made_of.add("only results", only_results);
   made_of.add("keeps all", !study.degrees.empty() || study.write_series || !study.metrics.empty());
   made_of.add("warpage", study.record_warpage);
