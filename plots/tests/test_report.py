@@ -16,6 +16,7 @@ from plots.report.collection_plots import MOST_STEPS, collection_plots, diagram_
 from plots.report.contents import comparison, contents, ratio, summary_table
 from plots.report.mesh_views import mesh_view, metrics_of, seen_of
 from plots.report.page import inline, page, write_report
+from plots.report.reload import make_reloading
 from plots.report.tables_page import html_text
 from plots.results.collection import read_collection_results
 from plots.results.rows import ResultsError, read_rows
@@ -23,7 +24,7 @@ from plots.results.smoothing import read_results
 from plots.results.vtu import UnstructuredGrid
 from plots.tests.test_collection import write_collection
 from plots.tests.synthetic_polygons import write_polygon_results
-from plots.tests.synthetic_results import write_csv, write_results
+from plots.tests.synthetic_results import change_provenance, write_csv, write_results
 from plots.tests.test_read_results import InFolder
 
 MOST_BYTES = 8e6
@@ -339,6 +340,22 @@ class Browser(InFolder):
         self.assertEqual(self.js("return [...document.querySelectorAll('#figures [aria-label=\"\"]')].length"), 0)
         self.js("document.getElementById('theme').click()")
         self.assertEqual(self.js("return document.getElementById('records').layout.paper_bgcolor"), "#16181b")
+        self.assertEqual(self.errors(), [])
+
+    def test_an_open_page_shows_its_next_version_once(self):
+        path = self.folder / "open.html"
+
+        def write(words):
+            path.write_text(f"<!DOCTYPE html><html><body>{words}</body></html>", encoding="utf-8")
+            make_reloading(path)
+        write("first")
+        self.browser.get(path.as_uri())
+        self.js("window.isFirst = true")
+        write("second")
+        self.wait_for("return document.body.textContent.startsWith('second')", seconds=20)
+        self.js("window.isSecond = true")
+        time.sleep(1.2)  # it has looked again, and found no other
+        self.assertEqual(self.js("return [window.isFirst, window.isSecond]"), [None, True])
         self.assertEqual(self.errors(), [])
 
     def test_everything_that_can_be_set_has_a_name(self):
