@@ -95,7 +95,7 @@ def smoothing_outputs(folder, request):
 
     def write_page(against, path):
         from .report.page import write_report
-        return write_report(results, outcomes, against, path)
+        return write_report(results, outcomes, against, path, tables)
     tables = (*([chosen_table(results, request.columns)] if request.columns else []), *make_tables(results, printed),
               *make_seed_tables(results), *make_energy_tables(of_all_degrees))
     shown = screen(results) + (claims_sentence(outcomes, results) if outcomes and not results.is_quick else "")

@@ -18,9 +18,10 @@ DRAWN = ("iteration", "smoothing_seconds", "wall_seconds", "q_min", "q_star_min"
 # Columns of summary.csv that say which row it is.
 KEYS = ("mesh", "method", "degree")
 COMPARED = ("h1_error", "l2_error", "q_min", "q_mean", "condition_number", "cg_iterations", "smoothing_seconds")
-# Of summary.csv, before all its other columns.
-FIRST = (*KEYS, "status", "h1_error", "l2_error", "q_min", "q_mean", "n_invalid", "cg_iterations", "condition_number",
-         "iterations", "smoothing_seconds")
+# Of summary.csv, before and after all its other columns: answers first, facts on how they were found last.
+FIRST = (*KEYS, "status", "q_min", "q_mean", "n_invalid", "h1_error", "l2_error", "cg_iterations", "cg_seconds", "smoothing_seconds",
+         "wall_seconds", "iterations", "condition_number")
+LAST = ("lambda_min", "lambda_max", "condition_method", "condition_residual", "cg_converged", "n_dofs", "n_free", "peak_memory_gib")
 
 
 def number_or_none(value):
@@ -46,10 +47,10 @@ def heading_of(column):
 
 
 def summary_table(results):
-    """Headings and rows of summary.csv, errors and qualities first, without the study's name and without columns that are
-    empty."""
+    """Headings and rows of summary.csv, qualities, errors and times first, without the study's name and without columns that
+    are empty."""
     rows = results.summary
-    names = [name for name in dict.fromkeys((*FIRST, *rows.columns))
+    names = [name for name in dict.fromkeys((*FIRST, *(name for name in rows.columns if name not in LAST), *LAST))
              if name in rows.columns and name != "study" and any(rows.text(name))]
     return {"headings": [heading_of(name) for name in names],
             "rows": [[cell(name, field, results) for name, field in zip(names, fields)]

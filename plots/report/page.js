@@ -27,6 +27,21 @@ const page = (function () {
     });
   }
 
+  // Says above a table how many of its columns are beyond the right edge.
+  function hint(region) {
+    const words = region.previousElementSibling;
+    const update = () => {
+      const edge = region.getBoundingClientRect().right, headers = [...region.querySelectorAll("th")];
+      const beyond = headers.filter((th) => th.getBoundingClientRect().left > edge - 20).length;
+      words.hidden = beyond === 0;
+      words.textContent = beyond + " of " + headers.length + " columns are further to the right: scroll the table \u2192";
+    };
+    const watch = new ResizeObserver(update);
+    watch.observe(region);
+    watch.observe(region.querySelector("table"));
+    region.addEventListener("scroll", update);
+  }
+
   // ---- plots
   const layout = (more) => Object.assign({
     paper_bgcolor: css("--back"), plot_bgcolor: css("--back"), font: { color: css("--text") },
@@ -77,6 +92,7 @@ const page = (function () {
     checked: checked, whenSeen: whenSeen, plotting: { responsive: true, displaylogo: false, toImageButtonOptions: { format: "svg" } },
     data: () => JSON.parse(document.getElementById("data").textContent), redraw: () => {}, ready: () => {
       document.querySelectorAll("table.sortable").forEach((table) => whenSeen(table, () => makeSortable(table)));
+      document.querySelectorAll(".scroll").forEach(hint);
       document.documentElement.dataset.ready = "yes";
     } };
   document.getElementById("theme").addEventListener("click", () => {

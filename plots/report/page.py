@@ -11,6 +11,7 @@ from string import Template
 from ..claims.report import criterion_of, totals, verdict_cell
 from ..results.rows import ResultsError
 from ..results.write_files import write_atomically
+from ..tables.formats import column_headings, filled_down, machine_text, superscript
 from .contents import comparison, contents, summary_table
 from .libraries import scripts
 
@@ -46,9 +47,36 @@ def html_table(table, caption, identifier, filters=(), words=escape):
     body = "\n".join("<tr>" + "".join(td(cell) for cell in row) + "</tr>" for row in table["rows"])
     columns = " ".join(str(table["headings"].index(name)) for name in filters if name in table["headings"])
     name = escape(caption, quote=True)
-    return (f'<div class="scroll" role="region" tabindex="0" aria-label="{name}">'
+    # The script fills the paragraph if the table has columns beyond the edge.
+    return (f'<p class="beyond" hidden></p><div class="scroll" role="region" tabindex="0" aria-label="{name}">'
             f'<table id="{identifier}" class="sortable" data-filters="{columns}"><caption>{name}</caption>'
             f"<thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table></div>")
+
+
+def table_data(table):
+    """Headings and rows of a Table for html_table. Keys stand in every row, and numbers are sorted as such."""
+    def cell(text, mark=""):
+        shown = text + superscript(mark)
+        try:
+            return {"text": shown, "order": float(text.removeprefix("<"))}
+        except ValueError:
+            return {"text": shown}
+    rows, above = [], [""] * len(table.key_headings)
+    for number, key in enumerate(table.keys):
+        above = filled_down([entry.text for entry in key], above)
+        rows.append([cell(text) for text in above] +
+                    [cell(machine_text(entry.text), entry.mark) for group in table.groups for entry in group.cells[number]])
+    return {"headings": column_headings(table), "rows": rows}
+
+
+def tables_section(tables):
+    """All tables; those columns can be chosen from that say what a row is about."""
+    found = []
+    for table in tables:
+        data = table_data(table)
+        found.append(html_table(data, table.caption, table.name, data["headings"][:len(table.key_headings)]))
+        found += [f"<p>{escape(f'{superscript(letter)} {sentence}'.strip())}</p>" for letter, sentence in table.notes]
+    return '<section id="tables"><h2>Tables</h2>' + "\n".join(found) + "</section>" if found else ""
 
 
 def claims_section(outcomes):
@@ -108,8 +136,8 @@ def counted(number, noun, plural="s"):
     return f"{number} {noun}{'' if number == 1 else plural}"
 
 
-def page(results, outcomes=(), against=None):
-    """The text of the page; outcomes: of the study's claims. Raises NoLibrary or ResultsError."""
+def page(results, outcomes=(), against=None, tables=()):
+    """The text of the page; outcomes: of the study's claims; tables: of its results. Raises NoLibrary or ResultsError."""
     counts = escape(f"{counted(len(results.meshes), 'mesh', 'es')}, {counted(len(results.methods), 'method')}, "
                     f"degree {' and '.join(results.degrees) or 'none (smoothing only)'}")
     failures = "".join(f"<li>{escape(f'{results.title(method)}, {results.title(mesh)}: {status}')}</li>"
@@ -117,14 +145,14 @@ def page(results, outcomes=(), against=None):
     main = Template(file_text("smoothing.html")).substitute(
         summary=html_table(summary_table(results), "summary.csv: a row for each mesh, method and degree", "summary-table",
                            ("mesh", "method", "degree")),
-        claims=claims_section(outcomes), against=against_section(results, against),
+        tables=tables_section(tables), claims=claims_section(outcomes), against=against_section(results, against),
         provenance=provenance_section(results.study, results.provenance), data=json_in_page(contents(results)))
     return html_page(results.study_title, main, f'<p>{counts}. {escape(results.note)}</p>\n<ul class="failures">{failures}</ul>',
                      "report.js")
 
 
-def write_report(results, outcomes=(), against=None, path=None):
+def write_report(results, outcomes=(), against=None, path=None, tables=()):
     """Writes report.html into the results folder, or to a path; returns where."""
     if against is not None and not Path(against).is_dir():
         raise ResultsError(f"{against}: there is no such folder to compare with.")
-    return write_atomically(path or results.folder / NAME, page(results, outcomes, against))
+    return write_atomically(path or results.folder / NAME, page(results, outcomes, against, tables))

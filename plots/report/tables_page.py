@@ -3,15 +3,12 @@
 without a network."""
 
 import base64
-import csv
-import io
 from html import escape
 from string import Template
 
 from ..results.rows import read_provenance
 from ..results.write_files import write_atomically
-from ..tables.formats import as_csv
-from .page import NAME, file_text, html_page, html_table, inline, json_in_page, provenance_section
+from .page import NAME, file_text, html_page, inline, json_in_page, provenance_section, tables_section
 
 
 def html_text(markdown):
@@ -30,25 +27,6 @@ def html_text(markdown):
         elif line and not line.startswith("# "):
             lines.append(f"<p>{inline(line)}</p>")
     return "\n".join(lines + ["</ul>"] * in_list)
-
-
-def sortable(field):
-    """A cell of a table; numbers are sorted as such."""
-    try:
-        return {"text": field, "order": float(field)}
-    except ValueError:
-        return {"text": field}
-
-
-def tables_section(tables):
-    """All tables; those columns can be chosen from that say what a row is about."""
-    found = []
-    for table in tables:
-        headings, *rows = csv.reader(io.StringIO(as_csv(table)))
-        found.append(html_table({"headings": headings, "rows": [[sortable(field) for field in row] for row in rows]}, table.caption,
-                                table.name, headings[:len(table.key_headings)]))
-        found += [f"<p>{escape(sentence)}</p>" for _, sentence in table.notes]
-    return '<section id="tables"><h2>Tables</h2>' + "\n".join(found) + "</section>" if found else ""
 
 
 def figures_section(folder, planned):

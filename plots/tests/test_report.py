@@ -15,15 +15,19 @@ from plots.report import libraries
 from plots.report.collection_plots import MOST_STEPS, collection_plots, diagram_data
 from plots.report.contents import comparison, contents, ratio, summary_table
 from plots.report.mesh_views import mesh_view, metrics_of, seen_of
-from plots.report.page import inline, page, write_report
+from plots.report.page import inline, page, table_data, write_report
+from plots.report.reload import make_reloading
 from plots.report.tables_page import html_text
 from plots.results.collection import read_collection_results
 from plots.results.rows import ResultsError, read_rows
 from plots.results.smoothing import read_results
+from plots.results.symbols import Heading
 from plots.results.vtu import UnstructuredGrid
+from plots.study_kinds import outputs_of
+from plots.tables.table import Cell, Group, Table
 from plots.tests.test_collection import write_collection
 from plots.tests.synthetic_polygons import write_polygon_results
-from plots.tests.synthetic_results import write_csv, write_results
+from plots.tests.synthetic_results import change_provenance, write_csv, write_results
 from plots.tests.test_read_results import InFolder
 
 MOST_BYTES = 8e6
@@ -171,10 +175,25 @@ class TablesPage(InFolder):
     def test_bold_and_code_of_markdown(self):
         self.assertEqual(inline("**cannot be** `a<b` 2 * 3 ** 4"), "<b>cannot be</b> <code>a&lt;b</code> 2 * 3 ** 4")
 
-    def test_errors_come_first(self):
+    def test_answers_come_first(self):
         headings = summary_table(read_results(write_results(self.folder / "r")))["headings"]
-        self.assertEqual(headings[:7], ["mesh", "method", "degree", "status", "H1 error", "L2 error", "q_min"])
-        self.assertIn("e_H1 (norm of the thesis)", headings[7:])
+        self.assertEqual(headings[:10], ["mesh", "method", "degree", "status", "q_min", "q_mean", "n_invalid", "H1 error", "L2 error",
+                                         "CG iterations"])
+        self.assertIn("e_H1 (norm of the thesis)", headings[10:])
+        self.assertEqual(headings[-2:], ["n_dofs", "n_free"])
+
+    def test_tables_have_the_printed_values(self):
+        folder = write_results(self.folder / "r")
+        outputs_of(folder).write_page()
+        text = (folder / "report.html").read_text()
+        self.assertIn("<caption>Table 6.3: A &amp; B_1", text)
+        self.assertRegex(text, '<th scope="col">e_max smoothfem</th><th scope="col">e_max thesis</th>')
+
+    def test_marks_and_numbers_of_a_table(self):
+        table = Table("s", "t", "", (Heading("Mesh", ""),), ((Cell("tri"),), (Cell(""),)), (), (),
+                      (Group(Heading("N", ""), ("",), ((Cell("1,234", "a"),), (Cell("<0.01"),))),), ())
+        self.assertEqual(table_data(table), {"headings": ["Mesh", "N"], "rows": [
+            [{"text": "tri"}, {"text": "1234ᵃ", "order": 1234.0}], [{"text": "tri"}, {"text": "<0.01", "order": 0.01}]]})
 
     def test_sentences_become_lists(self):
         self.assertEqual(html_text("# Title\n\nA & b\n\n## More\n\n- one\n- <two>\n"),
@@ -265,6 +284,10 @@ class Browser(InFolder):
         self.js("const s = document.querySelectorAll('#summary-table th select')[1]; s.value = 'GETMe';"
                 "s.dispatchEvent(new Event('change', {bubbles: true}))")
         self.assertEqual(self.js(visible % 1), ["GETMe"] * 4)
+        hint = "const p = document.querySelector('#summary .beyond'); return p.hidden ? '' : p.textContent"
+        self.assertRegex(self.wait_for(hint), r"^\d+ of \d+ columns are further to the right")
+        self.js("document.querySelector('#summary .scroll').scrollLeft = 1e6")
+        self.wait_for("return document.querySelector('#summary .beyond').hidden")
         self.assertEqual(self.errors(), [])
 
     def test_meshes_are_drawn_side_by_side(self):
@@ -339,6 +362,22 @@ class Browser(InFolder):
         self.assertEqual(self.js("return [...document.querySelectorAll('#figures [aria-label=\"\"]')].length"), 0)
         self.js("document.getElementById('theme').click()")
         self.assertEqual(self.js("return document.getElementById('records').layout.paper_bgcolor"), "#16181b")
+        self.assertEqual(self.errors(), [])
+
+    def test_an_open_page_shows_its_next_version_once(self):
+        path = self.folder / "open.html"
+
+        def write(words):
+            path.write_text(f"<!DOCTYPE html><html><body>{words}</body></html>", encoding="utf-8")
+            make_reloading(path)
+        write("first")
+        self.browser.get(path.as_uri())
+        self.js("window.isFirst = true")
+        write("second")
+        self.wait_for("return document.body.textContent.startsWith('second')", seconds=20)
+        self.js("window.isSecond = true")
+        time.sleep(1.2)  # it has looked again, and found no other
+        self.assertEqual(self.js("return [window.isFirst, window.isSecond]"), [None, True])
         self.assertEqual(self.errors(), [])
 
     def test_everything_that_can_be_set_has_a_name(self):

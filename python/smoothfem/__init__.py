@@ -61,6 +61,7 @@ def domains():
     return _core.domains()
 
 
+@_arguments.refusing_unknown
 def generate(domain, *, elements="", edge_scale=1.0, seed=1):
     """Generates a valid mesh of a domain, with fixed boundary nodes.
 
@@ -71,6 +72,7 @@ def generate(domain, *, elements="", edge_scale=1.0, seed=1):
                           _arguments.whole("seed", seed, 0, 2**64 - 1))
 
 
+@_arguments.refusing_unknown
 def distort(mesh, q_mean=None, *, radius=None, kind="worst-candidate", seed=1, candidates=None, sweeps=1, least_quality=0.0):
     """Moves the free nodes of a valid mesh at random; returns the resulting mean quality.
 
@@ -124,7 +126,7 @@ def parameters(method, kind="planar"):
     return {name: dict(zip(keys, entry)) for name, entry in _core.parameters(_method(method), _arguments.text("kind", kind)).items()}
 
 
-def smooth(mesh, method, callback=None, *, boundary="fixed", fix=None, interfaces="fixed", periodic="fixed", untangle=False, only_below=None,
+def smooth(mesh, method=None, callback=None, *, boundary="fixed", fix=None, interfaces="fixed", periodic="fixed", untangle=False, only_below=None,
            rings=2, target="regular", keep_layers=None, slide_distance=None, feature_angle=None, allow_worse=True, preset="", history=False,
            threads=0, **parameters):
     """Smooths a mesh in place, and returns a Result: stages, iterations, times, quality, history.
@@ -152,12 +154,14 @@ def smooth(mesh, method, callback=None, *, boundary="fixed", fix=None, interface
     partially smoothed. Other threads of Python run during smoothing; they see new points after callbacks and at the end. Raises InputError for
     invalid cells if the method needs a valid mesh, for unknown parameters and invalid values, and for smoothers that violate the rules.
     """
+    if method is None:
+        raise _no_method(parameters)
     mesh, method = _arguments.mesh(mesh), _method(method)
     given = parameters.pop("parameters", None) or {}
     if not hasattr(given, "items"):
         raise _arguments.wrong("parameters", given, "a dict {name: value}")
     parameters = {**given, **parameters}
-    settings = _settings(parameters, _core.parameters(method, mesh.kind)) if parameters else []
+    settings = _settings(parameters, list(_core.parameters(method, mesh.kind))) if parameters else []
     rule, groups, nodes = _fix(fix)
     words = {"boundary": _arguments.text("boundary", boundary), "interfaces": _arguments.text("interfaces", interfaces),
              "periodic": _arguments.text("periodic", periodic), "target": target if isinstance(target, Mesh) else _arguments.text("target", target),
@@ -179,6 +183,7 @@ def problems(dim=2):
     return _core.problems(_arguments.whole("dim", dim))
 
 
+@_arguments.refusing_unknown
 def solve(mesh, problem=None, degree=1, *, u=None, diffusivity=None, natural=(), condition_number="verified", multigrid=False, cg_tolerance=1e-8):
     """Solves -div(A grad u) = f with a known u by finite elements; returns a Solution.
 
@@ -229,6 +234,15 @@ def _fix(fix):
     return None, groups, nodes or None
 
 
+def _no_method(parameters):
+    """Returns the InputError of smooth() without a method; a misspelt 'method' is among the parameters."""
+    for name in parameters:
+        if hint := _arguments.did_you_mean(name, _arguments.arguments_of(smooth)):
+            return InputError(f"smooth() has no argument '{name}'{hint}")
+    return InputError("smooth needs a method: a name of methods(), as in smooth(mesh, 'getme'), a class or object with step(self, mesh), or a "
+                      "function of the mesh")
+
+
 def _method(method):
     """Returns the method for the compiled part: a name, or the definition of a smoother."""
     if isinstance(method, str):
@@ -238,22 +252,28 @@ def _method(method):
 
 
 def _settings(given, known):
-    """Returns pairs of the names of the method's parameters and texts."""
+    """Returns pairs of the names of the method's parameters and texts. Raises InputError for names that are nearly those of arguments of
+    smooth() or of parameters; the compiled part refuses the other unknown names."""
     flat = {}
     for name, value in given.items():
         flat.update({f"{name}.{inner}": of_inner for inner, of_inner in value.items()} if isinstance(value, dict)
                     else {name: value})
     names = {name.replace("-", "_"): name for name in known}
-    return [(names.get(name.replace("-", "_"), name), _text(value)) for name, value in flat.items()]
+    parts = {name.rpartition(".")[2] for name in names} | set(names)
+    for name in flat:
+        if name.replace("-", "_") not in parts and (
+                hint := _arguments.did_you_mean(name, [*_arguments.arguments_of(smooth), *sorted(parts)])):
+            raise InputError(f"smooth() has no argument '{name}', and the method no such parameter{hint}")
+    return [(names.get(name.replace("-", "_"), name), _text(name, value)) for name, value in flat.items()]
 
 
-def _text(value):
-    """Returns a value as a text for the program; numbers keep all digits."""
+def _text(name, value):
+    """Returns a parameter's value as a text for the program; numbers keep all digits."""
     if isinstance(value, str):
         return value
     if hasattr(value, "__iter__"):
-        return ", ".join(map(_text, value))
+        return ", ".join(_text(name, entry) for entry in value)
     try:
         return str(_operator.index(value))
     except TypeError:
-        return repr(_arguments.number("a parameter", value))
+        return repr(_arguments.number(f"the parameter {name}", value))

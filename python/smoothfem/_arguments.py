@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks arguments of functions, so that a mistake is an InputError of one sentence."""
 
+import difflib
+import functools
+import inspect
 import math
 import operator
 
@@ -21,6 +24,30 @@ def shown(value):
 def wrong(name, value, wanted):
     """Returns the InputError for an argument; wanted: what it has to be."""
     return InputError(f"{name} is {shown(value)}, but has to be {wanted}")
+
+
+def did_you_mean(name, names):
+    """Returns "; did you mean 'method'?" with the nearest of some names; an empty text if none is near."""
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.7)
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
+def arguments_of(function):
+    """Returns the names of a function's arguments, but for *args and **kwargs."""
+    return [p.name for p in inspect.signature(function).parameters.values() if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
+
+
+def refusing_unknown(function):
+    """Returns the function, which refuses arguments with unknown names by an InputError that has the nearest name."""
+    names = arguments_of(function)
+
+    @functools.wraps(function)
+    def checked(*args, **named):
+        for name in named:
+            if name not in names:
+                raise InputError(f"{function.__name__}() has no argument '{name}'" + (did_you_mean(name, names) or f"; it has {', '.join(names)}"))
+        return function(*args, **named)
+    return checked
 
 
 def mesh(value):

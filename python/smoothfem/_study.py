@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ._arguments import number, shown, text, wrong
+from ._arguments import shown, text, wrong
 from ._core import InputError
 
 PREFIX = "smoothfem: "  # of the program's messages
@@ -132,20 +132,27 @@ def _lines(keys, subsection=""):
 
 def _value(place, value):
     """Returns a value of a dict as the text of a study file."""
+    if hasattr(value, "__fspath__"):
+        value = os.fspath(value)
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         if "\n" in value or "#" in value:
             raise InputError(f"the value of the study's key '{place}' has a line break or #, which study files cannot hold")
         return value
-    if hasattr(value, "__fspath__"):
-        return os.fspath(value)
-    if hasattr(value, "__iter__"):
+    if hasattr(value, "__iter__") and not hasattr(value, "items") and not isinstance(value, (bytes, bytearray)):
         return ", ".join(_value(place, entry) for entry in value)
     try:
         return str(operator.index(value))
     except TypeError:
-        return repr(number(f"the value of the study's key '{place}'", value))
+        pass
+    try:
+        if isinstance(value, (bytes, bytearray)):  # float() would read them
+            raise TypeError
+        return repr(float(value))
+    except (TypeError, ValueError):
+        raise wrong(f"the value of the study's key '{place}'", value, "a text, a number, True, False, a path or a list of these; only a "
+                    "subsection is a dict") from None
 
 
 def _pandas():

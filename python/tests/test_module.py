@@ -94,7 +94,10 @@ class StudiesAsDicts(unittest.TestCase):
     def test_refusals_are_sentences(self):
         for sentence, call in (("the study is 3", lambda: smoothfem.Study(3)), ("name is 'a b'", lambda: smoothfem.Study({}, name="a b")),
                                ("is not a key", lambda: smoothfem.Study({1: 2})), ("'solution / u' has a line break", lambda: smoothfem.Study(
-                                   {"solution": {"u": "x\ny"}})), ("scale is 3", lambda: smoothfem.Study("gear", 3))):
+                                   {"solution": {"u": "x\ny"}})), ("scale is 3", lambda: smoothfem.Study("gear", 3)),
+                               ("'solution / u' is 1j, but has to be a text, a number", lambda: smoothfem.Study({"solution": {"u": 1j}})),
+                               ("'solution' is {'u': 'x'}, but has to be a text", lambda: smoothfem.Study({"solution": [{"u": "x"}]})),
+                               ("'degrees' is b'12', but", lambda: smoothfem.Study({"degrees": [1, b"12"]}))):
             with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
                 call()
 
@@ -113,6 +116,20 @@ class WhatThereIs(unittest.TestCase):
                 ("q_mean is 'x'", lambda: smoothfem.distort(mesh, "x")), ("threads is 1.5", lambda: smoothfem.smooth(mesh, "getme", threads=1.5)),
                 (r"cell\['q'\] has the shape \(1,\)", lambda: smoothfem.write(mesh, "m.vtu", cell={"q": [1.0]})),
                 ("cell is 3", lambda: smoothfem.write(mesh, "m.vtu", cell=3)), ("dim is 'x'", lambda: smoothfem.problems("x"))):
+            with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
+                call()
+
+    def test_unknown_arguments_of_smooth_have_the_nearest_name(self):
+        mesh = smoothfem.Mesh(SQUARE, QUADRILATERALS)
+        for sentence, call in (
+                ("^smooth needs a method: a name of methods", lambda: smoothfem.smooth(mesh)),
+                (r"^smooth\(\) has no argument 'the_method'; did you mean 'method'\?$", lambda: smoothfem.smooth(mesh, the_method="getme")),
+                (r"^smooth\(\) has no argument 'boundaryy', .* did you mean 'boundary'\?$", lambda: smoothfem.smooth(mesh, "getme", boundaryy="slide")),
+                ("did you mean 'tolerance'", lambda: smoothfem.smooth(mesh, "laplace", tolerence=0.1)),
+                ("did you mean 'sequential.patience'", lambda: smoothfem.smooth(mesh, "getme", sequential={"patence": 3})),
+                ("no parameter 'quux'; it has ", lambda: smoothfem.smooth(mesh, "laplace", quux=1)),
+                ("the parameter tolerance is None", lambda: smoothfem.smooth(mesh, "laplace", tolerance=None)),
+                (r"generate\(\) has no argument 'sed'", lambda: smoothfem.generate("gear", sed=1))):
             with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
                 call()
 

@@ -122,6 +122,8 @@ class Refusals(unittest.TestCase):
                 ("no cell of the mesh has", lambda: smoothfem.solve(mesh, u="x", diffusivity={"steel": 2})),
                 ("degree is 'one'", lambda: smoothfem.solve(mesh, u="x", degree="one")),
                 ("not solved on surface", lambda: smoothfem.solve(smoothfem.generate("roof", edge_scale=3), u="x")),
+                (r"^solve\(\) has no argument 'difusivity'; did you mean 'diffusivity'\?$", lambda: smoothfem.solve(mesh, u="x", difusivity=2)),
+                (r"^solve\(\) has no argument 'foo'; it has mesh, problem, ", lambda: smoothfem.solve(mesh, u="x", foo=2)),
                 ("has to be a smoothfem.Mesh", lambda: smoothfem.solve([1], u="x"))):
             with self.subTest(sentence), self.assertRaisesRegex(smoothfem.InputError, sentence):
                 call()

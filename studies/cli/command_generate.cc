@@ -104,6 +104,7 @@ void smoothfem_add_generate_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--seed", arguments->seed, "seed of generation and distortion (default: 1)")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag("--quiet", arguments->quiet, "print nothing but warnings");
   add_examples(*command,
                {"smoothfem generate gear --elements quadrilaterals --distort-to 0.418 -o gear.msh",
                 "smoothfem generate flange --elements hexahedra -o flange.vtu"});

@@ -14,6 +14,7 @@
 #include "smoothing/base/find_named.h"
 #include "smoothing/loop/method_scheme.h"
 #include "smoothing/loop/preset.h"
+#include "smoothing/transformations/catalogue.h"
 #include "studies/cli/commands.h"
 #include "studies/cli/list_columns.h"
 #include "studies/framework/definition/find_study.h"
@@ -88,6 +89,15 @@ void list_method_names() {
   std::printf("%s'smoothfem list METHOD' shows its parameters.\n", methods_in_files);
 }
 
+void list_transformations() {
+  std::printf(
+      "TRANSFORMATIONS (of elements, in GETMe; those for tetrahedra are values of the "
+      "parameter tetrahedron_transformation)\n\n");
+  for (const auto& info : transformation_catalogue)
+    std::printf("  %-22s %s (%s). Source: %s.\n", info.name, info.description, info.elements,
+                info.source);
+}
+
 void list_presets() {
   std::printf("PRESETS (smooth --preset NAME)\n\n");
   for (const auto& preset : presets())
@@ -144,9 +154,13 @@ std::vector<Part> parts(const std::filesystem::path& studies) {
   const auto print_studies = [studies] {
     list_studies(studies.empty() ? built_in_studies() : studies);
   };
-  return {{"methods", list_methods, list_method_names},  {"presets", list_presets, list_presets},
-          {"studies", print_studies, print_studies},     {"domains", list_domains, list_domains},
-          {"solutions", list_solutions, list_solutions}, {"metrics", list_metrics, list_metrics},
+  return {{"methods", list_methods, list_method_names},
+          {"presets", list_presets, list_presets},
+          {"studies", print_studies, print_studies},
+          {"domains", list_domains, list_domains},
+          {"solutions", list_solutions, list_solutions},
+          {"metrics", list_metrics, list_metrics},
+          {"transformations", list_transformations, list_transformations},
           {"formats", list_formats, list_formats}};
 }
 
@@ -195,7 +209,8 @@ void smoothfem_add_list_command(CLI::App& app) {
   auto arguments = std::make_shared<ListArguments>();
   auto* command = add_subcommand(app, "list");
   command->add_option("what", arguments->what,
-                      "a part: methods, presets, studies, domains, solutions, metrics or formats; "
+                      "a part: methods, presets, studies, domains, solutions, metrics, "
+                      "transformations or formats; "
                       "or a method, with its parameters (default: everything)");
   command->add_option("--studies", arguments->studies,
                       "folder with study files (default: the built-in studies)");

@@ -11,6 +11,7 @@
 
 #include "fem/solutions/manufactured_solution.h"
 #include "meshes/domains/catalogue.h"
+#include "smoothing/getme/element_parameters.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/preset.h"
 #include "smoothing/loop/smooth.h"
@@ -373,6 +374,26 @@ TEST_F(CommandLine, ListNamesEverything) {
   for (const auto& solution : manufactured_solutions<2>()) expect_listed(solution.formula);
   for (const auto& solution : manufactured_solutions<3>()) expect_listed(solution.formula);
   expect_listed("gear             Involute gear");  // the study, by its title
+}
+
+TEST_F(CommandLine, ListsTheTransformationsThatParametersTake) {
+  const std::string list = smoothfem({"list", "transformations"}).out;
+  ElementParameters<3> element;
+  const Parameters all = element.parameters();
+  const auto parameter = std::find_if(all.begin(), all.end(), [](const Parameter& p) {
+    return p.name == "tetrahedron_transformation";
+  });
+  ASSERT_NE(parameter, all.end());
+  for (const auto& name : std::get<Choice>(parameter->value).names)
+    EXPECT_NE(list.find("\n  " + name + " "), std::string::npos) << name;
+}
+
+TEST_F(CommandLine, GeneratesQuietly) {
+  const Outcome outcome =
+      smoothfem({"generate", "gear", "-o", "g.vtu", "--edge-scale", "4", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(fs::exists(file("g.vtu")));
 }
 
 TEST_F(CommandLine, ListOfStudyKeysIsAStudyFile) {
