@@ -5,7 +5,7 @@ python3 -m plots histogram COUNTS.csv FIGURE: numbers of cells by mean ratio as 
 import sys
 
 # Imported package -> its Debian package.
-NEEDED = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib"}
+NEEDED = {"numpy": "python3-numpy", "scipy": "python3-scipy", "matplotlib": "python3-matplotlib"}
 
 
 def main(arguments=None):
