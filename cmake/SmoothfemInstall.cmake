@@ -97,7 +97,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME smoothfem)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
-  "openmpi-bin, python3, python3-numpy, python3-matplotlib, python3-vtk9, python3-pyvirtualdisplay, xvfb, \
+  "openmpi-bin, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-vtk9, python3-pyvirtualdisplay, xvfb, \
 python3-plotly, esbuild, libjs-jquery, libjs-jquery-datatables")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-pandas")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION

@@ -87,7 +87,10 @@ def smoothing_outputs(folder, request):
 
     def plan():
         from .figures.history_study import plan_histories, plan_requested_history
-        return plan_requested_history(results, request) if request.has_history else plan_histories(results)
+        from .figures.norms import plan_norms
+        if request.has_history:
+            return plan_requested_history(results, request)
+        return plan_histories(results) + (plan_norms(results) if results.thesis_study else [])
 
     def plan_of_meshes(report):
         from .figures.smoothing_study import plan_mesh_figures

@@ -12,6 +12,7 @@ from .problems import AS_GENERATED, ERROR
 SCALES = ("Error: the true H1 error. Ratios are errors after over before smoothing. Means are over families (domains), each counted once; in "
           "brackets: 95 % intervals of these means. A method without a valid result leaves the initial mesh, ratio 1.")
 OWN_MEASURE = "q_mean"  # what methods of this program optimize
+MOST_KINDS = 3  # of meshes that a sentence names
 
 
 def findings_as_markdown(results, problems, predictions):
@@ -148,19 +149,23 @@ def verdict(smoothed, other, name):
 
 
 def what_got_worse(results, found):
-    """Reports how often methods raise the error or have no valid result."""
+    """Reports how often methods raise the error or have no valid result: each method with its worst kinds of meshes, then those that
+    never do."""
     sentences = []
-    for method in results.methods:
-        own = [gain for gain in found if gain.method == method]
-        for name, said in (("failed", "has no valid result"), ("worse", "raises the error by more than 1 %")):
-            most = sorted((gain for gain in own if getattr(gain, name) > 0), key=lambda gain: -getattr(gain, name))
+    for name, said in (("failed", "has no valid result"), ("worse", "raises the error by more than 1 %")):
+        never = []
+        for method in results.methods:
+            most = sorted((gain for gain in found if gain.method == method and getattr(gain, name) > 0), key=lambda gain: -getattr(gain, name))
             if most:
                 sentences.append(f"{results.title(method)} {said} on " + ", ".join(
-                    f"{percent(getattr(gain, name))} of the problems ({kind_of(gain).lower()})" for gain in most[:3])
-                    + (f", and less often on {len(most) - 3} other kinds of meshes" if len(most) > 3 else "") + ".")
+                    f"{percent(getattr(gain, name))} of the problems ({kind_of(gain).lower()})" for gain in most[:MOST_KINDS])
+                    + (f", and less often on {counted(len(most) - MOST_KINDS, 'other kind', 'other kinds')} of meshes"
+                       if len(most) > MOST_KINDS else "") + ".")
             else:
-                sentences.append(f"{results.title(method)} never {said}." if own else "")
-    return [sentence for sentence in sentences if sentence]
+                never.append(results.title(method))
+        if never and found:
+            sentences.append(f"On no problem: {said}: {', '.join(never)}.")
+    return sentences
 
 
 def what_predicts(predictions):

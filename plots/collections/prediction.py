@@ -24,7 +24,7 @@ class Prediction:
     degree: str
     by_family: dict  # family -> correlation over its meshes, the outcome relative to the least of the same member
     mean: float  # over the families
-    interval: tuple
+    interval: tuple  # cut off at -1 and 1
     n_records: int
 
 
@@ -93,8 +93,9 @@ def predictions(results):
                     continue
                 by_family = {family: spearman(q[rows], y[rows]) for family, rows in families.items()}
                 by_family = {family: rho for family, rho in by_family.items() if np.isfinite(rho)}
-                found.append(Prediction(quality, outcome, sample.elements, sample.degree, by_family,
-                                        *mean_of_units(list(by_family.values()), list(by_family)), len(q)))
+                mean, between = mean_of_units(list(by_family.values()), list(by_family))
+                found.append(Prediction(quality, outcome, sample.elements, sample.degree, by_family, mean,
+                                        tuple(np.clip(between, -1.0, 1.0)), len(q)))
     return found
 
 

@@ -86,6 +86,7 @@ SOLVER = TableDescription(
     caption="Performance of the CG solver",
     measures=(
         Measure("condition_number", SYMBOLS["condition_number"], form.format_scientific),
+        Measure("jacobi_condition_number", SYMBOLS["jacobi_condition_number"], form.format_scientific),
         Measure("cg_iterations", SYMBOLS["cg_iterations"], form.format_integer),
         Measure("jacobi_cg_iterations", Heading("with Jacobi", "with Jacobi"), form.format_integer),
         Measure("cg_seconds", TIME, form.format_seconds, difference=False),
@@ -98,7 +99,7 @@ SOLVER = TableDescription(
 ERRORS = TableDescription(
     content="errors", source="summary", keys=("mesh", "degree", "method"),
     caption="Finite element solution errors",
-    measures=(*(Measure(name, SYMBOLS[name], form.format_error) for name in ("h1_error", "l2_error")),
+    measures=(*(Measure(name, SYMBOLS[name], form.format_error) for name in ("h1_error", "l2_error", "h1_best", "l2_best")),
               *(Measure(name, SYMBOLS[name], form.format_error, of_thesis=True) for name in THESIS_NORMS)))
 
 THRESHOLDS = TableDescription(
@@ -138,6 +139,9 @@ MEANINGS = {
     **dict.fromkeys(("jacobi_cg_iterations", "amg_cg_iterations"), "with Jacobi, with AMG: CG iterations with the diagonal or "
                     "algebraic multigrid as preconditioner"),
     **dict.fromkeys(("h1_error", "l2_error"), "H1 and L2 error: norms of the true error, solution less finite element solution"),
+    **dict.fromkeys(("h1_best", "l2_best"), "least H1, least L2: the error of the best approximation, the closest function of the finite "
+                    "element space with the same boundary values"),
+    "jacobi_condition_number": "cond(A) scaled: of the matrix scaled by its diagonal, as Jacobi's preconditioner does; slightly too low",
     **dict.fromkeys(THESIS_NORMS, "e_max, e_mean, e_L2, e_H1: norms of the thesis, of the error at the nodes or of its "
                     "interpolant there")}
 NORMS_MEANING = "Error: a norm of the thesis, of the error at the nodes or of its interpolant there; not the true error"

@@ -91,7 +91,8 @@ def problem_lines(provenance):
     lines = [f"Problem{' ' + entry['label'] if 'label' in entry else ''}: -div(A grad u) = f, u = {entry['u']}"
              + (f", A = {entry['A']}" if entry["A"] != "1" else "") for entry in problem["solutions"]]
     natural = f"natural conditions on {', '.join(problem['natural'])}, u given elsewhere" if problem.get("natural") else "u given"
-    return lines + [f"Boundary: {natural}. Load: {problem['load']}."]
+    load = {"nodal": "f interpolated (protocol of Chapter 6)", "quadrature": "f integrated"}.get(problem["load"], problem["load"])
+    return lines + [f"Boundary: {natural}. Load: {load}."]
 
 
 def block_lines(results, mesh, degree, rows, columns):

@@ -22,6 +22,9 @@ COLUMNS_NOTE = ("Columns: the value of smoothfem, that of the thesis, and where 
                 "in %. From ten times the value of the thesis on, the difference is a factor (=: equal in all printed "
                 "digits).")
 CLOCK_NOTE = f"{BELOW_CLOCK}: too short to be timed; no speedup is computed from such times."
+TRUE_ERRORS = ("h1_error", "l2_error")
+PROTOCOL_NOTE = ("Protocol of Chapter 6: f is interpolated at the nodes (`set load = nodal`). H1 and L2 error are the true errors of the solution of "
+                 "this protocol; those with integrated f differ.")
 INVALID = "invalid mesh"  # in the status of a mesh on which nothing is solved
 
 
@@ -30,6 +33,12 @@ def make_tables(results, printed):
     tables = [make_table(description, results, printed.get(description.content))
               for description in TABLES]
     return [table for table in tables if table is not None]
+
+
+def load_of(results):
+    """How the load is computed: `quadrature` or `nodal`; empty if the provenance does not say."""
+    problem = results.provenance.get("problem")
+    return problem.get("load", "") if isinstance(problem, dict) else ""
 
 
 def make_table(description, results, printed):
@@ -67,6 +76,8 @@ def make_table(description, results, printed):
     keys, rules = key_cells(rows, description.keys, results)
     name, caption = description.content, f"{results.study_title}: {description.caption}"
     sentences = meanings(description.keys, groups, rows) + sentences + notes.sentences()
+    if any(measure.column in TRUE_ERRORS for measure in groups) and load_of(results) == "nodal":
+        sentences += (("", PROTOCOL_NOTE),)
     if in_thesis:
         name = f"{printed.number.replace('.', '_')}_{name}"
         caption = f"Table {printed.number}: {caption}"

@@ -96,10 +96,10 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
                   "Mesh file, relative to this file; empty: generate.");
   p.declare_entry("domain", "", Patterns::Anything(), "Domain to generate (see 'list').");
   p.declare_entry("elements", "", Patterns::Selection("|" + one_of(element_names())),
-                  "Elements of a generated mesh;
+                  "Elements of a generated mesh; empty: the domain's default.");
   p.declare_entry("algorithm", "", Patterns::Anything(),
                   "Algorithm of the mesh generator, for domains that have several (see 'list'); "
-                  "empty: the first."); empty: the domain's default.");
+                  "empty: the first.");
   p.declare_entry(
       "edge scale", "1", Patterns::Double(1.0),
       "Edges of a generated mesh longer by this factor, in addition to the study's factor.");
