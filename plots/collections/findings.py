@@ -149,10 +149,11 @@ def verdict(smoothed, other, name):
 
 
 def what_got_worse(results, found):
-    """Reports how often methods raise the error or have no valid result: each method with its worst kinds of meshes, then those that
-    never do."""
+    """Reports how often methods raise the error or have no valid result: each method with its worst kinds of meshes, then the methods
+    for which there is nothing to report."""
     sentences = []
-    for name, said in (("failed", "has no valid result"), ("worse", "raises the error by more than 1 %")):
+    for name, said, otherwise in (("failed", "has no valid result", "Valid results on all problems"),
+                                  ("worse", "raises the error by more than 1 %", "Never an error more than 1 % higher")):
         never = []
         for method in results.methods:
             most = sorted((gain for gain in found if gain.method == method and getattr(gain, name) > 0), key=lambda gain: -getattr(gain, name))
@@ -164,7 +165,7 @@ def what_got_worse(results, found):
             else:
                 never.append(results.title(method))
         if never and found:
-            sentences.append(f"On no problem: {said}: {', '.join(never)}.")
+            sentences.append(f"{otherwise}: {', '.join(never)}.")
     return sentences
 
 

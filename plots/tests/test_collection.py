@@ -185,7 +185,7 @@ class Collection(InFolder):
         self.assertAlmostEqual({p.change: p for p in payoffs(problems, "good")}[AS_IS].error, 0.5**(1 / 8))
         text = "\n".join(what_got_worse(self.results, gains(problems, self.results.methods)))
         self.assertIn("Good has no valid result on 88 % of the problems (triangles, degree 1, distorted to 0.5)", text)
-        self.assertIn("On no problem has no valid result: Idle.", text)
+        self.assertIn("Valid results on all problems: Idle.", text)
 
     def test_results_of_the_summary_count(self):
         """A method returns another mesh than its last one."""

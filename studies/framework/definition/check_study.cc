@@ -130,7 +130,7 @@ void check_smooth_for(const Study& study) {
   }
 }
 
-/// Throws InputError if one of a key's degrees is none of the study.
+/// Throws InputError unless the study has each of a key's degrees.
 void check_degrees(const std::string& key, const std::vector<int>& chosen, const Study& study) {
   for (const int degree : chosen)
     if (std::find(study.degrees.begin(), study.degrees.end(), degree) == study.degrees.end())
