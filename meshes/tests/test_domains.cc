@@ -53,11 +53,11 @@ TEST(Domains, OfShapesHaveTheirSizes) {
           [&](const auto& mesh) {
             double sum = 0.0;
             for (CellIndex c = 0; c < mesh.n_cells(); ++c) sum += signed_cell_size(mesh, c);
-            EXPECT_NEAR(sum, size, 0.03 * size);
+            EXPECT_NEAR(sum, size, 0.04 * size);  // chords of coarse circles
             const int dimension = mesh.topology().dimension();
             const double n_nodes = 1e5 / std::pow(edge_scale, dimension);
             EXPECT_GT(static_cast<double>(mesh.n_nodes()), 0.7 * n_nodes);
-            EXPECT_LT(static_cast<double>(mesh.n_nodes()), 2.4 * n_nodes);
+            EXPECT_LT(static_cast<double>(mesh.n_nodes()), 3.0 * n_nodes);
           },
           find_domain(name).generate({.elements = elements, .edge_scale = edge_scale}));
     }
@@ -104,7 +104,6 @@ TEST(Domains, HaveAlgorithmsThatMakeOtherMeshes) {
   for (const auto& [name, scale] : {std::pair{"disc", 16.0}, std::pair{"hook", 8.0}}) {
     const Domain& domain = find_domain(name);
     const auto& [elements, algorithms] = *domain.algorithms.begin();
-    EXPECT_EQ(algorithms.size(), 3u);
     std::set<std::vector<double>> meshes;
     for (const auto& algorithm : algorithms)
       std::visit(
@@ -113,13 +112,14 @@ TEST(Domains, HaveAlgorithmsThatMakeOtherMeshes) {
             meshes.insert({static_cast<double>(mesh.n_nodes()), last[0], last[1]});
           },
           domain.generate({.elements = elements, .edge_scale = scale, .algorithm = algorithm}));
-    EXPECT_EQ(meshes.size(), 3u);
+    EXPECT_EQ(meshes.size(), algorithms.size());
+    EXPECT_GT(algorithms.size(), 1u);
     EXPECT_THAT([&] { domain.generate({.elements = elements, .algorithm = "fronta"}); },
                 ThrowsMessage<InputError>(HasSubstr("has no algorithm 'fronta'")));
     EXPECT_THAT([&] { domain.generate({.elements = domain.elements.back(), .algorithm = "hxt"}); },
                 ThrowsMessage<InputError>(HasSubstr("have no choice of algorithms")));
   }
-  EXPECT_EQ(find_domain("hook").offers(), "tetrahedra by delaunay, frontal, hxt; hexahedra");
+  EXPECT_EQ(find_domain("hook").offers(), "tetrahedra by delaunay, hxt; hexahedra");
 }
 
 /// Domains of two materials: every node between groups stays and lies on the interface.

@@ -10,8 +10,8 @@
 
 namespace smoothfem {
 
-/// Gmsh's algorithms for tetrahedra, by its numbers. `frontal` is that of Netgen.
-enum class TetrahedronAlgorithm { delaunay = 1, frontal = 4, hxt = 10 };
+/// Gmsh's algorithms for tetrahedra, by its numbers. Debian's Gmsh has no other ones.
+enum class TetrahedronAlgorithm { delaunay = 1, hxt = 10 };
 
 /// Meshes the volumes of a model with tetrahedra by Gmsh (on one thread; Delaunay, unless
 /// build sets another algorithm). build: Gmsh calls

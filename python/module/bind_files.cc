@@ -132,9 +132,9 @@ void bind_files(py::module_& module) {
     return elements;
   });
   module.def("generate", [](const std::string& domain, const std::string& elements,
-                            double edge_scale, std::uint64_t seed) {
+                            double edge_scale, std::uint64_t seed, const std::string& algorithm) {
     return PythonMesh(find_domain(domain).generate(
-        {.elements = elements, .edge_scale = edge_scale, .seed = seed}));
+        {.elements = elements, .edge_scale = edge_scale, .seed = seed, .algorithm = algorithm}));
   });
   module.def("distort", &distort_mesh);
   module.def("quality", &quality);

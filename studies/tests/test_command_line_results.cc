@@ -165,7 +165,8 @@ TEST_F(Results, ListHasParts) {
   EXPECT_THAT(methods, HasSubstr("  getme "));
   EXPECT_EQ(methods.find("max_iterations"), std::string::npos) << "one line each";
   std::string all;
-  for (const std::string part : {"presets", "studies", "domains", "solutions", "metrics"})
+  for (const std::string part :
+       {"presets", "studies", "domains", "solutions", "metrics", "transformations"})
     all += smoothfem({"list", part}).out + "\n";
   EXPECT_THAT(smoothfem({"list"}).out, HasSubstr(all + smoothfem({"list", "formats"}).out));
 }

@@ -53,7 +53,7 @@ TEST(GearStudy, IsTheExampleOfTheThesis) {
   }
   EXPECT_EQ(study.degrees, (std::vector<int>{1, 2}));
   EXPECT_EQ(study.solution.name, "gear");
-  EXPECT_EQ(study.finite_elements.load, Load::quadrature);
+  EXPECT_EQ(study.finite_elements.load, Load::nodal);  // the protocol
   EXPECT_EQ(study.finite_elements.best_approximation, Recorded::results);
   EXPECT_EQ(study.finite_elements.tensor_points.quadrilateral, 8);
   EXPECT_EQ(study.finite_elements.tensor_points.hexahedron, 0) << "chosen for each cell";
@@ -279,7 +279,7 @@ TEST_F(StudyFile, MessagesShowTheCorrectForm) {
                   "cg tolerance = 2 is not allowed; it has to be a number from 0 to 1");
   expect_error_at(5, one_mesh + "set write series = maybe\n", "it has to be true or false");
   expect_error_at(6, one_mesh + "subsection finite elements\n set load = nodall\nend\n",
-                  "it has to be one of nodal, quadrature; did you mean 'nodal'?");
+                  "it has to be one of quadrature, nodal; did you mean 'nodal'?");
   expect_error_at(5, one_mesh + "set record stages every = sequential 10\n",
                   "a list like 'sequential: 10, simultaneous: 2'");
   expect_error_at(5, one_mesh + "degrees = 1\n", "'degrees = 1' is not a line of a study file");

@@ -263,7 +263,9 @@ TEST_F(RunStudy, MethodsThatSolveSayHowOftenAndForHowLong) {
 }
 
 TEST_F(RunStudy, RecordsAreThoseDueTheBestAndTheLast) {
-  const std::string only = "set degrees = 1\nset methods = getme\n";
+  const std::string only =
+      "set degrees = 1\nset methods = getme\nsubsection method getme\n"
+      " set sequential.max_cycles = 60\n set sequential.patience = 60\nend\n";
   const fs::path all = run(study(only), "all");
   const auto every = rows_without_times(all / "iterations.csv");
   const auto result = table(all, "summary.csv").select({{"method", "getme"}}).at(0);
@@ -301,7 +303,8 @@ TEST_F(RunStudy, OtherDegreesThanRecordedOnesAreSolvedAtTheEnds) {
   };
   EXPECT_EQ(of_degree(ends, "1"), of_degree(all, "1"));
   const auto few = of_degree(ends, "2"), many = of_degree(all, "2");
-  EXPECT_EQ(few.size(), 3u);  // initial, resulting and last mesh
+  EXPECT_LE(few.size(), 3u);  // initial, resulting and last mesh
+  EXPECT_GT(many.size(), 3u);
   EXPECT_EQ(few.front(), many.front());
   EXPECT_EQ(few.back(), many.back());
 }
