@@ -120,13 +120,6 @@ void list_preset(const Preset& preset) {
                 text_of(setting.origin).c_str(), setting.dim == 2 ? "planar" : "volume");
 }
 
-void list_preset_names() {
-  list_presets();
-  std::printf(
-      "\n'smoothfem list PRESET' shows its parameters: printed in the thesis, inferred from "
-      "it, or own choice.\n");
-}
-
 void list_studies(const std::filesystem::path& folder) {
   std::printf("STUDIES (study NAME, or FILE for your own)\n\n");
   for (const auto& file : study_files(folder))
@@ -176,11 +169,10 @@ std::vector<Part> parts(const std::filesystem::path& studies) {
   const auto print_studies = [studies] {
     list_studies(studies.empty() ? built_in_studies() : studies);
   };
-  return {
-      {"methods", list_methods, list_method_names},  {"presets", list_presets, list_preset_names},
-      {"studies", print_studies, print_studies},     {"domains", list_domains, list_domains},
-      {"solutions", list_solutions, list_solutions}, {"metrics", list_metrics, list_metrics},
-      {"formats", list_formats, list_formats}};
+  return {{"methods", list_methods, list_method_names},  {"presets", list_presets, list_presets},
+          {"studies", print_studies, print_studies},     {"domains", list_domains, list_domains},
+          {"solutions", list_solutions, list_solutions}, {"metrics", list_metrics, list_metrics},
+          {"formats", list_formats, list_formats}};
 }
 
 void list_everything(const std::vector<Part>& all) {
