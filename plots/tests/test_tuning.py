@@ -81,7 +81,7 @@ class Tuning(InFolder):
             best = winner(candidates(results, halves(results.meshes)[0], AT_EQUAL_TIME)).method
             taken, = (method["parameters"] for method in results.provenance["methods"] if method["name"] == best)
             preset = {**base[name]["simultaneous"], **own.get(name, {}).get("simultaneous", {})}
-            for parameter, value in preset.items():
+            for parameter, (value, *_) in preset.items():
                 used = taken[f"simultaneous.{parameter}"]
                 self.assertEqual(used if isinstance(value, str) else float(used), value, f"{name}: {parameter}")
 

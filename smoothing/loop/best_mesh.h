@@ -9,13 +9,14 @@
 
 namespace smoothfem {
 
-/// Remembers the best mesh of a stage, by the number that its traits name.
+/// Remembers the best mesh of a stage, by the number that its traits name. may_be_invalid: a mesh
+/// with invalid cells can be the best one.
 template <int spacedim>
 class BestMesh {
  public:
   BestMesh(ResultMesh rule, std::span<const Point<spacedim>> coordinates,
-           const MeshQuality& quality, double score)
-      : rule_(rule) {
+           const MeshQuality& quality, double score, bool may_be_invalid = false)
+      : rule_(rule), may_be_invalid_(may_be_invalid) {
     if (rule_ == ResultMesh::last) return;
     best_ = number(quality, score);
     coordinates_.assign(coordinates.begin(), coordinates.end());
@@ -29,7 +30,8 @@ class BestMesh {
       moved_since_best_.insert(moved_since_best_.end(), report.moved->begin(), report.moved->end());
     else
       all_moved_ = true;
-    if (quality.n_invalid > 0 || !(number(quality, report.score) > best_)) return false;
+    if (quality.n_invalid > 0 && !may_be_invalid_) return false;
+    if (!(number(quality, report.score) > best_)) return false;
     best_ = number(quality, report.score);
     if (all_moved_)
       std::copy(coordinates.begin(), coordinates.end(), coordinates_.begin());
@@ -53,6 +55,7 @@ class BestMesh {
   }
 
   ResultMesh rule_;
+  bool may_be_invalid_;
   double best_ = 0.0;
   std::vector<Point<spacedim>> coordinates_;
   std::vector<NodeIndex> moved_since_best_;

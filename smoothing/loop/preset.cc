@@ -15,11 +15,26 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+/// Adds a setting, in the place of one that an extended preset has for the same parameter.
+void add_setting(Preset& preset, Preset::Setting setting) {
+  for (auto& other : preset.settings)
+    if (other.dim == setting.dim && other.stage == setting.stage &&
+        other.parameter == setting.parameter) {
+      other = std::move(setting);
+      return;
+    }
+  preset.settings.push_back(std::move(setting));
+}
+
 void add_settings(Preset& preset, int dim, const Json& stages) {
   for (const auto& [stage, parameters] : stages.items())
-    for (const auto& [parameter, value] : parameters.items())
-      preset.settings.push_back(
-          {dim, stage, parameter, value.is_string() ? value.get<std::string>() : value.dump()});
+    for (const auto& [parameter, entry] : parameters.items()) {
+      const Json& value = entry.at(0);
+      const std::string where = "preset " + preset.name + ", " + stage + "." + parameter;
+      add_setting(preset, {dim, stage, parameter,
+                           value.is_string() ? value.get<std::string>() : value.dump(),
+                           make_origin(entry.at(1), entry.at(2), where)});
+    }
 }
 
 Preset read_preset(const fs::path& file) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "smoothing/loop/catalogue.h"
+#include "smoothing/loop/origin.h"
 
 namespace smoothfem {
 
@@ -14,6 +15,7 @@ struct Preset {
   struct Setting {
     int dim;
     std::string stage, parameter, value;
+    Origin origin;
   };
 
   std::string name;
@@ -24,8 +26,9 @@ struct Preset {
 
 /// Returns the presets of the program, sorted by name: the files studies/presets/NAME.json of its
 /// data folder. A file has `description`, `source`, and objects `planar` and `volume` with
-/// parameters and their values for each stage. `extends` names a preset whose settings come first;
-/// `why` is a comment. Throws InputError for a file with any other key.
+/// parameters for each stage: [value, kind of origin, place]. `extends` names a preset whose
+/// settings it takes, unless it has its own; `why` is a comment. Throws InputError for a file with
+/// any other key.
 const std::vector<Preset>& presets();
 
 /// Returns the preset of this name. Otherwise throws InputError that lists the available names.

@@ -41,6 +41,11 @@ bool any_stage(const Method<dim, spacedim>& method, const auto& condition) {
                      [&](const auto& stage) { return condition(*stage); });
 }
 
+/// True if a stage needs the quality of its meshes, for its steps or for the choice of its result.
+bool needs_quality(const SmootherTraits& traits) {
+  return traits.quality_use != QualityUse::none || traits.result == ResultMesh::best_q_mean;
+}
+
 /// State that the stages of one method's run share. It holds the caller's mesh while it lives;
 /// large meshes are reordered for memory locality.
 template <int dim, int spacedim>
@@ -68,8 +73,8 @@ class SmoothingRun {
     if (!reordering_) state_.mesh.topology().build_node_cells();
     double uncounted_seconds = 0.0;
     {
-      const bool uses_quality = any_stage(
-          method, [](const auto& stage) { return stage.traits().quality_use != QualityUse::none; });
+      const bool uses_quality =
+          any_stage(method, [](const auto& stage) { return needs_quality(stage.traits()); });
       const ScopedTimer timer(uses_quality ? preparation_seconds_ : uncounted_seconds);
       evaluate_quality();
     }
@@ -96,7 +101,8 @@ class SmoothingRun {
       // With a problem, the work before the first step is mostly a solve.
       const ScopedTimer timer(solver_ ? seconds_ : preparation_seconds_);
       smoother.initialize(state_);
-      best.emplace(traits.result, state_.mesh.coordinates(), quality_, smoother.initial_score());
+      best.emplace(traits.result, state_.mesh.coordinates(), quality_, smoother.initial_score(),
+                   traits.quality_use == QualityUse::none);
     }
     StageHistory history(quality_);
     const double begin_seconds = seconds_;
@@ -205,6 +211,7 @@ class SmoothingRun {
         quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);
       }
     }
+    if (traits.quality_use == QualityUse::none && needs_quality(traits)) evaluate_quality();
     if (traits.quality_use == QualityUse::smoother) {
       if (report.quality)
         quality_ = *report.quality;
@@ -219,7 +226,7 @@ class SmoothingRun {
   /// Completes the quality for stopping rules and observers. The method does not need it, so that
   /// it is not part of its time.
   void complete_quality(const SmootherTraits& traits, const StepReport& report) {
-    if (traits.quality_use == QualityUse::none)
+    if (!needs_quality(traits))
       evaluate_quality();
     else if (traits.quality_use == QualityUse::smoother && !report.quality && observer_)
       quality_ = mesh_quality(state_.mesh.topology(), state_.cell_quality);

@@ -223,10 +223,12 @@ class AdaptiveMinStage final : public AdaptiveStage<dim> {
 
   Parameters parameters() override {
     Parameters all = AdaptiveStage<dim>::parameters();
-    all.push_back({"fraction",
-                   "fraction of the elements whose quality sets the threshold at the beginning of "
-                   "a cycle; not given in the thesis, 0.001 to 0.01 works well",
-                   &fraction_, 0.0, 1.0});
+    all.push_back(
+        {"fraction",
+         "fraction of the elements whose quality sets the threshold at the beginning of "
+         "a cycle; the thesis has 'a fixed percentage' (Section 4.5). Small fractions take more "
+         "iterations, and may end early on strongly distorted meshes",
+         &fraction_, 0.0, 1.0});
     all.push_back(
         {"patience",
          "iterations in a row without a higher q*_min that end a cycle; 5 in the thesis; with 10 "

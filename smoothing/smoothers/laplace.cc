@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "smoothing/laplacian/gauss_seidel_sweep.h"
+#include "smoothing/laplacian/sweep_stopping.h"
 #include "smoothing/loop/catalogue.h"
 
 namespace smoothfem {
@@ -11,7 +11,7 @@ class Laplace final : public Smoother<dim, spacedim> {
  public:
   std::string_view name() const override { return "laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
-  SmootherTraits traits() const override { return uncontrolled_sweeps; }
+  SmootherTraits traits() const override { return stopping_.traits(); }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
   void initialize(const SmoothingState<dim, spacedim>& state) override {
@@ -25,7 +25,7 @@ class Laplace final : public Smoother<dim, spacedim> {
   }
 
  private:
-  DisplacementStopping stopping_;
+  SweepStopping stopping_;
 };
 
 const RegisteredMethod registered({.name = "laplace",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/geometry/cell_size.h"
 #include "smoothing/laplacian/cells_around_nodes.h"
-#include "smoothing/laplacian/gauss_seidel_sweep.h"
+#include "smoothing/laplacian/sweep_stopping.h"
 #include "smoothing/loop/catalogue.h"
 
 namespace smoothfem {
@@ -64,7 +64,7 @@ class WeightedLaplace final : public Smoother<dim> {
  public:
   std::string_view name() const override { return "weighted-laplace"; }
   Parameters parameters() override { return stopping_.parameters(); }
-  SmootherTraits traits() const override { return uncontrolled_sweeps; }
+  SmootherTraits traits() const override { return stopping_.traits(); }
   StoppingRule stopping() const override { return stopping_.rule(); }
 
   void initialize(const SmoothingState<dim>& state) override {
@@ -99,7 +99,7 @@ class WeightedLaplace final : public Smoother<dim> {
     return centroids.mean();
   }
 
-  DisplacementStopping stopping_;
+  SweepStopping stopping_;
   CellsAroundNodes cells_around_;
 };
 

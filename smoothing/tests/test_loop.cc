@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <numeric>
@@ -9,6 +10,7 @@
 #include <thread>
 
 #include "smoothing/getme/min_tree.h"
+#include "smoothing/loop/best_mesh.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/loop/invalid_node_reset.h"
 #include "smoothing/loop/preset.h"
@@ -155,6 +157,53 @@ TEST(Presets, HaveTheParametersOfTheThesis) {
   EXPECT_EQ(text("recommended", "getme", "simultaneous.sigma_tetrahedron_max"), "5.7");
   EXPECT_EQ(text("recommended", "getme", "simultaneous.sigma_tetrahedron_min"), "0.7");
   EXPECT_THAT(message_of([] { find_preset("thesis-9"); }), HasSubstr("thesis-5.1, thesis-5.2"));
+}
+
+TEST(Presets, EachSettingHasItsOrigin) {
+  for (const Preset& preset : presets())
+    for (const auto& setting : preset.settings)
+      EXPECT_FALSE(setting.origin.place.empty())
+          << preset.name << ' ' << setting.stage << '.' << setting.parameter;
+  EXPECT_THAT(message_of([] { make_origin("guessed", "", "preset x, mean.rho"); }),
+              HasSubstr("preset x, mean.rho: there is no origin 'guessed'"));
+}
+
+TEST(Presets, ThoseOfTheThesisHaveNoRuleBelowTheStart) {
+  for (const Preset& preset : presets()) {
+    const std::string factor = preset.name == "recommended" ? "10" : "1";
+    const auto find = [&](const auto& stage_of, const std::string& parameter) {
+      return std::find_if(preset.settings.begin(), preset.settings.end(), [&](const auto& other) {
+        return other.dim == stage_of.dim && other.stage == stage_of.stage &&
+               other.parameter == parameter;
+      });
+    };
+    for (const auto& setting : preset.settings) {
+      if (setting.stage != "sequential" && setting.stage != "min" && setting.stage != "qgamma")
+        continue;
+      const auto rule = find(setting, "patience_below_start");
+      ASSERT_NE(rule, preset.settings.end()) << preset.name << ' ' << setting.stage;
+      EXPECT_EQ(rule->value, factor) << preset.name << ' ' << setting.stage;
+    }
+  }
+}
+
+TEST(Catalogue, DefaultsHaveTheirOrigins) {
+  const auto expect_origins = []<int dim>(const std::string& method_name) {
+    if (!supports_mesh_kind<dim>(method_name)) return;
+    Method<dim> method = make_method<dim>(method_name);
+    for (const auto& stage : method.stages)
+      for (const auto& parameter : stage->parameters())
+        EXPECT_TRUE(default_origin(std::string(stage->name()), parameter.name))
+            << method_name << ", stage " << stage->name() << ", " << parameter.name
+            << ": add it to studies/origins.json";
+  };
+  for (const auto& info : method_catalogue(true)) {
+    expect_origins.operator()<2>(info.name);
+    expect_origins.operator()<3>(info.name);
+  }
+  EXPECT_EQ(text_of(*default_origin("sequential", "floor")), "own choice");
+  EXPECT_EQ(text_of(*default_origin("laplace", "tolerance")), "printed, Section 1.3.2");
+  EXPECT_FALSE(default_origin("no-such-stage", "rho"));
 }
 
 TEST(Catalogue, StagesNameTheirParameters) {
@@ -359,6 +408,36 @@ TEST(Loop, CyclesOfGetmeAdaptiveEndBySection513OrFig44) {
     EXPECT_EQ(end_of_second_stage(q_star_min, 3, rule == "in-cycle"), ends.back()) << rule;
   }
   EXPECT_NE(ends[0], ends[1]);
+}
+
+TEST(Loop, LaplaceEndsByMovementOrByTheMeanQuality) {
+  for (const bool by_q_mean : {false, true}) {
+    PlanarMesh mesh = test::grid_mesh(12, test::GridCells::triangles);
+    test::distort(mesh, 0.9, 1);
+    auto method = make_method<2>("laplace");
+    method.set("tolerance", "1e-5");
+    if (by_q_mean) method.set("stop_by", "q-mean");
+    double best = 0.0, last = 0.0;
+    const auto result = smooth(mesh, method, [&](const auto& record, const auto&) {
+      last = record.quality.q_mean;
+      best = std::max(best, last);
+    });
+    EXPECT_EQ(result.quality.q_mean, by_q_mean ? best : last);
+    EXPECT_EQ(mesh_quality(mesh).q_mean, result.quality.q_mean);
+    EXPECT_THAT(result.stages[0].why_stopped, HasSubstr(by_q_mean ? "q_mean" : "no node moved"));
+  }
+}
+
+TEST(Loop, TheBestMeshMayBeInvalidOnlyWithoutQualityControl) {
+  const std::vector<Point<2>> coordinates(1);
+  MeshQuality bad{};
+  for (const bool allowed : {false, true}) {
+    BestMesh<2> best(ResultMesh::best_q_mean, coordinates, bad, 0.0, allowed);
+    MeshQuality better = bad;
+    better.q_mean = 0.5;
+    better.n_invalid = 3;
+    EXPECT_EQ(best.offer(coordinates, better, {}), allowed);
+  }
 }
 
 /// Takes its time and reports how much.

@@ -31,11 +31,24 @@ struct ListArguments {
   std::string columns;            ///< CSV file; empty: all
 };
 
-/// Prints a parameter with its range. only_for: the kind of meshes, if only one has the parameter.
-void list_parameter(const Parameter& parameter, const char* only_for) {
+/// Prints a parameter with its range and the origin of its default. only_for: the kind of meshes,
+/// if only one has the parameter.
+void list_parameter(const Parameter& parameter, const std::string& origin, const char* only_for) {
   const std::string range = range_text(parameter);
-  std::printf("      %-40s %-8s %s%s%s\n", parameter.name.c_str(), value_text(parameter).c_str(),
-              parameter.description.c_str(), range.empty() ? "" : ("; " + range).c_str(), only_for);
+  std::printf("      %-40s %-8s %s%s%s%s\n", parameter.name.c_str(), value_text(parameter).c_str(),
+              parameter.description.c_str(), range.empty() ? "" : ("; " + range).c_str(),
+              origin.c_str(), only_for);
+}
+
+/// Returns the origin of the default of a method's parameter, for its line; empty if not known.
+template <int dim>
+std::string origin_of(const Method<dim>& method, const std::string& parameter) {
+  const auto dot = method.stages.size() > 1 ? parameter.find('.') : std::string::npos;
+  const std::string stage = dot == std::string::npos ? std::string(method.stages.front()->name())
+                                                     : parameter.substr(0, dot);
+  const auto origin =
+      default_origin(stage, dot == std::string::npos ? parameter : parameter.substr(dot + 1));
+  return origin ? "; default: " + text_of(*origin) : "";
 }
 
 template <int dim>
@@ -54,10 +67,12 @@ void list_parameters(const std::string& method) {
     return std::any_of(all.begin(), all.end(), [&](const auto& p) { return p.name == name; });
   };
   for (const auto& parameter : of_planar)
-    list_parameter(parameter, volume && !has(of_volume, parameter.name) ? " [planar meshes]" : "");
+    list_parameter(parameter, origin_of(*planar, parameter.name),
+                   volume && !has(of_volume, parameter.name) ? " [planar meshes]" : "");
   for (const auto& parameter : of_volume)
     if (!has(of_planar, parameter.name))
-      list_parameter(parameter, planar ? " [volume meshes]" : "");
+      list_parameter(parameter, origin_of(*volume, parameter.name),
+                     planar ? " [volume meshes]" : "");
 }
 
 void list_method(const MethodInfo& info) {
@@ -103,6 +118,16 @@ void list_presets() {
   for (const auto& preset : presets())
     std::printf("  %-16s %s. Source: %s.\n", preset.name.c_str(), preset.description.c_str(),
                 preset.source.c_str());
+}
+
+/// Prints the settings of a preset, each with its origin.
+void list_preset(const Preset& preset) {
+  std::printf("  %s: %s\n      Source: %s.\n", preset.name.c_str(), preset.description.c_str(),
+              preset.source.c_str());
+  for (const auto& setting : preset.settings)
+    std::printf("      %-40s %-8s %s [%s meshes]\n",
+                (setting.stage + "." + setting.parameter).c_str(), setting.value.c_str(),
+                text_of(setting.origin).c_str(), setting.dim == 2 ? "planar" : "volume");
 }
 
 void list_studies(const std::filesystem::path& folder) {
@@ -171,7 +196,7 @@ void list_everything(const std::vector<Part>& all) {
   }
 }
 
-/// Prints the part or the method of this name. Throws InputError if there is none.
+/// Prints the part, the method or the preset of this name. Throws InputError if there is none.
 void list_what(const std::string& what, const std::vector<Part>& all) {
   std::vector<std::string> names;
   for (const Part& part : all) {
@@ -184,11 +209,15 @@ void list_what(const std::string& what, const std::vector<Part>& all) {
     if (info.name == what) return list_method(info);
     names.push_back(info.name);
   }
+  for (const auto& preset : presets()) {
+    if (preset.name == what) return list_preset(preset);
+    names.push_back(preset.name);
+  }
   const std::string nearest = nearest_name(what, names);
   names.resize(all.size());
-  throw InputError("there is no part and no method '" + what + "'; " +
+  throw InputError("there is no part, method or preset '" + what + "'; " +
                    (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
-                   choose_one_of(names) + ", or a method");
+                   choose_one_of(names) + ", or a method, or a preset");
 }
 
 /// Prints the keys of a kind of studies; of all kinds, the default one first, for an empty name.
@@ -211,7 +240,7 @@ void smoothfem_add_list_command(CLI::App& app) {
   command->add_option("what", arguments->what,
                       "a part: methods, presets, studies, domains, solutions, metrics, "
                       "transformations or formats; "
-                      "or a method, with its parameters (default: everything)");
+                      "or a method or a preset, with its parameters (default: everything)");
   command->add_option("--studies", arguments->studies,
                       "folder with study files (default: the built-in studies)");
   const auto* study_keys =
@@ -229,7 +258,7 @@ void smoothfem_add_list_command(CLI::App& app) {
           ->type_name("[FILE]");
   add_plugin_option(*command);
   add_examples(*command,
-               {"smoothfem list methods", "smoothfem list getme",
+               {"smoothfem list methods", "smoothfem list getme", "smoothfem list thesis-5.4",
                 "smoothfem list --study-keys smoothing", "smoothfem list --columns summary.csv"});
   command->callback([arguments, columns, study_keys] {
     if (columns->count() > 0) {

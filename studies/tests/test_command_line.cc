@@ -396,6 +396,16 @@ TEST_F(CommandLine, GeneratesQuietly) {
   EXPECT_TRUE(fs::exists(file("g.vtu")));
 }
 
+TEST_F(CommandLine, ListSaysWhereValuesComeFrom) {
+  const Outcome preset = smoothfem({"list", "thesis-5.4"});
+  EXPECT_EQ(preset.exit_code, 0) << preset.err;
+  for (const std::string origin : {"own choice, Section 5.4 does not say which",
+                                   "inferred, Section 5.4, printed with the other sign"})
+    EXPECT_NE(preset.out.find(origin), std::string::npos) << origin;
+  const Outcome method = smoothfem({"list", "laplace"});
+  EXPECT_NE(method.out.find("default: printed, Section 1.3.2"), std::string::npos);
+}
+
 TEST_F(CommandLine, ListOfStudyKeysIsAStudyFile) {
   const Outcome keys = smoothfem({"list", "--study-keys"});
   EXPECT_EQ(keys.exit_code, 0);

@@ -287,7 +287,7 @@ TEST_F(BadInput, FormulasAndGroupsOfStudiesHaveTheirLine) {
 }
 
 TEST_F(BadInput, ListOfWhat) {
-  expect_refused({"list", "getmee"}, {"there is no part and no method 'getmee'", "'getme'?"});
+  expect_refused({"list", "getmee"}, {"there is no part, method or preset 'getmee'", "'getme'?"});
   expect_refused({"list", "domain"}, {"did you mean 'domains'?"});
   expect_refused({"list", "--study-keys", "smooth"}, {"there is no study kind 'smooth'"});
   const Outcome hidden = smoothfem({"study", "--magic"});

@@ -149,10 +149,10 @@ TEST_F(Results, MeshesGoThroughPipes) {
 
 TEST_F(Results, ListShowsRangesAndWhichMeshesAParameterIsFor) {
   const std::string list = smoothfem({"list"}).out;
-  EXPECT_THAT(list, AllOf(HasSubstr("subdivision ratio of the polygon sides (Section 2.3); (0, 1) "
-                                    "[planar meshes]"),
-                          HasSubstr("; opposite-face-normals or dual-element [volume meshes]"),
-                          HasSubstr("(Eq. 3.12); (0, 1]\n")));
+  EXPECT_THAT(list, AllOf(HasSubstr("subdivision ratio of the polygon sides (Section 2.3); (0, 1); "
+                                    "default: printed, Section 6.2 [planar meshes]"),
+                          HasSubstr("; opposite-face-normals or dual-element; default: "),
+                          HasSubstr("(Eq. 3.12); (0, 1]; default: printed, Chapter 6\n")));
   EXPECT_THAT(smoothfem({"list", "--study-keys"}).out, HasSubstr("subsection method LABEL"));
 }
 

@@ -264,11 +264,11 @@ TEST_F(RunStudy, MethodsThatSolveSayHowOftenAndForHowLong) {
 
 TEST_F(RunStudy, RecordsAreThoseDueTheBestAndTheLast) {
   const std::string only =
-      "set degrees = 1\nset methods = getme\nsubsection method getme\n"
-      " set sequential.max_cycles = 60\n set sequential.patience = 60\nend\n";
+      "set degrees = 1\nset methods = laplace\nsubsection method laplace\n"
+      " set tolerance = 0\n set max_iterations = 60\nend\n";
   const fs::path all = run(study(only), "all");
   const auto every = rows_without_times(all / "iterations.csv");
-  const auto result = table(all, "summary.csv").select({{"method", "getme"}}).at(0);
+  const auto result = table(all, "summary.csv").select({{"method", "laplace"}}).at(0);
   std::size_t best = 0;
   for (std::size_t r = 0; r < every.size(); ++r)
     if (every[r].at("q_min") == result.at("q_min") && every[r].at("e_max") == result.at("e_max"))
