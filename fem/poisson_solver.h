@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/assembly/assembly.h"
+#include "fem/assembly/load.h"
 #include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"

@@ -3,18 +3,12 @@
 
 #include <Eigen/Core>
 
+#include "fem/assembly/load.h"
 #include "fem/elements/adaptive_quadrature.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "fem/space/finite_element_space.h"
 
 namespace smoothfem {
-
-/// Computation of the right-hand side b from f.
-enum class Load {
-  quadrature,  ///< b_i = integral of f phi_i, the Galerkin load of textbooks
-  nodal,       ///< b = M f_h, with the nodal interpolant f_h of f; the protocol of Chapter 6
-  none         ///< f is left out; the caller adds it
-};
 
 /// The linear system of the Poisson problem for this rank's free dofs; boundary values are
 /// eliminated.

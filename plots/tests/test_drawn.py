@@ -94,7 +94,7 @@ class Screen(InFolder):
                                    {"mesh": mesh, "method": second, "smoothed": "2026-01-02T00:00:00Z"}])
         text = screen(read_results(self.folder))
         self.assertTrue(text.startswith("Problem: -div(A grad u) = f, u = x*y, A = 2\n"
-                                        "Boundary: natural conditions on left, u given elsewhere. Load: quadrature.\n"), text)
+                                        "Boundary: natural conditions on left, u given elsewhere. Load: f integrated.\n"), text)
         self.assertIn("The smoothing times of a mesh come from up to 2 sessions", text)
 
 

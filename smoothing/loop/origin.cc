@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* any_stage = "*";
+constexpr const char* of_any_stage = "*";
 
 const Json& default_origins() {
   static const Json origins = [] {
@@ -49,7 +49,7 @@ std::optional<Origin> default_origin(const std::string& stage, const std::string
     return make_origin(origin.at(0), origin.at(1),
                        "studies/origins.json, " + stage + "." + parameter);
   };
-  for (const std::string& name : {stage, std::string(any_stage)}) {
+  for (const std::string& name : {stage, std::string(of_any_stage)}) {
     if (!all.contains(name)) continue;
     const Json& found = all[name];
     if (found.is_array()) return read(found);
