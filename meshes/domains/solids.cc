@@ -75,8 +75,9 @@ AnyMesh generate(const std::string& name, const Solid& solid, const DomainParame
   const double of_cell = hexahedra ? 1.0 : std::sqrt(2.0);  // cubic edges over volume, a node
   const double volume = solid.length * area(solid.section.polygons(0.01, 1));
   const double edge_length = p.edge_scale * std::cbrt(of_cell * volume / n_nodes);
-  const auto algorithm =
-      p.algorithm == "hxt" ? TetrahedronAlgorithm::hxt : TetrahedronAlgorithm::delaunay;
+  const auto algorithm = p.algorithm == "hxt"      ? TetrahedronAlgorithm::hxt
+                         : p.algorithm == "netgen" ? TetrahedronAlgorithm::netgen
+                                                   : TetrahedronAlgorithm::delaunay;
   // Tetrahedra fill a solid with fewer inner nodes if its boundary's edges are as short as theirs.
   const EdgeLengths lengths{1.25 * edge_length, 0.8 * edge_length};
   VolumeCells cells =
@@ -94,7 +95,7 @@ RegisteredDomain solid(const std::string& name, const std::string& description, 
        .description = description,
        .dimension = 3,
        .elements = {"tetrahedra", "hexahedra"},
-       .algorithms = {{"tetrahedra", {"delaunay", "hxt"}}},
+       .algorithms = {{"tetrahedra", {"delaunay", "hxt", "netgen"}}},
        .make = [=](const DomainParameters& p) { return generate(name, make(), p); }});
 }
 

@@ -119,7 +119,7 @@ TEST(Domains, HaveAlgorithmsThatMakeOtherMeshes) {
     EXPECT_THAT([&] { domain.generate({.elements = domain.elements.back(), .algorithm = "hxt"}); },
                 ThrowsMessage<InputError>(HasSubstr("have no choice of algorithms")));
   }
-  EXPECT_EQ(find_domain("hook").offers(), "tetrahedra by delaunay, hxt; hexahedra");
+  EXPECT_EQ(find_domain("hook").offers(), "tetrahedra by delaunay, hxt, netgen; hexahedra");
 }
 
 /// Domains of two materials: every node between groups stays and lies on the interface.

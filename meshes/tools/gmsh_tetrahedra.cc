@@ -47,6 +47,12 @@ int add_surface(const std::vector<Point<3>>& points, const CompressedRows<NodeIn
 
 }  // namespace
 
+void use_frontal_surfaces(GmshSession& session) {
+  session.set_option("Mesh.Algorithm", frontal_delaunay_2d);
+  session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
+  session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
+}
+
 void set_algorithm(GmshSession& session, TetrahedronAlgorithm algorithm) {
   session.set_option("Mesh.Algorithm3D", static_cast<int>(algorithm));
 }
@@ -59,10 +65,8 @@ void set_edge_length(GmshSession& session, double length) {
 VolumeCells mesh_with_tetrahedra(const std::string& name,
                                  const std::function<void(GmshSession&)>& build) {
   GmshSession session;
-  session.set_option("Mesh.Algorithm", frontal_delaunay_2d);
+  use_frontal_surfaces(session);
   set_algorithm(session, TetrahedronAlgorithm::delaunay);
-  session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
-  session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
   VolumeCells mesh;
   session.run(name + " cannot be meshed", [&] {
     build(session);

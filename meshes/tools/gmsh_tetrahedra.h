@@ -10,8 +10,8 @@
 
 namespace smoothfem {
 
-/// Gmsh's algorithms for tetrahedra, by its numbers. Debian's Gmsh has no other ones.
-enum class TetrahedronAlgorithm { delaunay = 1, hxt = 10 };
+/// Algorithms for tetrahedra: those of Debian's Gmsh by its numbers, and Netgen's.
+enum class TetrahedronAlgorithm { delaunay = 1, hxt = 10, netgen = -1 };
 
 /// Meshes the volumes of a model with tetrahedra by Gmsh (on one thread; Delaunay, unless
 /// build sets another algorithm). build: Gmsh calls
@@ -20,6 +20,8 @@ enum class TetrahedronAlgorithm { delaunay = 1, hxt = 10 };
 VolumeCells mesh_with_tetrahedra(const std::string& name,
                                  const std::function<void(GmshSession&)>& build);
 
+/// Sets the options of triangles and lengths that mesh_with_tetrahedra uses.
+void use_frontal_surfaces(GmshSession& session);
 void set_algorithm(GmshSession& session, TetrahedronAlgorithm algorithm);
 
 /// Sets the length of all edges without another rule.

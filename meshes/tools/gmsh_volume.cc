@@ -4,11 +4,14 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
 
+#include "meshes/tools/gmsh_nodes.h"
 #include "meshes/tools/gmsh_tetrahedra.h"
+#include "meshes/tools/netgen_tetrahedra.h"
 
 namespace smoothfem {
 
@@ -53,14 +56,48 @@ void divide_curves(double edge_length) {
   }
 }
 
+/// Returns the triangles around the model's volume.
+ClosedSurface surface_of_model() {
+  ClosedSurface surface;
+  GmshNodes all = nodes_of_model();
+  surface.points = std::move(all.points);
+  gmsh::vectorpair volumes, faces;
+  gmsh::model::getEntities(volumes, 3);
+  gmsh::model::getBoundary(volumes, faces, true, false);
+  constexpr int triangle = 2;  // Gmsh's number
+  for (const auto& [dim, tag] : faces) {
+    std::vector<std::size_t> elements, nodes;
+    gmsh::model::mesh::getElementsByType(triangle, elements, nodes, tag);
+    for (std::size_t k = 0; k < nodes.size(); k += 3)
+      surface.triangles.push_back(
+          {all.numbers.at(nodes[k]), all.numbers.at(nodes[k + 1]), all.numbers.at(nodes[k + 2])});
+  }
+  return surface;
+}
+
+/// Makes the model's surface mesh.
+void mesh_surface(GmshSession& session, const std::function<void()>& build, double edge_length) {
+  build();
+  set_edge_length(session, edge_length);
+  divide_curves(edge_length);
+  gmsh::model::mesh::generate(2);
+}
+
 VolumeCells mesh_model(const std::function<void()>& build, const EdgeLengths& lengths,
                        TetrahedronAlgorithm algorithm = TetrahedronAlgorithm::delaunay) {
+  if (algorithm == TetrahedronAlgorithm::netgen) {
+    GmshSession session;
+    ClosedSurface surface;
+    session.run("the solid cannot be meshed", [&] {
+      use_frontal_surfaces(session);
+      mesh_surface(session, build, lengths.boundary);
+      surface = surface_of_model();
+    });
+    return fill_by_netgen(surface, lengths.inside);
+  }
   return mesh_with_tetrahedra("the solid", [&](GmshSession& session) {
     set_algorithm(session, algorithm);
-    build();
-    set_edge_length(session, lengths.boundary);
-    divide_curves(lengths.boundary);
-    gmsh::model::mesh::generate(2);
+    mesh_surface(session, build, lengths.boundary);
     set_edge_length(session, lengths.inside);
   });
 }

@@ -6,9 +6,9 @@
 
 #include "smoothing/tests/volume_meshes.h"
 #include "studies/framework/results/folder_lock.h"
-#include "studies/kinds/collection/collection.h"
+#include "studies/kinds/collection/definition/collection.h"
 #include "studies/kinds/collection/member_study.h"
-#include "studies/kinds/collection/task_process.h"
+#include "studies/kinds/collection/tasks/task_process.h"
 #include "studies/tests/command_line.h"
 #include "studies/tests/documented_columns.h"
 

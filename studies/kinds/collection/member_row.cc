@@ -8,7 +8,7 @@
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/input_error.h"
 #include "studies/framework/results/csv_text.h"
-#include "studies/kinds/collection/collection.h"
+#include "studies/kinds/collection/definition/collection.h"
 
 namespace smoothfem {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "studies/kinds/collection/collection.h"
+#include "studies/kinds/collection/definition/collection.h"
 
 namespace smoothfem {
 

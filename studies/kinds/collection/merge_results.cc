@@ -10,7 +10,7 @@
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/input_error.h"
 #include "studies/framework/results/provenance.h"
-#include "studies/kinds/collection/collection.h"
+#include "studies/kinds/collection/definition/collection.h"
 #include "studies/kinds/collection/member_row.h"
 
 namespace smoothfem {

@@ -19,10 +19,10 @@
 #include "studies/framework/run/kept/result_names.h"
 #include "studies/framework/run/phase_times.h"
 #include "studies/framework/run/progress.h"
-#include "studies/kinds/collection/expand_members.h"
+#include "studies/kinds/collection/definition/expand_members.h"
 #include "studies/kinds/collection/member_row.h"
 #include "studies/kinds/collection/member_worker.h"
-#include "studies/kinds/collection/task_team.h"
+#include "studies/kinds/collection/tasks/task_team.h"
 
 namespace smoothfem {
 

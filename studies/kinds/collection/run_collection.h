@@ -2,7 +2,7 @@
 #pragma once
 
 #include "studies/framework/run/study_options.h"
-#include "studies/kinds/collection/collection.h"
+#include "studies/kinds/collection/definition/collection.h"
 
 namespace smoothfem {
 

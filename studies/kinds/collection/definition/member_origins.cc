@@ -5,7 +5,7 @@
 
 #include "meshes/doctor/finding.h"
 #include "meshes/domains/catalogue.h"
-#include "studies/kinds/collection/expand_members.h"
+#include "studies/kinds/collection/definition/expand_members.h"
 
 namespace smoothfem {
 

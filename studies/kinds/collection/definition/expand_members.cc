@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "studies/kinds/collection/expand_members.h"
+#include "studies/kinds/collection/definition/expand_members.h"
 
 #include <glob.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "studies/framework/definition/study_file.h"
-#include "studies/kinds/collection/collection.h"
+#include "studies/kinds/collection/definition/collection.h"
 
 namespace smoothfem {
 

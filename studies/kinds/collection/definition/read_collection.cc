@@ -6,9 +6,9 @@
 #include "studies/framework/definition/seeds.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/definition/study_keys.h"
-#include "studies/kinds/collection/collection.h"
-#include "studies/kinds/collection/collection_keys.h"
-#include "studies/kinds/collection/expand_members.h"
+#include "studies/kinds/collection/definition/collection.h"
+#include "studies/kinds/collection/definition/collection_keys.h"
+#include "studies/kinds/collection/definition/expand_members.h"
 
 namespace smoothfem {
 

@@ -2,7 +2,7 @@
 #include <charconv>
 
 #include "smoothing/base/input_error.h"
-#include "studies/kinds/collection/collection.h"
+#include "studies/kinds/collection/definition/collection.h"
 
 namespace smoothfem {
 

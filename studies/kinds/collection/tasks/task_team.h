@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fem/ranks/ranks.h"
-#include "studies/kinds/collection/task_process.h"
+#include "studies/kinds/collection/tasks/task_process.h"
 
 namespace smoothfem {
 

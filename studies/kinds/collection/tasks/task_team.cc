@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "studies/kinds/collection/task_team.h"
+#include "studies/kinds/collection/tasks/task_team.h"
 
 #include <chrono>
 #include <thread>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "studies/kinds/collection/collection_keys.h"
+#include "studies/kinds/collection/definition/collection_keys.h"
 
 #include <algorithm>
 #include <sstream>
