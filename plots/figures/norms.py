@@ -12,7 +12,7 @@ from .planned import PlannedFigure
 ERRORS = {"e_h1": (r"$\Vert I_h u-u_h\Vert_{H^1}$: norm of the thesis", "o"),
           "h1_error": (r"$\Vert u-u_h\Vert_{H^1}$: true error", "s"),
           "h1_best": (r"$\min_v\,\Vert u-v\Vert_{H^1}$: best approximation", "|")}
-ROW_HEIGHT = 0.2  # inches
+ROW_HEIGHT, LEGEND_ROW = 0.2, 0.18  # inches
 
 
 def plan_norms(results):
@@ -35,13 +35,18 @@ def draw_norms(results):
         for (column, (label, mark)), colour in zip(ERRORS.items(), ("tab:red", "tab:blue", "black")):
             rows = [results.summary.select(mesh=mesh, degree=degree, method=method) for method in methods]
             known = [(row.number(column)[0], place) for place, row in enumerate(rows) if len(row)]
-            ax.plot(*zip(*known), mark, color=colour, markersize=8 if mark == "|" else 4, label=label, markeredgewidth=1.5 if mark == "|" else 0.5)
+            ax.plot(*zip(*known), mark, color=colour, markersize=8 if mark == "|" else 4, label=label,
+                    markeredgewidth=1.5 if mark == "|" else 0.5)
         ax.set_xscale("log")
+        ax.margins(y=0.1)
         ax.set_title(f"{results.title(mesh)}, $d$ = {degree}")
         ax.set_yticks(range(len(methods)), [results.title(method) for method in methods])
     axes[0, 0].invert_yaxis()
     for ax in list(axes.flat)[len(panels):]:
         ax.set_axis_off()
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=1 if style.full_width() < 5 else 3, fontsize=7)
+    # The layout leaves room for the legend below the panels.
+    legend_columns = 1 if style.full_width() < 5 else len(ERRORS)
+    height = LEGEND_ROW * (len(ERRORS) // legend_columns + 0.5) / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, height, 1, 1 - height))
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="lower center", ncol=legend_columns, fontsize=7)
     return figure

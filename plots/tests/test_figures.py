@@ -2,6 +2,7 @@
 """The figures of a tiny study: that they are made, what they show, and that they are reproducible."""
 
 import contextlib
+import csv
 import io
 from unittest import mock
 
@@ -12,10 +13,11 @@ from plots.figures import style
 from plots.figures.diagrams import styles_in_order
 from plots.figures.history import annotate_free_area, draw_history
 from plots.figures.history_study import plan_histories
+from plots.figures.norms import plan_norms
 from plots.report.looks import SYMBOLS, looks_of
 from plots.results import method_styles
 from plots.results.smoothing import read_results
-from plots.tests.synthetic_results import change_provenance, without_finite_elements, write_results
+from plots.tests.synthetic_results import change_provenance, without_finite_elements, write_csv, write_results
 from plots.tests.test_read_results import InFolder
 
 LEAST_DISTANCE = 15  # in CIELAB; 2 is just noticeable
@@ -55,6 +57,22 @@ class Figures(InFolder):
                  "figure_history_norms_d1", "figure_history_norms_d2"}
         self.assertEqual({path.name for path in folder.glob("figures/*")},
                          {name + suffix for name in names for suffix in (".pdf", ".png")})
+
+    def test_three_errors_of_one_solution_stand_side_by_side(self):
+        folder = write_results(self.folder / "r")
+        self.assertEqual(plan_norms(read_results(folder)), [])  # no best approximation was recorded
+        with open(folder / "summary.csv", newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        write_csv(folder / "summary.csv", [*rows[0], "h1_best"],
+                  [{**row, "e_h1": 4.0, "h1_error": 2.0, "h1_best": 1.0 + (row["method"] == "initial")} for row in rows])
+        plan, = plan_norms(read_results(folder))
+        figure = plan.draw()
+        self.assertEqual([ax.get_title() for ax in figure.axes], ["Triangular mesh, $d$ = 1", "Triangular mesh, $d$ = 2"])
+        of_thesis, true, best = (line.get_xdata().tolist() for line in figure.axes[0].lines)
+        self.assertEqual((of_thesis, true, best), ([4.0] * 3, [2.0] * 3, [2.0, 1.0, 1.0]))
+        self.run_main(folder, "--quiet", "--only", "table_6_3_errors")
+        text = (folder / "tables" / "table_6_3_errors.md").read_text()
+        self.assertIn("least H1", text)
 
     def test_other_study_several_meshes_one_mesh_file_missing(self):
         folder = write_results(self.folder / "r", "slab", ("a", "b", "c"), ("own", "other", "laplace"))

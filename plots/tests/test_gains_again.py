@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of gains of the study field, computed again from its rows by pandas and scipy alone."""
+"""The table of gains of a collection, computed again from its rows by pandas and scipy alone."""
 
-import unittest
+import json
 
 import numpy as np
 import pandas
 from scipy import stats
 
-from plots.claims.reasons import reference
+from plots.__main__ import main
+from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, SUMMARY
+from plots.tests.synthetic_results import write_csv
+from plots.tests.test_read_results import InFolder
 
 KIND = ["elements", "degree", "level"]
 
 
 def problems(folder):
     """A row for each member and degree: logarithm of error after over before of each method (0 where it failed), and failures."""
-    rows = pandas.read_csv(folder / "summary.csv.xz", dtype={"distortion": str}, keep_default_na=False, na_values=[""], low_memory=False)
+    rows = pandas.read_csv(folder / "summary.csv", dtype={"distortion": str}, keep_default_na=False, na_values=[""], low_memory=False)
     rows["level"] = rows.distortion.fillna("as generated")
     key = ["member", "family", *KIND]
     rows = rows.dropna(subset=["degree"])
@@ -72,14 +75,43 @@ def agree(mine, shown, rounding):
     return abs(mine - shown) <= (0.051 * shown if rounding is None else rounding)
 
 
-class FieldAgain(unittest.TestCase):
+def write_random_collection(folder):
+    """Eight families, two levels, two degrees, two members each; of four methods one fails now and then."""
+    random, rows, members = np.random.default_rng(7), [], []
+    for family in "abcdefgh":
+        for level in ("", "0.6"):
+            for k in "12":
+                member = {"member": f"{family}{level}{k}", "family": family, "elements": "triangles", "distortion": level, "solution": "",
+                          "status": "complete", "reason": "", "mesh": f"{family}{level}{k}"}
+                members.append(member)
+                for degree in "12":
+                    initial = random.lognormal()
+                    for method, gain in (("initial", 1.0), ("first", 0.6), ("better", 0.3), ("equal", 0.6), ("failing", 0.7)):
+                        ratio = 1.0 if method == "initial" else gain * random.lognormal(sigma=0.4)
+                        is_invalid = method == "failing" and random.random() < 0.3
+                        rows.append({**member, "method": method, "degree": degree, "n_invalid": int(is_invalid), "cg_seconds": 1,
+                                     "smoothing_seconds": 1, "h1_error": "" if is_invalid else initial * ratio, "l2_error": 1,
+                                     "stage": "s", "iteration": 0})
+    folder.mkdir()
+    write_csv(folder / "members.csv", MEMBER_COLUMNS, members)
+    write_csv(folder / "summary.csv", tuple(dict.fromkeys((*KEYS, *SUMMARY))), rows)
+    starts = [{**row, "method": method} for row in rows if row["method"] == "initial"
+              for method in ("first", "better", "equal", "failing")]
+    write_csv(folder / "iterations.csv", tuple(dict.fromkeys((*KEYS, *NUMBERS))), starts)
+    (folder / "provenance.json").write_text(json.dumps({"study": "many", "parameters": {"kind": "collection"}, "methods": [
+        {"name": name, "title": name.capitalize()} for name in ("first", "better", "equal", "failing")]}))
+    return folder
+
+
+class GainsAgain(InFolder):
     def test_gains_are_those_of_scipy(self):
-        for study in ("field", "field-volume"):
-            folder = reference() / study
-            provenance = pandas.read_json(folder / "provenance.json", typ="series")
-            titles = {entry["title"]: entry["name"] for entry in provenance["methods"]}
-            expected = again(folder, provenance["methods"][0]["name"])
-            table = printed(folder, titles)
-            self.assertEqual(set(table), set(expected))
-            for key, numbers in table.items():
-                self.assertTrue(all(map(agree, expected[key], numbers, ROUNDING)), (study, key, expected[key], numbers))
+        folder = write_random_collection(self.folder / "r")
+        self.assertEqual(main([str(folder), "--quiet", "--only", "table_smoothing"]), 0)
+        expected = again(folder, "first")
+        table = printed(folder, {name.capitalize(): name for name in ("first", "better", "equal", "failing")})
+        self.assertEqual(set(table), set(expected))
+        self.assertEqual(len(table), 16)
+        for key, numbers in table.items():
+            self.assertTrue(all(map(agree, expected[key], numbers, ROUNDING)), (key, expected[key], numbers))
+        self.assertLess(min(numbers[3] for numbers in expected.values() if np.isfinite(numbers[3])), 0.05)
+        self.assertGreater(max(numbers[5] for numbers in expected.values()), 0.0)
