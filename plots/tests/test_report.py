@@ -135,7 +135,7 @@ class TablesPage(InFolder):
         text = (folder / "report.html").read_text()
         self.assertIn("<h3>Which method</h3>", text)
         self.assertTrue("<li>Triangles, degree 1, distorted to 0.5: Good leaves 0.500" in text)
-        for name in ("table_members", "table_prediction", "table_smoothing", "table_ranking", "table_payoff"):
+        for name in ("table_members", "table_prediction", "table_smoothing", "table_budgets", "table_payoff"):
             self.assertIn(f'<table id="{name}" class="sortable"', text)
         self.assertIn('id="diagram"', text)
         self.assertLess(len(text.encode()), MOST_BYTES)
