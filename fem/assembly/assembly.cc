@@ -105,18 +105,14 @@ void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCell
   for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
     const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
     const std::function<double(const Point<dim>&)>& f = f_of(cell);
-    CellLoad<n_dofs> load(element.errors, vertices, f);
-    bool is_settled = element.n_rules() == 1;
-    std::size_t level = 0;
-    while (!is_settled && level + 1 < element.n_rules()) {
-      const CellLoad<n_dofs> finer(element.rule(++level), vertices, f);
-      is_settled = load.is_near(finer, adaptive_quadrature::tolerance_at(level, element.n_rules()));
-      load = finer;
-    }
-    if (element.n_rules() > 1 && cell < group.n_own) system.points.note(level, is_settled);
+    const Settled<CellLoad<n_dofs>> load(element, [&](const QuadratureTable& table) {
+      return CellLoad<n_dofs>(table, vertices, f);
+    });
+    if (element.n_rules() > 1 && cell < group.n_own)
+      system.points.note(load.level, load.is_settled);
     for (std::size_t i = 0; i < n_dofs; ++i)
       space.for_each_master(group.dofs[cell * n_dofs + i], [&](std::uint32_t row, double weight) {
-        if (row < space.n_own) system.right_hand_side[row] += weight * load.values[i];
+        if (row < space.n_own) system.right_hand_side[row] += weight * load.integrals.values[i];
       });
   }
 }

@@ -73,18 +73,13 @@ void assemble_projection(const FiniteElementSpace<dim>& space, const std::vector
   system.matrix.coeffs().setZero();
   system.right_hand_side.setZero();
   for_each_group(space, [&]<std::size_t n_dofs, std::size_t n_vertices>(const ElementCells& group) {
-    const ReferenceElement& element = group.element;
     for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
       const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
-      CellProducts<n_dofs> products(element.errors, vertices, solution, norm);
-      bool is_settled = element.n_rules() == 1;
-      for (std::size_t level = 1; !is_settled && level < element.n_rules(); ++level) {
-        const CellProducts<n_dofs> finer(element.rule(level), vertices, solution, norm);
-        is_settled =
-            products.is_near(finer, adaptive_quadrature::tolerance_at(level, element.n_rules()));
-        products = finer;
-      }
-      add_cell<dim, n_dofs>(space, group, cell, products, 0, system);
+      const Settled<CellProducts<n_dofs>> products(
+          group.element, [&](const QuadratureTable& table) {
+            return CellProducts<n_dofs>(table, vertices, solution, norm);
+          });
+      add_cell<dim, n_dofs>(space, group, cell, products.integrals, 0, system);
     }
   });
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "fem/assembly/cell_diffusivity.h"
+#include "fem/elements/adaptive_quadrature.h"
 #include "fem/space/finite_element_space.h"
 #include "smoothing/simd/cells.h"
 
@@ -197,6 +198,27 @@ struct ElementBatch {
         vertices(cell_vertices<dim, n_vertices>(group, cells, x)) {
     for (std::size_t i = 0; i < n_dofs; ++i)
       for (std::size_t l = 0; l < n_lanes; ++l) load[i][l] = load_at(cells[l], i);
+  }
+};
+
+/// Integrals over a cell by a chosen rule.
+template <class Integrals>
+struct Settled {
+  Integrals integrals;
+  std::size_t level = 0;   ///< of the element's rules
+  bool is_settled = true;  ///< the last finer rule changed little
+
+  /// Starts with the rule for errors, and takes finer ones until one changes the integrals little.
+  /// by_rule(table): the integrals.
+  template <class ByRule>
+  Settled(const ReferenceElement& element, const ByRule& by_rule)
+      : integrals(by_rule(element.errors)), is_settled(element.n_rules() == 1) {
+    while (!is_settled && level + 1 < element.n_rules()) {
+      const Integrals finer = by_rule(element.rule(++level));
+      is_settled =
+          integrals.is_near(finer, adaptive_quadrature::tolerance_at(level, element.n_rules()));
+      integrals = finer;
+    }
   }
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "meshes/domains/catalogue.h"
 #include "meshes/tools/quadrilateral_region.h"
 
 namespace smoothfem {
@@ -42,6 +41,10 @@ Polygons Shape::polygons(double edge_length, std::size_t multiple_of) const {
 bool Shape::is_graded() const {
   return std::any_of(outlines.begin(), outlines.end(),
                      [](const ShapeOutline& outline) { return outline.edge_factor != 1.0; });
+}
+
+Shape washer_shape() {
+  return {{{circle(Point<2>::Zero(), 1.0)}, {circle(Point<2>::Zero(), 0.6)}}};
 }
 
 Shape comb_shape(double fin) {
@@ -126,10 +129,6 @@ Shape disc() {
   return {{{circle(Point<2>::Zero(), 1.0)}}};
 }
 
-Shape washer() {
-  return {{{circle(Point<2>::Zero(), 1.0)}, {circle(Point<2>::Zero(), 0.6)}}};
-}
-
 /// Edges at the hole are a sixth of the others.
 Shape holed_plate() {
   return {
@@ -176,8 +175,6 @@ Shape lake() {
            {circle({-0.4, -0.25}, 0.1)}}};
 }
 
-const std::vector<std::string> triangle_algorithms{"frontal", "delaunay", "meshadapt"};
-
 AnyMesh generate(const std::string& name, const Shape& shape, const DomainParameters& p) {
   constexpr int largest_edge_scale = 16;
   constexpr double n_nodes = 1e5;
@@ -196,19 +193,19 @@ AnyMesh generate(const std::string& name, const Shape& shape, const DomainParame
                  "generated " + name);
 }
 
-RegisteredDomain shape(const std::string& name, const std::string& description, Shape (*make)()) {
-  return RegisteredDomain(
-      {.name = name,
-       .description = description,
-       .dimension = 2,
-       .elements = {"triangles", "quadrilaterals"},
-       .algorithms = {{"triangles", triangle_algorithms}},
-       .make = [=](const DomainParameters& p) { return generate(name, make(), p); }});
+RegisteredDomain shape(const std::string& name, const std::string& description, Shape (*form)()) {
+  return registered_form({.name = {},
+                          .description = {},
+                          .dimension = 2,
+                          .elements = {"triangles", "quadrilaterals"},
+                          .algorithms = {{"triangles", {"frontal", "delaunay", "meshadapt"}}},
+                          .make = {}},
+                         name, description, form, generate);
 }
 
 const RegisteredDomain registered[] = {
     shape("disc", "disc of radius 1", disc),
-    shape("washer", "disc with a round hole of 0.6 times its radius", washer),
+    shape("washer", "disc with a round hole of 0.6 times its radius", washer_shape),
     shape("holed-plate", "square with a small hole; edges grow from the hole", holed_plate),
     shape("wing", "rectangle around the section of a wing; edges grow from it", wing_tunnel),
     shape("bracket", "L with a rounded inner corner, three holes and a slot", bracket_shape),

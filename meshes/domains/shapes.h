@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "meshes/domains/catalogue.h"
 #include "meshes/tools/outline.h"
 
 namespace smoothfem {
@@ -24,6 +26,21 @@ struct Shape {
   bool is_graded() const;
 };
 
+/// Registers a domain whose meshes are made of a form (a Shape, or a solid made of one). like:
+/// dimension, elements and algorithms. mesh_form(name, form, parameters): the mesh.
+template <class Form>
+RegisteredDomain registered_form(Domain like, const std::string& name,
+                                 const std::string& description, Form (*form)(),
+                                 AnyMesh (*mesh_form)(const std::string&, const Form&,
+                                                      const DomainParameters&)) {
+  like.name = name;
+  like.description = description;
+  like.make = [=](const DomainParameters& p) { return mesh_form(name, form(), p); };
+  return RegisteredDomain(std::move(like));
+}
+
+/// A disc of radius 1 with a round hole of radius 0.6.
+Shape washer_shape();
 /// Six fins on a base.
 Shape comb_shape(double fin_width);
 /// An L with a rounded inner corner, three round holes and a slot.

@@ -6,7 +6,6 @@
 #include <functional>
 #include <numbers>
 
-#include "meshes/domains/catalogue.h"
 #include "meshes/domains/shapes.h"
 #include "meshes/tools/gmsh_volume.h"
 #include "meshes/tools/quadrilateral_region.h"
@@ -54,8 +53,7 @@ Solid sheet() {
   return {channel_shape(0.8), 3.0};
 }
 Solid elbow() {
-  return turned({{{circle(Point<2>::Zero(), 1.0)}, {circle(Point<2>::Zero(), 0.6)}}}, 3.0,
-                0.5 * pi);
+  return turned(washer_shape(), 3.0, 0.5 * pi);
 }
 Solid hook() {
   return turned({{{circle(Point<2>::Zero(), 0.5)}}}, 1.5, 4.0 / 3.0 * pi);
@@ -89,14 +87,14 @@ AnyMesh generate(const std::string& name, const Solid& solid, const DomainParame
   return mesh_of(std::move(cells), "generated " + name);
 }
 
-RegisteredDomain solid(const std::string& name, const std::string& description, Solid (*make)()) {
-  return RegisteredDomain(
-      {.name = name,
-       .description = description,
-       .dimension = 3,
-       .elements = {"tetrahedra", "hexahedra"},
-       .algorithms = {{"tetrahedra", {"delaunay", "hxt", "netgen"}}},
-       .make = [=](const DomainParameters& p) { return generate(name, make(), p); }});
+RegisteredDomain solid(const std::string& name, const std::string& description, Solid (*form)()) {
+  return registered_form({.name = {},
+                          .description = {},
+                          .dimension = 3,
+                          .elements = {"tetrahedra", "hexahedra"},
+                          .algorithms = {{"tetrahedra", {"delaunay", "hxt", "netgen"}}},
+                          .make = {}},
+                         name, description, form, generate);
 }
 
 const RegisteredDomain registered[] = {

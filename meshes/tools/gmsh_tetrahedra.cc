@@ -6,12 +6,12 @@
 #include <array>
 
 #include "meshes/tools/gmsh_nodes.h"
+#include "meshes/tools/gmsh_planar.h"
 
 namespace smoothfem {
 
 namespace {
 
-constexpr int frontal_delaunay_2d = 6;        // 8 never ends on some domains
 constexpr int triangle = 2, tetrahedron = 4;  // Gmsh's numbers of the types
 
 VolumeCells tetrahedra_of_model() {
@@ -48,7 +48,7 @@ int add_surface(const std::vector<Point<3>>& points, const CompressedRows<NodeIn
 }  // namespace
 
 void use_frontal_surfaces(GmshSession& session) {
-  session.set_option("Mesh.Algorithm", frontal_delaunay_2d);
+  session.set_option("Mesh.Algorithm", static_cast<int>(TriangleAlgorithm::frontal));
   session.set_option("Mesh.CharacteristicLengthExtendFromBoundary", 0);
   session.set_option("Mesh.CharacteristicLengthFromPoints", 0);
 }

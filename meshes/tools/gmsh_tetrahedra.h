@@ -13,10 +13,10 @@ namespace smoothfem {
 /// Algorithms for tetrahedra: those of Debian's Gmsh by its numbers, and Netgen's.
 enum class TetrahedronAlgorithm { delaunay = 1, hxt = 10, netgen = -1 };
 
-/// Meshes the volumes of a model with tetrahedra by Gmsh (on one thread; Delaunay, unless
-/// build sets another algorithm). build: Gmsh calls
-/// that make the model and set all edge lengths; there is no other source of edge lengths. name:
-/// for messages, for example "the piston". Throws InputError with Gmsh's message if it fails.
+/// Meshes the volumes of a model with tetrahedra by Gmsh (on one thread; Delaunay, unless `build`
+/// sets another algorithm). build: Gmsh calls that make the model and set all edge lengths; there
+/// is no other source of edge lengths. name: for messages, for example "the piston". Throws
+/// InputError with Gmsh's message if it fails.
 VolumeCells mesh_with_tetrahedra(const std::string& name,
                                  const std::function<void(GmshSession&)>& build);
 

@@ -69,8 +69,8 @@ ClosedSurface surface_of_model() {
     std::vector<std::size_t> elements, nodes;
     gmsh::model::mesh::getElementsByType(triangle, elements, nodes, tag);
     for (std::size_t k = 0; k < nodes.size(); k += 3)
-      surface.triangles.push_back(
-          {all.numbers.at(nodes[k]), all.numbers.at(nodes[k + 1]), all.numbers.at(nodes[k + 2])});
+      surface.triangles.append(std::array<NodeIndex, 3>{
+          all.numbers.at(nodes[k]), all.numbers.at(nodes[k + 1]), all.numbers.at(nodes[k + 2])});
   }
   return surface;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/tools/netgen_tetrahedra.h"
 
-#include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
-#include <map>
+#include <numeric>
 
+#include "meshes/doctor/examinations/orientation.h"
 #include "meshes/external/child_process.h"
 #include "smoothing/base/data_folder.h"
 #include "smoothing/base/input_error.h"
@@ -16,37 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Turns triangles over until neighbours have the same side outside, and all normals point
-/// outwards.
-void turn_outwards(ClosedSurface& surface) {
-  auto& triangles = surface.triangles;
-  std::map<std::pair<NodeIndex, NodeIndex>, std::vector<std::size_t>> at_edge;
-  const auto edges_of = [](const std::array<NodeIndex, 3>& t) {
-    return std::array{std::pair(t[0], t[1]), std::pair(t[1], t[2]), std::pair(t[2], t[0])};
-  };
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const auto& [a, b] : edges_of(triangles[t])) at_edge[std::minmax(a, b)].push_back(t);
-  std::vector<bool> done(triangles.size(), false);
-  std::vector<std::size_t> open{0};
-  done.front() = true;
-  while (!open.empty()) {
-    const auto edges = edges_of(triangles[open.back()]);
-    open.pop_back();
-    for (const auto& edge : edges)
-      for (const std::size_t other : at_edge.at(std::minmax(edge.first, edge.second))) {
-        if (done[other]) continue;
-        done[other] = true;
-        open.push_back(other);
-        const auto others = edges_of(triangles[other]);
-        if (std::find(others.begin(), others.end(), edge) != others.end())
-          std::swap(triangles[other][1], triangles[other][2]);
-      }
-  }
+/// Returns the triangles with all normals outwards.
+CompressedRows<NodeIndex> turned_outwards(const ClosedSurface& surface) {
+  const PlainCells plain{2, surface.triangles, surface.points, false};
+  auto triangles = with_reversed(2, surface.triangles, find_reversed_cells(plain).reversed);
   double volume = 0.0;
-  for (const auto& t : triangles)
-    volume += surface.points[t[0]].dot(surface.points[t[1]].cross(surface.points[t[2]]));
-  if (volume < 0.0)
-    for (auto& t : triangles) std::swap(t[1], t[2]);
+  for (CellIndex t = 0; t < triangles.size(); ++t)
+    volume += surface.points[triangles[t][0]].dot(
+        surface.points[triangles[t][1]].cross(surface.points[triangles[t][2]]));
+  if (volume > 0.0) return triangles;
+  std::vector<CellIndex> all(triangles.size());
+  std::iota(all.begin(), all.end(), CellIndex{0});
+  return with_reversed(2, triangles, all);
 }
 
 fs::path netgen_program() {
@@ -61,11 +43,13 @@ fs::path netgen_program() {
 }
 
 void write(const fs::path& file, const ClosedSurface& surface, double edge_length) {
+  const auto triangles = turned_outwards(surface);
   std::ofstream out(file);
   out.precision(std::numeric_limits<double>::max_digits10);
-  out << surface.points.size() << ' ' << surface.triangles.size() << ' ' << edge_length << '\n';
+  out << surface.points.size() << ' ' << triangles.size() << ' ' << edge_length << '\n';
   for (const auto& p : surface.points) out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
-  for (const auto& t : surface.triangles) out << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  for (CellIndex t = 0; t < triangles.size(); ++t)
+    out << triangles[t][0] << ' ' << triangles[t][1] << ' ' << triangles[t][2] << '\n';
   if (!out.flush()) throw InputError(file.string() + " cannot be written");
 }
 
@@ -88,8 +72,7 @@ VolumeCells read(const fs::path& file) {
 
 }  // namespace
 
-VolumeCells fill_by_netgen(ClosedSurface surface, double edge_length) {
-  turn_outwards(surface);
+VolumeCells fill_by_netgen(const ClosedSurface& surface, double edge_length) {
   constexpr double hour = 3600.0;
   const fs::path program = netgen_program();
   const ScratchFolder folder;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "meshes/tools/mesh_cells.h"
@@ -11,11 +10,11 @@ namespace smoothfem {
 /// A connected closed surface of triangles.
 struct ClosedSurface {
   std::vector<Point<3>> points;
-  std::vector<std::array<NodeIndex, 3>> triangles;
+  CompressedRows<NodeIndex> triangles;
 };
 
 /// Fills the surface with tetrahedra by Netgen; edges grow from the surface's to edge_length. The
 /// result's first nodes are the surface's points. Throws InputError if Netgen is missing or fails.
-VolumeCells fill_by_netgen(ClosedSurface surface, double edge_length);
+VolumeCells fill_by_netgen(const ClosedSurface& surface, double edge_length);
 
 }  // namespace smoothfem

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..statistics.profiles import time_to_target
 from ..statistics.units import geometric, holm, least_p, mean_of_units, sign_flips, unit_means
-from .problems import ERROR, WORSE, kinds_of_problems
+from .problems import ERROR, LEAST_SECONDS, WORSE, kinds_of_problems
 
 NEAR_LEAST = 1.05  # a problem counts as solved below this multiple of the smallest error of any method
 SURE = 0.05  # an adjusted p-value below this distinguishes two methods
@@ -137,7 +137,7 @@ def solving_costs(problems, methods):
         for method in methods:
             curve = problem.curves.get(method)
             reached = np.inf if curve is None else time_to_target(curve["seconds"], curve[ERROR], NEAR_LEAST * least)
-            costs[method].append(max(reached, 1e-6) / problem.one_solve)
+            costs[method].append(max(reached, LEAST_SECONDS) / problem.one_solve)
     return {method: np.array(values) for method, values in costs.items()}
 
 

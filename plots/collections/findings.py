@@ -5,7 +5,7 @@ import math
 from collections import Counter
 
 from ..results.symbols import symbol_of
-from .comparison import (AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT, SURE, at_budgets, can_test, gains, payoffs)
+from .comparison import AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT, SURE, can_test
 from .prediction import differ
 from .problems import AS_GENERATED, ERROR
 
@@ -15,14 +15,13 @@ OWN_MEASURE = "q_mean"  # what methods of this program optimize
 MOST_KINDS = 3  # of meshes that a sentence names
 
 
-def findings_as_markdown(results, problems, predictions):
-    """A page of sentences, from what the tables show."""
-    found = gains(problems, results.methods)
+def findings_as_markdown(results, problems, found, budgets, alternatives, predictions):
+    """A page of sentences, from what the tables show: gains, gains at budgets, payoffs and predictions."""
     sections = (("What was run", what_was_run(results, problems)),
                 ("How much", how_much(results, found)),
                 ("Which method", which_method(results, found)),
-                ("At equal times", at_equal_times(results, at_budgets(problems, results.methods))),
-                ("Does smoothing pay?", what_pays(results, problems)),
+                ("At equal times", at_equal_times(results, budgets)),
+                ("Does smoothing pay?", what_pays(results, alternatives)),
                 ("What speaks against it", what_got_worse(results, found)),
                 ("What predicts the error", what_predicts(predictions)))
     lines = [f"# {results.study_title}: findings", "", SCALES]
@@ -119,10 +118,10 @@ def at_equal_times(results, found):
     return sentences
 
 
-def what_pays(results, problems):
+def what_pays(results, found):
     """Compares the reference method's mesh with the next degree and with split cells on the unsmoothed mesh."""
     sentences = []
-    for of_kind in of_kinds(payoffs(problems, results.methods[0]) if results.methods else ()):
+    for of_kind in of_kinds(found):
         ways = {(p.method, p.change): p for p in of_kind}
         smoothed = ways[results.methods[0], AS_IS]
         text = (f"{kind_of(smoothed)}: {results.title(smoothed.method)} leaves {smoothed.error:.3f}{bracket(smoothed.error_interval, '.3f')} "

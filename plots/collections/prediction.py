@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..results.collection import OUTCOMES, QUALITIES
+from ..results.collection import OUTCOMES, QUALITIES, numbers_of
 from ..statistics.correlation import spearman
 from ..statistics.units import mean_of_units, sign_flips
 from .problems import kinds_of_meshes
@@ -62,14 +62,9 @@ def samples_of(results):
 
 def some_of_each_curve(members, methods):
     """Numbers of RECORDS_OF_CURVE rows of each method on each member, ascending."""
-    places = {}
-    for number, key in enumerate(zip(members, methods)):
-        places.setdefault(key, []).append(number)
-    chosen = set()
-    for numbers in places.values():
-        steps = np.linspace(0, len(numbers) - 1, min(len(numbers), RECORDS_OF_CURVE)).round().astype(int)
-        chosen.update(numbers[step] for step in steps)
-    return np.array(sorted(chosen), dtype=int)
+    chosen = [numbers[np.linspace(0, len(numbers) - 1, min(len(numbers), RECORDS_OF_CURVE)).round().astype(int)]
+              for _, numbers in numbers_of(zip(members, methods))]
+    return np.sort(np.concatenate(chosen)) if chosen else np.array([], dtype=int)
 
 
 def relative_to_least(values, members):

@@ -22,11 +22,12 @@ def make_collection_tables(results):
     """(tables, page of findings): members, gains, budgets, whether smoothing pays, correlations, and what knowing the solution gains;
     tables without rows are left out."""
     problems, predicted = problems_of(results), predictions(results)
-    tables = (members_table(results), smoothing_table(results, gains(problems, results.methods)),
-              budget_table(results, at_budgets(problems, results.methods)),
-              payoff_table(results, payoffs(problems, results.methods[0]) if results.methods else []),
-              prediction_table(results, predicted), gains_table(results))
-    return [table for table in tables if table.keys], findings_as_markdown(results, problems, predicted)
+    found, budgets = gains(problems, results.methods), at_budgets(problems, results.methods)
+    alternatives = payoffs(problems, results.methods[0]) if results.methods else []
+    tables = (members_table(results), smoothing_table(results, found), budget_table(results, budgets),
+              payoff_table(results, alternatives), prediction_table(results, predicted), gains_table(results))
+    return ([table for table in tables if table.keys],
+            findings_as_markdown(results, problems, found, budgets, alternatives, predicted))
 
 
 def kind_columns(found):

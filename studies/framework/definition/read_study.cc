@@ -424,8 +424,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
   });
   const auto methods = method_labels(lists.get("methods"), dimensions);
   const auto solutions = split_list(lists.get("solutions"));
-  const auto scales = split_list(lists.get("scales"));
-  require_scale(scale, scales, file.string());
+  const auto scales = known_scales(lists, scale, file.string());
   check_labels(meshes, "mesh", file.string());
   check_labels(methods, "method", file.string());
   if (!solutions.empty()) check_labels(solutions, "solution", file.string());

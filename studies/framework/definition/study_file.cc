@@ -102,9 +102,10 @@ void check_label(const std::string& label, const std::string& what, const std::s
                      "' may only have letters, digits, '.', '_' and '-'");
 }
 
-void require_scale(const std::string& scale, const std::vector<std::string>& known,
-                   const std::string& file) {
-  if (scale.empty() || std::find(known.begin(), known.end(), scale) != known.end()) return;
+std::vector<std::string> known_scales(const dealii::ParameterHandler& lists,
+                                      const std::string& scale, const std::string& file) {
+  std::vector<std::string> known = split_list(lists.get("scales"));
+  if (scale.empty() || std::find(known.begin(), known.end(), scale) != known.end()) return known;
   throw InputError(file + ": the study has no scale '" + scale + "'; " +
                    (known.empty() ? "it has one size only: leave --scale out"
                                   : choose_one_of(known, scale) + ", or leave --scale out"));
@@ -236,8 +237,7 @@ StudyHeader read_table_study(ParameterHandler& p, const std::filesystem::path& f
   ParameterHandler lists;  // the lists determine which subsections exist
   declare_scales(lists);
   parse_study(lists, text, true);
-  const auto scales = split_list(lists.get("scales"));
-  require_scale(scale, scales, file.string());
+  const auto scales = known_scales(lists, scale, file.string());
   for (const auto& name : scales) declare_table_scale(p, name, numbers);
   parse_study(p, text, false);
 

@@ -50,9 +50,10 @@ void parse_study(dealii::ParameterHandler& p, const StudyText& text, bool skip_u
 /// Throws InputError if the label has other characters than letters, digits, '.', '_' and '-'.
 void check_label(const std::string& label, const std::string& what, const std::string& file);
 
-/// Throws InputError if the scale is neither empty nor known.
-void require_scale(const std::string& scale, const std::vector<std::string>& known,
-                   const std::string& file);
+/// Returns the scales that a study file lists. Throws InputError unless the scale is empty or one
+/// of them.
+std::vector<std::string> known_scales(const dealii::ParameterHandler& lists,
+                                      const std::string& scale, const std::string& file);
 
 /// A line of a study file, without its comment and without blanks around its parts.
 struct StudyLine {

@@ -206,8 +206,7 @@ class GeneratedMembers {
         const auto algorithms = algorithms_of(domain, name);
         for (std::size_t a = 0; a < algorithms.size(); ++a) {
           Member by_algorithm = member;
-          if (!algorithms[a].empty() && algorithms.size() > 1)
-            by_algorithm.name += "." + algorithms[a];
+          if (algorithms.size() > 1) by_algorithm.name += "." + algorithms[a];
           by_algorithm.mesh.algorithm = algorithms[a];
           variations_.add(by_algorithm, domain.is_random(name), members, a > 0);
         }

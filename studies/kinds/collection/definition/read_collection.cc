@@ -72,8 +72,7 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
   ParameterHandler lists;  // the lists determine which subsections exist
   declare_collection(lists);
   parse_study(lists, text, true);
-  const auto scales = split_list(lists.get("scales"));
-  require_scale(scale, scales, file.string());
+  const auto scales = known_scales(lists, scale, file.string());
   if (!lists.get("meshes").empty())
     throw InputError(
         file.string() +
