@@ -4,8 +4,8 @@
 
     make_reference.py SOURCE PROGRAM WORK [--compare | --program-of COMMIT] [STUDY...]
 
-All studies run at the scale `paper`, except the gear on the published meshes and collections, which run at their default
-scale. The script resumes after an interruption: it skips studies whose reference is of this commit, and an interrupted study
+All studies run at the scale `paper`, except the gear on the published meshes and collections of energy methods, which run at
+their default scale. The script resumes after an interruption: it skips studies whose reference is of this commit, and an interrupted study
 resumes. With --compare, references do not change. The script then records in results/reference/again.csv whether this
 commit gives the same numbers; exit code 1 means that numbers differ. With --program-of nothing is run. The script then
 records which references were made by a program with the same sources as that commit.
@@ -27,7 +27,9 @@ from plots.results.rows import packed, read_provenance
 
 # Files kept of a study: its packed rows, from which `smoothfem plot` makes tables and figures.
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv")
-COLLECTIONS = ("field", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their default scale
+FIELDS = ("field", "field-volume", "field-large")
+COLLECTIONS_AS_THEY_ARE = ("energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their default scale
+COLLECTIONS = (*FIELDS, *COLLECTIONS_AS_THEY_ARE)
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")
 TABLES = ("*.md", "*.csv")  # tables of collections: they need iterations.csv and metrics.csv, which are too large to keep
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME
@@ -82,7 +84,7 @@ def options(study):
     """Returns the options of a study's run for the reference."""
     if study in PUBLISHED:
         return ["--published", "--no-figures"]
-    scale = [] if study in COLLECTIONS or study.startswith(REASONS) else ["--scale", "paper"]
+    scale = [] if study in COLLECTIONS_AS_THEY_ARE or study.startswith(REASONS) else ["--scale", "paper"]
     return [*scale, "--no-figures"]
 
 
