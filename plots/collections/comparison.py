@@ -141,33 +141,36 @@ def solving_costs(problems, methods):
     return {method: np.array(values) for method, values in costs.items()}
 
 
-def payoffs(problems, method):
-    """Alternatives to the unsmoothed mesh on every kind of meshes: the method's mesh, every cell split, the next degree."""
+def payoffs(problems, methods):
+    """Alternatives to the unsmoothed mesh on every kind of meshes: each method's mesh, every cell split, the next degree."""
     by_key = {(problem.member, problem.degree): problem for problem in problems}
     found = []
     for key, of_kind in kinds_of_problems(problems).items():
         collected = {}
         for problem in of_kind:
-            for way, (error, seconds, fair) in alternatives(problem, by_key, method).items():
+            for way, (error, seconds, fair) in alternatives(problem, by_key, methods).items():
                 collected.setdefault(way, []).append((problem, error / problem.initial.error, seconds / problem.one_solve, fair))
         found += [payoff(key, way, values) for way, values in collected.items()]
     return found
 
 
-def alternatives(problem, by_key, method):
+def alternatives(problem, by_key, methods):
     """(method, change) -> (error, seconds in all, error over the unsmoothed mesh's after the same time)."""
     ways = {}
-    result = problem.results.get(method)
-    if result:
-        ways[method, AS_IS] = result.error, result.seconds + result.solving
-    else:  # the user solves on the initial mesh after all
-        ways[method, AS_IS] = problem.initial.error, problem.broken.get(method, 0.0) + problem.one_solve
+    for method in methods:
+        result = problem.results.get(method)
+        if result:
+            ways[method, AS_IS] = result.error, result.seconds + result.solving
+        else:  # the user solves on the initial mesh after all
+            ways[method, AS_IS] = problem.initial.error, problem.broken.get(method, 0.0) + problem.one_solve
     higher = by_key.get((problem.member, str(int(problem.degree) + 1)))
     if higher:
         ways[INITIAL_MESH, NEXT_DEGREE] = higher.initial.error, higher.one_solve
     for which, (error, solving) in problem.split.items():
-        if which == INITIAL_MESH or (which == method and result):
-            ways[which, SPLIT] = error, solving + (0.0 if which == INITIAL_MESH else result.seconds)
+        if which == INITIAL_MESH:
+            ways[which, SPLIT] = error, solving
+        elif which in methods and which in problem.results:
+            ways[which, SPLIT] = error, solving + problem.results[which].seconds
     unsmoothed = error_in_time(problem.initial.error, problem.one_solve, *ways.get((INITIAL_MESH, SPLIT), (np.nan, np.nan)))
     return {way: (error, seconds, np.nan if way[0] == INITIAL_MESH else error / unsmoothed(seconds))
             for way, (error, seconds) in ways.items()}

@@ -6,6 +6,11 @@ import io
 import re
 from functools import lru_cache
 
+import numpy as np
+
+from ..collections.comparison import AS_IS, INITIAL_MESH, payoffs
+from ..collections.problems import problems_of
+from ..results.collection import read_collection_results
 from ..results.data_folder import data_folder
 from ..results.rows import ResultsError, read_rows
 from ..results.smoothing import read_results
@@ -63,9 +68,11 @@ class Tables:
         rows = read_rows(self.reference / study / "tables" / "table_energy_gains.csv").records()
         return {tuple(row[name] for name in ("Solution", "Elements", "d", "Method")): row for row in rows}
 
-    def findings(self, study):
-        """The findings of a collection."""
-        return (self.reference / study / "tables" / "findings.md").read_text(encoding="utf-8")
+    def payoffs(self, study):
+        """What the methods of a collection cost and gain, GETMe's left out: a Payoff for each kind of meshes and method."""
+        results = read_collection_results(self.reference / study)
+        return [found for found in payoffs(problems_of(results), [name for name in results.methods if name != "getme"])
+                if found.method != INITIAL_MESH and found.change == AS_IS], results.titles
 
 
 def blocks(reference):
@@ -138,8 +145,7 @@ def domains(tables):
     equal = sorted({case[1:] for case in factors if case[0] == 1})
     planar = sorted({min(case for case in factors if case[1] == elements)[2] for elements in ("triangles", "quadrilaterals")})
     nodes = sorted(int(row["n_nodes"]) for row in read_rows(folder / "members.csv").records())
-    times = sorted(float(row["Time / initial"]) for row in read_rows(folder / "tables" / "table_payoff.csv").records()
-                   if row["Instead"] in ("Weights", "Descent", "Moving mesh and descent, sliding"))
+    times = sorted(entry.time for entry in tables.payoffs("energy-field")[0])
     return "\n".join((
         f"{len(nodes)} meshes of {nodes[0]} to {nodes[-1]:,} nodes. {counted(rows)}", "",
         table(("method", "elements", "front", "layer", "peak"), cells, "llrrr"), "",
@@ -151,17 +157,16 @@ def domains(tables):
 
 
 def at_equal_time(tables, study):
-    """The sentence of a collection's findings on error at equal time, with the methods that do best."""
-    found = tables.findings(study)
-    match = re.search(r"error is surely lower than the unsmoothed mesh's in (\d+) of (\d+) families and degrees, surely higher in (\d+);", found)
-    if match is None:
-        raise ResultsError(f"{study}: findings.md has no sentence on the error at equal time.")
-    lower, total, higher = match.groups()
-    best = re.findall(r"^- (\S+), d = (\d), at equal time in all: of the methods (.*?) does best, with (\d\.\d+)", found, re.MULTILINE)
-    good = [f"{family}, degree {degree}: {method}" for family, degree, method, error in best if float(error) < 1]
-    return (f"At equal time, smoothing included, the best method has a lower error than unsmoothed meshes in {lower} of {total} cases of a "
-            f"domain and a degree, and a higher error in {higher} (95 % intervals). Best methods with a lower error: "
-            f"{'; '.join(good) or 'none'}.")
+    """Sentences on the error at equal time of the methods that move nodes by the solution."""
+    found, titles = tables.payoffs(study)
+    said = []
+    for method in dict.fromkeys(entry.method for entry in found):
+        entries = [entry for entry in found if entry.method == method]
+        highs = [entry.at_equal_time_interval[1] for entry in entries]
+        sure = f"{sum(high < 1 for high in highs)} with the whole interval" if np.isfinite(highs).any() else "one domain each, so no intervals"
+        said.append(f"{titles[method]} {sum(entry.at_equal_time < 1 for entry in entries)} of {len(entries)} ({sure})")
+    return ("Kinds of meshes (type of elements, degree, level of distortion) with a lower error than unsmoothed meshes at equal time, smoothing "
+            f"included: {'; '.join(said)}.")
 
 
 def order_rows(found, cases, methods):

@@ -44,7 +44,7 @@ class CollectionResults:
     summary: Rows = Rows(Path("summary.csv"), {})  # SUMMARY
     solving: frozenset = frozenset()  # methods that solve by themselves
     interpreted: frozenset = frozenset()  # methods in Python
-    qualities: tuple = QUALITIES  # columns of iterations: what may predict an outcome
+    qualities: tuple = QUALITIES  # columns of iterations: what may predict an outcome; none if only ends were kept
 
     def title(self, name):
         """The title of a method; its name where the provenance gives none."""
@@ -91,6 +91,16 @@ def metric_columns(path, rows):
     return columns
 
 
+def ends(summary):
+    """What iterations.csv has at least of each method: the initial mesh and the result. For results whose iterations were not kept."""
+    keys = list(zip(*(summary.text(name) for name in ("member", "degree"))))
+    is_initial = summary.text("method") == INITIAL
+    first = {keys[number]: number for number in np.flatnonzero(is_initial)}
+    after = [number for number in np.flatnonzero(~is_initial) if keys[number] in first]
+    rows = summary.where(np.array([(first[keys[number]], number) for number in after], dtype=int).reshape(-1))
+    return Rows(summary.path, {**rows.columns, "method": np.repeat(summary.text("method")[after], 2)})
+
+
 def numbers_of(keys):
     """(key, array of the places where it stands), in the order of their first."""
     found = {}
@@ -113,8 +123,10 @@ def read_collection_results(folder):
         iterations = read_some_columns(file, tuple(dict.fromkeys((*columns, *RECORD))), OPTIONAL)
         of_metrics = metric_columns(folder / "metrics.csv", iterations)
         iterations = Rows(file, {**iterations.columns, **of_metrics})
-    else:
+    elif is_there(file) or not is_there(folder / "summary.csv"):
         iterations = read_some_columns(file, columns, OPTIONAL)
+    else:
+        iterations = ends(read_some_columns(folder / "summary.csv", columns, OPTIONAL))
     split = folder / "refined.csv"
     refined = read_some_columns(split, REFINED) if is_there(split) else Rows(split, {})
     has_summary = is_there(folder / "summary.csv")
@@ -128,4 +140,4 @@ def read_collection_results(folder):
         summary=summary, solving=frozenset(iterations.text("method")[iterations.text("n_solves") != ""]),
         interpreted=frozenset(entry["name"] for entry in entries(provenance, "methods")
                               if str(entry.get("type", "")).startswith("python:")),
-        qualities=(*QUALITIES, *of_metrics))
+        qualities=(*QUALITIES, *of_metrics) if is_there(file) else ())

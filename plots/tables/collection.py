@@ -23,7 +23,9 @@ def make_collection_tables(results):
     tables without rows are left out."""
     problems, predicted = problems_of(results), predictions(results)
     found, budgets = gains(problems, results.methods), at_budgets(problems, results.methods)
-    alternatives = payoffs(problems, results.methods[0]) if results.methods else []
+    # The reference method, and methods that move nodes by the solution.
+    paying = [method for method in results.methods if method == results.methods[0] or method in results.solving]
+    alternatives = payoffs(problems, paying)
     tables = (members_table(results), smoothing_table(results, found), budget_table(results, budgets),
               payoff_table(results, alternatives), prediction_table(results, predicted), gains_table(results))
     return ([table for table in tables if table.keys],

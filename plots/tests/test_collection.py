@@ -121,7 +121,7 @@ class Collection(InFolder):
         self.assertAlmostEqual(found["idle", 4.0], 1.0)
 
     def test_payoff_has_error_and_time_over_those_of_the_initial_mesh(self):
-        found = {(p.degree, p.method, p.change): p for p in payoffs(problems_of(self.results), "good")}
+        found = {(p.degree, p.method, p.change): p for p in payoffs(problems_of(self.results), ["good"])}
         good, higher = found["1", "good", AS_IS], found["1", "initial", NEXT_DEGREE]
         self.assertAlmostEqual(good.error, 0.5)
         self.assertAlmostEqual(good.time, (0.5 + 0.5) / 0.5)
@@ -157,7 +157,7 @@ class Collection(InFolder):
             {"member": f"m{m}", "method": method, "degree": 1, **common, "h1_error": error * (1 + m)}
             for m in range(8) for method, error in (("initial", 0.5), ("good", 0.25), ("idle", 0.5))])
         results = read_collection_results(self.folder / "r")
-        found = {(p.degree, p.method, p.change): p for p in payoffs(problems_of(results), "good")}
+        found = {(p.degree, p.method, p.change): p for p in payoffs(problems_of(results), ["good"])}
         self.assertAlmostEqual(found["1", "initial", SPLIT].error, 0.5)
         self.assertAlmostEqual(found["1", "initial", SPLIT].time, 4.0)
         self.assertAlmostEqual(found["1", "good", AS_IS].at_equal_time, 0.5 * 2.0**0.5)
@@ -182,7 +182,7 @@ class Collection(InFolder):
         found = {(entry.method, entry.budget): entry.ratio for entry in at_budgets(problems, self.results.methods) if entry.degree == "1"}
         self.assertAlmostEqual(found["good", 0.25], 0.9)
         self.assertAlmostEqual(found["good", 4.0], 0.5**(1 / 8))
-        self.assertAlmostEqual({p.change: p for p in payoffs(problems, "good")}[AS_IS].error, 0.5**(1 / 8))
+        self.assertAlmostEqual({p.change: p for p in payoffs(problems, ["good"])}[AS_IS].error, 0.5**(1 / 8))
         text = "\n".join(what_got_worse(self.results, gains(problems, self.results.methods)))
         self.assertIn("Good has no valid result on 88 % of the problems (triangles, degree 1, distorted to 0.5)", text)
         self.assertIn("Valid results on all problems: Idle.", text)

@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).resolve().parents[1]
 # `claims` imports `tables`, as claims are shown as a table.
 ALLOWED_IMPORTS = {"results": set(), "statistics": set(), "collections": {"results", "statistics"},
                    "tables": {"results", "collections"}, "figures": {"results", "collections", "statistics"},
-                   "claims": {"results", "tables"}, "manual": {"results", "tables", "claims"},
+                   "claims": {"results", "tables"}, "manual": {"results", "tables", "claims", "collections", "statistics"},
                    "report": {"results", "collections", "tables", "claims", "figures"}}
 
 
