@@ -71,10 +71,10 @@ class Tuning(InFolder):
         self.assertEqual(geometric_mean([0, 4]), 0)
         self.assertTrue(math.isnan(geometric_mean([math.nan, 4])))
 
-    def test_the_recommended_preset_is_the_winner_at_equal_time(self):
+    def test_the_tuned_preset_is_the_winner_at_equal_time(self):
         presets = thesis_folder().parent / "presets"
         own, base = (json.loads((presets / name).read_text(encoding="utf-8"))
-                     for name in ("recommended.json", "thesis-6.3.json"))
+                     for name in ("tuned.json", "thesis-6.3.json"))
         self.assertEqual(own["extends"], "thesis-6.3")
         for name in ("planar", "volume"):
             results = read_results(reference() / "tuning" / name)

@@ -154,8 +154,8 @@ TEST(Presets, HaveTheParametersOfTheThesis) {
   EXPECT_EQ(text("thesis-5.5", "getme-adaptive", "min.relaxation"), "0.5, 0.25, 0.1, 0.01, 0");
   EXPECT_EQ(text("thesis-5.5", "smart-laplace", "tolerance"), "1e-04");
   EXPECT_EQ(text("thesis-6.3", "getme", "simultaneous.sigma_tetrahedron_max"), "50.7");
-  EXPECT_EQ(text("recommended", "getme", "simultaneous.sigma_tetrahedron_max"), "5.7");
-  EXPECT_EQ(text("recommended", "getme", "simultaneous.sigma_tetrahedron_min"), "0.7");
+  EXPECT_EQ(text("tuned", "getme", "simultaneous.sigma_tetrahedron_max"), "5.7");
+  EXPECT_EQ(text("tuned", "getme", "simultaneous.sigma_tetrahedron_min"), "0.7");
   EXPECT_THAT(message_of([] { find_preset("thesis-9"); }), HasSubstr("thesis-5.1, thesis-5.2"));
 }
 
@@ -170,7 +170,7 @@ TEST(Presets, EachSettingHasItsOrigin) {
 
 TEST(Presets, ThoseOfTheThesisHaveNoRuleBelowTheStart) {
   for (const Preset& preset : presets()) {
-    const std::string factor = preset.name == "recommended" ? "10" : "1";
+    const std::string factor = preset.name == "tuned" ? "10" : "1";
     const auto find = [&](const auto& stage_of, const std::string& parameter) {
       return std::find_if(preset.settings.begin(), preset.settings.end(), [&](const auto& other) {
         return other.dim == stage_of.dim && other.stage == stage_of.stage &&
