@@ -6,6 +6,7 @@ from collections import Counter
 
 from ..results.symbols import symbol_of
 from .comparison import AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT, SURE, can_test
+from .orders import ERRORS, LEAST_CHANGE, changed
 from .prediction import differ
 from .problems import AS_GENERATED, ERROR
 
@@ -15,13 +16,14 @@ OWN_MEASURE = "q_mean"  # what methods of this program optimize
 MOST_KINDS = 3  # of meshes that a sentence names
 
 
-def findings_as_markdown(results, problems, found, budgets, alternatives, predictions):
-    """A page of sentences, from what the tables show: gains, gains at budgets, payoffs and predictions."""
+def findings_as_markdown(results, problems, found, budgets, alternatives, predictions, orders=()):
+    """A page of sentences, from what the tables show: gains, gains at budgets, payoffs, predictions and orders."""
     sections = (("What was run", what_was_run(results, problems)),
                 ("How much", how_much(results, found)),
                 ("Which method", which_method(results, found)),
                 ("At equal times", at_equal_times(results, budgets)),
                 ("Does smoothing pay?", what_pays(results, alternatives)),
+                ("Order or constant", what_orders(results, orders)),
                 ("What speaks against it", what_got_worse(results, found)),
                 ("What predicts the error", what_predicts(predictions)))
     lines = [f"# {results.study_title}: findings", "", SCALES]
@@ -145,6 +147,21 @@ def verdict(smoothed, other, name):
     if other.error <= smoothed.error and other.time <= smoothed.time:
         return f"{name} is better and cheaper"
     return f"{name} is better, and dearer" if other.error < smoothed.error else "smoothing is better, and dearer"
+
+
+def what_orders(results, found):
+    """Reports where smoothing changes the order of the error in the mesh size, on all families."""
+    cases, n_cases = changed(found)
+    if not n_cases:
+        return []
+    text = (f"Smoothing changes the order of the error in h in {len(cases)} of {n_cases} cases, a case being a type of elements, degree, level, "
+            f"method and norm (on each family the interval of the change excludes 0 on the same side, and the change is above {LEAST_CHANGE:g})")
+    told = []
+    for (elements, degree, level, method, error), entries in cases.items():
+        changes = ", ".join(f"{entry.family} {entry.change:+.2f}{bracket(entry.change_interval)}" for entry in entries)
+        told.append(f"{kind_of(entries[0])}, {results.title(method)}, {ERRORS[error]}: {changes}")
+    return [text + ("; elsewhere it changes the constant only, as far as these sizes show." if told else
+                    ": it changes the constant only, as far as these sizes show.") + ("" if not told else " " + "; ".join(told) + ".")]
 
 
 def what_got_worse(results, found):

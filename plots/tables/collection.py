@@ -5,6 +5,7 @@ import math
 
 from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, at_budgets, gains, payoffs
 from ..collections.findings import findings_as_markdown
+from ..collections.orders import ERRORS, LEAST_CHANGE, orders
 from ..collections.prediction import RECORDS_OF_CURVE, predictions
 from ..collections.problems import problems_of
 from ..results.rows import groups_of
@@ -19,17 +20,17 @@ LEVELS = "Level: mean quality that the initial mesh was distorted to."
 
 
 def make_collection_tables(results):
-    """(tables, page of findings): members, gains, budgets, whether smoothing pays, correlations, and what knowing the solution gains;
-    tables without rows are left out."""
+    """(tables, page of findings): members, gains, budgets, whether smoothing pays, orders, correlations, and what knowing the solution
+    gains; tables without rows are left out."""
     problems, predicted = problems_of(results), predictions(results)
     found, budgets = gains(problems, results.methods), at_budgets(problems, results.methods)
     # The reference method, and methods that move nodes by the solution.
     paying = [method for method in results.methods if method == results.methods[0] or method in results.solving]
     alternatives = payoffs(problems, paying)
     tables = (members_table(results), smoothing_table(results, found), budget_table(results, budgets),
-              payoff_table(results, alternatives), prediction_table(results, predicted), gains_table(results))
+              payoff_table(results, alternatives), orders_table(results, orders(results)), prediction_table(results, predicted), gains_table(results))
     return ([table for table in tables if table.keys],
-            findings_as_markdown(results, problems, found, budgets, alternatives, predicted))
+            findings_as_markdown(results, problems, found, budgets, alternatives, predicted, orders(results)))
 
 
 def kind_columns(found):
@@ -135,3 +136,27 @@ def payoff_table(results, found):
          "its setup. Cells split: into 4, in space into 8. At equal time: the error over that of the unsmoothed mesh after the same "
          "total time. Errors of the unsmoothed mesh follow the power law through its error and the error with split cells. Below 1 "
          "smoothing pays. Where the method has no valid result, the initial mesh is solved after all.", *no_times, LEVELS, INTERVALS])
+
+
+def orders_table(results, found):
+    """With which power of h the errors fall, before and after smoothing. One row for both errors."""
+    rows = {}
+    for entry in found:
+        rows.setdefault((*entry.mesh, entry.method), {})[entry.error] = entry
+    first = [of_row["h1_error"] for of_row in rows.values()]
+    several = [(heading, [text_cell(getattr(entry, name) or "first") for entry in first])
+               for heading, name in (("Algorithm", "algorithm"), ("Solution", "solution")) if len({getattr(entry, name) for entry in first}) > 1]
+    return table_of(
+        results, "table_orders", "orders of the errors in the mesh size",
+        [*kind_columns(first), ("Family", [text_cell(entry.family) for entry in first]), *several,
+         ("Method", [text_cell(results.title(entry.method)) for entry in first])],
+        [group for error, name in ERRORS.items() for group in (
+            (f"Order of {name}", [("", [number(of_row[error].order) for of_row in rows.values()]),
+                                  ("interval", [between(of_row[error].interval) for of_row in rows.values()])]),
+            (f"Change of {name}", [("", [number(of_row[error].change) for of_row in rows.values()]),
+                                   ("interval", [between(of_row[error].change_interval) for of_row in rows.values()])]))]
+        + [("Sizes", [("", [number_cell(str(entry.n_sizes)) for entry in first])])],
+        ["Order: slope of the straight line, by least squares, through the logarithms of true errors and h. h: number of cells to the power of "
+         "minus one over the dimension. Change: slope of the logarithm of error after over error before smoothing. Intervals: 95 %, by "
+         f"Student's t distribution over the sizes; seeds of a size give one mean. A change below {LEAST_CHANGE:g} counts as one of the "
+         "constant. Sizes: with a result without invalid cells; a dash marks less than three.", LEVELS])
