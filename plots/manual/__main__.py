@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python3 -m plots.manual: writes the generated blocks of README.md and docs/ anew."""
+"""python3 -m plots.manual: writes the generated blocks of README.md, docs/ and paper/ anew."""
 
 import sys
 

@@ -3,17 +3,20 @@
 
 from ..claims.reasons import reference
 from ..results.data_folder import data_folder
-from . import answer, fidelity, moving_nodes, sizes
+from . import answer, fidelity, moving_nodes, paper, sizes
 
 
 def blocks():
     """{path of a page: {name of a block: Markdown}}."""
     docs = data_folder() / "docs"
     found = answer.Field(reference())
+    of_thesis = fidelity.blocks(reference())
     return {
         data_folder() / "README.md": {"findings": answer.in_short(found)},
         docs / "explanation" / "answer.md": answer.blocks(found, reference()),
-        docs / "explanation" / "fidelity.md": fidelity.blocks(reference()),
+        docs / "explanation" / "fidelity.md": of_thesis,
         docs / "explanation" / "reducing-the-error-tables.md": moving_nodes.blocks(reference()),
+        data_folder() / "paper" / "paper.md": {"agreement": of_thesis["agreement"], "gear": paper.gear(reference()),
+                                               "findings": answer.in_short(found)},
         docs / "how-to" / "restart-and-mpi.md": {"largest": sizes.largest(reference())},
     }

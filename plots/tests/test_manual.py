@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The generated blocks of README.md and docs/ are those of the results, and columns.json agrees with the program."""
+"""The generated blocks of README.md, docs/ and paper/ are those of the results, and columns.json agrees with the program."""
 
 import json
 import re
@@ -31,7 +31,7 @@ class Blocks(unittest.TestCase):
 
     def test_no_page_has_another_block(self):
         known = {path: set(made) for path, made in blocks().items()}
-        for path in (data_folder() / "README.md", *(data_folder() / "docs").rglob("*.md")):
+        for path in (data_folder() / "README.md", data_folder() / "paper" / "paper.md", *(data_folder() / "docs").rglob("*.md")):
             found = re.findall(r"<!-- begin (\S+): made by", path.read_text(encoding="utf-8"))
             self.assertEqual(sorted(found), sorted(known.get(path, ())), path)
 

@@ -11,6 +11,8 @@
 
 `mesh.points` is the memory of the mesh itself. An input that cannot be used raises InputError, a ValueError. Its
 text names the problem, its place and a remedy. With the same options, numbers are bitwise identical to those of the program smoothfem.
+
+GETMe is due to D. Vartziotis, J. Wipper: The GETMe Mesh Smoothing Framework. CRC Press, 2018. doi:10.1201/9780429399626
 """
 
 import operator as _operator

@@ -5,7 +5,9 @@
 
 namespace smoothfem {
 
-/// Default element parameters of GETMe simultaneous.
+/// Default element parameters of GETMe simultaneous. Sections are those of the thesis: D.
+/// Vartziotis, J. Wipper: The GETMe Mesh Smoothing Framework. CRC Press, 2018.
+/// doi:10.1201/9780429399626
 template <int dim>
 ElementParameters<dim> simultaneous_elements() {
   if constexpr (dim == 2)
