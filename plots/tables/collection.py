@@ -153,8 +153,8 @@ def orders_table(results, found):
         [group for error, name in ERRORS.items() for group in (
             (f"Order of {name}", [("", [number(of_row[error].order) for of_row in rows.values()]),
                                   ("interval", [between(of_row[error].interval) for of_row in rows.values()])]),
-            (f"Change of {name}", [("", [number(of_row[error].change) for of_row in rows.values()]),
-                                   ("interval", [between(of_row[error].change_interval) for of_row in rows.values()])]))]
+            (f"Change of {name}", [("", [number(of_row[error].change, "z.2f") for of_row in rows.values()]),
+                                   ("interval", [between(of_row[error].change_interval, "z.2f") for of_row in rows.values()])]))]
         + [("Sizes", [("", [number_cell(str(entry.n_sizes)) for entry in first])])],
         ["Order: slope of the straight line, by least squares, through the logarithms of true errors and h. h: number of cells to the power of "
          "minus one over the dimension. Change: slope of the logarithm of error after over error before smoothing. Intervals: 95 %, by "
