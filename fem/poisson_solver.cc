@@ -16,6 +16,8 @@ namespace smoothfem {
 
 namespace {
 
+constexpr double short_seconds = 0.1;
+
 double seconds_since(std::chrono::steady_clock::time_point started) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
@@ -32,6 +34,15 @@ void set_tied_values(const FiniteElementSpace<dim>& space, Eigen::VectorXd& valu
   }
 }
 
+/// Returns the sum of the squares of the boundary values, which they add to |b|^2 as identity rows.
+template <int dim>
+double boundary_square_sum(const FiniteElementSpace<dim>& space, const Eigen::VectorXd& exact) {
+  return space.ranks.sum(exact
+                             .segment(static_cast<Eigen::Index>(space.n_columns),
+                                      static_cast<Eigen::Index>(space.n_own_boundary))
+                             .squaredNorm());
+}
+
 }  // namespace
 
 template <int dim>
@@ -44,12 +55,23 @@ struct PoissonSolver<dim>::Workspace {
   CholeskyConditionNumber cholesky;
   IterativeConditionNumber iterative;
   Eigen::VectorXd free_solution, discrete;
+  bool is_warm = false;  ///< it has solved before
 
   Workspace(std::shared_ptr<const FiniteElementSpace<dim>> shared, std::size_t n_nodes)
       : space(std::move(shared)),
         n_mesh_nodes(n_nodes),
         system(make_system(*space)),
         sliced(system.matrix, space->ranks, space->halo) {}
+
+  /// Returns the options of CG for the assembled system. Collective.
+  ConjugateGradientsOptions options_of_cg(const PoissonOptions& options) const {
+    return {
+        .tolerance = options.cg_tolerance,
+        .norm_offset = options.boundary_in_norm ? boundary_square_sum(*space, system.exact) : 0.0,
+        .max_iterations = static_cast<std::size_t>(options.max_cg_iterations_per_dof *
+                                                   static_cast<double>(space->n_free)),
+        .max_seconds = options.max_cg_seconds};
+  }
 
   /// Sets multigrid up for the present matrix; returns the time it took.
   double set_up_multigrid() {
@@ -110,15 +132,6 @@ template <int dim>
 PoissonSolver<dim>::~PoissonSolver() = default;
 
 namespace {
-
-/// Returns the sum of the squares of the boundary values, which they add to |b|^2 as identity rows.
-template <int dim>
-double boundary_square_sum(const FiniteElementSpace<dim>& space, const Eigen::VectorXd& exact) {
-  return space.ranks.sum(exact
-                             .segment(static_cast<Eigen::Index>(space.n_columns),
-                                      static_cast<Eigen::Index>(space.n_own_boundary))
-                             .squaredNorm());
-}
 
 void add_remark(const std::string& remark, SolutionRecord& record) {
   record.status = record.status == "ok" ? remark : record.status + "; " + remark;
@@ -195,43 +208,51 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
   const bool verified = options_.condition_number == ConditionNumberMethod::verified ||
                         (options_.condition_number == ConditionNumberMethod::lanczos && is_result);
   const auto x = space.local_coordinates(coordinates);
-  const auto started = std::chrono::steady_clock::now();
-  assemble(space, x, solution, options_.load, work.system);
-  if (const std::size_t n = space.ranks.sum(work.system.n_folded_cells); n > 0)
-    add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") + " folded inside", record);
-  work.sliced.set_values(work.system.matrix);
-  record.assembly_seconds = seconds_since(started);
+  const auto solve_system = [&] {
+    const auto started = std::chrono::steady_clock::now();
+    assemble(space, x, solution, options_.load, work.system);
+    work.sliced.set_values(work.system.matrix);
+    record.assembly_seconds = seconds_since(started);
+    if (const std::size_t n = space.ranks.sum(work.system.n_folded_cells); n > 0)
+      add_remark(std::to_string(n) + (n == 1 ? " cell is" : " cells are") + " folded inside",
+                 record);
 
-  ConjugateGradientsOptions cg_options{
-      .tolerance = options_.cg_tolerance,
-      .norm_offset =
-          options_.boundary_in_norm ? boundary_square_sum(space, work.system.exact) : 0.0,
-      .max_iterations = static_cast<std::size_t>(options_.max_cg_iterations_per_dof *
-                                                 static_cast<double>(space.n_free)),
-      .max_seconds = options_.max_cg_seconds};
-  const auto run = [&](const Preconditioner& preconditioner) {
-    return conjugate_gradients(work.sliced, work.system.right_hand_side, work.free_solution,
-                               cg_options, preconditioner);
+    ConjugateGradientsOptions cg_options = work.options_of_cg(options_);
+    const auto run = [&](const Preconditioner& preconditioner) {
+      return conjugate_gradients(work.sliced, work.system.right_hand_side, work.free_solution,
+                                 cg_options, preconditioner);
+    };
+    // Preconditioned runs measure the cost of a solution, if there is one.
+    cg_options.stop_if_indefinite = true;
+    if (asked_for(options_.jacobi_cg)) {
+      const auto jacobi = run(jacobi_preconditioner(work.sliced));
+      record_cost("Jacobi", jacobi, record.jacobi_cg_iterations, record.jacobi_cg_seconds, record);
+      if (const auto scaled = lanczos_condition_number(jacobi.lanczos); scaled.lambda_min > 0.0)
+        record.jacobi_condition_number = scaled.value();
+    }
+    if (with_multigrid_cg || (verified && work.needs_multigrid()))
+      record.amg_setup_seconds = work.set_up_multigrid();
+    if (with_multigrid_cg) {
+      const auto multigrid = run([&](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+        work.trilinos->apply_multigrid(r, z);
+      });
+      record_cost("multigrid", multigrid, record.amg_cg_iterations, record.amg_cg_seconds, record);
+    }
+    cg_options.stop_if_indefinite = false;  // as in the thesis: its iterate counts
+    const auto cg = run({});                // last: its solution is the one whose errors count
+    record_conjugate_gradients(cg, record);
+    return cg;
   };
-  // Preconditioned runs measure the cost of a solution, if there is one.
-  cg_options.stop_if_indefinite = true;
-  if (asked_for(options_.jacobi_cg)) {
-    const auto jacobi = run(jacobi_preconditioner(work.sliced));
-    record_cost("Jacobi", jacobi, record.jacobi_cg_iterations, record.jacobi_cg_seconds, record);
-    if (const auto scaled = lanczos_condition_number(jacobi.lanczos); scaled.lambda_min > 0.0)
-      record.jacobi_condition_number = scaled.value();
+  const SolutionRecord blank = record;
+  const auto started = std::chrono::steady_clock::now();
+  auto cg = solve_system();
+  // A first solution also loads code and touches new memory, so that its times are too long. Where
+  // that counts, the times of a second one are recorded.
+  if (!work.is_warm && space.ranks.max(seconds_since(started)) < short_seconds) {
+    record = blank;
+    cg = solve_system();
   }
-  if (with_multigrid_cg || (verified && work.needs_multigrid()))
-    record.amg_setup_seconds = work.set_up_multigrid();
-  if (with_multigrid_cg) {
-    const auto multigrid = run([&](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
-      work.trilinos->apply_multigrid(r, z);
-    });
-    record_cost("multigrid", multigrid, record.amg_cg_iterations, record.amg_cg_seconds, record);
-  }
-  cg_options.stop_if_indefinite = false;  // as in the thesis: its iterate counts
-  const auto cg = run({});                // last: its solution is the one whose errors count
-  record_conjugate_gradients(cg, record);
+  work.is_warm = true;
 
   if (options_.condition_number != ConditionNumberMethod::none) {
     const auto lanczos = lanczos_condition_number(cg.lanczos);
@@ -253,6 +274,7 @@ SolutionRecord PoissonSolver<dim>::solve(std::span<const Point<dim>> coordinates
   }
   record_points(work.system.points, norms.points, space.ranks, record);
   if (asked_for(options_.best_approximation)) {
+    const auto cg_options = work.options_of_cg(options_);
     const auto in_l2 = work.best_errors(x, solution, Norm::l2, cg_options),
                in_h1 = work.best_errors(x, solution, Norm::h1, cg_options);
     if (in_l2) record.l2_best = in_l2->l2_error;

@@ -104,7 +104,7 @@ void add_quadrature_load(const FiniteElementSpace<dim>& space, const ElementCell
   const ReferenceElement& element = group.element;
   for (std::size_t cell = 0; cell < group.n_cells(); ++cell) {
     const auto vertices = cell_vertices<dim, n_vertices>(group, cell, x);
-    const std::function<double(const Point<dim>&)>& f = f_of(cell);
+    const PointFunction<dim, double>& f = f_of(cell);
     const Settled<CellLoad<n_dofs>> load(element, [&](const QuadratureTable& table) {
       return CellLoad<n_dofs>(table, vertices, f);
     });

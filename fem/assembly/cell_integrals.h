@@ -8,6 +8,7 @@
 
 #include "fem/assembly/cell_diffusivity.h"
 #include "fem/elements/adaptive_quadrature.h"
+#include "fem/solutions/point_function.h"
 #include "fem/space/finite_element_space.h"
 #include "smoothing/simd/cells.h"
 
@@ -20,6 +21,7 @@ struct Jacobian {
   std::array<Vector<dim, Real>, dim> dual;
   Real determinant;
 
+  Jacobian() = default;
   explicit Jacobian(const std::array<Vector<2, Real>, 2>& columns) {
     determinant = cross(columns[0], columns[1]);
     const Real inverse = 1.0 / determinant;
@@ -65,6 +67,26 @@ inline MappedPoint<dim, Real> map_point(const QuadratureTable& table, std::size_
   }
   const Jacobian<dim, Real> jacobian(columns);
   return {position, jacobian, table.weights[q] * jacobian.determinant};
+}
+
+/// Calls visit(q, mapped point, value of the function there) for each point of a table, in their
+/// order. The function is evaluated at many points at once.
+template <int dim, class Value, std::size_t n_vertices, class Visit>
+void for_each_point(const QuadratureTable& table,
+                    const std::array<Vector<dim, double>, n_vertices>& vertices,
+                    const PointFunction<dim, Value>& function, const Visit& visit) {
+  std::array<MappedPoint<dim, double>, n_points_at_once> mapped;
+  std::array<Point<dim>, n_points_at_once> positions;
+  std::array<Value, n_points_at_once> values;
+  for (std::size_t first = 0; first < table.n_points; first += n_points_at_once) {
+    const std::size_t n = std::min(n_points_at_once, table.n_points - first);
+    for (std::size_t k = 0; k < n; ++k) {
+      mapped[k] = map_point<dim, double>(table, first + k, vertices);
+      positions[k] = point_of(mapped[k].position);
+    }
+    function.at(std::span(positions.data(), n), std::span(values.data(), n));
+    for (std::size_t k = 0; k < n; ++k) visit(first + k, mapped[k], values[k]);
+  }
 }
 
 /// A cell's stiffness matrix (upper triangle row by row) and its load: the mass matrix times the

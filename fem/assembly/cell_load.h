@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "fem/assembly/cell_integrals.h"
 
@@ -19,16 +18,15 @@ struct CellLoad {
   template <int dim, std::size_t n_vertices>
   CellLoad(const QuadratureTable& table,
            const std::array<Vector<dim, double>, n_vertices>& vertices,
-           const std::function<double(const Point<dim>&)>& f_at, double* weighted_f = nullptr) {
-    for (std::size_t q = 0; q < table.n_points; ++q) {
-      const auto mapped = map_point<dim, double>(table, q, vertices);
-      const double f = f_at(point_of(mapped.position)) * mapped.weight;
+           const PointFunction<dim, double>& f_at, double* weighted_f = nullptr) {
+    for_each_point(table, vertices, f_at, [&](std::size_t q, const auto& mapped, double f_here) {
+      const double f = f_here * mapped.weight;
       if (weighted_f != nullptr) weighted_f[q] = f;
       for (std::size_t i = 0; i < n_dofs; ++i) {
         values[i] += f * table.shape[q * n_dofs + i];
         scales[i] += std::abs(f * table.shape[q * n_dofs + i]);
       }
-    }
+    });
   }
 
   bool is_near(const CellLoad& finer, double tolerance) const {

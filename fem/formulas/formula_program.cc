@@ -2,6 +2,7 @@
 #include "fem/formulas/formula_program.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -164,58 +165,85 @@ FormulaProgram::FormulaProgram(const std::vector<GiNaC::ex>& formulas) {
 
 namespace {
 
-/// Computes a power by squaring: std::pow takes about twenty times as long.
-double integer_power(double base, int exponent) {
-  double result = 1.0;
+template <std::size_t lanes>
+using Values = std::array<double, lanes>;
+
+/// Computes powers by squaring: std::pow takes about twenty times as long.
+template <std::size_t lanes>
+void integer_power(Values<lanes> base, int exponent, Values<lanes>& result) {
+  result.fill(1.0);
   for (unsigned int rest = static_cast<unsigned int>(std::abs(exponent)); rest > 0; rest /= 2) {
-    if (rest % 2 == 1) result *= base;
-    base *= base;
+    if (rest % 2 == 1)
+      for (std::size_t l = 0; l < lanes; ++l) result[l] *= base[l];
+    for (double& b : base) b *= b;
   }
-  return exponent < 0 ? 1.0 / result : result;
+  if (exponent < 0)
+    for (double& r : result) r = 1.0 / r;
 }
 
 }  // namespace
 
-void FormulaProgram::evaluate(const double* coordinates, double* values) const {
-  thread_local std::vector<double> kept;
+template <std::size_t lanes>
+void FormulaProgram::run(std::size_t dimension, const double* coordinates, double* values) const {
+  thread_local std::vector<Values<lanes>> kept;
   if (kept.size() < steps_.size()) kept.resize(steps_.size());
-  double* value = kept.data();
+  Values<lanes>* value = kept.data();
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& s = steps_[k];
+    const Values<lanes>&a = value[s.a], &b = value[s.b], &c = value[s.c];
+    Values<lanes>& result = value[k];
+    const auto choose = [&](const auto& is_first) {
+      for (std::size_t l = 0; l < lanes; ++l) result[l] = is_first(a[l]) ? b[l] : c[l];
+    };
     switch (s.operation) {
       case Operation::number:
-        value[k] = s.number;
+        result.fill(s.number);
         break;
       case Operation::coordinate:
-        value[k] = coordinates[s.a];
+        for (std::size_t l = 0; l < lanes; ++l) result[l] = coordinates[l * dimension + s.a];
         break;
       case Operation::add:
-        value[k] = value[s.a] + value[s.b];
+        for (std::size_t l = 0; l < lanes; ++l) result[l] = a[l] + b[l];
         break;
       case Operation::multiply:
-        value[k] = value[s.a] * value[s.b];
+        for (std::size_t l = 0; l < lanes; ++l) result[l] = a[l] * b[l];
         break;
       case Operation::integer_power:
-        value[k] = integer_power(value[s.a], s.exponent);
+        integer_power<lanes>(a, s.exponent, result);
         break;
       case Operation::function:
-        value[k] = s.function(value[s.a]);
+        for (std::size_t l = 0; l < lanes; ++l) result[l] = s.function(a[l]);
         break;
       case Operation::function_of_two:
-        value[k] = s.function_of_two(value[s.a], value[s.b]);
+        for (std::size_t l = 0; l < lanes; ++l) result[l] = s.function_of_two(a[l], b[l]);
         break;
       case Operation::below_zero:
-        value[k] = value[s.a] < 0.0 ? value[s.b] : value[s.c];
+        choose([](double d) { return d < 0.0; });
         break;
       case Operation::at_most_zero:
-        value[k] = value[s.a] <= 0.0 ? value[s.b] : value[s.c];
+        choose([](double d) { return d <= 0.0; });
         break;
       case Operation::equal_to_zero:
-        value[k] = value[s.a] == 0.0 ? value[s.b] : value[s.c];
+        choose([](double d) { return d == 0.0; });
         break;
     }
   }
-  for (std::size_t r = 0; r < results_.size(); ++r) values[r] = value[results_[r]];
+  for (std::size_t l = 0; l < lanes; ++l)
+    for (std::size_t r = 0; r < results_.size(); ++r)
+      values[l * results_.size() + r] = value[results_[r]][l];
+}
+
+void FormulaProgram::evaluate(const double* coordinates, double* values) const {
+  run<1>(0, coordinates, values);
+}
+
+void FormulaProgram::evaluate(std::size_t n, std::size_t dimension, const double* coordinates,
+                              double* values) const {
+  constexpr std::size_t lanes = 8;
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes)
+    run<lanes>(dimension, coordinates + k * dimension, values + k * results_.size());
+  for (; k < n; ++k) run<1>(dimension, coordinates + k * dimension, values + k * results_.size());
 }
 
 }  // namespace smoothfem

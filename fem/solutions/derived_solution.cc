@@ -58,6 +58,17 @@ class Values {
     program_->evaluate(p.data(), values.data());
     return values;
   }
+  /// Calls write(k, values) for each point.
+  template <class Write>
+  void at_all(std::span<const Point<dim>> points, const Write& write) const {
+    static_assert(sizeof(Point<dim>) == dim * sizeof(double));
+    std::array<double, n * n_points_at_once> values;
+    for (std::size_t first = 0; first < points.size(); first += n_points_at_once) {
+      const auto some = points.subspan(first, std::min(n_points_at_once, points.size() - first));
+      program_->evaluate(some.size(), dim, some.front().data(), values.data());
+      for (std::size_t k = 0; k < some.size(); ++k) write(first + k, &values[k * n]);
+    }
+  }
 
  private:
   std::shared_ptr<const FormulaProgram> program_;
@@ -176,6 +187,31 @@ std::function<double(const Point<dim>&)> function_of(const ex& formula) {
   return [values = Values<dim, 1>({formula})](const Point<dim>& p) { return values.at(p)[0]; };
 }
 
+template <int dim>
+PointFunction<dim, double> point_function_of(const ex& formula) {
+  const Values<dim, 1> values({formula});
+  return {[values](const Point<dim>& p) { return values.at(p)[0]; },
+          [values](std::span<const Point<dim>> points, std::span<double> all) {
+            values.at_all(points, [&](std::size_t k, const double* at) { all[k] = *at; });
+          }};
+}
+
+/// formulas: u and its derivatives.
+template <int dim>
+PointFunction<dim, ValueAndGradient<dim>> value_and_gradient_of(const std::vector<ex>& formulas) {
+  using Both = ValueAndGradient<dim>;
+  const Values<dim, 1 + dim> values(formulas);
+  return {[values](const Point<dim>& p) -> Both {
+            const auto all = values.at(p);
+            return {all[0], Eigen::Map<const Point<dim>>(all.data() + 1)};
+          },
+          [values](std::span<const Point<dim>> points, std::span<Both> all) {
+            values.at_all(points, [&](std::size_t k, const double* at) {
+              all[k] = {at[0], Eigen::Map<const Point<dim>>(at + 1)};
+            });
+          }};
+}
+
 /// Returns A if it is a number times the identity.
 template <int dim>
 std::optional<double> constant_of(const DiffusivityFormulas<dim>& a) {
@@ -199,8 +235,9 @@ Material<dim> material_of(const GroupDiffusivity& given, const std::vector<ex>& 
   return {.group = given.group,
           .diffusivity = only_a.diffusivity,
           .constant = constant_of(a),
-          .load = on_formula("diffusivity", given.formula, one_formula(dim),
-                             [&] { return function_of<dim>(load_of(value_and_gradient, a)); })};
+          .load = on_formula("diffusivity", given.formula, one_formula(dim), [&] {
+            return point_function_of<dim>(load_of(value_and_gradient, a));
+          })};
 }
 
 }  // namespace
@@ -223,12 +260,8 @@ ManufacturedSolution<dim> derived_solution(const std::string& u, const std::stri
     const auto& x = formula_variables();
     for (std::size_t j = 0; j < dim; ++j) value_and_gradient.push_back(value.diff(x[j]));
     solution.value = function_of<dim>(value);
-    solution.load = function_of<dim>(load_of(value_and_gradient, a));
-    solution.value_and_gradient = [values = Values<dim, 1 + dim>(value_and_gradient)](
-                                      const Point<dim>& p) -> ValueAndGradient<dim> {
-      const auto all = values.at(p);
-      return {all[0], Eigen::Map<const Point<dim>>(all.data() + 1)};
-    };
+    solution.load = point_function_of<dim>(load_of(value_and_gradient, a));
+    solution.value_and_gradient = value_and_gradient_of<dim>(value_and_gradient);
   });
   std::vector<ex> formulas = all_entries(a);
   formulas.push_back(value);

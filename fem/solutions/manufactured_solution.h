@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/solutions/point_function.h"
 #include "smoothing/mesh/mesh.h"
 
 namespace smoothfem {
@@ -30,7 +31,7 @@ struct Material {
   std::string group;  ///< tag or name in the mesh; empty: the cells of no other material
   std::function<Diffusivity<dim>(const Point<dim>&)> diffusivity;
   std::optional<double> constant{};  ///< A is this number times the identity everywhere
-  std::function<double(const Point<dim>&)> load;  ///< f; defined around the material, too
+  PointFunction<dim, double> load;   ///< f; defined around the material, too
 };
 
 /// A known solution u of -laplace(u) = f, or of -div(A grad u) = f. Its values are the boundary
@@ -41,8 +42,8 @@ struct ManufacturedSolution {
   std::string formula;                             ///< of u, for listings
   std::string source;                              ///< its origin
   std::function<double(const Point<dim>&)> value;  ///< u
-  std::function<ValueAndGradient<dim>(const Point<dim>&)> value_and_gradient;
-  std::function<double(const Point<dim>&)> load;                     ///< f
+  PointFunction<dim, ValueAndGradient<dim>> value_and_gradient;
+  PointFunction<dim, double> load;                                   ///< f
   std::function<Diffusivity<dim>(const Point<dim>&)> diffusivity{};  ///< A; empty: the identity
   /// dA / dx_k for each direction k, for the energy's gradient in node positions only. Empty if A
   /// is empty or has no known derivatives.

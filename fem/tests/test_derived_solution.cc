@@ -39,6 +39,25 @@ TEST(DerivedSolution, DerivativesInSpaceMatchHandComputation) {
   }
 }
 
+TEST(DerivedSolution, ManyPointsAtOnceHaveTheValuesOfEach) {
+  const auto s = in_plane("if(x < 0.3, sqrt(x + 2)*y^-2, if(y <= 0.5, atan2(y, x), x^2.5)) + pi",
+                          "1 + x^2, 0 ; 0, exp(y)");
+  std::vector<Point<2>> points;
+  for (int k = 1; k <= 37; ++k) points.emplace_back(k / 30.0, (7 * k % 37) / 40.0 + 0.01);
+  for (const std::size_t n : {0U, 1U, 7U, 8U, 16U, 17U, 37U}) {
+    std::vector<ValueAndGradient<2>> both(n);
+    std::vector<double> loads(n);
+    s.value_and_gradient.at(std::span(points).first(n), both);
+    s.load.at(std::span(points).first(n), loads);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto [value, gradient] = s.value_and_gradient(points[k]);
+      EXPECT_EQ(both[k].value, value);
+      EXPECT_EQ(both[k].gradient, gradient);
+      EXPECT_EQ(loads[k], s.load(points[k]));
+    }
+  }
+}
+
 TEST(DerivedSolution, EvaluatesEachFunctionAndItsDerivative) {
   // f'(t) at t = x + 2 y, which stays between 0.1 and 1 here.
   const std::vector<Point<2>> points{{0.1, 0.2}, {0.3, 0.05}, {0.2, 0.3}};
