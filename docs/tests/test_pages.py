@@ -25,6 +25,7 @@ SHORTER = {
     "smoothfem study gear": "smoothfem study gear --dry-run",
     "smoothfem study gear --published": "begin_and_stop smoothfem study gear --published --quick --out results/published",
     "smoothfem study gear --mesh-dir FOLDER": f"smoothfem study gear --mesh-dir '{SHARED}' --dry-run",
+    "smoothfem study collection --published mesquite": "smoothfem study collection --published mesquite --dry-run",
     "smoothfem study volume --scale paper --dry-run": "smoothfem study volume --scale quick --dry-run",
     "smoothfem study volume --scale paper": "begin_and_stop smoothfem study volume --scale paper",
     "smoothfem study all --scale quick": "begin_and_stop smoothfem study all --scale quick --out results/all",
@@ -104,7 +105,7 @@ def session(name, path):
 
 def published(test, lines, folder):
     """Returns the environment for lines that need the published meshes; removes these lines if the meshes are missing."""
-    wanted = [line for line in lines if any(option in line for option in NEED_PUBLISHED)]
+    wanted = [line for line in lines if any(option in line for option in NEED_PUBLISHED) and "study collection" not in line]
     if not wanted:
         return {}
     if not all((SHARED / name).is_file() for name in PUBLISHED):

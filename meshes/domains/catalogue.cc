@@ -88,6 +88,16 @@ std::string Domain::algorithm_named(const std::string& wanted, const std::string
   return wanted;
 }
 
+std::optional<double> Domain::eps_of(std::optional<double> wanted) const {
+  if (!wanted) return eps;
+  if (!eps) throw InputError("the domain '" + name + "' has no eps; leave it out");
+  if (*wanted > 0.0 && *wanted <= 1.0) return wanted;
+  std::ostringstream text;
+  text << "eps of the domain '" << name << "' is " << *wanted
+       << "; give a number above 0 and at most 1, which is the uniform grid";
+  throw InputError(text.str());
+}
+
 bool Domain::is_random(const std::string& wanted) const {
   return std::find(random_elements.begin(), random_elements.end(), elements_named(wanted)) !=
          random_elements.end();
@@ -97,6 +107,7 @@ AnyMesh Domain::generate(const DomainParameters& parameters) const {
   DomainParameters known = parameters;
   known.elements = elements_named(parameters.elements);
   known.algorithm = algorithm_named(parameters.algorithm, known.elements);
+  known.eps = eps_of(parameters.eps);
   try {
     return make(known);
   } catch (const TooFewEdges& error) {

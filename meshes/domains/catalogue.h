@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,12 @@ namespace smoothfem {
 
 /// Parameters of every domain.
 struct DomainParameters {
-  std::string elements{};   ///< an element name of the domain; empty: its first one
-  double edge_scale = 1.0;  ///< factor on the edge lengths of the domain's own mesh: 3 gives a
-                            ///< ninth of the planar cells, 2.1544 a tenth of the volume cells
-  std::uint64_t seed = 1;   ///< seed of random parts of the domain's mesh, if there are any
-  std::string algorithm{};  ///< of the domain's list for these elements; empty: the first one
+  std::string elements{};       ///< an element name of the domain; empty: its first one
+  double edge_scale = 1.0;      ///< factor on the edge lengths of the domain's own mesh: 3 gives a
+                                ///< ninth of the planar cells, 2.1544 a tenth of the volume cells
+  std::uint64_t seed = 1;       ///< seed of random parts of the domain's mesh, if there are any
+  std::string algorithm{};      ///< of the domain's list for these elements; empty: the first one
+  std::optional<double> eps{};  ///< in (0, 1], for domains that have it; nothing: their own
 };
 
 /// A domain that `smoothfem` can mesh; studies and the command line name it.
@@ -30,13 +32,15 @@ struct Domain {
   /// Algorithms of the mesh generator, by elements, the default first. Elements that are not named
   /// have one algorithm, without a name.
   std::map<std::string, std::vector<std::string>> algorithms{};
-  bool is_surface = false;  ///< its meshes are surfaces in space
-  bool has_groups = false;  ///< its cells have groups
-  /// Its parameters `elements` and `algorithm` are names of the domain's lists.
+  bool is_surface = false;      ///< its meshes are surfaces in space
+  bool has_groups = false;      ///< its cells have groups
+  std::optional<double> eps{};  ///< default of DomainParameters::eps; nothing: it has none
+  /// Its parameters `elements` and `algorithm` are names of the domain's lists; `eps` has a value
+  /// if the domain has it.
   std::function<AnyMesh(const DomainParameters&)> make;
 
   /// Makes a valid mesh of the domain with fixed boundary nodes (on surfaces: constrained ones).
-  /// Throws InputError for unsupported elements and for an edge scale out of range.
+  /// Throws InputError for unsupported elements, and for an edge scale or eps out of range.
   AnyMesh generate(const DomainParameters& parameters) const;
 
   /// Returns the elements of a name; for an empty name the default ones. Throws InputError that
@@ -49,6 +53,10 @@ struct Domain {
   /// Returns the algorithm of a name; for an empty name the default one. elements: of the domain's
   /// list. Throws InputError that lists the algorithms.
   std::string algorithm_named(const std::string& wanted, const std::string& elements) const;
+
+  /// Returns eps, or the domain's default. Throws InputError if it is out of range, or if the
+  /// domain has none.
+  std::optional<double> eps_of(std::optional<double> wanted) const;
 
   /// True if meshes of these elements (a name, or empty) depend on the seed.
   bool is_random(const std::string& wanted) const;

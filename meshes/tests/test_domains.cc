@@ -20,13 +20,14 @@ TEST(Domains, AllAreRegisteredAndSortedByName) {
   std::vector<std::string> names;
   for (const Domain& domain : domains()) names.push_back(domain.name);
   EXPECT_THAT(
-      names, ::testing::ElementsAre(
-                 "aorta", "axle", "blade", "bracket", "bracket-plate", "bridge", "car", "channel",
-                 "comb", "crack", "cube", "cube-halves", "disc", "drill", "elbow", "fichera",
-                 "flange", "gear", "heat-sink", "holed-plate", "hook", "l-shape", "lake",
-                 "nonuniform-grid", "nonuniform-grid-sinh", "nonuniform-grid-z", "piston", "plate",
-                 "prosthesis", "pump", "random-planar", "ring", "roof", "sheet", "sphere", "square",
-                 "square-disc", "square-halves", "star", "subdivision", "sweep", "washer", "wing"));
+      names,
+      ::testing::ElementsAre(
+          "aorta", "axle", "blade", "bracket", "bracket-plate", "bridge", "car", "channel", "comb",
+          "crack", "cube", "cube-halves", "disc", "drill", "elbow", "fichera", "flange", "gear",
+          "heat-sink", "holed-plate", "hook", "kershaw", "kershaw-cube", "l-shape", "lake",
+          "nonuniform-grid", "nonuniform-grid-sinh", "nonuniform-grid-z", "piston", "plate",
+          "prosthesis", "pump", "random-planar", "ring", "roof", "sheet", "sphere", "square",
+          "square-disc", "square-halves", "star", "subdivision", "sweep", "washer", "wing"));
 }
 
 TEST(Domains, HaveDescriptions) {

@@ -25,7 +25,7 @@ OPTIONAL = ("n_solves",)  # of methods that solve by themselves; results of earl
 REFINED = ("member", "method", "degree", *SOLVING, "h1_error")
 # Of summary.csv.
 SUMMARY = ("member", "elements", "solution", "method", "degree", "smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid",
-           "q_min", "l2_error", "h1_error")
+           "q_min", "q_mean", "l2_error", "h1_error")
 NUMBERS = ("smoothing_seconds", "preparation_seconds", *SOLVING, "n_invalid", *QUALITIES, *OUTCOMES)
 
 

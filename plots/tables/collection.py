@@ -12,6 +12,7 @@ from ..results.rows import groups_of
 from ..results.symbols import symbol_of
 from .columns import between, number, table_of
 from .gains import gains_table
+from .pairs import pairs_table
 from .table import number_cell, text_cell
 
 INTERVALS = ("Means are over families, each counted once; intervals are 95 % intervals of these means, by Student's t distribution over "
@@ -28,7 +29,8 @@ def make_collection_tables(results):
     paying = [method for method in results.methods if method == results.methods[0] or method in results.solving]
     alternatives = payoffs(problems, paying)
     tables = (members_table(results), smoothing_table(results, found), budget_table(results, budgets),
-              payoff_table(results, alternatives), orders_table(results, orders(results)), prediction_table(results, predicted), gains_table(results))
+              payoff_table(results, alternatives), orders_table(results, orders(results)), prediction_table(results, predicted),
+              gains_table(results), pairs_table(results))
     return ([table for table in tables if table.keys],
             findings_as_markdown(results, problems, found, budgets, alternatives, predicted, orders(results)))
 

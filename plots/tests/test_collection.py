@@ -19,6 +19,7 @@ from plots.collections.problems import problems_of
 from plots.results.collection import KEYS, MEMBER_COLUMNS, NUMBERS, RECORD, REFINED, STATISTICS, SUMMARY, read_collection_results
 from plots.results.rows import SOLVING, ResultsError, Rows, solving_seconds
 from plots.tables.gains import gains_table
+from plots.tables.pairs import pairs_table
 from plots.tests.synthetic_results import write_csv
 from plots.tests.test_read_results import InFolder
 
@@ -148,6 +149,30 @@ class Collection(InFolder):
         self.assertEqual([cell.text for cell in found.keys[0]], ["front", "triangles", "1", "Good"])
         self.assertEqual([[cell.text for cell in group.cells[0]] for group in found.groups],
                          [["8"], ["0.25", "2.00", "2.00"], ["0.06", "4.00", "4.00"], ["0.100"], ["1"]])
+
+    def test_published_pairs(self):
+        """Model a has both meshes, b only one: of a, `good` reaches the error of the published result, `idle` fails."""
+        folder = self.folder / "r"
+        self.assertEqual(pairs_table(self.results).keys, ())
+        numbers = {("a_in", "initial"): (0.1, 4.0), ("a_in", "good"): (0.4, 2.0), ("a_in", "idle"): (0.0, ""), ("a_out", "initial"): (0.5, 2.0),
+                   ("b_in", "initial"): (0.3, 1.0)}
+        write_csv(folder / "summary.csv", SUMMARY, [
+            {**dict.fromkeys(SUMMARY, ""), "member": f"{mesh}.{solution}", "elements": "hexahedra", "solution": solution, "method": method,
+             "degree": degree, "n_invalid": int(error == ""), "q_min": q_min, "q_mean": q_min + 0.25,
+             "h1_error": error and error * factor / degree}
+            for (mesh, method), (q_min, error) in numbers.items() for solution, factor in (("smooth", 1.0), ("layer", 10.0))
+            for degree in (1, 2)])
+        found = pairs_table(read_collection_results(folder))
+        self.assertEqual([[cell.text for cell in key] for key in found.keys],
+                         [["a", "before"], ["a", "before, Good"], ["a", "before, Idle"], ["a", "as published, after"]])
+        columns = {(group.heading.text, sub): [cells[i].text for cells in group.cells]
+                   for group in found.groups for i, sub in enumerate(group.subheadings)}
+        self.assertEqual(columns["q_min", ""], ["0.100", "0.400", "0.000", "0.500"])
+        self.assertEqual(columns["q_mean", ""], ["0.350", "0.650", "0.250", "0.750"])
+        self.assertEqual(columns["Invalid cells", ""], ["0", "0", "1", "0"])
+        self.assertEqual(columns["H1 error, smooth", "d = 1"][::3], ["4", "2"])
+        self.assertEqual(columns["H1 error, layer", "d = 2"][:2], ["20", "10"])
+        self.assertNotIn(columns["H1 error, layer", "d = 2"][2], ("0", "20"))
 
     def test_at_equal_time_smoothing_is_compared_with_split_cells(self):
         """Split cells halve the error in four times the time: order 1/2. The mesh of `good` has half the error after twice

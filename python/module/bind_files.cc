@@ -131,11 +131,15 @@ void bind_files(py::module_& module) {
     for (const Domain& domain : domains()) elements[domain.name.c_str()] = domain.elements;
     return elements;
   });
-  module.def("generate", [](const std::string& domain, const std::string& elements,
-                            double edge_scale, std::uint64_t seed, const std::string& algorithm) {
-    return PythonMesh(find_domain(domain).generate(
-        {.elements = elements, .edge_scale = edge_scale, .seed = seed, .algorithm = algorithm}));
-  });
+  module.def("generate",
+             [](const std::string& domain, const std::string& elements, double edge_scale,
+                std::uint64_t seed, const std::string& algorithm, std::optional<double> eps) {
+               return PythonMesh(find_domain(domain).generate({.elements = elements,
+                                                               .edge_scale = edge_scale,
+                                                               .seed = seed,
+                                                               .algorithm = algorithm,
+                                                               .eps = eps}));
+             });
   module.def("distort", &distort_mesh);
   module.def("quality", &quality);
   module.def("metrics", &metric_facts);

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <regex>
 
 #include "smoothing/base/data_folder.h"
 #include "smoothing/base/input_error.h"
@@ -14,11 +16,22 @@ namespace smoothfem {
 
 namespace {
 
-std::vector<std::string> study_names() {
+/// True if a study file names sets of published meshes, which have to be fetched.
+bool needs_published_meshes(const std::filesystem::path& file) {
+  static const std::regex sets(R"(\s*set\s+published\s*=.*)");
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);)
+    if (std::regex_match(line, sets)) return true;
+  return false;
+}
+
+/// fetched: with the studies that need sets of published meshes.
+std::vector<std::string> study_names(bool fetched) {
   std::vector<std::string> names;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(data_folder() / "studies" / "catalogue"))
-    if (entry.path().extension() == ".prm") names.push_back(entry.path().stem());
+    if (entry.path().extension() == ".prm" && (fetched || !needs_published_meshes(entry.path())))
+      names.push_back(entry.path().stem());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -32,9 +45,12 @@ std::vector<std::string> names_of(const std::string& what) {
   else if (what == "presets")
     for (const auto& preset : presets()) names.push_back(preset.name);
   else if (what == "studies")
-    names = study_names();
+    names = study_names(true);
+  else if (what == "all")
+    names = study_names(false);  // that 'study all' runs
   else
-    throw InputError("complete takes commands, methods, presets or studies, not '" + what + "'");
+    throw InputError("complete takes commands, methods, presets, studies or all, not '" + what +
+                     "'");
   return names;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
@@ -17,6 +18,7 @@ struct GenerateArguments {
   std::string domain, out, to, elements, algorithm;
   std::string distortion = distortion_kind_names[0];
   double edge_scale = 1.0, distort_to = 0.0, min_quality = 0.0;
+  std::optional<double> eps;
   int sweeps = 1;
   std::uint64_t seed = 1;
   bool quiet = false, list = false;
@@ -66,7 +68,8 @@ void generate(GenerateArguments arguments) {
   AnyMesh mesh = domain.generate({.elements = arguments.elements,
                                   .edge_scale = arguments.edge_scale,
                                   .seed = arguments.seed,
-                                  .algorithm = arguments.algorithm});
+                                  .algorithm = arguments.algorithm,
+                                  .eps = arguments.eps});
   std::visit([&](auto& of_its_kind) { distort_and_write(of_its_kind, arguments); }, mesh);
   if (output) print_content(output->path());
 }
@@ -86,6 +89,8 @@ void smoothfem_add_generate_command(CLI::App& app) {
                       "algorithm of the mesh generator, where a domain has several (see list)");
   command->add_option("--edge-scale", arguments->edge_scale,
                       "multiply edge lengths by this factor, at least 1 (default: 1)");
+  command->add_option("--eps", arguments->eps,
+                      "of the domains kershaw and kershaw-cube: above 0, at most 1 (default: 0.3)");
   command->add_option("--distort-to", arguments->distort_to,
                       "distort the mesh to this mean quality (default: not distorted)");
   command

@@ -15,6 +15,7 @@
 #include "studies/cli/commands.h"
 #include "studies/cli/watched_files.h"
 #include "studies/framework/definition/find_study.h"
+#include "studies/framework/definition/published_sets.h"
 #include "studies/framework/definition/study.h"
 #include "studies/framework/run/peak_memory.h"
 #include "studies/kinds/study_kinds.h"
@@ -31,6 +32,7 @@ struct StudyArguments {
   bool print_plan = false;
   int plan_to = -1;  ///< file descriptor; -1: none
   bool published = false;
+  std::string published_set;  ///< empty: the meshes that the study names
   bool no_figures = false;
   bool verbose = false;
   bool watch = false;
@@ -72,6 +74,8 @@ void run(StudyArguments& arguments, std::optional<MpiSession>& mpi) {
   if (options.retry_failed && !study.has_shards)
     throw InputError("--retry-failed is for collections, but the study " + study.header.name +
                      " is of another kind; leave it out");
+  if (arguments.published && options.mesh_dir.empty() && study.published.empty())
+    throw InputError("--published has no effect with --dry-run; leave one of them out");
   if (options.out.empty()) options.out = std::filesystem::path("results") / study.header.name;
   study.run(options);
 }
@@ -94,7 +98,8 @@ void run_on_all_ranks(StudyArguments& arguments) {
 /// The launcher's work for a study.
 struct LauncherPlan {
   /// One item a line. "ranks N": number of processes that is fastest on this machine. "out FOLDER":
-  /// results folder. "draw OPTION": option for drawing. "fetch NAME": published meshes are wanted.
+  /// results folder. "draw OPTION": option for drawing. "fetch NAME": published meshes are wanted,
+  /// those of the study or, with "set NAME", of these sets.
   /// "watch FILE": a file or folder that the study depends on, with --watch.
   std::string text;
   bool comes_first = false;  ///< before the program's own work
@@ -120,6 +125,8 @@ LauncherPlan launcher_plan(const StudyArguments& arguments) {
   try {
     const ReadyStudy study = read(arguments);
     name = study.header.name;
+    if (arguments.published)
+      for (const auto& set : study.published) add("set", set);
     if (arguments.watch) watch(named_files(study.header.parameters, file.parent_path()));
     if (study.benefits_from_mpi) n_ranks = std::max(1U, std::thread::hardware_concurrency());
   } catch (const InputError&) {
@@ -167,8 +174,13 @@ void smoothfem_add_study_command(CLI::App& app) {
                       "folder for the results (default: results/NAME)");
   command->add_option("--mesh-dir", arguments->options.mesh_dir,
                       "folder with the published meshes that the study names");
-  command->add_flag("--published", arguments->published,
-                    "fetch the published meshes that the study names, once, and run on them");
+  auto* published = command
+                        ->add_option("--published", arguments->published_set,
+                                     "fetch the published meshes that the study names, once, and "
+                                     "run on them; for the study collection: those of a set (see "
+                                     "--list)")
+                        ->expected(0, 1)
+                        ->type_name("[SET]");
   command
       ->add_option("--threads", arguments->options.n_threads,
                    "threads for the finite elements of planar meshes (default: all cores)")
@@ -215,7 +227,10 @@ void smoothfem_add_study_command(CLI::App& app) {
   add_plugin_option(*command);
   add_examples(*command, {"smoothfem study gear --quick", "smoothfem study my.prm --dry-run",
                           "smoothfem study gear --plugin ./libmine.so"});
-  command->callback([arguments, shard] {
+  command->callback([arguments, shard, published] {
+    arguments->published = published->count() > 0;
+    // "--published gear" is a study after the option.
+    if (arguments->study.empty()) std::swap(arguments->study, arguments->published_set);
     if (shard->count() > 0 && arguments->options.shard.empty())
       throw InputError(
           "--shard is empty; write the part and the number of parts, for example 1/10, or leave it "
@@ -226,6 +241,8 @@ void smoothfem_add_study_command(CLI::App& app) {
                        "; give one of them");
     if (arguments->study.empty())
       throw InputError("which study? 'smoothfem study --list' shows the available ones");
+    if (!arguments->published_set.empty())
+      arguments->study = study_on_published_set(arguments->study, arguments->published_set);
     if (arguments->print_plan)
       return void(std::fputs(launcher_plan(*arguments).text.c_str(), stdout));
     if (arguments->watch)
@@ -239,7 +256,7 @@ void smoothfem_add_study_command(CLI::App& app) {
       if (plan.comes_first) return;
     }
     // The launcher fetches, and passes on the folder.
-    if (arguments->published && arguments->options.mesh_dir.empty())
+    if (arguments->published && arguments->options.mesh_dir.empty() && !arguments->options.dry_run)
       throw InputError(
           "--published is for the command smoothfem by itself, not under mpirun; run it "
           "once without, or name the folder of the meshes by --mesh-dir");

@@ -15,9 +15,10 @@ namespace smoothfem {
 /// A study of any kind, read and checked, ready to be run.
 struct ReadyStudy {
   StudyHeader header;
-  bool needs_mpi = false;          ///< needs MPI, even for one process
-  bool benefits_from_mpi = false;  ///< more than one process makes it faster
-  bool has_shards = false;         ///< can be run in parts (StudyOptions::shard)
+  bool needs_mpi = false;                ///< needs MPI, even for one process
+  bool benefits_from_mpi = false;        ///< more than one process makes it faster
+  bool has_shards = false;               ///< can be run in parts (StudyOptions::shard)
+  std::vector<std::string> published{};  ///< sets of published meshes that it needs
   std::function<void(const StudyOptions&)> run;
 };
 

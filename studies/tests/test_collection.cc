@@ -155,6 +155,117 @@ TEST_F(Collections, AlgorithmsAreThoseOfMeshesAsTheyAre) {
                                           "square.triangles.s1 ", "square.triangles.s1.q0.6 "}));
 }
 
+TEST_F(Collections, EpsMakesMeshesOfDomainsThatHaveIt) {
+  file_with("all.prm",
+            "set kind = collection\nset domains = kershaw: 8, square: 24\nset methods = laplace\n"
+            "set degrees =\nset eps = 0.3, 1\nset elements = quadrilaterals\n");
+  const Collection collection = read_collection(file("all.prm"));
+  std::map<std::string, double> eps;
+  for (const Member& member : collection.members) eps[member.name] = member.mesh.eps;
+  EXPECT_EQ(eps, (std::map<std::string, double>{{"kershaw.quadrilaterals.s1.e0.3", 0.3},
+                                                {"kershaw.quadrilaterals.s1.e1", 1.0},
+                                                {"square.quadrilaterals.s1", 0.0}}));
+  const Outcome outcome = smoothfem({"study", "all.prm", "--out", "out", "--quiet"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const CsvTable members = table("out/members.csv");
+  EXPECT_EQ(members.select({{"family", "kershaw"}, {"n_nodes", "49"}}).size(), 2u);
+  EXPECT_LT(std::stod(members.rows[0].at("q_min")), 0.9);
+  EXPECT_EQ(std::stod(members.rows[1].at("q_min")), 1.0);
+  file_with("all.prm", content_of(file("all.prm")) + "set eps = 0\n");
+  EXPECT_THAT(smoothfem({"study", "all.prm"}).err,
+              ::testing::HasSubstr("eps of the domain 'kershaw' is 0; give a number above 0"));
+}
+
+TEST_F(Collections, TangledMeshesAreUntangledOnRequest) {
+  fs::create_directories(file("meshes"));
+  write_mesh(file("meshes/tangled.vtk"), shaken_grid(4, 1.5));
+  write_mesh(file("meshes/valid.vtk"), shaken_grid(4, 0.2));
+  write_study("set untangle = true\n");
+  for (const std::string run : {"first", "again"}) {  // the second takes the kept meshes
+    const std::vector<std::string> more =
+        run == "first" ? std::vector<std::string>{} : std::vector<std::string>{"--retime"};
+    std::vector<std::string> words{"study", "all.prm", "--out", "out", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = smoothfem(words);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const CsvTable members = table("out/members.csv");
+    ASSERT_EQ(members.select({{"status", "complete"}}).size(), 2u) << run;
+    EXPECT_GT(std::stod(members.rows[0].at("q_min")), 0.0);
+    EXPECT_THAT(
+        content_of(file("out/members/tangled/provenance.json")),
+        ::testing::ContainsRegex("untangled, as [0-9]+ of 16 cells of the file are invalid"));
+    EXPECT_THAT(content_of(file("out/members/valid/provenance.json")),
+                ::testing::Not(::testing::HasSubstr("untangled")));
+  }
+  write_study();
+  ASSERT_EQ(smoothfem({"study", "all.prm", "--out", "out", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(table("out/members.csv").select({{"member", "tangled"}, {"status", "failed"}}).size(),
+            1u);
+}
+
+/// A data folder with the set `few` of two meshes and the studies `some` and `some-few`.
+class PublishedSets : public Collections {
+ protected:
+  void SetUp() override {
+    const fs::path studies = file("data/studies"), own = fs::path(SMOOTHFEM_SOURCE_DIR) / "studies";
+    fs::create_directories(studies / "published");
+    fs::create_directories(studies / "catalogue" / "any");
+    fs::create_directory_symlink(own / "presets", studies / "presets");
+    file_with("data/studies/published/few.json",
+              R"({"files": {"2d/a.vtk": {"family": "one"}, "b.vtk": {"family": "one"}}})");
+    write_study("set published = few\n");
+    fs::rename(file("all.prm"), studies / "catalogue" / "any" / "some-few.prm");
+    std::string text = content_of(studies / "catalogue" / "any" / "some-few.prm");
+    text.erase(text.find("set collection"), std::string("set collection = meshes/*\n").size());
+    file_with("data/studies/catalogue/any/some-few.prm", text);
+    ::setenv("SMOOTHFEM_DATA", file("data").c_str(), 1);
+  }
+  void TearDown() override {
+    ::unsetenv("SMOOTHFEM_DATA");
+    Collections::TearDown();
+  }
+
+  void expect_refused(const std::vector<std::string>& words, const std::string& part) const {
+    const Outcome outcome = smoothfem(words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, ::testing::HasSubstr(part));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(file("results")));
+  }
+};
+
+TEST_F(PublishedSets, HaveTheFamiliesOfTheirCatalogue) {
+  fs::create_directories(file("fetched/few/2d"));
+  write_mesh(file("fetched/few/2d/a.vtk"), shaken_grid(4, 0.2));
+  expect_refused({"study", "some-few", "--mesh-dir", "fetched"}, "has no file fetched/few/b.vtk");
+  write_mesh(file("fetched/few/b.vtk"), shaken_grid(5, 0.2));
+  const Outcome outcome = smoothfem({"study", "some-few", "--mesh-dir", "fetched", "--quiet"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const CsvTable members = table("results/some-few/members.csv");
+  EXPECT_EQ(members.select({{"status", "complete"}, {"family", "one"}}).size(), 2u);
+  EXPECT_EQ(members.rows[0].at("file"), "a.vtk");
+  // From another folder they are the same.
+  fs::rename(file("fetched"), file("elsewhere"));
+  EXPECT_THAT(smoothfem({"study", "some-few", "--mesh-dir", "elsewhere"}).err,
+              ::testing::HasSubstr("nothing to do"));
+}
+
+TEST_F(PublishedSets, AreNamedOnTheCommandLine) {
+  const Outcome plan = smoothfem({"study", "some", "--published", "few", "--dry-run"});
+  EXPECT_EQ(plan.exit_code, 0) << plan.err;
+  EXPECT_THAT(plan.out, ::testing::HasSubstr("2 members in 1 family"));
+  const Outcome launcher = smoothfem({"study", "some", "--published", "few", "--print-plan"});
+  EXPECT_THAT(launcher.out, ::testing::HasSubstr("out results/some-few\n"));
+  EXPECT_THAT(launcher.out, ::testing::HasSubstr("\nfetch some-few\n"));
+  EXPECT_TRUE(launcher.out.starts_with("set few\n")) << launcher.out;
+  // The name of a study may follow the option.
+  EXPECT_EQ(smoothfem({"study", "--published", "some-few", "--print-plan"}).out, launcher.out);
+  expect_refused({"study", "some", "--published", "fewer"},
+                 "there is no published set 'fewer'; choose one of few");
+  expect_refused({"study", "some-few", "--published", "few"}, "no sets of published meshes");
+  expect_refused({"study", "some-few"}, "some-few needs published meshes; add --published");
+}
+
 TEST_F(Collections, MergedShardsAreTheWhole) {
   write_good_meshes(3);
   write_study(

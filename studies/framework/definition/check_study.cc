@@ -23,6 +23,7 @@ void check_names(const Study& study) {
     if (!mesh.domain.empty()) {
       const Domain& domain = find_domain(mesh.domain);
       (void)domain.algorithm_named(mesh.algorithm, domain.elements_named(mesh.elements));
+      (void)domain.eps_of(parameters_of(mesh, 1.0).eps);
     }
 }
 

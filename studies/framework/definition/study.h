@@ -12,6 +12,7 @@
 
 #include "fem/poisson_solver.h"
 #include "meshes/distortion/distort.h"
+#include "meshes/domains/catalogue.h"
 #include "meshes/metrics/metric.h"
 #include "smoothing/loop/catalogue.h"
 #include "smoothing/quality/cell_targets.h"
@@ -29,6 +30,8 @@ struct StudyMesh {
   std::string domain;          ///< which domain to generate
   std::string elements;        ///< of the generated mesh; empty: the domain's default
   std::string algorithm{};     ///< of the mesh generator; empty: the domain's default
+  double eps = 0.0;            ///< DomainParameters::eps; 0: the domain's default
+  bool untangle = false;       ///< make a tangled mesh of a file valid first
   /// Name of a file in the folder of --mesh-dir, in place of `file` or `domain`. It is not
   /// distorted, because published meshes are already distorted.
   std::string published_file;
@@ -43,9 +46,18 @@ struct StudyMesh {
   std::string repeats{};  ///< the mesh that this one repeats with another seed; or empty
 };
 
-/// True if a mesh is changed after it has been read or generated.
+/// True if a mesh is distorted after it has been read or generated.
 inline bool is_distorted(const StudyMesh& mesh) {
   return mesh.distort_to_q_mean > 0.0 || mesh.distort_within > 0.0;
+}
+
+/// Returns what the domain of a generated mesh gets.
+inline DomainParameters parameters_of(const StudyMesh& mesh, double edge_scale) {
+  return {.elements = mesh.elements,
+          .edge_scale = edge_scale,
+          .seed = mesh.seed,
+          .algorithm = mesh.algorithm,
+          .eps = mesh.eps == 0.0 ? std::nullopt : std::optional(mesh.eps)};
 }
 
 /// A file of a method that is not part of this program.

@@ -100,6 +100,13 @@ void declare_mesh(ParameterHandler& p, int dimension, const std::string& name) {
   p.declare_entry("algorithm", "", Patterns::Anything(),
                   "Algorithm of the mesh generator, for domains that have several (see 'list'); "
                   "empty: the first.");
+  p.declare_entry("eps", "0", Patterns::Double(0.0, 1.0),
+                  "Of the domains kershaw and kershaw-cube: 1 is the uniform grid, smaller values "
+                  "make its cells worse; 0: the domain's default.");
+  p.declare_entry(
+      "untangle", "false", Patterns::Bool(),
+      "Makes a tangled mesh of a file valid first, as 'smooth --untangle' does; nodes on "
+      "its boundary stay.");
   p.declare_entry(
       "edge scale", "1", Patterns::Double(1.0),
       "Edges of a generated mesh longer by this factor, in addition to the study's factor.");

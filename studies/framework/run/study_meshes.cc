@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/run/study_meshes.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "meshes/distortion/distort.h"
@@ -9,6 +10,7 @@
 #include "meshes/io/mesh_file.h"
 #include "smoothing/geometry/extreme_size.h"
 #include "smoothing/mesh/fixed_nodes.h"
+#include "smoothing/optimization/untangle.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/results/sha256.h"
 #include "studies/framework/run/constraints/hanging_nodes.h"
@@ -30,15 +32,29 @@ Mesh<dim, spacedim> of_kind(AnyMesh&& mesh, const std::string& name) {
                    std::to_string(dim) + "'; set it to " + std::to_string(5 - dim));
 }
 
-/// changes: gets the sentences about changes that were made in reading.
+/// changes: gets the sentences about changes that were made in reading. may_be_tangled: accepts
+/// invalid cells, too.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> read_valid_mesh(const std::filesystem::path& path,
-                                    std::vector<std::string>& changes) {
+                                    std::vector<std::string>& changes,
+                                    bool may_be_tangled = false) {
   MeshFile file = read_mesh(path);
   changes = std::move(file.notes);
   const auto mesh = of_kind<dim, spacedim>(std::move(file.mesh), path.string());
-  require_valid(mesh, path.string(), file.cell_lines);
+  if (!may_be_tangled || spacedim > dim) require_valid(mesh, path.string(), file.cell_lines);
   return mesh;
+}
+
+/// Makes a tangled mesh of a file valid. Throws InputError if that fails.
+template <int dim>
+void make_valid(const std::filesystem::path& file, Mesh<dim>& mesh) {
+  const std::size_t n_cells = mesh.n_cells();
+  const UntangleResult result = untangle(mesh);
+  if (result.valid) return;
+  throw InputError(file.string() + ": " + std::to_string(result.n_invalid_before) + " of " +
+                   std::to_string(n_cells) + " cells are invalid, and untangling leaves " +
+                   std::to_string(std::max(result.n_invalid_after, result.invalid_cells.size())) +
+                   "; repair them in the mesh generator");
 }
 
 /// The origin of a mesh.
@@ -100,25 +116,34 @@ void move_nodes_as_in(const std::filesystem::path& path, Mesh<dim, spacedim>& me
   mesh.set_coordinates(moved.coordinates());
 }
 
-/// distorted: file of an earlier run that has the nodes after distortion, or empty.
+/// True if the mesh is that of a file which may be tangled.
+bool is_untangled(const StudyMesh& description, const Source& source) {
+  return description.untangle && !source.file.empty() && !source.published;
+}
+
+/// made: file of an earlier run that has the nodes after untangling and distortion, or empty.
 template <int dim, int spacedim>
 Mesh<dim, spacedim> make_mesh(const StudyMesh& description, const Source& source, double edge_scale,
-                              const std::filesystem::path& distorted,
+                              const std::filesystem::path& made,
                               std::vector<std::string>& changes) {
+  const bool untangles = is_untangled(description, source);
   Mesh<dim, spacedim> mesh =
       source.file.empty()
-          ? of_kind<dim, spacedim>(find_domain(description.domain)
-                                       .generate({.elements = description.elements,
-                                                  .edge_scale = edge_scale,
-                                                  .seed = description.seed,
-                                                  .algorithm = description.algorithm}),
-                                   "the domain " + description.domain)
-          : read_valid_mesh<dim, spacedim>(source.file, changes);
-  if (source.published || !is_distorted(description)) return mesh;
-  if (!distorted.empty()) {
-    move_nodes_as_in(distorted, mesh);
+          ? of_kind<dim, spacedim>(
+                find_domain(description.domain).generate(parameters_of(description, edge_scale)),
+                "the domain " + description.domain)
+          : read_valid_mesh<dim, spacedim>(source.file, changes, untangles);
+  if (const std::size_t n = untangles ? mesh_quality(mesh).n_invalid : 0; n > 0)
+    changes.push_back("untangled, as " + std::to_string(n) + " of " +
+                      std::to_string(mesh.n_cells()) + " cells of the file are invalid");
+  if (source.published || (!is_distorted(description) && !untangles)) return mesh;
+  if (!made.empty()) {
+    move_nodes_as_in(made, mesh);
     return mesh;
   }
+  if constexpr (dim == spacedim)
+    if (untangles) make_valid(source.file, mesh);
+  if (!is_distorted(description)) return mesh;
   DistortionParameters parameters;
   parameters.kind = description.distortion;
   parameters.n_candidates = description.distortion_candidates;
@@ -179,7 +204,8 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
   const bool has_more = !source.file.empty() ||
                         (!description.domain.empty() && find_domain(description.domain).has_groups);
   const std::string source_sha256 = source.file.empty() ? "" : sha256_of_file(source.file);
-  const bool is_made = source.file.empty() || (is_distorted(description) && !source.published);
+  const bool is_made = source.file.empty() || is_untangled(description, source) ||
+                       (is_distorted(description) && !source.published);
   std::string kept_name;
   if (dim == spacedim && is_made)
     kept_name = kept_mesh_name(description, source_sha256, study.edge_scale);

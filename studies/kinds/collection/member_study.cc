@@ -32,10 +32,14 @@ std::string elements_of(const Topology& topology) {
 
 template <int dim, int spacedim>
 MeshOutline outline(const Mesh<dim, spacedim>& mesh) {
+  // The outermost nodes of planar and volume meshes are on the boundary. Others may be outside of a
+  // tangled mesh.
+  const auto& on_boundary = mesh.topology().on_boundary();
   Eigen::AlignedBox3d box;
-  for (const auto& point : mesh.coordinates()) {
+  for (NodeIndex i = 0; i < mesh.n_nodes(); ++i) {
+    if (dim == spacedim && !on_boundary[i]) continue;
     Eigen::Vector3d in_space = Eigen::Vector3d::Zero();
-    in_space.head<spacedim>() = point;
+    in_space.head<spacedim>() = mesh.coordinates()[i];
     box.extend(in_space);
   }
   return {{dim, spacedim}, elements_of(mesh.topology()), box};
@@ -45,10 +49,7 @@ AnyMesh undistorted_mesh(const Collection& collection, const StudyMesh& mesh) {
   if (mesh.domain.empty()) return read_mesh(mesh.file).mesh;
   const Domain& domain = find_domain(mesh.domain);
   const double edge_scale = collection.common.at(domain.dimension).edge_scale * mesh.edge_scale;
-  return domain.generate({.elements = mesh.elements,
-                          .edge_scale = edge_scale,
-                          .seed = mesh.seed,
-                          .algorithm = mesh.algorithm});
+  return domain.generate(parameters_of(mesh, edge_scale));
 }
 
 /// Returns for example "((x - 0.5) / 2)". Six digits are enough, because any box near the mesh's
@@ -82,14 +83,17 @@ StudySolution solution_of(const Collection& collection, const Member& member, co
 StudyParameters own_parameters(const Study& study) {
   const StudyMesh& mesh = study.meshes.front();
   const std::string section = "mesh " + mesh.name + "/";
-  char scale[32];
+  char scale[32], eps[32];
   std::snprintf(scale, sizeof(scale), "%.17g", mesh.edge_scale);
+  std::snprintf(eps, sizeof(eps), "%.17g", mesh.eps);
   StudyParameters parameters{{"dimension", std::to_string(study.dimensions.cells)},
                              {"meshes", mesh.name},
                              {section + "domain", mesh.domain},
                              {section + "elements", mesh.elements},
                              {section + "algorithm", mesh.algorithm},
                              {section + "edge scale", scale},
+                             {section + "eps", eps},
+                             {section + "untangle", mesh.untangle ? "true" : "false"},
                              {"solution/name", study.solution.name},
                              {"solution/u", study.solution.u},
                              {"solution/diffusivity", study.solution.diffusivity}};

@@ -376,7 +376,7 @@ void work_on_members(const Collection& collection, const StudyOptions& options) 
 
 void run_collection(const Collection& collection, const StudyOptions& options) {
   if (options.task_socket >= 0) return work_on_members(collection, options);
-  if (!options.mesh_dir.empty())
+  if (!options.mesh_dir.empty() && collection.published.empty())
     throw InputError("--mesh-dir is given, but the meshes of the study " + collection.header.name +
                      " are named by the study; leave it out");
   CollectionRun run(collection, options);  // on all ranks, so that all find the same faults

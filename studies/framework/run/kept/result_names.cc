@@ -69,6 +69,9 @@ void add_recipe(const StudyMesh& mesh, Ingredients& made_of) {
   made_of.add("algorithm", mesh.algorithm);
   made_of.add("edge scale", mesh.edge_scale);
   made_of.add("seed", mesh.seed);
+  // Names of meshes without these stay the same.
+  if (mesh.eps > 0.0) made_of.add("eps", mesh.eps);
+  if (mesh.untangle) made_of.add("untangle", 1);
   if (!is_distorted(mesh)) return;
   made_of.add("distort to", mesh.distort_to_q_mean);
   made_of.add("distort within", mesh.distort_within);

@@ -15,7 +15,7 @@ namespace smoothfem {
 /// with its own results folder.
 struct Member {
   std::string name;          ///< in tables, and of its folder; a label
-  std::string family;        ///< the domain; of a file its folder, or its own label
+  std::string family;        ///< the domain; of a file its folder, its own label, or as published
   StudyMesh mesh;            ///< all members with the same initial mesh share its name
   std::string solution;      ///< one of Collection::solutions
   std::string size{};        ///< edge scale of a generated mesh, as the study file writes it
@@ -47,8 +47,9 @@ struct Collection {
   /// Solutions. Formulas may use X, Y and Z: coordinates in the mesh's bounding box, from 0 to 1
   /// along its longest side.
   std::map<std::string, StudySolution> solutions;
-  std::vector<Member> members;       ///< sorted by name
-  std::vector<std::string> notes{};  ///< sentences about keys that change nothing
+  std::vector<Member> members;           ///< sorted by name
+  std::vector<std::string> notes{};      ///< sentences about keys that change nothing
+  std::vector<std::string> published{};  ///< sets of published meshes
   /// Seconds that a member may take for each phase of run_collection; 0: no limit.
   double time_limit = 0.0;
 };
@@ -56,6 +57,10 @@ struct Collection {
 /// Reads a study file of the kind `collection`. Throws InputError as read_study does, for patterns
 /// that no file matches, and for names that two members would have.
 Collection read_collection(const std::filesystem::path& file, const std::string& scale = {});
+
+/// Returns the collection with the paths of published meshes, whose files are below the folder.
+/// Throws InputError if it is empty or lacks one of them.
+Collection with_published_files(Collection collection, const std::filesystem::path& mesh_dir);
 
 /// Returns a commented study file with every key of collections alone and its default.
 std::string collection_template();

@@ -36,8 +36,9 @@ class OwnLines {
       if (!sections_.empty()) sections_.pop_back();
     } else if (read.kind == StudyLine::Kind::set && has_own_keys()) {
       own_line_ = own_line_ || contains(collection_lists, read.name) ||
-                  (sections_.empty() &&
-                   contains({"kind", "families by", "write meshes", "time limit"}, read.name));
+                  (sections_.empty() && contains({"kind", "published", "untangle", "families by",
+                                                  "write meshes", "time limit"},
+                                                 read.name));
     }
     return own_line_;
   }
@@ -65,6 +66,13 @@ void declare_collection(ParameterHandler& p) {
   p.declare_entry("collection", "", Patterns::Anything(),
                   "Mesh files of any format, relative to this file, with the shell's * and ?, "
                   "separated by commas.");
+  p.declare_entry("published", "", Patterns::Anything(),
+                  "Sets of published meshes, separated by commas, that 'study FILE --published' "
+                  "fetches (see 'study --list').");
+  p.declare_entry(
+      "untangle", "false", Patterns::Bool(),
+      "Makes tangled meshes of files valid first, as 'smooth --untangle' does; nodes on "
+      "their boundaries stay.");
   p.declare_entry("domains", "", Patterns::Anything(),
                   "Domains to generate (see 'list'), separated by commas; 'NAME: FACTOR' has edges "
                   "longer by this factor, in addition to the sizes.");
@@ -75,6 +83,10 @@ void declare_collection(ParameterHandler& p) {
                   "Algorithms of the mesh generator, separated by commas, where a domain has them "
                   "(see 'list'); distorted meshes have the first one only. Empty: the domain's "
                   "first.");
+  p.declare_entry(
+      "eps", "", Patterns::List(Patterns::Double(0.0, 1.0)),
+      "Values for the domains kershaw and kershaw-cube, separated by commas: above 0, 1 "
+      "is the uniform grid. Empty: the domain's default.");
   p.declare_entry("sizes", "1", Patterns::List(Patterns::Double(0.0), 1),
                   "Edge scales of generated meshes: 2 has edges twice as long.");
   p.declare_entry("distortions", "none", Patterns::Anything(),
@@ -85,7 +97,8 @@ void declare_collection(ParameterHandler& p) {
                   "chance, are made once for each.");
   p.declare_entry("families by", "folder", Patterns::Selection("folder|file"),
                   "Families of mesh files in tables and findings: the folder of the file, or each "
-                  "file with its distorted meshes. Generated meshes: their domain.");
+                  "file with its distorted meshes. With folder, published meshes have the families "
+                  "of their set. Generated meshes: their domain.");
   p.declare_entry("solutions", "", Patterns::Anything(),
                   "Solutions, separated by commas; each is one of the program's (see 'list') or "
                   "has a subsection 'solution NAME'. Empty: the one of the subsection 'solution'.");

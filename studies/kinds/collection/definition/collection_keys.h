@@ -11,9 +11,9 @@ namespace smoothfem {
 
 /// Keys that a collection has in addition to those of a study of smoothing methods. The subsection
 /// of a scale may set other values for them.
-inline const std::vector<std::string> collection_lists{"collection", "domains",  "elements",
-                                                       "algorithms", "sizes",    "distortions",
-                                                       "seeds",      "solutions"};
+inline const std::vector<std::string> collection_lists{"collection",  "domains", "elements",
+                                                       "algorithms",  "eps",     "sizes",
+                                                       "distortions", "seeds",   "solutions"};
 
 /// Declares these keys, and the lists of the subsections of solutions and scales.
 void declare_collection(dealii::ParameterHandler& p);

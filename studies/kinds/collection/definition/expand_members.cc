@@ -9,6 +9,7 @@
 
 #include "meshes/domains/catalogue.h"
 #include "smoothing/base/find_named.h"
+#include "studies/framework/definition/published_sets.h"
 #include "studies/framework/definition/seeds.h"
 
 namespace smoothfem {
@@ -111,23 +112,24 @@ class Variations {
   std::vector<std::uint64_t> seeds_;
 };
 
-/// Makes one member per file. Files with the same name get their folder, and if
-/// necessary their extension, or a number, as part of their name.
-std::vector<Member> file_members(const std::vector<fs::path>& files, bool is_family_each) {
+/// Makes one member per file, given with its family. Files with the same name get their folder, and
+/// if necessary their extension, or a number, as part of their name.
+std::vector<Member> file_members(const std::map<fs::path, std::string>& files,
+                                 bool is_family_each) {
   std::map<std::string, int> n_called, n_in_folder;
-  for (const auto& file : files) {
+  for (const auto& [file, family] : files) {
     ++n_called[label_of(file.stem())];
     ++n_in_folder[label_of(file.parent_path().filename() / file.stem())];
   }
   std::vector<Member> members;
-  for (const auto& file : files) {
+  for (const auto& [file, family] : files) {
     const std::string folder = file.parent_path().filename();
     std::string label = label_of(file.stem());
     if (n_called[label] > 1) {
       label = label_of(folder / file.stem());
       if (n_in_folder[label] > 1) label = label_of(folder / file.filename());
     }
-    Member member{.name = label, .family = folder, .mesh = {}, .solution = {}};
+    Member member{.name = label, .family = family, .mesh = {}, .solution = {}};
     member.mesh.file = file;
     members.push_back(std::move(member));
   }
@@ -178,6 +180,7 @@ class GeneratedMembers {
   GeneratedMembers(ParameterHandler& p, const Variations& variations)
       : elements_(split_list(p.get("elements"))),
         algorithms_(split_list(p.get("algorithms"))),
+        eps_(split_list(p.get("eps"))),
         sizes_(split_list(p.get("sizes"))),
         variations_(variations) {
     for (const auto& name : elements_)
@@ -203,17 +206,31 @@ class GeneratedMembers {
         member.mesh.elements = name;
         member.mesh.edge_scale = factor * std::stod(size);
         member.mesh.distortion_candidates = default_candidates(domain.dimension);
-        const auto algorithms = algorithms_of(domain, name);
-        for (std::size_t a = 0; a < algorithms.size(); ++a) {
-          Member by_algorithm = member;
-          if (algorithms.size() > 1) by_algorithm.name += "." + algorithms[a];
-          by_algorithm.mesh.algorithm = algorithms[a];
-          variations_.add(by_algorithm, domain.is_random(name), members, a > 0);
+        for (const Member& with_eps : for_each_eps(domain, member)) {
+          const auto algorithms = algorithms_of(domain, name);
+          for (std::size_t a = 0; a < algorithms.size(); ++a) {
+            Member by_algorithm = with_eps;
+            if (algorithms.size() > 1) by_algorithm.name += "." + algorithms[a];
+            by_algorithm.mesh.algorithm = algorithms[a];
+            variations_.add(by_algorithm, domain.is_random(name), members, a > 0);
+          }
         }
       }
   }
 
  private:
+  /// Returns a member for each eps, or the member itself if the domain has none.
+  std::vector<Member> for_each_eps(const Domain& domain, const Member& member) const {
+    if (!domain.eps || eps_.empty()) return {member};
+    std::vector<Member> members;
+    for (const auto& eps : eps_) {
+      members.push_back(member);
+      members.back().name += ".e" + eps;
+      members.back().mesh.eps = *domain.eps_of(std::stod(eps));
+    }
+    return members;
+  }
+
   /// Returns the wanted algorithms that the domain has for these elements; without any its first.
   std::vector<std::string> algorithms_of(const Domain& domain, const std::string& elements) const {
     const auto known = domain.algorithms.find(elements);
@@ -226,7 +243,7 @@ class GeneratedMembers {
     return algorithms;
   }
 
-  std::vector<std::string> elements_, algorithms_, sizes_;
+  std::vector<std::string> elements_, algorithms_, eps_, sizes_;
   const Variations& variations_;
 };
 
@@ -250,22 +267,30 @@ std::string origin_of(const Member& member) {
 }  // namespace
 
 std::vector<Member> expand_members(ParameterHandler& p, const fs::path& folder) {
-  std::set<fs::path> files;
+  std::map<fs::path, std::string> files, published;  // with their families
   for (const fs::path pattern : split_list(p.get("collection")))
     for (const auto& file : matching_files(pattern.is_relative() ? folder / pattern : pattern))
-      files.insert(file);
+      files.emplace(file, file.parent_path().filename());
+  const auto sets = split_list(p.get("published"));
+  for (const auto& set : sets)
+    for (const auto& [file, family] : published_meshes(set))
+      published.emplace(file, sets.size() > 1 ? set + "." + family : family);
+  files.insert(published.begin(), published.end());
   const Variations variations(p);
   std::vector<Member> meshes;
-  for (const auto& member :
-       file_members({files.begin(), files.end()}, p.get("families by") == "file"))
+  for (Member& member : file_members(files, p.get("families by") == "file")) {
+    if (published.contains(member.mesh.file)) member.mesh.published_file = member.mesh.file;
+    member.mesh.untangle = p.get_bool("untangle");
     variations.add(member, false, meshes);
+  }
   const GeneratedMembers generated(p, variations);
   for (const auto& item : split_list(p.get("domains"))) {
     const auto [name, factor] = read_domain(item);
     generated.add(find_domain(name), factor, meshes);
   }
   if (meshes.empty())
-    throw InputError("the collection has no meshes; name files by 'collection', or 'domains'");
+    throw InputError(
+        "the collection has no meshes; name files by 'collection', 'published', or 'domains'");
   auto members = with_solutions(meshes, split_list(p.get("solutions")));
   std::sort(members.begin(), members.end(),
             [](const Member& a, const Member& b) { return a.name < b.name; });

@@ -106,6 +106,7 @@ Collection read_collection(const std::filesystem::path& file, const std::string&
   try {
     for (const auto& name : split_list(p.get("solutions")))
       collection.solutions.emplace(name, read_solution(p, text, name));
+    collection.published = split_list(p.get("published"));
     collection.members = expand_members(p, std::filesystem::absolute(file).parent_path());
     collection.notes = unused_keys(collection.members, read_seeds(p.get("seeds")).size());
   } catch (const InputError& error) {
