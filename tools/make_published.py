@@ -17,6 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 FORMATS = (".mesh", ".vtk", ".vtu", ".msh", ".inp")
 LEAST_FREE = 50  # nodes that a method can move
+SOLID = {"tetrahedron", "hexahedron"}
 SIDES = re.compile(r"_(in|out)$")
 
 # most_nodes: larger meshes are left out, so that a study of a set takes about a quarter of an hour on two cores.
@@ -83,6 +84,8 @@ def reason_to_leave_out(program, file, quality, most_nodes):
         return "a surface"
     if any(cell.endswith("-gon") for cell in quality["cells"]):
         return "polygons"
+    if len(quality["cells"]) > 1 and SOLID & set(quality["cells"]) or {"pyramid", "prism"} & set(quality["cells"]):
+        return "volume cells that have no finite elements of degree 2 together"
     if quality["findings"]:
         return quality["findings"][0]["kind"].replace("-", " ")
     if free < LEAST_FREE:

@@ -237,6 +237,7 @@ class FetchPublished(unittest.TestCase):
         self.assertTrue(catalogue["address"].endswith(f"/o/r/{catalogue['commit']}/the%20meshes/"))
         quality = {"n_nodes": 101, "n_fixed_nodes": 0, "cells": ["triangle"], "n_invalid": 0, "findings": []}
         for changed, part in (({}, "more than 100 nodes (101)"), ({"n_corners": 0}, "surface"), ({"cells": ["5-gon"]}, "polygons"),
+                              ({"cells": ["tetrahedron", "pyramid"]}, "degree 2"),
                               ({"n_fixed_nodes": 60}, "fewer than 50 free nodes (41)"),
                               ({"findings": [{"kind": "hanging-nodes"}]}, "hanging nodes")):
             self.assertIn(part, made.reason_to_leave_out("none", program, {**quality, **changed}, 100))
