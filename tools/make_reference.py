@@ -4,7 +4,7 @@
 
     make_reference.py SOURCE PROGRAM WORK [--compare | --program-of COMMIT] [STUDY...]
 
-All studies run at the scale `paper`, except the gear on the published meshes and collections of energy methods, which run at
+All studies run at the scale `paper`, except the gear on the published meshes, and some collections, which run at
 their default scale. The script resumes after an interruption: it skips studies whose reference is of this commit, and an interrupted study
 resumes. With --compare, references do not change. The script then records in results/reference/again.csv whether this
 commit gives the same numbers; exit code 1 means that numbers differ. With --program-of nothing is run. The script then
@@ -28,12 +28,13 @@ from plots.results.rows import packed, read_provenance
 # Files kept of a study: its packed rows, from which `smoothfem plot` makes tables and figures.
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv")
 FIELDS = ("field", "field-volume", "field-large")
-COLLECTIONS_AS_THEY_ARE = ("energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")  # run at their default scale
+# Run at their default scale.
+COLLECTIONS_AS_THEY_ARE = ("orders", "orders-volume", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")
 COLLECTIONS = (*FIELDS, *COLLECTIONS_AS_THEY_ARE)
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")
 TABLES = ("*.md", "*.csv")  # tables of collections: they need iterations.csv and metrics.csv, which are too large to keep
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME
-PUBLISHED = ("gear", "energy", "reasons/gear-mesquite", "reasons/gear-rounding")  # studies on the published meshes
+PUBLISHED = ("gear", "energy", "reasons/gear-converged", "reasons/gear-mesquite", "reasons/gear-rounding")  # studies on the published meshes
 SCALE = "subsection scale paper"
 SOURCES = ("*.cc", "*.h", "cmake", "CMakeLists.txt", "CMakePresets.json", ":!*/tests/*", ":!*/bench/*")  # of the program
 UNKNOWN_SECONDS = 1e9  # studies without a reference run last

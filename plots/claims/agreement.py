@@ -25,7 +25,8 @@ def agreement(folder):
     condition = pairs("solver", "condition_number")
     halved = [float(theirs) / float(computed) for row, computed, theirs in condition if row["method"] == AREA_WEIGHTED]
     cg = pairs("solver", "cg_iterations")
-    reached = {method: [r["method_seconds"] != "" for r in results.thresholds.select(method=method).records()]
+    reached = {method: [r["method_seconds"] != "" for r in results.thresholds.select(method=method).records()
+                        if r["error"].startswith("e_")]
                for method in ("getme", "smart-laplace")}
     lines = (
         ("Table 6.1, smoothing", f"q_min and q_mean: {same(quality)} in all printed digits; iterations of both "

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..statistics.profiles import time_to_target
-from ..statistics.units import geometric, holm, least_p, mean_of_units, sign_flips, unit_means
+from ..statistics.units import geometric, holm, least_p, mean_of_units, sign_flips, unit_means, unit_medians
 from .problems import ERROR, LEAST_SECONDS, WORSE, kinds_of_problems
 
 NEAR_LEAST = 1.05  # a problem counts as solved below this multiple of the smallest error of any method
@@ -71,9 +71,9 @@ class Payoff:
     n_problems: int
 
 
-def mean_ratio(ratios, problems):
+def mean_ratio(ratios, problems, of_family=unit_means):
     """(geometric mean over families, interval)."""
-    return geometric(mean_of_units(np.log(ratios), [problem.family for problem in problems]))
+    return geometric(mean_of_units(np.log(ratios), [problem.family for problem in problems], of_family))
 
 
 def gains(problems, methods):
@@ -94,7 +94,7 @@ def gains_of_kind(key, problems, methods):
         times = [(np.log(max(p.results[method].seconds, 1e-3 * p.one_solve) / p.one_solve), p.family) for p in problems if method in p.results]
         found.append(Gain(
             *key, method, ratio, between, over, over_between, float(p_value),
-            geometric(mean_of_units(*zip(*times)))[0] if times else np.nan,
+            geometric(mean_of_units(*zip(*times), unit_medians))[0] if times else np.nan,
             share(problems, lambda p, m=method: p.ratio(m) > WORSE), share(problems, lambda p, m=method: m not in p.results),
             len(problems), len(set(families))))
     return found
@@ -189,5 +189,5 @@ def payoff(key, way, values):
     """The payoff of an alternative on one kind of meshes."""
     problems, errors, times, fair = zip(*values)
     known = [(ratio, problem) for ratio, problem in zip(fair, problems) if np.isfinite(ratio)]
-    return Payoff(*key, *way, *mean_ratio(errors, problems), *mean_ratio(times, problems),
-                  *(mean_ratio(*zip(*known)) if known else (np.nan, (np.nan, np.nan))), len(values))
+    return Payoff(*key, *way, *mean_ratio(errors, problems), *mean_ratio(times, problems, unit_medians),
+                  *(mean_ratio(*zip(*known), unit_medians) if known else (np.nan, (np.nan, np.nan))), len(values))

@@ -1,104 +1,189 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of the short answer: what smoothing does to the solution, from the studies field, gear, volume and energy-field."""
+"""Numbers of the short answer: what smoothing does to the solution. They come from the tables of the studies field, field-volume,
+field-large and of collections of public meshes, and from the rows of gear, volume and energy-field."""
+
+from collections import Counter
 
 import numpy as np
 
 from ..results.rows import read_rows
+from ..statistics.units import geometric, mean_of_units
 from .blocks import table
 
-METHOD = "getme-simultaneous"  # the method that the answer is about
-LEVELS = {"": "as generated", "0.6": "distorted to q_mean 0.6", "0.45": "distorted to q_mean 0.45"}
+REFERENCE_METHOD = "GETMe simultaneous"  # title of the first method of the studies
+FIELDS = ("field", "field-volume")
+KINDS = {"field": "planar", "field-volume": "volume"}
+ELEMENTS = ("triangles", "quadrilaterals", "tetrahedra", "hexahedra")
+LEVELS = {"as generated": "as generated", "0.6": "distorted to 0.6", "0.45": "distorted to 0.45"}
+SOLVER = "jacobi_cg_iterations"
+SURE = 0.05  # adjusted p-values below it tell methods apart
 PERCENT = 100
 
 
-def geometric_mean(values):
-    """The geometric mean of positive numbers."""
-    return float(np.exp(np.mean(np.log(values))))
-
-
-class Field:
-    """Results of the study field: initial meshes and the methods' results, aligned by problem (member and degree)."""
+class Fields:
+    """The studies field and field-volume: their tables, their members and the ends of their methods."""
 
     def __init__(self, reference):
-        rows = read_rows(reference / "field" / "summary.csv", ("member", "degree", "method", "h1_error"))
-        self.rows = {method: rows.select(method=method) for method in dict.fromkeys(rows.text("method"))}
-        self.initial = self.rows["initial"]
-        keys = list(zip(self.initial.text("member"), self.initial.text("degree")))
-        for method, those in self.rows.items():
-            assert list(zip(those.text("member"), those.text("degree"))) == keys, method
-        members = read_rows(reference / "field" / "members.csv")
-        self.n_meshes = len(set(self.initial.text("mesh")))
-        self.n_members = len(members)
-        nodes = members.number("n_nodes")
-        self.nodes = int(nodes.min()), int(nodes.max())
-        self.n_domains = len(set(members.text("domain")))
+        self.reference = reference
+        self.studies = [study for study in FIELDS if (reference / study).is_dir()]
+        self.members = {study: read_rows(reference / study / "members.csv") for study in self.studies}
 
-    def ratio(self, column, level=None, degree=None, method=METHOD):
-        """After over before smoothing, of the problems of a level of distortion and a degree."""
-        chosen = np.ones(len(self.initial), dtype=bool)
-        if level is not None:
-            chosen &= self.initial.text("distortion") == level
-        if degree is not None:
-            chosen &= self.initial.text("degree") == degree
-        return (self.rows[method].number(column) / self.initial.number(column))[chosen]
+    def rows(self, name):
+        """The rows of a table of both studies."""
+        return [row for study in self.studies for row in tables_of(self.reference, study, name)]
 
-    def n_of_level(self, level):
-        """Number of meshes with a level of distortion."""
-        return len(set(self.initial.where(self.initial.text("distortion") == level).text("mesh")))
+    def gain(self, elements, level, degree, method=REFERENCE_METHOD):
+        """The row of a method on a kind of meshes."""
+        found, = (row for row in self.rows("table_smoothing") if
+                  (row["Elements"], row["Level"], row["d"], row["Method"]) == (elements, level, str(degree), method))
+        return found
 
-    def invalid(self, method):
-        """Mask of the problems where a method leaves invalid cells."""
-        return self.rows[method].number("n_invalid") > 0
+    @property
+    def elements(self):
+        """Types of elements: simplices first, the plane first."""
+        known = {row["Elements"] for row in self.rows("table_smoothing")}
+        return [elements for elements in ELEMENTS if elements in known]
 
-    def spread(self):
-        """Largest over smallest H1 error of the methods that never leave invalid cells, less 1, and how many these are."""
-        valid = [method for method in self.rows if method != "initial" and not self.invalid(method).any()]
-        errors = np.array([self.rows[method].number("h1_error") for method in valid])
-        return errors.max(axis=0) / errors.min(axis=0) - 1, len(valid)
+    @property
+    def methods(self):
+        """Titles of methods, the reference first."""
+        return list(dict.fromkeys(row["Method"] for row in self.rows("table_smoothing")))
+
+    def domains(self):
+        """"14 planar and 10 volume domains"."""
+        counts = [f"{len(set(rows.text('domain')))} {KINDS[study]}" for study, rows in self.members.items()]
+        return f"{' and '.join(counts)} domains"
+
+    def n_meshes(self):
+        """Number of initial meshes: members without their solution."""
+        return sum(len({member.rsplit(".", 1)[0] for member in rows.text("member")}) for rows in self.members.values())
+
+    def nodes(self):
+        """Least and largest number of nodes of a mesh."""
+        counts = np.concatenate([rows.number("n_nodes") for rows in self.members.values()])
+        return int(np.nanmin(counts)), int(np.nanmax(counts))
+
+    def qualities(self, elements):
+        """Mean qualities of the meshes as generated."""
+        of_members = [rows.select(elements=elements, distortion="").number("q_mean") for rows in self.members.values()]
+        return [quality for qualities in of_members for quality in qualities if np.isfinite(quality)]
+
+    def iterations(self, elements, level, degree):
+        """Solver iterations after over before smoothing, as a geometric mean over domains."""
+        logs, domains = [], []
+        for study in self.studies:
+            initial, after = ends(self.reference, study)
+            chosen = (initial.text("elements") == elements) & (initial.text("degree") == str(degree))
+            chosen &= initial.text("distortion") == ("" if level == "as generated" else level)
+            ratios = (after.number(SOLVER) / initial.number(SOLVER))[chosen]
+            logs += list(np.log(ratios[np.isfinite(ratios)]))
+            domains += list(initial.text("family")[chosen][np.isfinite(ratios)])
+        return geometric(mean_of_units(logs, domains))[0]
 
 
-def in_short(field):
+def tables_of(reference, study, name):
+    """The rows of a table of a collection."""
+    return read_rows(reference / study / "tables" / f"{name}.csv").records()
+
+
+def ends(reference, study):
+    """(initial meshes, results of the reference method) of a collection, aligned by member and degree."""
+    rows = read_rows(reference / study / "summary.csv", ("member", "degree", "method", "h1_error"))
+    rows = rows.where(rows.text("degree") != "")
+    methods = list(dict.fromkeys(rows.text("method")))
+    initial, after = rows.select(method=methods[0]), rows.select(method=methods[1])
+    assert methods[0] == "initial"
+    of_after = {key: number for number, key in enumerate(zip(after.text("member"), after.text("degree")))}
+    common = [(number, of_after[key]) for number, key in enumerate(zip(initial.text("member"), initial.text("degree"))) if key in of_after]
+    return tuple(rows.where(list(numbers)) for rows, numbers in zip((initial, after), zip(*common)))
+
+
+def interval(text):
+    """"0.95 to 1.02" of a table as "0.95 to 1.02" with two digits."""
+    return " to ".join(f"{float(end):.2f}" for end in text.split(" to "))
+
+
+def with_interval(row, column):
+    """"0.98 (0.95 to 1.02)"."""
+    return f"{float(row[column]):.2f} ({interval(row[column + ' interval'])})" if row[column + " interval"] else f"{float(row[column]):.2f}"
+
+
+def spread(numbers, form=".2f"):
+    """"0.95 to 1.02"; one number if both are equal."""
+    ends_of_range = dict.fromkeys(f"{number:{form}}" for number in (min(numbers), max(numbers)))
+    return " to ".join(ends_of_range)
+
+
+def in_short(found):
     """The paragraph of README.md."""
-    bad, good = ([geometric_mean(field.ratio("h1_error", level, degree)) for degree in "12"] for level in ("0.45", ""))
-    spread, n_valid = field.spread()
-    return (f"""Smoothing repairs bad meshes and does little for good ones. We solved Poisson problems on {field.n_meshes} meshes of
-{field.nodes[0]} to {field.nodes[1]:,} nodes, with GETMe simultaneous:
+    def ratios(level, degree):
+        return spread([float(found.gain(elements, level, degree)["Error / initial"]) for elements in found.elements])
+    least, most = found.nodes()
+    low, high = differences(found)
+    return (f"""Smoothing repairs bad meshes and does little for good ones. We solved diffusion problems on {found.n_meshes():,} meshes of
+{least:,} to {most:,} nodes, from {found.domains()}, with GETMe simultaneous:
 
-- On {field.n_of_level("0.45")} randomly distorted meshes (mean quality 0.45) the H1 error fell to {bad[0]:.2f} of its initial value with linear
-  elements, and to {bad[1]:.2f} with quadratic elements (geometric means).
-- On {field.n_of_level("")} meshes as the generators made them it fell to {good[0]:.2f} and {good[1]:.2f}.
-- The choice of the method matters little: the {n_valid} methods that keep meshes valid end within {PERCENT * np.median(spread):.1f} % of each other
-  (median).
+- On randomly distorted meshes (mean quality 0.45) the H1 error fell to {ratios("0.45", 1)} of its initial value with linear
+  elements, and to {ratios("0.45", 2)} with quadratic elements. The ranges are over types of elements.
+- On meshes as the generators made them it fell to {ratios("as generated", 1)} and {ratios("as generated", 2)}.
+- The choice of the method matters less: the mean errors of the methods without failures are {low:.2f} to {high:.2f} times those of
+  GETMe simultaneous.
 """)
 
 
-def blocks(field, reference):
+def differences(found):
+    """Least and largest mean error of other methods over the reference's, of methods that never fail."""
+    rows = found.rows("table_smoothing")
+    failing = {row["Method"] for row in rows if float(row["Failed (%)"]) > 0}
+    numbers = [float(row[f"Error / {REFERENCE_METHOD}"]) for row in rows if row["Method"] not in failing | {REFERENCE_METHOD}]
+    return min(numbers), max(numbers)
+
+
+def blocks(found, reference):
     """The blocks of the answer page."""
-    return {"levels": levels(field), "good": good_meshes(field), "bad": bad_meshes(reference),
-            "methods": methods(field, reference), "minimum": minimum(reference), "cost": cost(reference),
-            "moving": moving(reference)}
+    return {"run": what_was_run(found), "levels": levels(found), "good": good_meshes(found), "bad": bad_meshes(reference),
+            "methods": methods(found), "budgets": budgets(found), "clusters": clusters(reference), "minimum": minimum(reference),
+            "cost": cost(found), "prediction": prediction(found), "moving": moving(reference)}
 
 
-def levels(field):
-    """Errors and iterations after over before, by level of distortion."""
-    rows = []
-    for level, name in LEVELS.items():
-        errors = [field.ratio("h1_error", level, degree) for degree in "12"]
-        iterations = [field.ratio("cg_iterations", level, degree) for degree in "12"]
-        assert not any(np.isnan(one).any() for one in (*errors, *iterations))
-        rows.append((name, len(errors[0]), *(f"{geometric_mean(one):.2f}" for one in (*errors, *iterations))))
-    return (f"{field.n_members} problems per degree on {field.n_meshes} meshes of {field.nodes[0]} to {field.nodes[1]:,} nodes "
-            f"(`results/reference/field/summary.csv`). The numbers are after over before smoothing by GETMe simultaneous, as "
-            "geometric means.\n\n"
-            + table(("initial mesh", "problems per degree", "H1 error, degree 1", "degree 2", "CG iterations, degree 1", "degree 2"),
-                    rows, "lrrrrr"))
+def what_was_run(found):
+    """The size of the studies."""
+    least, most = found.nodes()
+    counts = [Counter(rows.text("status")) for rows in found.members.values()]
+    complete, total = sum(count["complete"] for count in counts), sum(sum(count.values()) for count in counts)
+    folders = " and ".join(f"`results/reference/{study}`" for study in found.studies)
+    qualities = "; ".join(f"{elements} {spread(found.qualities(elements))}" for elements in found.elements)
+    return (f"{found.n_meshes():,} meshes of {found.domains()} have {least:,} to {most:,} nodes. Each mesh has five problems; {complete:,} of "
+            f"{total:,} are complete ({folders}). The mean quality of meshes as generated (mean ratio, at most 1): {qualities}.")
 
 
-def good_meshes(field):
+def levels(found):
+    """Errors and iterations after over before, by type of elements and level of distortion."""
+    rows = [(elements, name, *(with_interval(found.gain(elements, level, degree), "Error / initial") for degree in (1, 2)),
+             *(f"{found.iterations(elements, level, degree):.2f}" for degree in (1, 2)))
+            for elements in found.elements for level, name in LEVELS.items()]
+    return ("The numbers are after over before smoothing by GETMe simultaneous: geometric means over domains, with 95 % intervals "
+            "(`table_smoothing`; the iterations are those of `summary.csv`).\n\n"
+            + table(("elements", "initial mesh", "H1 error, degree 1", "degree 2", "CG iterations with Jacobi, degree 1", "degree 2"),
+                    rows, "llrrrr"))
+
+
+def good_meshes(found):
     """Reports how often smoothing of a generated mesh gains next to nothing."""
-    one, two = (field.ratio("h1_error", "", degree) for degree in "12")
-    return (f"On {PERCENT * np.mean(one > 0.98):.0f} % of the meshes as generated, the H1 error falls by less than 2 % (degree 1). On "
-            f"{PERCENT * np.mean(one > 1.001):.0f} % of them it rises by more than 0.1 % (degree 2: {PERCENT * np.mean(two > 1.001):.0f} %).")
+    parts = []
+    for degree in (1, 2):
+        ratios, domains = [], []
+        for study in found.studies:
+            initial, after = ends(found.reference, study)
+            chosen = (initial.text("degree") == str(degree)) & (initial.text("distortion") == "")
+            valid = after.number("n_invalid") == 0
+            ratios += list(np.where(valid, after.number("h1_error") / initial.number("h1_error"), 1.0)[chosen])
+            domains += list(initial.text("family")[chosen])
+        small = mean_of_units([float(ratio > 0.98) for ratio in ratios], domains)[0]
+        worse = mean_of_units([float(ratio > 1.01) for ratio in ratios], domains)[0]
+        parts.append(f"with elements of degree {degree} the H1 error falls by less than 2 % on {PERCENT * small:.0f} % of the problems, and rises by "
+                     f"more than 1 % on {PERCENT * worse:.0f} %")
+    return f"On meshes as generated, {parts[0]}; {parts[1]} (means over domains)."
 
 
 def of_study(reference, study):
@@ -127,26 +212,49 @@ def bad_meshes(reference):
                     rows, "lrrrrrr"))
 
 
-def methods(field, reference):
-    """Reports how much the methods differ."""
-    spread, n_valid = field.spread()
+def methods(found):
+    """The errors of methods at their ends, over those of the reference method."""
+    over = f"Error / {REFERENCE_METHOD}"
+
+    def cell(elements, level, method):
+        row = found.gain(elements, level, 1, method)
+        sure = "*" if row[f"{over} p"] and float(row[f"{over} p"]) < SURE else ""
+        failed = f", fails on {row['Failed (%)']} %" if float(row["Failed (%)"]) > 0 else ""
+        return f"{float(row[over]):.2f}{sure}{failed}"
+    rows = [(method, LEVELS[level], *(cell(elements, level, method) for elements in found.elements))
+            for method in found.methods[1:] for level in ("as generated", "0.45")]
+    return ("H1 error over that of GETMe simultaneous, degree 1, at the methods' ends (`table_smoothing`). A method fails if it has no "
+            "result or invalid cells; the initial mesh then counts. A star: different by a test over domains (p below 0.05 after "
+            "correction), however small the difference is.\n\n"
+            + table(("method", "initial mesh", *found.elements), rows, "ll" + "r" * len(found.elements)))
+
+
+def budgets(found):
+    """The best method within a budget."""
+    rows = found.rows("table_budgets")
+    names = [name for name in rows[0] if name.endswith("solutions")]
+    lines = []
+    for elements in found.elements:
+        chosen = [row for row in rows if (row["Elements"], row["d"], row["Level"]) == (elements, "1", "0.6")]
+        cells = []
+        for name in names:
+            best = min(chosen, key=lambda row: float(row[name]))
+            reference, = (row for row in chosen if row["Method"] == REFERENCE_METHOD)
+            cells.append(f"{best['Method']} {float(best[name]):.2f} ({float(reference[name]):.2f})")
+        lines.append((elements, *cells))
+    return ("Method with the lowest mean ratio within a budget of smoothing time, in solutions on the initial mesh; in parentheses the ratio "
+            "of GETMe simultaneous (degree 1, distorted to 0.6, `table_budgets`):\n\n" + table(("elements", *names), lines))
+
+
+def clusters(reference):
+    """What smart Laplace and weighted Laplace do on the published gears."""
     gear = of_study(reference, "gear")
     worst = max((1 / factor(gear, mesh, degree, "h1_error", "smart-laplace", "getme"), mesh, degree)
                 for mesh in ("tri", "quad") for degree in "12")
     where = {"tri": "triangles", "quad": "quadrilaterals"}[worst[1]]
-    laplace, weighted = field.invalid("laplace"), field.invalid("weighted-laplace")
-    tetrahedra = field.initial.text("elements") == "tetrahedra"
-    assert weighted[tetrahedra].all() and not weighted[~tetrahedra].any()
     counts = [int(gear["tri", "1", method]["cg_iterations"]) for method in ("smart-laplace", "getme")]
-    lowest = {(mesh, degree): min((float(row["h1_error"]), method) for (m, d, method), row in gear.items()
-                                  if (m, d) == (mesh, degree))[1] for mesh in ("tri", "quad") for degree in "12"}
-    assert set(lowest.values()) == {"weighted-laplace"}
-    return (f"The {n_valid} methods that keep meshes valid end within {PERCENT * np.median(spread):.1f} % of each other (median; largest "
-            f"over smallest true H1 error, `field`). Smart Laplace keeps bad clusters of cells: up to {worst[0]:.1f} times GETMe's error "
-            f"(gear, {where}, degree {worst[2]}), and {counts[0]:,} CG iterations in place of {counts[1]:,} (gear, triangles, degree 1). "
-            f"Plain Laplace leaves invalid cells in {PERCENT * laplace.mean():.0f} % of the problems, weighted Laplace in "
-            f"{PERCENT * weighted.mean():.0f} % (all problems on tetrahedra, and no others). On the published gears weighted Laplace has "
-            "the smallest true H1 error of all methods.")
+    return (f"On the published gears smart Laplace keeps bad clusters of cells: up to {worst[0]:.1f} times GETMe's error ({where}, degree {worst[2]}), "
+            f"and {counts[0]:,} CG iterations in place of {counts[1]:,} (triangles, degree 1; `results/reference/gear`).")
 
 
 def minimum(reference):
@@ -157,24 +265,54 @@ def minimum(reference):
     condition = sorted(factor(gear, "tri", degree, "condition_number", "getme", "smart-laplace") for degree in "12")
     return (f"Smart Laplace's triangles of the gear keep q_min {float(smart['q_min']):.0e}. Their true H1 error is {higher[0]:.0f} to "
             f"{higher[1]:.0f} % above that of GETMe's (q_min {float(getme['q_min']):.2f}), and their condition number is "
-            f"{condition[0]:,.0f} to {condition[1]:,.0f} times as high.")
+            f"{condition[0]:,.0f} to {condition[1]:,.0f} times as high (`results/reference/gear`).")
 
 
-def cost(reference):
-    """Time in all, by domain."""
-    rows = read_rows(reference / "field" / "tables" / "table_payoff.csv").records()
+def cost(found):
+    """Error and total time of smoothing, of the next degree and of split cells."""
+    rows = found.rows("table_payoff")
+    ways = {REFERENCE_METHOD: "smoothed", "unsmoothed, cells split": "every cell split", "unsmoothed, degree d + 1": "next degree"}
+    by_key = {(row["Elements"], row["d"], row["Level"], row["Instead"]): row for row in rows}
+    lines = []
+    for elements in found.elements:
+        for level, name in LEVELS.items():
+            cells = [(by_key[elements, "1", level, way]["Error / initial"], by_key[elements, "1", level, way]["Time / initial"])
+                     for way in ways]
+            lines.append((elements, name, *(f"{float(error):.2f} in {float(time):.1f}" for error, time in cells)))
+    second = [float(row["Time / initial"]) for row in rows if (row["d"], row["Instead"]) == ("2", REFERENCE_METHOD)]
+    return ("H1 error and total time, over those of the unsmoothed mesh with linear elements (`table_payoff`):\n\n"
+            + table(("elements", "initial mesh", *ways.values()), lines, "llrrr")
+            + f"\n\nWith quadratic elements, smoothing and solving take {spread(second)} times as long as solving on the unsmoothed mesh.")
 
-    def times(instead, degree, column="Time / initial"):
-        found = sorted(float(row[column]) for row in rows if (row["Instead"], row["d"]) == (instead, degree))
-        return f"{found[0]:.2g} to {found[-1]:.2g}"
-    smoothed = [times("GETMe simultaneous", degree) for degree in "12"]
-    error = "Error / initial"
-    split, next_degree = ("unsmoothed, cells split", "1"), ("unsmoothed, degree d + 1", "1")
-    return (f"Smoothing and solving take {smoothed[0]} times as long as one solution on the unsmoothed mesh at degree 1, and {smoothed[1]} "
-            f"times at degree 2, where the solver gains more than smoothing costs (GETMe simultaneous, by domain). Splitting every cell "
-            f"leaves {times(*split, error)} of the error for {times(*split)} times the time. The next degree leaves "
-            f"{times(*next_degree, error)} of the error for {times(*next_degree)} times the time "
-            "(`results/reference/field/tables/table_payoff.csv`).")
+
+def prediction(found):
+    """The rank correlation of qualities with the true H1 error."""
+    rows = [row for row in found.rows("table_prediction") if (row["Outcome"], row["d"]) == ("H1 error", "1")]
+    lines = []
+    for elements in found.elements:
+        of_elements = {row["Quality"]: row for row in rows if row["Elements"] == elements and row["Correlation"]}
+        strongest = max(of_elements.values(), key=lambda row: abs(float(row["Correlation"])))
+        lines.append((elements, *(with_interval(of_elements[name], "Correlation") for name in ("q_mean", "q_min")),
+                      f"{strongest['Quality']}: {with_interval(strongest, 'Correlation')}"))
+    return ("Rank correlation of a mesh's quality with its H1 error, degree 1, mean over domains (`table_prediction`; -1: higher quality always "
+            "goes with a lower error):\n\n" + table(("elements", "q_mean", "q_min", "strongest of all metrics, chosen after looking"), lines))
+
+
+def converged(reference):
+    """What CG's stopping changes in the errors of the published gears: the page on finite elements."""
+    stopped, exact = of_study(reference, "gear"), of_study(reference, "reasons/gear-converged")
+
+    def largest(method, column):
+        return max(abs(float(stopped[mesh, degree, method][column]) / float(exact[mesh, degree, method][column]) - 1)
+                   for mesh in ("tri", "quad") for degree in "12")
+    found = {(method, column): f"{PERCENT * largest(method, column):.2g} %" for method in ("initial", "getme")
+             for column in ("e_mean", "e_l2", "e_h1", "l2_error", "h1_error")}
+
+    def told(method):
+        return ", ".join(f"`{column}` {found[method, column]}" for column in ("e_mean", "e_l2", "e_h1", "l2_error", "h1_error"))
+    return ("How much of an error is left by CG? On the published gears CG was run to a residual of 1e-13, too (`results/reference/reasons/"
+            f"gear-converged`). The errors differ from those at 1e-8 by at most: {told('initial')} on the initial meshes; {told('getme')} on "
+            "GETMe's meshes.")
 
 
 def moving(reference):

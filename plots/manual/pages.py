@@ -9,11 +9,12 @@ from . import answer, fidelity, moving_nodes, paper, sizes
 def blocks():
     """{path of a page: {name of a block: Markdown}}."""
     docs = data_folder() / "docs"
-    found = answer.Field(reference())
+    found = answer.Fields(reference())
     of_thesis = fidelity.blocks(reference())
     return {
         data_folder() / "README.md": {"findings": answer.in_short(found)},
         docs / "explanation" / "answer.md": answer.blocks(found, reference()),
+        docs / "explanation" / "finite-elements.md": {"converged": answer.converged(reference())},
         docs / "explanation" / "fidelity.md": of_thesis,
         docs / "explanation" / "reducing-the-error-tables.md": moving_nodes.blocks(reference()),
         data_folder() / "paper" / "paper.md": {"agreement": of_thesis["agreement"], "gear": paper.gear(reference()),

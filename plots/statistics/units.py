@@ -14,10 +14,16 @@ def unit_means(values, units):
     return dict(zip(names, np.bincount(inverse, weights=values) / np.bincount(inverse))) if len(names) else {}
 
 
-def mean_of_units(values, units):
+def unit_medians(values, units):
+    """{unit: median of its values}, sorted by unit: for times, which other work on the machine makes too long now and then."""
+    units, values = np.asarray(units, dtype=str), np.asarray(values, dtype=float)
+    return {str(name): float(np.median(values[units == name])) for name in np.unique(units)}
+
+
+def mean_of_units(values, units, of_unit=unit_means):
     """(mean of the units' means, interval by Student's t distribution); NaN where there is no unit, or for the interval
     less than two."""
-    means = np.array(list(unit_means(values, units).values()))
+    means = np.array(list(of_unit(values, units).values()))
     mean = float(means.mean()) if len(means) else np.nan
     return mean, t_interval(means)
 

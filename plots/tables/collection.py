@@ -15,7 +15,7 @@ from .gains import gains_table
 from .pairs import pairs_table
 from .table import number_cell, text_cell
 
-INTERVALS = ("Means are over families, each counted once; intervals are 95 % intervals of these means, by Student's t distribution over "
+INTERVALS = ("Means are over families, each counted once; numbers that contain a time are medians in each family; intervals are 95 % intervals of these means, by Student's t distribution over "
              "families. A dash marks a missing number.")
 LEVELS = "Level: mean quality that the initial mesh was distorted to."
 

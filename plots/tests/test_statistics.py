@@ -35,6 +35,8 @@ class Units(unittest.TestCase):
         self.assertAlmostEqual(mean, (2 + 5 + 9) / 3)
         np.testing.assert_allclose((low, high), stats.t.interval(0.95, 2, loc=mean, scale=stats.sem([2, 5, 9])))
         self.assertTrue(np.isnan(units.mean_of_units([1.0, 2.0], ["a", "a"])[1]).all())
+        self.assertEqual(units.unit_medians([1.0, 9.0, 2.0, 5.0], ["b", "b", "b", "a"]), {"a": 5.0, "b": 2.0})
+        self.assertEqual(units.mean_of_units([1.0, 9.0, 2.0, 5.0], ["b", "b", "b", "a"], units.unit_medians)[0], 3.5)
         self.assertTrue(np.isnan(units.mean_of_units([], [])[0]))
 
     def test_interval_covers_the_mean(self):

@@ -10,6 +10,7 @@ import math
 import sys
 from pathlib import Path
 
+STUDIES = ("bridge", "piston", "pump")
 # Printed numbers of iterations, of both stages together (one number) or of each stage.
 PRINTED = {("bridge", "tet"): [215], ("bridge", "tet-distorted"): [214], ("bridge", "hex"): [219], ("bridge", "hex-distorted"): [245],
            ("piston", "tet"): [15, 47], ("pump", "hex"): [25, 43]}
@@ -32,17 +33,33 @@ def distance(text, printed):
     return sum(abs(math.log(max(count, 1) / number)) for count, number in zip(counts, printed))
 
 
+def counts(folder):
+    """(study, mesh, pair) -> numbers of iterations as text, of all results in the folder."""
+    return {(study, row["mesh"], row["method"]): row["iterations"] for study in STUDIES
+            for row in rows(Path(folder) / f"adaptive-{study}") if row["iterations"]}
+
+
+def totals(found, meshes):
+    """Pair -> distance over these meshes."""
+    return {pair: sum(distance(found[*mesh, pair], PRINTED[mesh]) for mesh in meshes) for pair in {key[2] for key in found}}
+
+
 def main(folder):
-    """Prints a table, best pair first. Meshes without results are left out, which the first line says."""
-    found = {(study, row["mesh"], row["method"]): row["iterations"] for study in ("bridge", "piston", "pump")
-             for row in rows(Path(folder) / f"adaptive-{study}") if row["iterations"]}
+    """Prints a table, best pair first, and the choices without each study. Meshes without results are left out, which the first line
+    says."""
+    found = counts(folder)
     meshes = [mesh for mesh in PRINTED if any(key[:2] == mesh for key in found)]
     print(f"{len(meshes)} of {len(PRINTED)} meshes have results.\n")
     print("| pair | " + " | ".join(" ".join(mesh) for mesh in meshes) + " | distance |\n" + "|---" * (len(meshes) + 2) + "|")
-    pairs = {key[2] for key in found}
-    total = {pair: sum(distance(found[*mesh, pair], PRINTED[mesh]) for mesh in meshes) for pair in pairs}
-    for pair in sorted(pairs, key=total.get):
+    total = totals(found, meshes)
+    for pair in sorted(total, key=total.get):
         print(f"| {pair} | " + " | ".join(found[*mesh, pair] for mesh in meshes) + f" | {total[pair]:.2f} |")
+    for study in STUDIES:
+        left = [mesh for mesh in meshes if mesh[0] != study]
+        without = totals(found, left)
+        if left:
+            nearest = min(without, key=without.get)
+            print(f"\nWithout {study}: {nearest}, distance {without[nearest]:.2f}")
 
 
 if __name__ == "__main__":

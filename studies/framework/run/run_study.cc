@@ -402,7 +402,7 @@ class StudyRun {
     constexpr auto between_writes = std::chrono::seconds(5);
     const std::size_t n_known = data_.tasks.size() - open.size();
     SolveQueue queue(open.size(), workers(open));
-    auto last_write = Clock::now() - between_writes;
+    auto last_write = Clock::now();  // writing would disturb the times of the first solves
     std::vector<SolveTask*> not_counted = open;
     while (!queue.finished()) {
       std::this_thread::sleep_for(look);
