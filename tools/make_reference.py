@@ -29,12 +29,13 @@ from plots.results.rows import packed, read_provenance
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv")
 FIELDS = ("field", "field-volume", "field-large")
 # Run at their default scale.
-COLLECTIONS_AS_THEY_ARE = ("orders", "orders-volume", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")
+SETS = ("collection-hexalab", "collection-mesquite", "collection-sfepy")  # published sets of meshes
+COLLECTIONS_AS_THEY_ARE = (*SETS, "orders", "orders-volume", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")
 COLLECTIONS = (*FIELDS, *COLLECTIONS_AS_THEY_ARE)
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")
 TABLES = ("*.md", "*.csv")  # tables of collections: they need iterations.csv and metrics.csv, which are too large to keep
 REASONS = "reasons/"  # studies that test reasons: reasons/NAME
-PUBLISHED = ("gear", "energy", "reasons/gear-converged", "reasons/gear-mesquite", "reasons/gear-rounding")  # studies on the published meshes
+PUBLISHED = (*SETS, "gear", "energy", "reasons/gear-converged", "reasons/gear-mesquite", "reasons/gear-rounding")  # studies on the published meshes
 SCALE = "subsection scale paper"
 SOURCES = ("*.cc", "*.h", "cmake", "CMakeLists.txt", "CMakePresets.json", ":!*/tests/*", ":!*/bench/*")  # of the program
 UNKNOWN_SECONDS = 1e9  # studies without a reference run last

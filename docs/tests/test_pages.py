@@ -87,7 +87,7 @@ MADE = {
     "how-to/keep-what-a-file-says": ("smoothed.msh", "moved.msh", "other.msh"),
     "how-to/check-and-repair": ("whole.vtk", "smoothed.vtk"),
     "how-to/untangle-and-slide": ("valid.vtk", "slid.vtu", "smooth-roof.vtu", "bad.vtu", "local.vtu"),
-    "how-to/reproduce-the-thesis": ("out.msh", "best.msh"),
+    "how-to/reproduce-the-thesis": ("out.msh", "tuned.msh"),
     "reference/result-files": ("counts.csv", "quality.png"),
 }
 

@@ -14,6 +14,7 @@ REFERENCE_METHOD = "GETMe simultaneous"  # title of the first method of the stud
 FIELDS = ("field", "field-volume")
 KINDS = {"field": "planar", "field-volume": "volume"}
 ELEMENTS = ("triangles", "quadrilaterals", "tetrahedra", "hexahedra")
+SETS = {"collection-mesquite": "Mesquite", "collection-sfepy": "SfePy", "collection-hexalab": "HexaLab"}
 LEVELS = {"as generated": "as generated", "0.6": "distorted to 0.6", "0.45": "distorted to 0.45"}
 SOLVER = "jacobi_cg_iterations"
 SURE = 0.05  # adjusted p-values below it tell methods apart
@@ -143,7 +144,7 @@ def blocks(found, reference):
     """The blocks of the answer page."""
     return {"run": what_was_run(found), "levels": levels(found), "good": good_meshes(found), "bad": bad_meshes(reference),
             "methods": methods(found), "budgets": budgets(found), "clusters": clusters(reference), "minimum": minimum(reference),
-            "cost": cost(found), "prediction": prediction(found), "moving": moving(reference)}
+            "cost": cost(found), "prediction": prediction(found), "practice": practice(reference), "moving": moving(reference)}
 
 
 def what_was_run(found):
@@ -313,6 +314,24 @@ def converged(reference):
     return ("How much of an error is left by CG? On the published gears CG was run to a residual of 1e-13, too (`results/reference/reasons/"
             f"gear-converged`). The errors differ from those at 1e-8 by at most: {told('initial')} on the initial meshes; {told('getme')} on "
             "GETMe's meshes.")
+
+
+def practice(reference):
+    """What smoothing does to published meshes."""
+    lines = []
+    for study, name in SETS.items():
+        if not (reference / study).is_dir():
+            continue
+        gains = {(row["Elements"], row["d"]): row for row in tables_of(reference, study, "table_smoothing")
+                 if row["Method"] == REFERENCE_METHOD and row["Level"] == "as generated"}
+        for elements in dict.fromkeys(key[0] for key in gains):
+            both = [gains.get((elements, degree)) for degree in "12"]
+            lines.append((name, elements, both[0]["Families"], *(with_interval(row, "Error / initial") if row else "" for row in both),
+                          *(f"{row['Worse (%)']} %" if row else "" for row in both)))
+    return ("H1 error after over before smoothing by GETMe simultaneous, on published meshes as they are (`table_smoothing` of each set; "
+            "[the sets](../how-to/many-meshes.md#published-meshes)). A family is a model or a domain. Worse: share of problems whose error "
+            "rises by more than 1 %.\n\n"
+            + table(("set", "elements", "families", "degree 1", "degree 2", "worse, degree 1", "degree 2"), lines, "llrrrrr"))
 
 
 def moving(reference):
