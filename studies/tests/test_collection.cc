@@ -244,6 +244,10 @@ TEST_F(PublishedSets, HaveTheFamiliesOfTheirCatalogue) {
   const CsvTable members = table("results/some-few/members.csv");
   EXPECT_EQ(members.select({{"status", "complete"}, {"family", "one"}}).size(), 2u);
   EXPECT_EQ(members.rows[0].at("file"), "a.vtk");
+  // A member that is gone leaves no row.
+  file_with("data/studies/published/few.json", R"({"files": {"b.vtk": {"family": "one"}}})");
+  ASSERT_EQ(smoothfem({"study", "some-few", "--mesh-dir", "fetched", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(table("results/some-few/members.csv").rows.size(), 1u);
   // From another folder they are the same.
   fs::rename(file("fetched"), file("elsewhere"));
   EXPECT_THAT(smoothfem({"study", "some-few", "--mesh-dir", "elsewhere"}).err,

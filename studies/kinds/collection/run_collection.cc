@@ -101,7 +101,9 @@ class CollectionRun {
     note_contents_of_files();
     read_rows_of_members();
     const std::string changes = differences_from(earlier_, header_, {}, {});
-    if (earlier_.status == "complete" && changes.empty() && is_complete()) return report_complete();
+    if (earlier_.status == "complete" && changes.empty() && is_complete() &&
+        folders_of_others().empty())
+      return report_complete();
     begin_writing(changes);
     for (const auto& note : collection_.notes) progress_.say(note);
     write_provenance("running");
@@ -173,17 +175,23 @@ class CollectionRun {
     return sha256(text);
   }
 
+  /// Returns the folders of members that are gone.
+  std::vector<fs::path> folders_of_others() const {
+    std::set<std::string> names;
+    for (const auto& member : collection_.members) names.insert(member.name);
+    std::vector<fs::path> folders;
+    if (fs::is_directory(options_.out / "members"))
+      for (const auto& entry : fs::directory_iterator(options_.out / "members"))
+        if (!names.contains(entry.path().filename())) folders.push_back(entry.path());
+    return folders;
+  }
+
   /// Sets aside the results that this run replaces, and removes members that are gone.
   void begin_writing(const std::string& changes) {
     if (options_.force) progress_.say(move_old_results(options_.out));
     if (earlier_.status.empty()) return make_results_folder(options_.out, lock_);
     if (earlier_.status == "complete") set_aside_results(options_.out, earlier_.written);
-    std::set<std::string> names;
-    for (const auto& member : collection_.members) names.insert(member.name);
-    if (fs::is_directory(options_.out / "members"))
-      for (const auto& entry :
-           std::vector<fs::directory_entry>(fs::directory_iterator(options_.out / "members"), {}))
-        if (!names.contains(entry.path().filename())) fs::remove_all(entry.path());
+    for (const fs::path& folder : folders_of_others()) fs::remove_all(folder);
     for (const char* table : {"metrics.csv", "refined.csv"}) fs::remove(options_.out / table);
     const auto n_open = static_cast<std::size_t>(
         std::count_if(rows_.begin(), rows_.end(), [](const MemberRow& row) {
