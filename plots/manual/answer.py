@@ -145,7 +145,7 @@ def blocks(found, reference):
     """The blocks of the answer page."""
     return {"run": what_was_run(found), "levels": levels(found), "good": good_meshes(found), "bad": bad_meshes(reference),
             "methods": methods(found), "budgets": budgets(found), "clusters": clusters(reference), "minimum": minimum(reference),
-            "cost": cost(found), "prediction": prediction(found), "practice": practice(reference), "moving": moving(reference)}
+            "cost": cost(found), "prediction": prediction(found), "practice": practice(reference), "orders": order_or_constant(reference), "moving": moving(reference)}
 
 
 def what_was_run(found):
@@ -315,6 +315,19 @@ def converged(reference):
     return ("How much of an error is left by CG? On the published gears CG was run to a residual of 1e-13, too (`results/reference/reasons/"
             f"gear-converged`). The errors differ from those at 1e-8 by at most: {told('initial')} on the initial meshes; {told('getme')} on "
             "GETMe's meshes.")
+
+
+def order_or_constant(reference):
+    """Whether smoothing changes the order of the error in the plane."""
+    rows = [row for row in tables_of(reference, "orders", "table_orders") if row["Level"] != "as generated"]
+    expected = {("H1", "1"): 1, ("H1", "2"): 2, ("L2", "1"): 2, ("L2", "2"): 3}
+    lines = [(norm, degree, order, *(spread([float(row[f"Order of {norm}"]) for row in rows
+                                             if row["d"] == degree and (row["Method"] == "Initial") == is_initial])
+                                     for is_initial in (True, False)))
+             for (norm, degree), order in expected.items()]
+    return ("Observed orders on a smooth solution: square and L-shape, triangles and quadrilaterals, five sizes, distorted to 0.45 "
+            "(`results/reference/orders/tables/table_orders.csv`):\n\n"
+            + table(("error", "degree", "expected", "before smoothing", "after smoothing"), lines, "lrrrr"))
 
 
 def of_families(row):
