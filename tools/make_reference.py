@@ -28,8 +28,8 @@ from plots.results.rows import packed, read_provenance
 # Files kept of a study: its packed rows, from which `smoothfem plot` makes tables and figures.
 KEPT = ("iterations.csv", "summary.csv", "refined.csv", "solutions.csv", "thresholds.csv")
 FIELDS = ("field", "field-volume", "field-large")
+SETS = ("collection-hexalab", "collection-mesquite", "collection-sfepy")  # of published meshes
 # Run at their default scale.
-SETS = ("collection-hexalab", "collection-mesquite", "collection-sfepy")  # published sets of meshes
 COLLECTIONS_AS_THEY_ARE = (*SETS, "orders", "orders-volume", "energy-corners", "energy-field", "energy-field-quadratic", "energy-robust")
 COLLECTIONS = (*FIELDS, *COLLECTIONS_AS_THEY_ARE)
 KEPT_OF_COLLECTIONS = ("members.csv", "summary.csv", "refined.csv")

@@ -24,26 +24,23 @@ struct CellProducts {
                const std::array<Vector<dim, double>, n_vertices>& vertices,
                const ManufacturedSolution<dim>& solution, Norm norm) {
     const double of_gradients = norm == Norm::h1 ? 1.0 : 0.0;
-    for_each_point(table, vertices, solution.value_and_gradient,
-                   [&](std::size_t q, const auto& mapped, const ValueAndGradient<dim>& u) {
-                     const auto gradient_of_u = vector_of(u.gradient);
-                     const double* shape = &table.shape[q * n_dofs];
-                     std::array<Vector<dim, double>, n_dofs> gradients;
-                     for (std::size_t i = 0; i < n_dofs; ++i)
-                       gradients[i] =
-                           mapped.jacobian.gradient(&table.shape_gradient[dim * (q * n_dofs + i)]);
-                     for (std::size_t i = 0, p = 0; i < n_dofs; ++i) {
-                       const double product =
-                           mapped.weight *
-                           (shape[i] * u.value + of_gradients * dot(gradients[i], gradient_of_u));
-                       load[i][0] += product;
-                       scales[i] += std::abs(product);
-                       for (std::size_t j = i; j < n_dofs; ++j, ++p)
-                         stiffness[p][0] +=
-                             mapped.weight *
+    const auto add = [&](std::size_t q, const auto& mapped, const ValueAndGradient<dim>& u) {
+      const auto gradient_of_u = vector_of(u.gradient);
+      const double* shape = &table.shape[q * n_dofs];
+      std::array<Vector<dim, double>, n_dofs> gradients;
+      for (std::size_t i = 0; i < n_dofs; ++i)
+        gradients[i] = mapped.jacobian.gradient(&table.shape_gradient[dim * (q * n_dofs + i)]);
+      for (std::size_t i = 0, p = 0; i < n_dofs; ++i) {
+        const double product =
+            mapped.weight * (shape[i] * u.value + of_gradients * dot(gradients[i], gradient_of_u));
+        load[i][0] += product;
+        scales[i] += std::abs(product);
+        for (std::size_t j = i; j < n_dofs; ++j, ++p)
+          stiffness[p][0] += mapped.weight *
                              (shape[i] * shape[j] + of_gradients * dot(gradients[i], gradients[j]));
-                     }
-                   });
+      }
+    };
+    for_each_point(table, vertices, solution.value_and_gradient, add);
   }
 
   /// True if a finer rule changes matrix and load little.

@@ -62,17 +62,16 @@ struct Errors {
       difference[i] = exact[dof] - discrete[dof];
       approximation[i] = discrete[dof];
     }
-    for_each_point(table, vertices, solution.value_and_gradient,
-                   [&](std::size_t q, const auto& mapped, const ValueAndGradient<dim>& u) {
-                     const double* shape = &table.shape[q * n_dofs];
-                     const double* shape_gradient = &table.shape_gradient[dim * q * n_dofs];
-                     const FunctionAtPoint<dim> e_h(difference, shape, shape_gradient, mapped);
-                     const FunctionAtPoint<dim> u_h(approximation, shape, shape_gradient, mapped);
-                     sums.add(0, mapped.weight, e_h.value, e_h.gradient);
-                     sums.add(2, mapped.weight, u.value - u_h.value,
-                              vector_of(u.gradient) - u_h.gradient);
-                     sums.add(4, mapped.weight, u_h.value, u_h.gradient);
-                   });
+    const auto add = [&](std::size_t q, const auto& mapped, const ValueAndGradient<dim>& u) {
+      const double* shape = &table.shape[q * n_dofs];
+      const double* shape_gradient = &table.shape_gradient[dim * q * n_dofs];
+      const FunctionAtPoint<dim> e_h(difference, shape, shape_gradient, mapped);
+      const FunctionAtPoint<dim> u_h(approximation, shape, shape_gradient, mapped);
+      sums.add(0, mapped.weight, e_h.value, e_h.gradient);
+      sums.add(2, mapped.weight, u.value - u_h.value, vector_of(u.gradient) - u_h.gradient);
+      sums.add(4, mapped.weight, u_h.value, u_h.gradient);
+    };
+    for_each_point(table, vertices, solution.value_and_gradient, add);
   }
 
   template <std::size_t n_dofs, std::size_t n_vertices>

@@ -166,11 +166,11 @@ FormulaProgram::FormulaProgram(const std::vector<GiNaC::ex>& formulas) {
 namespace {
 
 template <std::size_t lanes>
-using Values = std::array<double, lanes>;
+using InLanes = std::array<double, lanes>;
 
 /// Computes powers by squaring: std::pow takes about twenty times as long.
 template <std::size_t lanes>
-void integer_power(Values<lanes> base, int exponent, Values<lanes>& result) {
+void integer_power(InLanes<lanes> base, int exponent, InLanes<lanes>& result) {
   result.fill(1.0);
   for (unsigned int rest = static_cast<unsigned int>(std::abs(exponent)); rest > 0; rest /= 2) {
     if (rest % 2 == 1)
@@ -185,13 +185,13 @@ void integer_power(Values<lanes> base, int exponent, Values<lanes>& result) {
 
 template <std::size_t lanes>
 void FormulaProgram::run(std::size_t dimension, const double* coordinates, double* values) const {
-  thread_local std::vector<Values<lanes>> kept;
+  thread_local std::vector<InLanes<lanes>> kept;
   if (kept.size() < steps_.size()) kept.resize(steps_.size());
-  Values<lanes>* value = kept.data();
+  InLanes<lanes>* value = kept.data();
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& s = steps_[k];
-    const Values<lanes>&a = value[s.a], &b = value[s.b], &c = value[s.c];
-    Values<lanes>& result = value[k];
+    const InLanes<lanes>&a = value[s.a], &b = value[s.b], &c = value[s.c];
+    InLanes<lanes>& result = value[k];
     const auto choose = [&](const auto& is_first) {
       for (std::size_t l = 0; l < lanes; ++l) result[l] = is_first(a[l]) ? b[l] : c[l];
     };

@@ -183,12 +183,7 @@ ex load_of(const std::vector<ex>& value_and_gradient, const DiffusivityFormulas<
 }
 
 template <int dim>
-std::function<double(const Point<dim>&)> function_of(const ex& formula) {
-  return [values = Values<dim, 1>({formula})](const Point<dim>& p) { return values.at(p)[0]; };
-}
-
-template <int dim>
-PointFunction<dim, double> point_function_of(const ex& formula) {
+PointFunction<dim, double> function_of(const ex& formula) {
   const Values<dim, 1> values({formula});
   return {[values](const Point<dim>& p) { return values.at(p)[0]; },
           [values](std::span<const Point<dim>> points, std::span<double> all) {
@@ -235,9 +230,8 @@ Material<dim> material_of(const GroupDiffusivity& given, const std::vector<ex>& 
   return {.group = given.group,
           .diffusivity = only_a.diffusivity,
           .constant = constant_of(a),
-          .load = on_formula("diffusivity", given.formula, one_formula(dim), [&] {
-            return point_function_of<dim>(load_of(value_and_gradient, a));
-          })};
+          .load = on_formula("diffusivity", given.formula, one_formula(dim),
+                             [&] { return function_of<dim>(load_of(value_and_gradient, a)); })};
 }
 
 }  // namespace
@@ -260,7 +254,7 @@ ManufacturedSolution<dim> derived_solution(const std::string& u, const std::stri
     const auto& x = formula_variables();
     for (std::size_t j = 0; j < dim; ++j) value_and_gradient.push_back(value.diff(x[j]));
     solution.value = function_of<dim>(value);
-    solution.load = point_function_of<dim>(load_of(value_and_gradient, a));
+    solution.load = function_of<dim>(load_of(value_and_gradient, a));
     solution.value_and_gradient = value_and_gradient_of<dim>(value_and_gradient);
   });
   std::vector<ex> formulas = all_entries(a);

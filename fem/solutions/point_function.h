@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "smoothing/mesh/mesh.h"
@@ -20,9 +21,9 @@ class PointFunction {
   PointFunction() = default;
   /// at_all: writes the values at points; empty: point by point.
   PointFunction(At at, AtAll at_all) : at_(std::move(at)), at_all_(std::move(at_all)) {}
-  template <class F>
-  requires std::is_invocable_r_v < Value, const F&, const Point<dim>
-  & > PointFunction(F at) : at_(std::move(at)) {}  // NOLINT: as std::function
+  template <class F,
+            std::enable_if_t<std::is_invocable_r_v<Value, const F&, const Point<dim>&>, int> = 0>
+  PointFunction(F at) : at_(std::move(at)) {}  // NOLINT: as std::function
 
   Value operator()(const Point<dim>& p) const { return at_(p); }
 

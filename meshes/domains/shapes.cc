@@ -194,13 +194,13 @@ AnyMesh generate(const std::string& name, const Shape& shape, const DomainParame
 }
 
 RegisteredDomain shape(const std::string& name, const std::string& description, Shape (*form)()) {
-  return registered_form({.name = {},
-                          .description = {},
+  return registered_form({.name = name,
+                          .description = description,
                           .dimension = 2,
                           .elements = {"triangles", "quadrilaterals"},
                           .algorithms = {{"triangles", {"frontal", "delaunay", "meshadapt"}}},
                           .make = {}},
-                         name, description, form, generate);
+                         form, generate);
 }
 
 const RegisteredDomain registered[] = {

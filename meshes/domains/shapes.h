@@ -26,17 +26,16 @@ struct Shape {
   bool is_graded() const;
 };
 
-/// Registers a domain whose meshes are made of a form (a Shape, or a solid made of one). like:
-/// dimension, elements and algorithms. mesh_form(name, form, parameters): the mesh.
+/// Registers a domain, given without its function `make`, whose meshes are made of a form (a Shape,
+/// or a solid made of one). mesh_form(name, form, parameters): the mesh.
 template <class Form>
-RegisteredDomain registered_form(Domain like, const std::string& name,
-                                 const std::string& description, Form (*form)(),
+RegisteredDomain registered_form(Domain domain, Form (*form)(),
                                  AnyMesh (*mesh_form)(const std::string&, const Form&,
                                                       const DomainParameters&)) {
-  like.name = name;
-  like.description = description;
-  like.make = [=](const DomainParameters& p) { return mesh_form(name, form(), p); };
-  return RegisteredDomain(std::move(like));
+  domain.make = [=, name = domain.name](const DomainParameters& p) {
+    return mesh_form(name, form(), p);
+  };
+  return RegisteredDomain(std::move(domain));
 }
 
 /// A disc of radius 1 with a round hole of radius 0.6.

@@ -88,13 +88,13 @@ AnyMesh generate(const std::string& name, const Solid& solid, const DomainParame
 }
 
 RegisteredDomain solid(const std::string& name, const std::string& description, Solid (*form)()) {
-  return registered_form({.name = {},
-                          .description = {},
+  return registered_form({.name = name,
+                          .description = description,
                           .dimension = 3,
                           .elements = {"tetrahedra", "hexahedra"},
                           .algorithms = {{"tetrahedra", {"delaunay", "hxt", "netgen"}}},
                           .make = {}},
-                         name, description, form, generate);
+                         form, generate);
 }
 
 const RegisteredDomain registered[] = {

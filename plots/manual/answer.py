@@ -3,14 +3,18 @@
 field-large and of collections of public meshes, and from the rows of gear, volume and energy-field."""
 
 from collections import Counter
+from functools import lru_cache
 
 import numpy as np
 
+from ..collections.comparison import share
+from ..collections.problems import AS_GENERATED, WORSE, problems_of
+from ..results.collection import ends, read_collection_results
 from ..results.rows import read_rows
 from ..statistics.units import geometric, mean_of_units
 from .blocks import table
 
-REFERENCE_METHOD = "GETMe simultaneous"  # title of the first method of the studies
+METHOD, REFERENCE_METHOD = "getme-simultaneous", "GETMe simultaneous"  # name and title of the first method of the studies
 FIELDS = ("field", "field-volume")
 KINDS = {"field": "planar", "field-volume": "volume"}
 ELEMENTS = ("triangles", "quadrilaterals", "tetrahedra", "hexahedra")
@@ -29,6 +33,8 @@ class Fields:
         self.reference = reference
         self.studies = [study for study in FIELDS if (reference / study).is_dir()]
         self.members = {study: read_rows(reference / study / "members.csv") for study in self.studies}
+        self.pairs = [pairs_of(reference, study) for study in self.studies]
+        self.problems = [problem for study in self.studies for problem in problems_of(read_collection_results(reference / study))]
 
     def rows(self, name):
         """The rows of a table of both studies."""
@@ -73,31 +79,26 @@ class Fields:
     def iterations(self, elements, level, degree):
         """Solver iterations after over before smoothing, as a geometric mean over domains."""
         logs, domains = [], []
-        for study in self.studies:
-            initial, after = ends(self.reference, study)
+        for initial, after in self.pairs:
             chosen = (initial.text("elements") == elements) & (initial.text("degree") == str(degree))
-            chosen &= initial.text("distortion") == ("" if level == "as generated" else level)
+            chosen &= initial.text("distortion") == ("" if level == AS_GENERATED else level)
             ratios = (after.number(SOLVER) / initial.number(SOLVER))[chosen]
             logs += list(np.log(ratios[np.isfinite(ratios)]))
             domains += list(initial.text("family")[chosen][np.isfinite(ratios)])
         return geometric(mean_of_units(logs, domains))[0]
 
 
+@lru_cache(maxsize=None)
 def tables_of(reference, study, name):
     """The rows of a table of a collection."""
     return read_rows(reference / study / "tables" / f"{name}.csv").records()
 
 
-def ends(reference, study):
+def pairs_of(reference, study):
     """(initial meshes, results of the reference method) of a collection, aligned by member and degree."""
-    rows = read_rows(reference / study / "summary.csv", ("member", "degree", "method", "h1_error"))
-    rows = rows.where(rows.text("degree") != "")
-    methods = list(dict.fromkeys(rows.text("method")))
-    initial, after = rows.select(method=methods[0]), rows.select(method=methods[1])
-    assert methods[0] == "initial"
-    of_after = {key: number for number, key in enumerate(zip(after.text("member"), after.text("degree")))}
-    common = [(number, of_after[key]) for number, key in enumerate(zip(initial.text("member"), initial.text("degree"))) if key in of_after]
-    return tuple(rows.where(list(numbers)) for rows, numbers in zip((initial, after), zip(*common)))
+    rows = read_rows(reference / study / "summary.csv")
+    both = ends(rows.where(rows.text("degree") != "")).select(method=METHOD)
+    return both.where(slice(0, None, 2)), both.where(slice(1, None, 2))
 
 
 def interval(text):
@@ -173,18 +174,12 @@ def levels(found):
 def good_meshes(found):
     """Reports how often smoothing of a generated mesh gains next to nothing."""
     parts = []
-    for degree in (1, 2):
-        ratios, domains = [], []
-        for study in found.studies:
-            initial, after = ends(found.reference, study)
-            chosen = (initial.text("degree") == str(degree)) & (initial.text("distortion") == "")
-            valid = after.number("n_invalid") == 0
-            ratios += list(np.where(valid, after.number("h1_error") / initial.number("h1_error"), 1.0)[chosen])
-            domains += list(initial.text("family")[chosen])
-        small = mean_of_units([float(ratio > 0.98) for ratio in ratios], domains)[0]
-        worse = mean_of_units([float(ratio > 1.01) for ratio in ratios], domains)[0]
-        parts.append(f"with elements of degree {degree} the H1 error falls by less than 2 % on {PERCENT * small:.0f} % of the problems, and rises by "
-                     f"more than 1 % on {PERCENT * worse:.0f} %")
+    for degree in "12":
+        problems = [problem for problem in found.problems if (problem.level, problem.degree) == (AS_GENERATED, degree)]
+        small = share(problems, lambda problem: problem.ratio(METHOD) > 0.98)
+        worse = share(problems, lambda problem: problem.ratio(METHOD) > WORSE)
+        parts.append(f"with elements of degree {degree} the H1 error falls by less than 2 % on {PERCENT * small:.0f} % of the problems, and "
+                     f"rises by more than 1 % on {PERCENT * worse:.0f} %")
     return f"On meshes as generated, {parts[0]}; {parts[1]} (means over domains)."
 
 

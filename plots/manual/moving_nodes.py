@@ -39,6 +39,14 @@ AFTER = "H1 after solves 20"
 
 
 @lru_cache(maxsize=None)
+def payoffs_of(folder):
+    """(Payoffs of a collection's methods but GETMe on each kind of meshes, titles of methods)."""
+    results = read_collection_results(folder)
+    return [found for found in payoffs(problems_of(results), [name for name in results.methods if name != "getme"])
+            if found.method != INITIAL_MESH and found.change == AS_IS], results.titles
+
+
+@lru_cache(maxsize=None)
 def energy_tables(folder):
     """The energy tables of a study's results, by name."""
     return {table.name: table for table in make_energy_tables(read_results(folder))}
@@ -69,10 +77,8 @@ class Tables:
         return {tuple(row[name] for name in ("Solution", "Elements", "d", "Method")): row for row in rows}
 
     def payoffs(self, study):
-        """What the methods of a collection cost and gain, GETMe's left out: a Payoff for each kind of meshes and method."""
-        results = read_collection_results(self.reference / study)
-        return [found for found in payoffs(problems_of(results), [name for name in results.methods if name != "getme"])
-                if found.method != INITIAL_MESH and found.change == AS_IS], results.titles
+        """What the methods of a collection cost and gain, GETMe's left out."""
+        return payoffs_of(self.reference / study)
 
 
 def blocks(reference):
