@@ -93,7 +93,9 @@ TEST(Kershaw, IsValidAndWorseForSmallEps) {
         const AnyMesh mesh = find_domain(name).generate({.elements = elements, .eps = eps});
         const double q_min = std::visit([](const auto& m) { return mesh_quality(m).q_min; }, mesh);
         EXPECT_GT(q_min, 0.0) << name << " " << elements << " " << eps;
-        if (eps < 1.0) EXPECT_LT(q_min, least);
+        if (eps < 1.0) {
+          EXPECT_LT(q_min, least);
+        }
         least = q_min;
       }
     }
