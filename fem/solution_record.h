@@ -3,8 +3,15 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace smoothfem {
+
+/// A number of a solver that is not this program's solver for Poisson's equation.
+struct SolverNumber {
+  std::string name;
+  double value = 0.0;  ///< NaN: not known
+};
 
 /// The finite element numbers of one mesh: a row of the results.
 struct SolutionRecord {
@@ -28,6 +35,9 @@ struct SolutionRecord {
   /// were chosen.
   int most_points = 0;
   std::string status;  ///< "ok", or the problem with the numbers
+  /// The numbers of another solver (fem/solvers). The fields above, but degree and status, are then
+  /// not used.
+  std::vector<SolverNumber> numbers{};
 };
 
 /// The norms of u - u_h on one cell.

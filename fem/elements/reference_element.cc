@@ -2,7 +2,6 @@
 #include "fem/elements/reference_element.h"
 
 #include <deal.II/base/multithread_info.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_pyramid_p.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -12,6 +11,7 @@
 #include <memory>
 
 #include "fem/elements/adaptive_quadrature.h"
+#include "fem/elements/quadrature_rules.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
@@ -26,10 +26,6 @@ void keep_deal_ii_single_threaded() {
     dealii::MultithreadInfo::set_thread_limit(1);
     return true;
   }();
-}
-
-bool is_simplex(ElementType type) {
-  return type == ElementType::triangle || type == ElementType::tetrahedron;
 }
 
 /// Pyramids and prisms: degree 1 only.
@@ -96,52 +92,6 @@ AffineTable make_affine_table(const QuadratureTable& table, std::size_t n_dofs, 
   return affine;
 }
 
-/// Rule of degree 5: exact for products of two shape functions of degree 2.
-template <int dim>
-dealii::Quadrature<dim> matrix_rule() {
-  return dealii::QGaussSimplex<dim>(3);
-}
-
-/// Rule on cells that are not simplices: Gauss points in each direction. On pyramid and prism they
-/// come from a cube that is collapsed to the cell. The direction of the collapse has one more
-/// point, so that the rule is exact for the same polynomials as on a cube. (The gradients of the
-/// pyramid's rational shape functions are polynomials in the cube's coordinates.)
-template <int dim>
-dealii::Quadrature<dim> gauss_rule(ElementType type, unsigned int n_points) {
-  if constexpr (dim == 3) {
-    if (type == ElementType::pyramid || type == ElementType::prism) {
-      const dealii::QGauss<1> plain(n_points), squeezed(n_points + 1);
-      const bool pyramid = type == ElementType::pyramid;
-      std::vector<dealii::Point<3>> points;
-      std::vector<double> weights;
-      for (unsigned int c = 0; c < squeezed.size(); ++c)
-        for (unsigned int b = 0; b < plain.size(); ++b)
-          for (unsigned int a = 0; a < plain.size(); ++a) {
-            const double x = plain.point(a)[0], y = plain.point(b)[0], z = squeezed.point(c)[0];
-            const double width = 1.0 - z;
-            const double weight = squeezed.weight(c) * plain.weight(b) * plain.weight(a) * width;
-            // The pyramid's base is [-1, 1]^2; the prism's triangle lies in the first two
-            // directions.
-            if (pyramid)
-              points.emplace_back(width * (2.0 * x - 1.0), width * (2.0 * y - 1.0), z);
-            else
-              points.emplace_back(width * x, z, y);
-            weights.push_back(pyramid ? 4.0 * width * weight : weight);
-          }
-      return {points, weights};
-    }
-  }
-  return dealii::QGauss<dim>(n_points);
-}
-
-template <int dim>
-dealii::Quadrature<dim> error_rule(int degree) {
-  if constexpr (dim == 2)
-    return dealii::QWitherdenVincentSimplex<2>(6);  // degree 11
-  else
-    return dealii::QWitherdenVincentSimplex<3>(degree == 1 ? 3 : 4);  // degree 5 or 7
-}
-
 /// Values of the geometry shape functions at the support points of the element's dofs.
 template <int dim>
 std::vector<double> support_of(const dealii::FiniteElement<dim>& element,
@@ -165,9 +115,9 @@ ReferenceElement make_element(ElementType type, int degree, int n_tensor_points)
                              .matrices = {},
                              .errors = {}};
   if (is_simplex(type)) {
-    reference.matrices = make_table<dim>(*element, *geometry, matrix_rule<dim>());
+    reference.matrices = make_table<dim>(*element, *geometry, simplex_matrix_rule<dim>());
     reference.affine = make_affine_table(reference.matrices, reference.n_dofs, dim);
-    reference.errors = make_table<dim>(*element, *geometry, error_rule<dim>(degree));
+    reference.errors = make_table<dim>(*element, *geometry, simplex_error_rule<dim>(degree));
   } else {
     const auto table = [&](int n_points) {
       return make_table<dim>(*element, *geometry,
@@ -281,8 +231,8 @@ FacetElement make_facet(bool simplex, int degree) {
                      .support = support_of(*element, *geometry),
                      .rule = {}};
   if constexpr (dim == 2)
-    facet.rule = make_table<2>(*element, *geometry,
-                               simplex ? error_rule<2>(degree) : dealii::QGauss<2>(n_points));
+    facet.rule = make_table<2>(
+        *element, *geometry, simplex ? simplex_error_rule<2>(degree) : dealii::QGauss<2>(n_points));
   else
     facet.rule = make_table<1>(*element, *geometry, dealii::QGauss<1>(n_points));
   return facet;

@@ -33,20 +33,6 @@ std::string one_formula(int dim) {
          ", such as sin(pi*x)*y^2 or if(x < 0.5, x, y)";
 }
 
-/// Splits a text at separators outside of all brackets.
-std::vector<std::string> split_outside_brackets(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  int depth = 0;
-  for (const char c : text) {
-    depth += (c == '(') - (c == ')');
-    if (c == separator && depth == 0)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
-
 /// The values of formulas at a point; copies share the program.
 template <int dim, std::size_t n>
 class Values {
@@ -95,6 +81,19 @@ std::vector<ex> all_entries(const DiffusivityFormulas<dim>& formulas) {
 }
 
 }  // namespace
+
+std::vector<std::string> split_outside_brackets(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char c : text) {
+    depth += (c == '(') - (c == ')');
+    if (c == separator && depth == 0)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
 
 void find_conditions(const ex& e, std::vector<ex>& conditions) {
   if (GiNaC::is_the_function<choose_SERIAL>(e) &&

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "fem/formulas/formula_expression.h"
 #include "fem/solutions/manufactured_solution.h"
@@ -14,6 +15,9 @@ namespace smoothfem {
 /// Reads a formula of a study for one of its solution's keys. Throws InputError that names the part
 /// that cannot be read.
 GiNaC::ex read_formula(const std::string& key, const std::string& text, int dim);
+
+/// Splits a text at separators outside of all brackets.
+std::vector<std::string> split_outside_brackets(const std::string& text, char separator);
 
 /// The formulas of a diffusivity: see derived_solution.
 template <int dim>

@@ -80,52 +80,61 @@ std::optional<double> time_in(const std::string& group, double unit) {
 
 }  // namespace
 
-TimePattern::TimePattern(const std::string& pattern) : pattern_(pattern) {
+LinePattern::LinePattern(const std::string& what, const std::string& pattern)
+    : what_(what), pattern_(pattern) {
   int error = 0;
   PCRE2_SIZE position = 0;
   pcre2_code* const code = pcre2_compile(reinterpret_cast<PCRE2_SPTR>(pattern.data()),
                                          pattern.size(), 0, &error, &position, nullptr);
   if (code == nullptr)
-    throw InputError("the time_pattern '" + shortened(pattern) +
-                     "' is not a regular expression; write one such as 'time: ([0-9.]+)'");
+    throw InputError(name() + " is not a regular expression; write one such as 'time: ([0-9.]+)'");
   code_ = std::shared_ptr<const void>(code, [](pcre2_code* c) { pcre2_code_free(c); });
   std::uint32_t n_groups = 0;
   pcre2_pattern_info(code, PCRE2_INFO_CAPTURECOUNT, &n_groups);
   if (n_groups == 0)
-    throw InputError("the time_pattern '" + shortened(pattern) +
-                     "' has no group; put the part for the number in parentheses, as in "
-                     "'time: ([0-9.]+)'");
+    throw InputError(name() +
+                     " has no group; put the part for the number in parentheses, as in 'time: "
+                     "([0-9.]+)'");
 }
 
-std::optional<std::string> TimePattern::group_in(const std::string& line) const {
+std::string LinePattern::name() const {
+  return "the " + what_ + " '" + shortened(pattern_) + "'";
+}
+
+std::optional<std::string> LinePattern::group_in(const std::string& line) const {
   const std::unique_ptr<pcre2_match_data, decltype(&pcre2_match_data_free)> match(
       pcre2_match_data_create_from_pattern(code_of(code_), nullptr), pcre2_match_data_free);
   const int found = pcre2_match(code_of(code_), reinterpret_cast<PCRE2_SPTR>(line.data()),
                                 line.size(), 0, 0, match.get(), nullptr);
   if (found == PCRE2_ERROR_NOMATCH) return std::nullopt;
   if (found < 0)  // a limit of the library
-    throw SmootherFailure("the time_pattern '" + shortened(pattern_) +
-                          "' takes too many steps on a line that it printed; write a simpler one");
+    throw SmootherFailure(name() +
+                          " takes too many steps on a line that it printed; write a simpler one");
   const PCRE2_SIZE* const ends = pcre2_get_ovector_pointer(match.get());
   if (found < 2 || ends[2] == PCRE2_UNSET) return "";
   return line.substr(ends[2], ends[3] - ends[2]);
 }
 
-std::vector<double> TimePattern::times(const std::string& text, double unit) const {
-  std::vector<double> times;
+std::vector<std::string> LinePattern::groups_in(const std::string& text) const {
+  std::vector<std::string> groups;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     if (interruption()) throw Interrupted{};
     constexpr std::size_t longest = 10000;  // a pattern may take a time that grows with its square
     if (line.size() >= longest) continue;
-    const auto group = group_in(line);
-    if (!group) continue;
-    const auto time = time_in(*group, unit);
+    if (auto group = group_in(line)) groups.push_back(*std::move(group));
+  }
+  return groups;
+}
+
+std::vector<double> times_in(const std::string& text, const LinePattern& pattern, double unit) {
+  std::vector<double> times;
+  for (const auto& group : pattern.groups_in(text)) {
+    const auto time = time_in(group, unit);
     if (!time)
-      throw SmootherFailure("it printed the time '" + shortened(*group) +
-                            "', which is not a number of at least 0; correct the program, or the "
-                            "time_pattern '" +
-                            shortened(pattern_) + "'");
+      throw SmootherFailure("it printed the time '" + shortened(group) +
+                            "', which is not a number of at least 0; correct the program, or " +
+                            pattern.name());
     times.push_back(*time);
   }
   return times;

@@ -23,22 +23,29 @@ std::string after_first_word(const std::string& command);
 /// Returns the last line that is not blank.
 std::string last_line(const std::string& text);
 
-/// A regular expression (of Perl) whose first group is the time that a program prints, for example
-/// "time: ([0-9.]+) s".
-class TimePattern {
+/// A regular expression (of Perl) whose first group is a part of a line that a program prints.
+class LinePattern {
  public:
-  /// Throws InputError if it is not a regular expression, or has no group.
-  explicit TimePattern(const std::string& pattern);
+  /// what: its name in messages, for example "time_pattern". Throws InputError if it is not a
+  /// regular expression, or has no group.
+  LinePattern(const std::string& what, const std::string& pattern);
 
-  /// Returns the times in all matching lines of a text, times `unit`. Throws SmootherFailure for a
-  /// time that is not a finite number of at least 0, and if the pattern takes too many steps.
-  std::vector<double> times(const std::string& text, double unit) const;
+  /// Returns "the time_pattern 'time: ([0-9.]+)'".
+  std::string name() const;
+
+  /// Returns the groups in all matching lines of a text; lines of 10,000 characters are left out.
+  /// Throws SmootherFailure if the pattern takes too many steps.
+  std::vector<std::string> groups_in(const std::string& text) const;
 
  private:
   std::optional<std::string> group_in(const std::string& line) const;
 
-  std::string pattern_;
+  std::string what_, pattern_;
   std::shared_ptr<const void> code_;  ///< the compiled pattern
 };
+
+/// Returns the times in all matching lines of a text, times `unit`. Throws SmootherFailure for a
+/// time that is not a finite number of at least 0, and as LinePattern does.
+std::vector<double> times_in(const std::string& text, const LinePattern& pattern, double unit);
 
 }  // namespace smoothfem

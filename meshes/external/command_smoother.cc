@@ -2,8 +2,8 @@
 #include <fstream>
 #include <numeric>
 
-#include "meshes/external/child_process.h"
 #include "meshes/external/command_line.h"
+#include "meshes/external/external_program.h"
 #include "meshes/external/returned_mesh.h"
 #include "meshes/external/text_vtk.h"
 #include "meshes/io/mesh_file.h"
@@ -24,10 +24,10 @@ std::string extension(const std::string& format) {
 
 /// The user's parameters of a command.
 struct CommandParameters {
-  std::string command, format = "vtk", out_format, files, series, time_pattern, startup_command,
-                       version_command;
+  ExternalProgram program;
+  std::string format = "vtk", out_format, series, time_pattern, startup_command;
   int max_iterations = 64, every = 0, repeat = 1;
-  double time_unit = 1.0, timeout = 3600.0;
+  double time_unit = 1.0;
 
   Parameters list() {
     return {
@@ -35,14 +35,14 @@ struct CommandParameters {
          "program with its options, run by /bin/sh in an empty folder; {in} and {out} are its "
          "mesh files (without {out} it changes {in}), {iterations} is the number of iterations, "
          "{folder} is the base of relative file names",
-         &command},
+         &program.command},
         {"format",
          "format of {in}: vtk (legacy, as text), vtu, msh (text), mesh, inp, or medit: in.mesh "
          "with "
          "the edges or faces of the boundary, also for planar meshes",
          &format},
         {"out_format", "format of {out}; empty: that of {in}", &out_format},
-        {"files", "files to copy next to {in}, separated by commas", &files},
+        {"files", "files to copy next to {in}, separated by commas", &program.files},
         {"max_iterations", "largest value of {iterations}, used in the last run", &max_iterations,
          1.0, 1e6},
         {"every", "step of {iterations} between separate runs; 0: runs with 1, 2, 4, 8, ...",
@@ -65,20 +65,21 @@ struct CommandParameters {
          "the same program without work; empty: with {iterations} = 0, if the command has it",
          &startup_command},
         {"version_command", "command that prints the program's version, for the provenance",
-         &version_command},
-        {"timeout", "largest time of a run, in seconds", &timeout, 0.0, 1e9, true}};
+         &program.version_command},
+        {"timeout", "largest time of a run, in seconds", &program.timeout, 0.0, 1e9, true}};
   }
 
-  bool counts_iterations() const { return has_placeholder(command, "iterations"); }
+  bool counts_iterations() const { return has_placeholder(program.command, "iterations"); }
   std::string file_out_format() const { return out_format.empty() ? format : out_format; }
   std::string in() const { return "in." + extension(format); }
   std::string out() const {
-    return has_placeholder(command, "out") ? "out." + extension(file_out_format()) : in();
+    return has_placeholder(program.command, "out") ? "out." + extension(file_out_format()) : in();
   }
 
   /// Throws InputError if they do not define a command that can be run.
   void check() const {
     const std::string needs = ", such as 'set command = mmg3d_O3 -noinsert -noswap {in} {out}'";
+    const std::string& command = program.command;
     if (command.empty()) throw InputError("the method command needs a command" + needs);
     if (!has_placeholder(command, "in"))
       throw InputError("the command '" + command + "' has no {in} for the file of its mesh" +
@@ -92,8 +93,10 @@ struct CommandParameters {
                        "step_{iteration}.vtk");
     if (repeat > 1 && (counts || !series.empty()))
       throw InputError("a command with {iterations} or a series is not repeated; leave repeat out");
-    if (!time_pattern.empty()) (void)TimePattern(time_pattern);
+    if (!time_pattern.empty()) (void)times();
   }
+
+  LinePattern times() const { return {"time_pattern", time_pattern}; }
 };
 
 /// An external program as a smoother. It reads the mesh from a file and writes a file in which only
@@ -106,7 +109,7 @@ class CommandSmoother final : public Smoother<dim> {
   std::string_view name() const override { return "command"; }
   Parameters parameters() override { return p_.list(); }
   void check_parameters() const override { p_.check(); }
-  void use_folders(const SmootherFolders& folders) override { folders_ = folders; }
+  void use_folders(const SmootherFolders& folders) override { p_.program.folders = folders; }
 
   SmootherTraits traits() const override {
     return {.quality_use = QualityUse::none,
@@ -119,18 +122,7 @@ class CommandSmoother final : public Smoother<dim> {
     return {.criterion = StoppingRule::Criterion::step_says_so, .max_iterations = n_records()};
   }
 
-  SmootherOrigin origin() override {
-    SmootherOrigin origin;
-    origin.files.push_back(program());
-    for (const auto& file : given_files()) origin.files.push_back(file);
-    if (!p_.version_command.empty()) {
-      const ScratchFolder scratch;
-      const CommandEnd end = run(p_.version_command, scratch.path());
-      std::istringstream lines(end.output);
-      std::getline(lines, origin.version);
-    }
-    return origin;
-  }
+  SmootherOrigin origin() override { return p_.program.origin(); }
 
   void initialize(const SmoothingState<dim>& state) override {
     p_.check();
@@ -148,7 +140,7 @@ class CommandSmoother final : public Smoother<dim> {
     const ScratchFolder scratch;
     const Run made = run_program(counts ? *initial_ : state.mesh, counts ? n : 1, scratch.path());
     const auto points =
-        returned_coordinates<dim>(present_file(scratch.path(), p_.out()), *initial_);
+        returned_coordinates<dim>(p_.program.left_file(scratch.path(), p_.out()), *initial_);
     const double time = method_seconds(made, last_time(made.output));
     // Runs with a number of iterations start from the initial mesh, other runs from the previous
     // record.
@@ -190,14 +182,14 @@ class CommandSmoother final : public Smoother<dim> {
       series_.emplace();
       series_run_ = run_program(*initial_, p_.max_iterations, series_->path());
       n_in_series_ = 0;
-      while (n_in_series_ < p_.max_iterations && is_file(series_file(n_in_series_ + 1)))
+      while (n_in_series_ < p_.max_iterations && is_plain_file(series_file(n_in_series_ + 1)))
         ++n_in_series_;
       if (n_in_series_ == 0)
         throw SmootherFailure("it left no file " + series_file(1).filename().string() +
-                              last_output_text());
+                              p_.program.last_output_text());
       series_times_ = p_.time_pattern.empty()
                           ? std::vector<double>()
-                          : TimePattern(p_.time_pattern).times(series_run_.output, p_.time_unit);
+                          : times_in(series_run_.output, p_.times(), p_.time_unit);
     }
     const int n = n_done_ + 1;
     const auto points = returned_coordinates<dim>(series_file(n), *initial_);
@@ -225,10 +217,10 @@ class CommandSmoother final : public Smoother<dim> {
   /// Returns the last time that the program has printed, in seconds.
   std::optional<double> last_time(const std::string& output) const {
     if (p_.time_pattern.empty()) return std::nullopt;
-    const auto times = TimePattern(p_.time_pattern).times(output, p_.time_unit);
+    const auto times = times_in(output, p_.times(), p_.time_unit);
     if (times.empty())
       throw SmootherFailure("it printed nothing that the time_pattern '" + p_.time_pattern +
-                            "' matches" + last_output_text());
+                            "' matches" + p_.program.last_output_text());
     return times.back();
   }
 
@@ -236,26 +228,17 @@ class CommandSmoother final : public Smoother<dim> {
     if (p_.startup_command.empty() && !p_.counts_iterations()) return 0.0;
     const ScratchFolder scratch;
     write_input_files(*initial_, scratch.path());
-    const Run idle = run(filled_in(p_.startup_command.empty() ? p_.command : p_.startup_command, 0),
-                         scratch.path());
+    const Run idle = p_.program.run(
+        filled_in(p_.startup_command.empty() ? p_.program.command : p_.startup_command, 0),
+        scratch.path());
     return idle.exit_code == 0 && idle.signal == 0 ? idle.wall_seconds : 0.0;
   }
 
   /// Runs the program. Throws SmootherFailure if it fails.
   Run run_program(const Mesh<dim>& mesh, int n_iterations, const fs::path& folder) {
     write_input_files(mesh, folder);
-    (void)program();
-    Run made = run(filled_in(p_.command, n_iterations), folder);
-    if (made.timed_out)
-      throw SmootherFailure("it ran for more than " + number_text(p_.timeout) +
-                            " s and was ended; give it fewer iterations, or a longer timeout");
-    if (made.signal != 0)
-      throw SmootherFailure("it was killed by signal " + std::to_string(made.signal) +
-                            last_output_text());
-    if (made.exit_code != 0)
-      throw SmootherFailure("it ended with exit code " + std::to_string(made.exit_code) +
-                            last_output_text());
-    return made;
+    (void)p_.program.path();
+    return p_.program.run_to_success(filled_in(p_.program.command, n_iterations), folder);
   }
 
   /// Writes the mesh and copies the accompanying files. The mesh is text if the format has a text
@@ -267,107 +250,21 @@ class CommandSmoother final : public Smoother<dim> {
       write_medit_with_boundary(folder / p_.in(), mesh);
     else
       write_mesh(folder / p_.in(), mesh, {}, {.msh_version = MshVersion::v4_1, .binary = false});
-    for (const auto& file : given_files()) {
-      std::error_code error;
-      fs::copy_file(file, folder / file.filename(), error);
-      if (error)
-        throw InputError("cannot copy " + file.string() + " to " + folder.string() + ": " +
-                         error.message() + "; make room there, or check who may write");
-    }
-  }
-
-  Run run(const std::string& command, const fs::path& folder) {
-    Run made = run_command(command, folder, p_.timeout);
-    last_output_ = made.output;
-    if (!folders_.log.empty()) {
-      std::error_code ignored;  // opening the file reports an error
-      fs::create_directories(folders_.log.parent_path(), ignored);
-      std::ofstream log(folders_.log, std::ios::app);
-      log << "$ " << command << "\n" << made.output;
-      if (!made.output.empty() && made.output.back() != '\n') log << "\n";
-      log << "# " << made.wall_seconds << " s, "
-          << (made.timed_out     ? "ended because it took too long"
-              : made.signal != 0 ? "killed by signal " + std::to_string(made.signal)
-                                 : "exit code " + std::to_string(made.exit_code))
-          << "\n";
-      if (!log.flush())
-        throw InputError("cannot write " + folders_.log.string() +
-                         "; make room on its disk, or check who may write there");
-    }
-    return made;
-  }
-
-  /// Returns "; the last it printed: '...'", or nothing.
-  std::string last_output_text() const {
-    constexpr std::size_t longest = 200;
-    std::string line = last_line(last_output_).substr(0, longest);
-    std::erase_if(line, [](char c) { return static_cast<unsigned char>(c) < ' '; });
-    return line.empty() ? "" : "; the last it printed: '" + line + "'";
+    p_.program.copy_files(folder);
   }
 
   std::string filled_in(const std::string& command, int n_iterations) const {
-    std::string filled = after_first_word(command);
-    filled = with_placeholder(filled, "in", p_.in());
-    filled = with_placeholder(filled, "out", p_.out());
-    filled = with_placeholder(filled, "iterations", std::to_string(n_iterations));
-    filled = with_placeholder(filled, "folder",
-                              shell_quoted(fs::absolute(folders_.given).lexically_normal()));
-    const std::string word = first_word(command);
-    return (word.find('/') == std::string::npos ? word : shell_quoted(in_study_folder(word))) +
-           filled;
-  }
-
-  /// Returns a path relative to the folder of the user's study.
-  fs::path in_study_folder(const fs::path& name) const {
-    return fs::absolute(name.is_relative() ? folders_.given / name : name).lexically_normal();
-  }
-
-  fs::path program() const {
-    const std::string word = first_word(p_.command);
-    const auto found =
-        find_program(word.find('/') == std::string::npos ? word : in_study_folder(word).string());
-    if (found.empty())
-      throw SmootherFailure("there is no program '" + word +
-                            "'; install it, or give its path, relative to the study file");
-    return found;
-  }
-
-  std::vector<fs::path> given_files() const {
-    std::vector<fs::path> files;
-    for (const auto& name : split_list(p_.files)) {
-      const auto file = in_study_folder(name);
-      if (!fs::is_regular_file(file))
-        throw SmootherFailure("there is no file '" + file.filename().string() +
-                              "' in the folder of the study; the command needs a copy of it");
-      for (const auto& other : files)
-        if (other.filename() == file.filename())
-          throw SmootherFailure("two of its files have the name '" + file.filename().string() +
-                                "', which cannot be in one folder; rename one of them");
-      files.push_back(file);
-    }
-    return files;
-  }
-
-  /// Reading a pipe or a device, which a program may leave, too, might not end.
-  static bool is_file(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
-  }
-
-  fs::path present_file(const fs::path& folder, const std::string& name) const {
-    if (!is_file(folder / name))
-      throw SmootherFailure("it left no file " + name + last_output_text());
-    return folder / name;
+    return p_.program.filled_in(
+        command,
+        {{"in", p_.in()}, {"out", p_.out()}, {"iterations", std::to_string(n_iterations)}});
   }
 
   CommandParameters p_;
-  SmootherFolders folders_;
   std::optional<Mesh<dim>> initial_;
   std::optional<double> startup_seconds_;
   std::optional<ScratchFolder> series_;
   Run series_run_;
   std::vector<double> series_times_;
-  std::string last_output_;
   int n_done_ = 0, n_in_series_ = 0;
   double seconds_ = 0.0, wall_seconds_ = 0.0;
 };

@@ -40,27 +40,29 @@ TEST(CommandText, FirstWordEndsAtABlankOutsideOfQuotes) {
 
 TEST(CommandText, ReadsTimesFromMatchingLines) {
   const std::string text = "start\nstep 1 time: 0.25 s\nstep 2 time: 1e-1 s\ntime: none\n\n";
-  const TimePattern pattern("time: ([0-9.e+-]+) s");
-  EXPECT_THAT(pattern.times(text, 1.0), ElementsAre(0.25, 0.1));
-  EXPECT_THAT(pattern.times(text, 2.0), ElementsAre(0.5, 0.2));
-  EXPECT_THAT(TimePattern("seconds: (.*)").times(text, 1.0), ElementsAre());
+  const LinePattern pattern("time_pattern", "time: ([0-9.e+-]+) s");
+  EXPECT_THAT(times_in(text, pattern, 1.0), ElementsAre(0.25, 0.1));
+  EXPECT_THAT(times_in(text, pattern, 2.0), ElementsAre(0.5, 0.2));
+  EXPECT_THAT(times_in(text, LinePattern("time_pattern", "seconds: (.*)"), 1.0), ElementsAre());
   EXPECT_EQ(last_line(text), "time: none");
   EXPECT_EQ(last_line(""), "");
 }
 
 TEST(CommandText, RefusesTimesThatAreNone) {
   for (const std::string time : {"nan", "-5", "inf", "1e400", "abc", ""})
-    EXPECT_THROW(TimePattern("time: (.*)").times("time: " + time + "\n", 1.0), SmootherFailure)
+    EXPECT_THROW(times_in("time: " + time + "\n", LinePattern("time_pattern", "time: (.*)"), 1.0),
+                 SmootherFailure)
         << time;
-  EXPECT_THROW(TimePattern("(.*)").times("1e308", 1e6), SmootherFailure);
+  EXPECT_THROW(times_in("1e308", LinePattern("time_pattern", "(.*)"), 1e6), SmootherFailure);
 }
 
 TEST(CommandText, PatternsEndOnEveryLine) {
-  EXPECT_THROW(TimePattern("((a+)+)+[bc]").times(std::string(3000, 'a') + "\n", 1.0),
-               SmootherFailure);
-  EXPECT_THROW(TimePattern("("), InputError);
-  EXPECT_THROW(TimePattern(std::string(100000, '(')), InputError);
-  EXPECT_THROW(TimePattern("time"), InputError);
+  EXPECT_THROW(
+      times_in(std::string(3000, 'a') + "\n", LinePattern("time_pattern", "((a+)+)+[bc]"), 1.0),
+      SmootherFailure);
+  EXPECT_THROW(LinePattern("time_pattern", "("), InputError);
+  EXPECT_THROW(LinePattern("time_pattern", std::string(100000, '(')), InputError);
+  EXPECT_THROW(LinePattern("time_pattern", "time"), InputError);
 }
 
 TEST(CommandText, QuotedWordsPassTheShellUnchanged) {

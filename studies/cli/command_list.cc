@@ -18,6 +18,7 @@
 #include "studies/cli/commands.h"
 #include "studies/cli/list_columns.h"
 #include "studies/framework/definition/find_study.h"
+#include "studies/framework/definition/study.h"
 #include "studies/kinds/study_kinds.h"
 
 namespace smoothfem {
@@ -155,6 +156,26 @@ void list_solutions() {
     });
 }
 
+/// Prints the solvers with their parameters and numbers in the plane; in space they are alike.
+void list_solvers() {
+  std::printf(
+      "SOLVERS ('solvers' in study files)\n\n  %s: the program's own, for the problem of the "
+      "study file: -div(A grad u) = f\n",
+      poisson_label);
+  for (const auto& info : solver_catalogue()) {
+    const auto solver = make_solver<2>(info.name);
+    std::printf("\n  %s: %s\n      %s. Source: %s.\n", info.name.c_str(), info.title.c_str(),
+                info.description.c_str(), info.source.c_str());
+    for (const auto& parameter : solver->parameters()) list_parameter(parameter, "", "");
+    for (const auto& key : solver->keyed_parameters())
+      std::printf("      %-40s one value for each name: set %s NAME = VALUE\n", key.c_str(),
+                  key.c_str());
+    for (const auto& number : solver->numbers())
+      std::printf("      records %-32s %s%s\n", number.name.c_str(), number.description.c_str(),
+                  number.unit.empty() ? "" : (" [" + number.unit + "]").c_str());
+  }
+}
+
 void list_metrics() {
   std::printf("METRICS (quality --metrics, 'metrics' in study files)\n\n");
   for (const auto& metric : metric_catalogue())
@@ -184,6 +205,7 @@ std::vector<Part> parts(const std::filesystem::path& studies) {
           {"studies", print_studies, print_studies},
           {"domains", list_domains, list_domains},
           {"solutions", list_solutions, list_solutions},
+          {"solvers", list_solvers, list_solvers},
           {"metrics", list_metrics, list_metrics},
           {"transformations", list_transformations, list_transformations},
           {"formats", list_formats, list_formats}};
@@ -238,7 +260,7 @@ void smoothfem_add_list_command(CLI::App& app) {
   auto arguments = std::make_shared<ListArguments>();
   auto* command = add_subcommand(app, "list");
   command->add_option("what", arguments->what,
-                      "a part: methods, presets, studies, domains, solutions, metrics, "
+                      "a part: methods, presets, studies, domains, solutions, solvers, metrics, "
                       "transformations or formats; "
                       "or a method or a preset, with its parameters (default: everything)");
   command->add_option("--studies", arguments->studies,

@@ -14,8 +14,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Folders of studies/. Each may include files of the folders before it.
-const std::vector<std::string> rooms{"framework/definition", "framework/results", "framework/run",
-                                     "kinds", "cli"};
+const std::vector<std::string> rooms{"framework/solvers",
+                                     "framework/definition",
+                                     "framework/results",
+                                     "framework/run",
+                                     "kinds",
+                                     "cli"};
 
 /// Returns the index of the folder that contains a path below studies/; rooms.size() if none does.
 std::size_t room_of(const std::string& path) {

@@ -16,7 +16,7 @@ void check_names(const Study& study) {
     throw InputError(
         "finite elements are not solved on surface meshes; write 'set degrees =' without any");
   for (const StudySolution* solution : solutions_of(study))
-    if (!study.degrees.empty() && solution->name != "expression")
+    if (needs_solutions(study) && solution->name != "expression")
       with_dimension(study.dimensions.cells,
                      [&]<int dim>() { (void)manufactured_solution<dim>(solution->name); });
   for (const auto& mesh : study.meshes)

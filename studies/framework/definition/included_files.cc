@@ -39,14 +39,14 @@ std::string content_of(const fs::path& included, const std::string& position) {
 constexpr std::size_t max_depth = 1000, max_lines = 10'000'000, max_includes = 10'000;
 
 /// Returns the line with the group of 'set diffusivity group=NAME = FORMULA' as a part of the key,
-/// which ends at the first '=' for deal.II. Other lines are unchanged.
+/// which ends at the first '=' for deal.II. So do other keys of groups. Other lines are unchanged.
 std::string with_group_in_key(const std::string& line) {
   const StudyLine read = study_line(line);
-  if (read.kind != StudyLine::Kind::set || read.name != "diffusivity group") return line;
+  if (read.kind != StudyLine::Kind::set || !read.name.ends_with(" group")) return line;
   const auto equals = read.value.find('=');
   const auto end = read.value.find_last_not_of(" \t", equals - 1);
   if (equals == std::string::npos || equals == 0 || end == std::string::npos) return line;
-  return "set diffusivity group " + read.value.substr(0, end + 1) + " " + read.value.substr(equals);
+  return "set " + read.name + " " + read.value.substr(0, end + 1) + " " + read.value.substr(equals);
 }
 
 void require_utf8(const std::string& line, const std::string& position) {

@@ -14,6 +14,7 @@
 #include "studies/framework/definition/study.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/definition/study_keys.h"
+#include "studies/framework/definition/study_solvers.h"
 
 namespace smoothfem {
 
@@ -249,6 +250,21 @@ void read_problem(ParameterHandler& p, const StudyText& text, Study& study) {
   study.edge_scale = p.get_double("edge scale");
 }
 
+/// Throws InputError for labels of solvers that columns cannot have, and for surface meshes.
+void check_solvers(const std::vector<std::string>& labels, MeshDimensions dimensions,
+                   const std::string& file) {
+  if (labels.empty()) return;
+  check_labels(labels, "solver", file);
+  for (const auto& label : labels)
+    if (label.find('.') != std::string::npos)
+      throw InputError(file + ": the label of the solver '" + label +
+                       "' has a '.', which separates it from the names of its numbers; take "
+                       "another label");
+  if (dimensions.space > dimensions.cells && labels != std::vector<std::string>{poisson_label})
+    throw InputError(file +
+                     ": solvers do not support surface meshes; leave the list 'solvers' out");
+}
+
 /// Labels of the meshes to take: all meshes of the list, or the meshes of the scale.
 std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std::string>& known,
                                       const std::string& scale, const std::string& file) {
@@ -262,13 +278,14 @@ std::vector<std::string> meshes_taken(ParameterHandler& p, const std::vector<std
 
 /// Parameters without the study's kind and without newer keys that have their default. So results
 /// resume that are older than kinds, surfaces, derived solutions, diffusivities, natural
-/// conditions, several solutions, constraints, rules for interfaces and targets.
+/// conditions, several solutions, constraints, solvers, rules for interfaces and targets.
 StudyParameters said_parameters(ParameterHandler& p) {
   auto parameters = all_parameters(p);
   std::erase_if(parameters, [](const auto& entry) {
     return entry.first == "kind" ||
            entry == std::pair<std::string, std::string>{"surface", "false"} ||
            entry == std::pair<std::string, std::string>{"hanging nodes", "refuse"} ||
+           entry == std::pair<std::string, std::string>{"solvers", poisson_label} ||
            entry == std::pair<std::string, std::string>{"periodic", "prescribe"} ||
            (entry.first.ends_with("/interfaces") && entry.second == "fixed") ||
            (entry.first.ends_with("/target") && entry.second == "regular") ||
@@ -356,6 +373,25 @@ bool StudyMethod::needs_problem(MeshDimensions dimensions) const {
   });
 }
 
+std::vector<StudySolve> solves_of(const Study& study) {
+  std::vector<StudySolve> solves;
+  for (const int degree : study.degrees) solves.push_back({nullptr, degree});
+  for (const auto& solver : study.solvers) {
+    if (solver.degrees.empty()) solves.push_back({&solver, 0});
+    for (const int degree : solver.degrees) solves.push_back({&solver, degree});
+  }
+  return solves;
+}
+
+std::vector<int> row_degrees(const Study& study) {
+  std::vector<int> degrees;
+  for (const auto& solve : solves_of(study))
+    if (solve.degree > 0 &&
+        std::find(degrees.begin(), degrees.end(), solve.degree) == degrees.end())
+      degrees.push_back(solve.degree);
+  return degrees.empty() ? std::vector{0} : degrees;
+}
+
 std::vector<const StudySolution*> solutions_of(const Study& study) {
   std::vector<const StudySolution*> all{&study.solution};
   for (const auto& solution : study.further_solutions) all.push_back(&solution);
@@ -426,10 +462,12 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
   });
   const auto methods = method_labels(lists.get("methods"), dimensions);
   const auto solutions = split_list(lists.get("solutions"));
+  const auto solvers = split_list(lists.get("solvers"));
   const auto scales = known_scales(lists, scale, file.string());
   check_labels(meshes, "mesh", file.string());
   check_labels(methods, "method", file.string());
   if (!solutions.empty()) check_labels(solutions, "solution", file.string());
+  check_solvers(solvers, dimensions, file.string());
 
   ParameterHandler types;
   for (const auto& method : methods) declare_method(types, dimensions, method, "");
@@ -458,6 +496,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
     type_of[method] = type;
   }
   declare_group_diffusivities(p, text);
+  in_file(file, [&] { declare_solvers(p, text, solvers, dimensions.cells); });
   parse_study(p, text, false);
   p.set("dimension", std::to_string(dimensions.cells));
   p.set("surface", dimensions.space > dimensions.cells);
@@ -479,6 +518,10 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
                                  is_not_run(type_of[method], !plugins.empty()));
     }));
   read_problem(p, text, study);
+  in_file(file,
+          [&] { study.solvers = read_solvers(p, text, solvers, dimensions.cells, study.degrees); });
+  if (std::find(solvers.begin(), solvers.end(), poisson_label) == solvers.end())
+    study.degrees.clear();
   in_file(file, [&] { check_study(study); });
   return study;
 }

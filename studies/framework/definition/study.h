@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fem/poisson_solver.h"
+#include "fem/solvers/mesh_solver.h"
 #include "meshes/distortion/distort.h"
 #include "meshes/domains/catalogue.h"
 #include "meshes/metrics/metric.h"
@@ -60,8 +61,8 @@ inline DomainParameters parameters_of(const StudyMesh& mesh, double edge_scale) 
           .eps = mesh.eps == 0.0 ? std::nullopt : std::optional(mesh.eps)};
 }
 
-/// A file of a method that is not part of this program.
-struct MethodFile {
+/// A file of a method or a solver that is not part of this program.
+struct CodeFile {
   std::string name, sha256;
 };
 
@@ -76,10 +77,10 @@ struct StudyMethod {
   InterfaceRule interfaces = InterfaceRule::fixed;
   std::optional<TargetKind> target{};  ///< taken from the initial mesh; nothing: regular cells
   std::vector<std::pair<std::string, std::string>> settings;  ///< parameters that are not default
-  std::filesystem::path folder{};   ///< of the study file, which a method's file is relative to
-  bool is_stand_in = false;         ///< read by OnlyLook: without its code it cannot smooth
-  std::vector<MethodFile> files{};  ///< programs, scripts, plugins: filled when the study runs
-  std::string version{};            ///< that the program reports
+  std::filesystem::path folder{};  ///< of the study file, which a method's file is relative to
+  bool is_stand_in = false;        ///< read by OnlyLook: without its code it cannot smooth
+  std::vector<CodeFile> files{};   ///< programs, scripts, plugins: filled when the study runs
+  std::string version{};           ///< that the program reports
 
   /// The method with its settings.
   template <int dim, int spacedim = dim>
@@ -107,6 +108,37 @@ struct StudySolution {
   bool has_materials() const { return is_piecewise_by_tag() || !of_groups.empty(); }
 };
 
+/// The label of the program's own solver for Poisson's equation in the list 'solvers'.
+inline constexpr const char* poisson_label = "poisson";
+
+/// A solver whose numbers are recorded in addition to those of Poisson's equation.
+struct StudySolver {
+  struct Keyed {
+    std::string parameter, name, value;  ///< for example "E group", "steel", "210e9"
+  };
+
+  std::string label;           ///< in results: its columns are LABEL.NUMBER
+  std::string type;            ///< registered solver, or solver in a file, as in the study file
+  std::string title;           ///< in tables and figures
+  std::vector<int> degrees{};  ///< of its finite elements; empty: it has none
+  SolverTraits traits{};
+  std::vector<std::pair<std::string, std::string>> settings{};  ///< parameters, not default
+  std::vector<Keyed> keyed{};                                   ///< see MeshSolver
+  std::filesystem::path folder{};                               ///< of the study file
+  std::vector<CodeFile> files{};  ///< programs, scripts, plugins: filled when the study runs
+  std::string version{};          ///< that the program reports
+
+  /// The solver with its settings.
+  template <int dim>
+  std::unique_ptr<MeshSolver<dim>> make() const;
+};
+
+/// A solve of every recorded mesh: a solver with one of its degrees.
+struct StudySolve {
+  const StudySolver* solver;  ///< null: the program's own for Poisson's equation
+  int degree;                 ///< 0: the solver has none
+};
+
 /// Settings for error thresholds (thesis, Table 6.4).
 struct StudyThresholds {
   std::string reference;  ///< method whose smallest errors set the thresholds; empty: no thresholds
@@ -129,7 +161,7 @@ struct Study {
   MeshDimensions dimensions;
   std::vector<StudyMesh> meshes;
   std::vector<StudyMethod> methods;
-  std::vector<int> degrees;          ///< of the finite elements; empty: smoothing only
+  std::vector<int> degrees;          ///< of Poisson's equation; empty: it is not solved
   std::vector<int> refined_degrees;  ///< of these: initial and resulting meshes once more, refined
   /// Of these: solved at all records; the others at initial, resulting and last meshes. Empty: all.
   std::vector<int> record_degrees;
@@ -137,6 +169,7 @@ struct Study {
   /// Solutions that are also solved on initial and resulting meshes, and that methods may smooth
   /// for.
   std::vector<StudySolution> further_solutions{};
+  std::vector<StudySolver> solvers{};     ///< in addition to Poisson's
   PoissonOptions finite_elements;         ///< its degree and its ties are not used
   KeyLines natural_lines{};               ///< of 'natural', and of its groups
   bool constrain_hanging_nodes = false;   ///< otherwise meshes with hanging nodes are refused
@@ -162,6 +195,27 @@ inline bool is_of_results_only(const Study& study, const StudyMesh& mesh) {
 inline bool is_recorded(const Study& study, int degree) {
   const auto& chosen = study.record_degrees;
   return chosen.empty() || std::find(chosen.begin(), chosen.end(), degree) != chosen.end();
+}
+
+/// Returns the solves of every recorded mesh. Those of Poisson's equation are the first, in the
+/// order of `degrees`.
+std::vector<StudySolve> solves_of(const Study& study);
+
+/// Returns the degrees of the rows of a recorded mesh, those of Poisson's equation first; only 0 if
+/// no solver has degrees. Numbers of solvers without degrees are in all rows.
+std::vector<int> row_degrees(const Study& study);
+
+/// True if meshes of all records are needed, not only results.
+inline bool keeps_all_records(const Study& study) {
+  return !study.degrees.empty() || !study.solvers.empty() || study.write_series ||
+         !study.metrics.empty();
+}
+
+/// True if some solver needs the study's solutions.
+inline bool needs_solutions(const Study& study) {
+  return !study.degrees.empty() ||
+         std::any_of(study.solvers.begin(), study.solvers.end(),
+                     [](const auto& solver) { return solver.traits.needs_solution; });
 }
 
 /// Returns all solutions of a study. The solution of the records is the first.

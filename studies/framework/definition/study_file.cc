@@ -156,9 +156,10 @@ std::map<std::string, std::string> lines_of_section(const StudyText& text,
 }
 
 std::string with_line(const std::map<std::string, std::string>& lines, const std::string& message) {
-  constexpr std::string_view of_group = "diffusivity group ";
+  constexpr std::string_view of_group = " group ";
   for (const auto& [key, position] : lines) {
-    const std::string group = key.starts_with(of_group) ? key.substr(of_group.size()) : key;
+    const auto at = key.find(of_group);
+    const std::string group = at == std::string::npos ? key : key.substr(at + of_group.size());
     for (const auto& name : {key, group})
       if (message.find("'" + name + "'") != std::string::npos) return position + ": " + message;
   }

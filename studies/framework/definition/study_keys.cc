@@ -85,6 +85,10 @@ void declare_lists(ParameterHandler& p) {
       "(see 'list') or has a subsection 'solution LABEL' with 'name', or 'u' and, if necessary, "
       "'diffusivity'. Records are those of the "
       "first, solutions.csv has errors of all. Empty: the solution of the subsection 'solution'.");
+  p.declare_entry("solvers", "poisson", Patterns::Anything(),
+                  "Solvers of every recorded mesh, separated by commas: 'poisson' for the problem "
+                  "below, and labels with a subsection 'solver LABEL'. Their numbers are the "
+                  "columns LABEL.NUMBER of iterations.csv and summary.csv.");
   p.declare_entry("note", "", Patterns::Anything(),
                   "How far results can be compared with the literature, in one sentence.");
 }
@@ -180,10 +184,14 @@ void declare_method(ParameterHandler& p, MeshDimensions dimensions, const std::s
     declare_mesh_rules(p);
     if (!preset.empty() && has_parameters_for(find_preset(preset), method))
       apply_preset(find_preset(preset), method);
-    for (const auto& parameter : method.parameters())
-      p.declare_entry(parameter.name, value_text(parameter), *range_of(parameter),
-                      parameter.description);
+    declare_parameters(p, method.parameters());
   });
+}
+
+void declare_parameters(ParameterHandler& p, const Parameters& parameters) {
+  for (const auto& parameter : parameters)
+    p.declare_entry(parameter.name, value_text(parameter), *range_of(parameter),
+                    parameter.description);
 }
 
 void declare_problem(ParameterHandler& p) {

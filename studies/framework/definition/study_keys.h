@@ -22,6 +22,9 @@ void declare_method(dealii::ParameterHandler& p, MeshDimensions dimensions, cons
                     const std::filesystem::path& folder = {});
 void declare_problem(dealii::ParameterHandler& p);
 
+/// Declares parameters with their defaults, ranges and descriptions.
+void declare_parameters(dealii::ParameterHandler& p, const Parameters& parameters);
+
 /// Declares the subsection of one of several solutions. formula_help: help text of its formula.
 void declare_solution(dealii::ParameterHandler& p, const std::string& name,
                       const std::string& formula_help);

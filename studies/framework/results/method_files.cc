@@ -23,11 +23,21 @@ void note_files_of(StudyMethod& entry, const std::filesystem::path& folder) {
     entry.files.push_back({file.filename().string(), sha256_of_file(file)});
 }
 
+template <int dim>
+void note_files_of(StudySolver& entry) {
+  const SmootherOrigin origin = entry.make<dim>()->origin();
+  entry.version = origin.version;
+  for (const auto& file : origin.files)
+    entry.files.push_back({file.filename().string(), sha256_of_file(file)});
+}
+
 }  // namespace
 
 void note_files(Study& study) {
   with_dimensions(study.dimensions, [&]<int dim, int spacedim>() {
     for (auto& method : study.methods) note_files_of<dim, spacedim>(method, study.folder);
+    if constexpr (dim == spacedim)
+      for (auto& solver : study.solvers) note_files_of<dim>(solver);
   });
 }
 

@@ -85,14 +85,13 @@ Json json_value(const Parameter& parameter) {
   return value_text(parameter);
 }
 
-/// Adds the type of a method, without the folder of its file if it is in a file. The folder depends
-/// on the machine; the content does not.
-void describe_type(const StudyMethod& method, Json& json) {
-  json["type"] = method.type;
-  auto in_file = method_in_file(method.type);
-  if (!in_file) return;
+/// Returns the type of a method or solver, without the folder of its file if it is in a file. The
+/// folder depends on the machine; the content does not.
+std::string type_without_folder(const std::string& type) {
+  auto in_file = method_in_file(type);
+  if (!in_file) return type;
   in_file->file = in_file->file.filename();
-  json["type"] = in_file->name();
+  return in_file->name();
 }
 
 Json describe_methods(const RunFacts& facts) {
@@ -105,11 +104,10 @@ Json describe_methods(const RunFacts& facts) {
         parameters[parameter.name] = json_value(parameter);
       methods.push_back({{"name", entry.name},
                          {"title", entry.title},
-                         {"type", nullptr},
+                         {"type", type_without_folder(entry.type)},
                          {"threads", entry.threads},
                          {"citation", method.info.source},
                          {"parameters", parameters}});
-      describe_type(entry, methods.back());
       for (const auto& file : entry.files)
         methods.back()["files"].push_back({{"name", file.name}, {"sha256", file.sha256}});
       if (entry.interfaces != InterfaceRule::fixed)
@@ -122,6 +120,35 @@ Json describe_methods(const RunFacts& facts) {
     }
   });
   return methods;
+}
+
+/// Returns the solvers with the meaning of their numbers.
+Json describe_solvers(const RunFacts& facts) {
+  Json solvers = Json::array();
+  with_dimension(facts.dimensions.cells, [&]<int dim>() {
+    for (const auto& entry : facts.solvers) {
+      const auto solver = entry.make<dim>();
+      Json parameters = Json::object(), numbers = Json::array();
+      for (const auto& parameter : solver->parameters())
+        parameters[parameter.name] = json_value(parameter);
+      for (const auto& [parameter, name, value] : entry.keyed)
+        parameters[parameter + " " + name] = value;
+      for (const auto& number : solver->numbers())
+        numbers.push_back({{"column", entry.label + "." + number.name},
+                           {"unit", number.unit},
+                           {"meaning", number.description}});
+      solvers.push_back({{"label", entry.label},
+                         {"title", entry.title},
+                         {"type", type_without_folder(entry.type)},
+                         {"degrees", entry.degrees},
+                         {"parameters", parameters},
+                         {"numbers", numbers}});
+      for (const auto& file : entry.files)
+        solvers.back()["files"].push_back({{"name", file.name}, {"sha256", file.sha256}});
+      if (!entry.version.empty()) solvers.back()["version"] = entry.version;
+    }
+  });
+  return solvers;
 }
 
 /// Returns the earlier sessions and this one.
@@ -155,8 +182,7 @@ Json describe_results(const RunFacts& facts) {
   for (const auto& result : facts.results) {
     results.push_back({{"mesh", result.mesh}, {"method", result.method}});
     if (!result.smoothed.empty()) results.back()["smoothed"] = result.smoothed;
-    for (const auto& [degree, session] : result.solved)
-      results.back()["solved"][std::to_string(degree)] = session;
+    for (const auto& [solve, session] : result.solved) results.back()["solved"][solve] = session;
   }
   return results;
 }
@@ -168,7 +194,7 @@ Json used_sessions(const RunFacts& facts) {
   std::set<std::string> used{facts.started};
   for (const auto& result : facts.results) {
     used.insert(result.smoothed);
-    for (const auto& [degree, session] : result.solved) used.insert(session);
+    for (const auto& [solve, session] : result.solved) used.insert(session);
   }
   Json kept = Json::array();
   for (auto& session : sessions)
@@ -217,11 +243,12 @@ std::string provenance_json(const RunFacts& facts) {
   json["machine"] = describe_machine(facts);
   json["meshes"] = describe_meshes(facts);
   json["methods"] = describe_methods(facts);
+  if (!facts.solvers.empty()) json["solvers"] = describe_solvers(facts);
   if (!facts.problem.solutions.empty()) json["problem"] = describe_problem(facts.problem);
   Json parameters;
   for (const auto& [key, value] : facts.study.parameters) parameters[key] = value;
   json["parameters"] = parameters;
-  json["settings"] = settings_of(facts.study, facts.meshes, facts.methods);
+  json["settings"] = settings_of(facts.study, facts.meshes, facts.methods, facts.solvers);
   if (!facts.results.empty()) json["results"] = describe_results(facts);
   if (!facts.kept.empty()) json["kept"] = facts.kept;
   json["sessions"] = used_sessions(facts);
@@ -255,7 +282,8 @@ EarlierRun read_provenance(const std::filesystem::path& path) {
 
 std::map<std::string, std::string> settings_of(const StudyHeader& study,
                                                const std::vector<MeshFacts>& meshes,
-                                               const std::vector<StudyMethod>& methods) {
+                                               const std::vector<StudyMethod>& methods,
+                                               const std::vector<StudySolver>& solvers) {
   std::map<std::string, std::string> settings(study.file_parameters.begin(),
                                               study.file_parameters.end());
   settings["--scale"] = study.scale;
@@ -268,6 +296,9 @@ std::map<std::string, std::string> settings_of(const StudyHeader& study,
   for (const auto& method : methods)
     for (const auto& file : method.files)
       settings["content of method " + method.name + ", " + as_utf8(file.name)] = file.sha256;
+  for (const auto& solver : solvers)
+    for (const auto& file : solver.files)
+      settings["content of solver " + solver.label + ", " + as_utf8(file.name)] = file.sha256;
   return settings;
 }
 

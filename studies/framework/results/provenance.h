@@ -18,9 +18,11 @@ struct ProcessorUse {
 
 /// The sessions that the results of a method on a mesh come from, by their start (UTC).
 struct ResultSessions {
-  std::string mesh, method;           ///< method: "initial" for the initial mesh
-  std::string smoothed;               ///< session of the smoothing times; empty: not smoothed
-  std::map<int, std::string> solved;  ///< by degree, sessions of the finite elements
+  std::string mesh, method;  ///< method: "initial" for the initial mesh
+  std::string smoothed;      ///< session of the smoothing times; empty: not smoothed
+  /// Sessions of the solves, by the degree of Poisson's equation, or by another solver's label and
+  /// degree.
+  std::map<std::string, std::string> solved;
 };
 
 /// The problem -div(A grad u) = f whose solution is prescribed, as text.
@@ -45,6 +47,7 @@ struct RunFacts {
   MeshDimensions dimensions{};
   std::vector<MeshFacts> meshes{};
   std::vector<StudyMethod> methods{};  ///< for meshes of these dimensions
+  std::vector<StudySolver> solvers{};  ///< in addition to Poisson's
   std::string shard{};                 ///< of a collection, for example "3/10"; empty: all
   std::map<std::string, std::string> members{};  ///< member -> mesh, of all shards
   ProblemFacts problem{};                        ///< without solutions if nothing is solved
@@ -76,7 +79,8 @@ EarlierRun read_provenance(const std::filesystem::path& path);
 /// lack the sources of meshes and the files of methods.
 std::map<std::string, std::string> settings_of(const StudyHeader& study,
                                                const std::vector<MeshFacts>& meshes,
-                                               const std::vector<StudyMethod>& methods);
+                                               const std::vector<StudyMethod>& methods,
+                                               const std::vector<StudySolver>& solvers = {});
 
 /// Returns the present time (UTC) in the format of provenance.json.
 std::string now_utc();

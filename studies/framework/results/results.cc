@@ -2,6 +2,7 @@
 #include "studies/framework/results/results.h"
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -74,6 +75,35 @@ void add_solution(CsvText& csv, int degree, const std::optional<SolutionRecord>&
   csv.number(if_known(s.l2_best)).number(if_known(s.h1_best)).field(status);
 }
 
+/// The columns of further solvers, of all rows.
+class SolverColumns {
+ public:
+  template <class Row>
+  explicit SolverColumns(const std::vector<Row>& rows) {
+    for (const auto& row : rows)
+      for (const auto& [column, value] : row.numbers)
+        if (places_.emplace(column, names_.size()).second) names_.push_back(column);
+  }
+
+  /// Returns ",a,b".
+  std::string header() const {
+    std::string text;
+    for (const auto& name : names_) text += "," + name;
+    return text;
+  }
+
+  void add(CsvText& csv, const SolverNumbers& numbers) const {
+    std::vector<std::optional<double>> values(names_.size());
+    for (const auto& [column, value] : numbers)
+      if (!std::isnan(value)) values[places_.at(column)] = value;
+    for (const auto& value : values) csv.number(value);
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::size_t> places_;
+};
+
 struct NamedError {
   const char* name;
   double SolutionRecord::*value;
@@ -138,11 +168,12 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
 }
 
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows) {
+  const SolverColumns solver_columns(rows);
   CsvText csv(
       std::string("study,mesh,method,stage,iteration,smoothing_seconds,preparation_seconds,"
                   "wall_seconds,n_solves,method_solve_seconds,q_min,q_star_min,q_mean,n_invalid,"
                   "n_made_invalid,n_reset,w_max,w_mean,") +
-      solution_columns);
+      solution_columns + solver_columns.header());
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iteration.stage);
     csv.integer(row.iteration.iteration).number(row.iteration.smoothing_seconds);
@@ -159,6 +190,7 @@ std::string iterations_csv(const std::string& study, const std::vector<Iteration
     csv.integer(row.iteration.n_reset);
     add_warpage(csv, row.warpage);
     add_solution(csv, row.degree, row.solved, row.status);
+    solver_columns.add(csv, row.numbers);
     csv.end_line();
   }
   return csv.text();
@@ -198,10 +230,12 @@ std::string metrics_csv(const std::string& study, const std::vector<MetricRow>& 
 }
 
 std::string summary_csv(const std::string& study, const std::vector<SummaryRow>& rows) {
+  const SolverColumns solver_columns(rows);
   CsvText csv(
       std::string("study,mesh,method,iterations,smoothing_seconds,preparation_seconds,"
                   "wall_seconds,q_min,q_star_min,q_mean,n_invalid,w_max,w_mean,peak_memory_gib,") +
-      solution_columns + (rows.empty() ? "" : count_columns(rows.front().cells_below)));
+      solution_columns + (rows.empty() ? "" : count_columns(rows.front().cells_below)) +
+      solver_columns.header());
   for (const auto& row : rows) {
     csv.field(study).field(row.mesh).field(row.method).field(row.iterations);
     if (row.iterations.empty())
@@ -214,6 +248,7 @@ std::string summary_csv(const std::string& study, const std::vector<SummaryRow>&
     csv.number(row.peak_memory_gib);
     add_solution(csv, row.degree, row.solved, row.status);
     for (const CellsBelow& count : row.cells_below) csv.integer(count.n).integer(count.n_star);
+    solver_columns.add(csv, row.numbers);
     csv.end_line();
   }
   return csv.text();

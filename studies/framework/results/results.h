@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fem/solution_record.h"
@@ -13,14 +14,19 @@
 
 namespace smoothfem {
 
+/// Numbers of solvers other than Poisson's, by their columns "LABEL.NUMBER"; NaN: not known.
+using SolverNumbers = std::vector<std::pair<std::string, double>>;
+
 /// A row of iterations.csv: one iteration of one method on one mesh, at one degree.
 struct IterationRow {
   std::string mesh, method;
   IterationRecord iteration;
   std::optional<MeshWarpage> warpage{};  ///< if recorded
-  int degree = 0;                        ///< 0: the study solves nothing
-  std::optional<SolutionRecord> solved;  ///< empty where there is no solution
-  std::string status;                    ///< "ok", or why a row has no finite element numbers
+  int degree = 0;                        ///< 0: none of its solvers has degrees
+  std::optional<SolutionRecord>
+      solved;          ///< of Poisson's equation; empty where there is no solution
+  std::string status;  ///< "ok", or why a row has no finite element numbers
+  SolverNumbers numbers{};
 };
 
 /// A row of refined.csv: the initial mesh or a method's result with every cell split, at one
@@ -63,6 +69,7 @@ struct SummaryRow {
   int degree = 0;
   std::optional<SolutionRecord> solved{};
   std::string status{};
+  SolverNumbers numbers{};
 };
 
 /// A row of thresholds.csv: the time when a method's error fell below a threshold, if it did.
@@ -84,6 +91,7 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
                                            const std::string& reference, double margin);
 
 /// Return the tables as text. Columns, units and order are a contract (studies/columns.json).
+/// Columns of further solvers come last, in the order in which rows name them.
 std::string iterations_csv(const std::string& study, const std::vector<IterationRow>& rows);
 std::string refined_csv(const std::string& study, const std::vector<RefinedRow>& rows);
 std::string solutions_csv(const std::string& study, const std::vector<SolutionRow>& rows);

@@ -58,13 +58,14 @@ std::string section_of(const std::string& key) {
   const auto end = key.find('/');
   const std::string section = key.substr(0, end);
   const bool is_labelled = section.starts_with("method ") || section.starts_with("mesh ") ||
-                           section.starts_with("solution ");
+                           section.starts_with("solution ") || section.starts_with("solver ");
   return end != std::string::npos && is_labelled ? section : "";
 }
 
-/// True if the setting is the source or the content of a mesh or a method.
+/// True if the setting is the source or the content of a mesh, a method or a solver.
 bool is_of_file(const std::string& key) {
-  return key.find(" of mesh ") != std::string::npos || key.starts_with("content of method ");
+  return key.find(" of mesh ") != std::string::npos || key.starts_with("content of method ") ||
+         key.starts_with("content of solver ");
 }
 
 bool has_section(const std::map<std::string, std::string>& settings, const std::string& section) {
@@ -76,9 +77,10 @@ bool has_section(const std::map<std::string, std::string>& settings, const std::
 
 std::string differences_from(const EarlierRun& earlier, const StudyHeader& study,
                              const std::vector<MeshFacts>& meshes,
-                             const std::vector<StudyMethod>& methods) {
+                             const std::vector<StudyMethod>& methods,
+                             const std::vector<StudySolver>& solvers) {
   if (earlier.status.empty()) return {};
-  const auto settings = settings_of(study, meshes, methods);
+  const auto settings = settings_of(study, meshes, methods, solvers);
   std::string differences;
   int n_differences = 0;
   const auto add = [&](const std::string& difference) {

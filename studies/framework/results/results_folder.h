@@ -32,7 +32,8 @@ void make_results_folder(const std::filesystem::path& folder, std::optional<Fold
 /// meshes: empty if nothing is known of them yet.
 std::string differences_from(const EarlierRun& earlier, const StudyHeader& study,
                              const std::vector<MeshFacts>& meshes,
-                             const std::vector<StudyMethod>& methods);
+                             const std::vector<StudyMethod>& methods,
+                             const std::vector<StudySolver>& solvers = {});
 
 /// Links all results of the folder, except kept and earlier ones, into earlier/TIME below it. TIME
 /// is when they were written. So they outlast a run that replaces them.

@@ -42,7 +42,8 @@ class StudyRun {
         team_(options.ranks),
         n_workers_(n_solve_workers(study, options)),
         progress_(options.quiet),
-        data_{study, KeptResults(options.kept.empty() ? options.out / kept_folder : options.kept),
+        data_{study, solves_of(study),
+              KeptResults(options.kept.empty() ? options.out / kept_folder : options.kept),
               started_} {}
 
   void run() {
@@ -54,12 +55,11 @@ class StudyRun {
     require_unchanged_meshes(earlier_, options_.out);
     times_.measure("meshes", [&] {
       prepare_meshes();
-      if (!study_.degrees.empty()) {
-        require_support_of_ties();
-        make_solutions();
-      }
+      if (!study_.degrees.empty()) require_support_of_ties();
+      if (needs_solutions(study_)) make_solutions();
     });
-    changes_ = differences_from(earlier_, study_.header, mesh_facts(), study_.methods);
+    changes_ =
+        differences_from(earlier_, study_.header, mesh_facts(), study_.methods, study_.solvers);
     if (earlier_.status == "complete" && changes_.empty() && !options_.retime)
       return report_complete();
     begin_writing();
@@ -68,7 +68,7 @@ class StudyRun {
     if (options_.until == RunUntil::smoothing) return write_provenance("interrupted");
     make_tasks(data_);
     report_kept();
-    if (!study_.degrees.empty()) times_.measure("finite_elements", [&] { solve(); });
+    if (!data_.solves.empty()) times_.measure("finite_elements", [&] { solve(); });
     times_.measure("writing", [&] { write_results(); });
     write_provenance("complete");
     if (is_alone()) remove_replaced();
@@ -336,7 +336,7 @@ class StudyRun {
   void report_gauss_points() {
     for (const auto& task : data_.tasks) {
       if (task.solution.most_points == 0) continue;
-      int& n_points = data_.meshes[task.job.mesh].max_points[study_.degrees[task.job.degree]];
+      int& n_points = data_.meshes[task.job.mesh].max_points[data_.solves[task.job.solve].degree];
       n_points = std::max(n_points, task.solution.most_points);
     }
     for (const auto& mesh : data_.meshes)
@@ -499,7 +499,7 @@ class StudyRun {
                        .natural = study_.finite_elements.natural_groups,
                        .load = study_.finite_elements.load == Load::nodal ? "nodal" : "quadrature"};
     if constexpr (dim == spacedim)
-      if (!study_.degrees.empty())
+      if (needs_solutions(study_))
         for (const StudySolution* solution : solutions_of(study_))
           facts.solutions.push_back(
               {solution->label, u_text<dim>(*solution), diffusivity_text(*solution)});
@@ -520,6 +520,7 @@ class StudyRun {
              .dimensions = study_.dimensions,
              .meshes = mesh_facts(),
              .methods = study_.methods,
+             .solvers = study_.solvers,
              .problem = problem_facts(),
              .results = is_complete ? sessions_of(data_) : std::vector<ResultSessions>(),
              .kept = is_complete ? names_of_kept(data_) : std::set<std::string>()}));

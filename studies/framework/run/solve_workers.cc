@@ -16,14 +16,15 @@ namespace {
 template <int dim>
 PoissonOptions options_of(const StudyData<dim>& data, const SolveJob& job) {
   PoissonOptions options = data.study.finite_elements;
-  options.degree = data.study.degrees[job.degree];
+  options.degree = data.solves[job.solve].degree;
   options.ties = data.meshes[job.mesh].ties;
   return options;
 }
 
 /// True if the record's nodal errors are kept. Results and series show them, refined meshes do not.
 bool keeps_nodal_errors(const Study& study, const SolveTask& task) {
-  return !task.job.is_refined && task.job.solution == 0 && (task.is_result || study.write_series);
+  return task.job.solve < study.degrees.size() && !task.job.is_refined && task.job.solution == 0 &&
+         (task.is_result || study.write_series);
 }
 
 /// Returns the topology with its kinds of cells as their only groups. Refined cells have tags only,
@@ -55,6 +56,46 @@ SolutionRecord solve_refined(const StudyData<dim>& data, const SolveTask& task,
   return record;
 }
 
+/// The solvers of one worker that are not Poisson's. Only the last one is kept.
+template <int dim>
+class OtherSolvers {
+ public:
+  explicit OtherSolvers(const StudyData<dim>& data) : data_(data) {}
+
+  /// Solves for a task of a solver.
+  SolutionRecord solve(const SolveTask& task) {
+    const SolveJob& job = task.job;
+    const StudySolve& chosen = data_.solves[job.solve];
+    SolutionRecord record;
+    record.degree = chosen.degree;
+    try {
+      const auto& initial = data_.meshes[job.mesh].mesh;
+      if (!solver_ || mesh_ != job.mesh || solve_ != job.solve) {
+        solver_.reset();
+        auto made = chosen.solver->template make<dim>();
+        if (chosen.solver->traits.needs_solution)
+          made->use_solution(data_.solutions[job.mesh].front());
+        made->initialize(initial, chosen.degree);
+        solver_ = std::move(made);
+        mesh_ = job.mesh;
+        solve_ = job.solve;
+      }
+      SolverResult result = solver_->solve(Mesh<dim>(
+          initial.shared_topology(), data_.coordinates_of(task), initial.shared_constraints()));
+      record.numbers = std::move(result.numbers);
+      record.status = std::move(result.status);
+    } catch (const SolverFailure& failure) {
+      record.status = std::string("failed: ") + failure.what();
+    }
+    return record;
+  }
+
+ private:
+  const StudyData<dim>& data_;
+  std::unique_ptr<MeshSolver<dim>> solver_;
+  std::size_t mesh_ = 0, solve_ = 0;  ///< of the solver
+};
+
 /// Solvers for planar meshes and degrees, made at first use. Threads take copies, which share
 /// everything that depends on the topology only.
 class PlanarSolvers {
@@ -63,7 +104,7 @@ class PlanarSolvers {
 
   std::unique_ptr<PoissonSolver<2>> copy(const SolveJob& job) {
     const std::lock_guard guard(mutex_);
-    auto& solver = solvers_[{job.mesh, job.degree}];
+    auto& solver = solvers_[{job.mesh, job.solve}];
     if (!solver)
       solver =
           std::make_unique<PoissonSolver<2>>(&data_.meshes[job.mesh].mesh, options_of(data_, job));
@@ -80,7 +121,7 @@ class PlanarSolvers {
 class PlanarWorker {
  public:
   PlanarWorker(StudyData<2>& data, std::shared_ptr<PlanarSolvers> solvers)
-      : data_(data), solvers_(std::move(solvers)) {}
+      : data_(data), solvers_(std::move(solvers)), others_(data) {}
 
   void work(SolveTask& task) {
     const SolveJob& job = task.job;
@@ -105,10 +146,11 @@ class PlanarWorker {
  private:
   SolutionRecord solve(const SolveTask& task) {
     const SolveJob& job = task.job;
-    if (!solver_ || mesh_ != job.mesh || degree_ != job.degree) {
+    if (data_.solves[job.solve].solver != nullptr) return others_.solve(task);
+    if (!solver_ || mesh_ != job.mesh || solve_ != job.solve) {
       solver_ = solvers_->copy(job);
       mesh_ = job.mesh;
-      degree_ = job.degree;
+      solve_ = job.solve;
     }
     return solver_->solve(data_.coordinates_of(task), data_.solutions[job.mesh][job.solution],
                           task.is_result);
@@ -117,14 +159,15 @@ class PlanarWorker {
   StudyData<2>& data_;
   std::shared_ptr<PlanarSolvers> solvers_;
   std::unique_ptr<PoissonSolver<2>> solver_;
-  std::size_t mesh_ = 0, degree_ = 0;  ///< of the solver
+  std::size_t mesh_ = 0, solve_ = 0;  ///< of the solver
+  OtherSolvers<2> others_;
 };
 
 /// The root's work on volume meshes. Eigenvectors are passed between the records of a job, but not
 /// between jobs. So an interruption between jobs does not change results.
 class TeamWorker {
  public:
-  TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team) {}
+  TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team), others_(data) {}
 
   void work(SolveTask& task) {
     const SolveJob& job = task.job;
@@ -144,15 +187,16 @@ class TeamWorker {
       if (keeps_nodal_errors(data_.study, task))
         data_.kept.save_numbers(job.name, task.record, team_.nodal_errors());
     }
+    const bool has_eigenvectors = !job.is_refined && data_.solves[job.solve].solver == nullptr;
     finish_task(task, std::move(solution), seconds,
-                job.is_refined ? std::vector<double>() : team_.eigenvectors(), data_.kept);
+                has_eigenvectors ? team_.eigenvectors() : std::vector<double>(), data_.kept);
   }
 
  private:
   SolutionRecord solve(const SolveTask& task) {
     const SolveJob& job = task.job;
-    const bool other_solver =
-        job_ == nullptr || job_->mesh != job.mesh || job_->degree != job.degree;
+    if (data_.solves[job.solve].solver != nullptr) return others_.solve(task);
+    const bool other_solver = job_ == nullptr || job_->mesh != job.mesh || job_->solve != job.solve;
     if (other_solver) team_.make_solver(data_.meshes[job.mesh].mesh, options_of(data_, job));
     if (job_ != &job) team_.set_eigenvectors(job.solved.eigenvectors);
     job_ = &job;
@@ -162,7 +206,8 @@ class TeamWorker {
 
   StudyData<3>& data_;
   SolverTeam& team_;
-  const SolveJob* job_ = nullptr;  ///< last worked on
+  const SolveJob* job_ = nullptr;  ///< the team's last one
+  OtherSolvers<3> others_;
 };
 
 }  // namespace
@@ -197,6 +242,8 @@ std::string diffusivity_text(const StudySolution& solution) {
 }
 
 bool needs_mpi(const Study& study) {
+  for (const auto& solver : study.solvers)
+    if (solver.traits.needs_mpi) return true;
   return !study.degrees.empty() &&
          (study.dimensions.cells == 3 || study.finite_elements.multigrid_cg != Recorded::never);
 }
@@ -226,6 +273,7 @@ std::vector<SolveQueue::Worker> solve_workers(StudyData<3>& data,
 
 void serve_solves(const Study& study, const Ranks& ranks) {
   std::vector<ManufacturedSolution<3>> solutions;
+  if (study.degrees.empty()) return SolverTeam::serve(ranks, study.finite_elements, solutions);
   for (const StudySolution* solution : solutions_of(study))
     solutions.push_back(study_solution<3>(*solution, {}));
   SolverTeam::serve(ranks, study.finite_elements, solutions);

@@ -19,7 +19,8 @@ template <int dim>
 std::string u_text(const StudySolution& solution);
 std::string diffusivity_text(const StudySolution& solution);
 
-/// True if a study's solves need Trilinos and so MPI: on volume meshes, and for multigrid.
+/// True if a study's solves need Trilinos and so MPI: on volume meshes, for multigrid, and for some
+/// solvers.
 bool needs_mpi(const Study& study);
 
 /// Returns the number of records that are solved at once. Trilinos runs on one thread at a time.

@@ -14,14 +14,16 @@ namespace {
 
 using Tasks = std::vector<SolveTask*>;
 
-/// The finite element columns of a row. There is one entry per degree whose task is done, or one
-/// with the reason why there are no numbers.
+/// The columns of a row that solvers fill.
 struct Outcome {
   int degree = 0;
   std::optional<SolutionRecord> solved{};
   std::string status{};
+  SolverNumbers numbers{};
 };
 
+/// Returns the outcomes for Poisson's equation: one per degree whose task is done, or one with the
+/// reason why there are no numbers.
 std::vector<Outcome> outcomes(const std::vector<int>& degrees, const Tasks& tasks, bool invalid) {
   if (degrees.empty()) return {{.status = invalid ? invalid_mesh : "not solved"}};
   std::vector<Outcome> result;
@@ -35,6 +37,40 @@ std::vector<Outcome> outcomes(const std::vector<int>& degrees, const Tasks& task
   return result;
 }
 
+/// Adds what one solve has found to a row. The row's status is "ok" if that of all solves is.
+void add_solve(const StudySolve& solve, const SolutionRecord& found, Outcome& row) {
+  std::string status = found.status;
+  if (solve.solver == nullptr) {
+    row.solved = found;
+  } else {
+    for (const auto& [name, value] : found.numbers)
+      row.numbers.emplace_back(solve.solver->label + "." + name, value);
+    if (status != "ok") status = solve.solver->label + ": " + status;
+  }
+  if (row.status.empty() || row.status == "ok")
+    row.status = status;
+  else if (status != "ok")
+    row.status += "; " + status;
+}
+
+/// Returns the outcomes of all solvers: one for each degree of the rows whose tasks are done.
+std::vector<Outcome> outcomes_of_all(const Study& study, const std::vector<StudySolve>& solves,
+                                     const Tasks& tasks, bool invalid) {
+  if (study.solvers.empty()) return outcomes(study.degrees, tasks, invalid);
+  std::vector<Outcome> rows;
+  for (const int degree : row_degrees(study)) {
+    Outcome row{.degree = degree, .status = invalid ? invalid_mesh : ""};
+    bool is_done = true;
+    for (std::size_t s = 0; s < solves.size() && !invalid; ++s) {
+      if (solves[s].degree != 0 && solves[s].degree != degree) continue;
+      is_done = is_done && tasks[s] != nullptr && tasks[s]->done;
+      if (is_done) add_solve(solves[s], tasks[s]->solution, row);
+    }
+    if (is_done) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 template <int dim, int spacedim>
 void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::size_t method,
                  std::size_t record, const Tasks& tasks, std::vector<IterationRow>& rows) {
@@ -43,17 +79,20 @@ void append_rows(const StudyData<dim, spacedim>& data, std::size_t mesh, std::si
   const auto warpage = record < trajectory.warpage_of_records.size()
                            ? std::optional(trajectory.warpage_of_records[record])
                            : std::nullopt;
-  for (auto& outcome : outcomes(data.study.degrees, tasks, iteration.quality.n_invalid > 0))
+  for (auto& outcome :
+       outcomes_of_all(data.study, data.solves, tasks, iteration.quality.n_invalid > 0))
     rows.push_back({data.meshes[mesh].description.name, data.study.methods[method].name, iteration,
-                    warpage, outcome.degree, std::move(outcome.solved), std::move(outcome.status)});
+                    warpage, outcome.degree, std::move(outcome.solved), std::move(outcome.status),
+                    std::move(outcome.numbers)});
 }
 
 /// Appends rows of summary.csv. failure: why the row has no result; empty if it has one.
-void append_summary(const Study& study, SummaryRow row, const Tasks& tasks,
-                    const std::string& failure, std::vector<SummaryRow>& rows) {
-  for (auto& outcome : outcomes(study.degrees, tasks, row.quality.n_invalid > 0)) {
+void append_summary(const Study& study, const std::vector<StudySolve>& solves, SummaryRow row,
+                    const Tasks& tasks, const std::string& failure, std::vector<SummaryRow>& rows) {
+  for (auto& outcome : outcomes_of_all(study, solves, tasks, row.quality.n_invalid > 0)) {
     row.degree = outcome.degree;
     row.solved = failure.empty() ? std::move(outcome.solved) : std::nullopt;
+    row.numbers = failure.empty() ? std::move(outcome.numbers) : SolverNumbers();
     row.status = failure.empty() ? std::move(outcome.status) : "failed: " + failure;
     rows.push_back(row);
   }
@@ -92,7 +131,7 @@ MeshFields fields_of(const StudyData<dim, spacedim>& data, std::size_t m,
   if (data.solutions.empty()) return fields;
   auto& exact = fields.point["exact_solution"];
   for (const auto& p : mesh.coordinates()) exact.push_back(data.solutions[m].front().value(p));
-  for (std::size_t d = 0; d < tasks.size(); ++d)
+  for (std::size_t d = 0; d < std::min(tasks.size(), data.study.degrees.size()); ++d)
     if (tasks[d] != nullptr)
       fields.point["nodal_error_d" + std::to_string(data.study.degrees[d])] =
           data.kept.load_numbers(tasks[d]->job.name, tasks[d]->record, mesh.n_nodes());
@@ -124,24 +163,24 @@ class TaskMaker {
       auto& of_mesh = data_.mesh_tasks.emplace_back();
       for (const auto& trajectory : data_.trajectories[m])
         of_mesh.methods.emplace_back(trajectory.snapshots.size());
-      for (std::size_t d = 0; d < data_.study.degrees.size(); ++d) make_degree(m, d, of_mesh);
+      for (std::size_t s = 0; s < data_.solves.size(); ++s) make_solve(m, s, of_mesh);
       make_refined(m, of_mesh);
       make_further(m, of_mesh);
     }
   }
 
  private:
-  void make_degree(std::size_t m, std::size_t d, MeshTasks& of_mesh) {
-    of_mesh.initial.push_back(add_task(add_job(m, d, 0), 0, true));
+  void make_solve(std::size_t m, std::size_t solve, MeshTasks& of_mesh) {
+    of_mesh.initial.push_back(add_task(add_job(m, solve, 0), 0, true));
     for (std::size_t k = 0; k < data_.study.methods.size(); ++k) {
-      SolveJob& job = add_job(m, d, k + 1);
+      SolveJob& job = add_job(m, solve, k + 1);
       const Trajectory& trajectory = data_.trajectories[m][k];
       for (std::size_t s = 0; s < trajectory.snapshots.size(); ++s) {
         const std::size_t record = trajectory.snapshots[s];
         if (trajectory.records[record].quality.n_invalid > 0) continue;
         const bool is_result = record == trajectory.result_record;
         const bool is_taken = is_result || s + 1 == trajectory.snapshots.size() ||
-                              is_recorded(data_.study, data_.study.degrees[d]);
+                              is_recorded(data_.study, data_.solves[solve].degree);
         of_mesh.methods[k][s].push_back(is_taken ? add_task(job, record, is_result) : nullptr);
       }
     }
@@ -183,20 +222,21 @@ class TaskMaker {
   }
 
   /// method: its index plus one; 0: the initial mesh.
-  SolveJob& add_job(std::size_t m, std::size_t d, std::size_t method, bool is_refined = false,
+  SolveJob& add_job(std::size_t m, std::size_t solve, std::size_t method, bool is_refined = false,
                     std::size_t solution = 0) {
     const bool is_initial = method == 0;
     const std::string name =
         solved_name({.mesh_content = data_.mesh_contents[m],
                      .trajectory = is_initial ? "" : data_.trajectories[m][method - 1].content,
-                     .degree = data_.study.degrees[d],
+                     .degree = data_.solves[solve].degree,
                      .is_refined = is_refined,
                      .is_further = solution > 0,
-                     .ties = data_.meshes[m].ties.get()},
+                     .ties = data_.meshes[m].ties.get(),
+                     .solver = data_.solves[solve].solver},
                     *solutions_of(data_.study)[solution], data_.study);
     SolveJob& job =
-        data_.jobs.emplace_back(name, is_initial ? "" : data_.trajectory_names[m][method - 1], m, d,
-                                method, is_refined, solution);
+        data_.jobs.emplace_back(name, is_initial ? "" : data_.trajectory_names[m][method - 1], m,
+                                solve, method, is_refined, solution);
     job.solved.session = data_.session;
     if (auto solved = data_.kept.load_solved(job.name)) job.solved = std::move(*solved);
     return job;
@@ -234,12 +274,12 @@ SolveKind StudyData<dim, spacedim>::kind_of(const SolveTask& task) const {
   const double times = job.is_refined ? 1 << dim : 1;
   return {.mesh = job.mesh,
           .method = job.method + (job.is_refined ? study.methods.size() + 1 : 0),
-          .degree = job.degree,
+          .degree = job.solve,
           .is_initial = job.method == 0,
           .is_result = task.is_result,
           .n_nodes = times * static_cast<double>(meshes[job.mesh].mesh.n_nodes()),
           .dimension = dim,
-          .polynomial_degree = study.degrees[job.degree],
+          .polynomial_degree = std::max(1, solves[job.solve].degree),
           .record = task.record};
 }
 
@@ -284,7 +324,7 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
   std::vector<SummaryRow> rows;
   for (std::size_t m = 0; m < data.meshes.size(); ++m) {
     const std::string& name = data.meshes[m].description.name;
-    append_summary(data.study,
+    append_summary(data.study, data.solves,
                    {.mesh = name,
                     .method = "initial",
                     .quality = data.meshes[m].quality,
@@ -293,7 +333,7 @@ std::vector<SummaryRow> summary_rows(const StudyData<dim, spacedim>& data) {
                    data.mesh_tasks[m].initial, "", rows);
     for (std::size_t k = 0; k < data.study.methods.size(); ++k) {
       const auto& trajectory = data.trajectories[m][k];
-      append_summary(data.study,
+      append_summary(data.study, data.solves,
                      {.mesh = name,
                       .method = data.study.methods[k].name,
                       .iterations = trajectory.iterations_text,
@@ -427,6 +467,17 @@ std::vector<MetricRow> metric_rows(const StudyData<dim, spacedim>& data,
   return rows;
 }
 
+namespace {
+
+/// Returns the degree of Poisson's equation, or "LABEL" or "LABEL 2" for another solver.
+std::string solve_name(const StudySolve& solve) {
+  const std::string degree = std::to_string(solve.degree);
+  if (solve.solver == nullptr) return degree;
+  return solve.solver->label + (solve.degree > 0 ? " " + degree : "");
+}
+
+}  // namespace
+
 template <int dim, int spacedim>
 std::vector<ResultSessions> sessions_of(const StudyData<dim, spacedim>& data) {
   std::vector<ResultSessions> all;
@@ -441,7 +492,7 @@ std::vector<ResultSessions> sessions_of(const StudyData<dim, spacedim>& data) {
     }
   for (const auto& job : data.jobs)
     if (job.n_tasks > 0 && !job.is_refined && job.solution == 0)
-      all[places.at({job.mesh, job.method})].solved[data.study.degrees[job.degree]] =
+      all[places.at({job.mesh, job.method})].solved[solve_name(data.solves[job.solve])] =
           job.solved.session;
   return all;
 }

@@ -21,32 +21,31 @@ namespace smoothfem {
 /// The status of meshes with invalid cells, which are not solved.
 inline constexpr const char* invalid_mesh = "invalid mesh";
 
-/// The finite element records of one mesh, method (or the initial mesh) and degree. They are kept
-/// together.
+/// The records of one mesh, method (or the initial mesh) and solve. They are kept together.
 struct SolveJob {
-  SolveJob(std::string name_, std::string trajectory_, std::size_t mesh_, std::size_t degree_,
+  SolveJob(std::string name_, std::string trajectory_, std::size_t mesh_, std::size_t solve_,
            std::size_t method_, bool is_refined_, std::size_t solution_)
       : name(std::move(name_)),
         trajectory(std::move(trajectory_)),
         mesh(mesh_),
-        degree(degree_),
+        solve(solve_),
         method(method_),
         is_refined(is_refined_),
         solution(solution_) {}
 
-  std::string name;          ///< of its kept results
-  std::string trajectory;    ///< name of the kept trajectory; empty: the initial mesh
-  std::size_t mesh, degree;  ///< indices into the study's meshes and degrees
-  std::size_t method;        ///< index into the study's methods plus one; 0: the initial mesh
-  bool is_refined;           ///< of the mesh with split cells
-  std::size_t solution;      ///< index into the study's solutions; 0: that of the records
+  std::string name;         ///< of its kept results
+  std::string trajectory;   ///< name of the kept trajectory; empty: the initial mesh
+  std::size_t mesh, solve;  ///< indices into the study's meshes and solves
+  std::size_t method;       ///< index into the study's methods plus one; 0: the initial mesh
+  bool is_refined;          ///< of the mesh with split cells
+  std::size_t solution;     ///< index into the study's solutions; 0: that of the records
   std::size_t n_tasks = 0;
   SolvedRecords solved{};
   std::chrono::steady_clock::time_point saved{};
   std::mutex mutex{};  ///< for `solved` and `saved`
 };
 
-/// A finite element record to be made.
+/// A record to be made: the numbers of a solver.
 struct SolveTask {
   SolveTask(SolveJob& job_, std::size_t record_, bool is_result_)
       : job(job_), record(record_), is_result(is_result_) {}
@@ -59,12 +58,11 @@ struct SolveTask {
   std::atomic<bool> done{false};  ///< set last; if true, other threads may read the other fields
 };
 
-/// The finite element tasks of one mesh: those of the initial mesh, which all methods share, and
-/// those of each method's snapshots. Each list has one task per degree, or none if the mesh is
-/// invalid.
+/// The tasks of one mesh: those of the initial mesh, which all methods share, and those of each
+/// method's snapshots. Each list has one task per solve, or none if the mesh is invalid.
 struct MeshTasks {
   std::vector<SolveTask*> initial;
-  /// By [method][snapshot][degree]; null where a degree is not recorded.
+  /// By [method][snapshot][solve]; null where a degree is not recorded.
   std::vector<std::vector<std::vector<SolveTask*>>> methods;
   /// Tasks by [method plus one; 0: initial][refined degree]. Empty for methods that improved
   /// nothing.
@@ -78,6 +76,7 @@ struct MeshTasks {
 template <int dim, int spacedim = dim>
 struct StudyData {
   const Study& study;
+  std::vector<StudySolve> solves;
   KeptResults kept;
   std::string session{};  ///< its start (UTC)
   std::vector<PreparedMesh<dim, spacedim>> meshes{};

@@ -82,6 +82,7 @@ class Plan {
         if (!value.empty()) std::printf(", %s = %s", key.c_str(), value.c_str());
       std::printf("\n");
     }
+    print_solvers();
     print_kept();
     std::printf("\nSmoothing: %zu of %zu runs are to do%s, each %d time%s for its median time.\n",
                 n_open_, study_.meshes.size() * study_.methods.size(),
@@ -103,6 +104,20 @@ class Plan {
 
  private:
   double n_workers() const { return n_solve_workers(study_, options_); }
+
+  /// Other solvers' times are not known before they run.
+  void print_solvers() const {
+    if (study_.solvers.empty()) return;
+    std::printf("\nSolvers\n");
+    if (!study_.degrees.empty()) std::printf("  %-24s Poisson's equation\n", "poisson");
+    for (const auto& solver : study_.solvers) {
+      std::printf("  %-24s %s", solver.label.c_str(), solver.type.c_str());
+      for (const int degree : solver.degrees) std::printf(", degree %d", degree);
+      for (const auto& [key, value] : solver.settings)
+        if (!value.empty()) std::printf(", %s = %s", key.c_str(), value.c_str());
+      std::printf("; not in the estimate of the time\n");
+    }
+  }
 
   /// Reports the methods whose results are kept, for each mesh.
   void print_kept() const {
@@ -193,7 +208,7 @@ class Plan {
     }
     std::printf("%s\n", is_distorted(study_.meshes[m]) ? ", then distorted" : "");
     totals_.max_bytes = std::max(totals_.max_bytes, bytes);
-    const double kept = study_.degrees.empty() && !study_.write_series ? 1.0 : records_per_method();
+    const double kept = keeps_all_records(study_) ? records_per_method() : 1.0;
     const double bytes_per_record = 8.0 * (spacedim + static_cast<double>(study_.degrees.size()));
     totals_.disk_bytes += n_methods * n_nodes * (kept * bytes_per_record + 200.0);
   }

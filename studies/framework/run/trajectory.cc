@@ -137,7 +137,7 @@ Trajectory record_trajectory(const Mesh<dim, spacedim>& mesh, const StudyMethod&
   std::vector<RecordTimes> times;
   RecordTimes totals;
   Schedule schedule(study.record_every);
-  const bool keeps_all = !study.degrees.empty() || study.write_series || !study.metrics.empty();
+  const bool keeps_all = keeps_all_records(study);
   std::vector<Point<spacedim>> last;
   const auto record_all = [&](const IterationRecord& record, const Mesh<dim, spacedim>& now) {
     watch(record);

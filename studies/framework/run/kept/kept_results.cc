@@ -38,24 +38,24 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Trajectory, records, snapshots, result_record
                                    smoothing_seconds, preparation_seconds, wall_seconds, quality,
                                    cells_below, warpage, warpage_of_records, peak_memory_gib,
                                    failure, session, content)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolverNumber, name, value)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolutionRecord, degree, n_dofs, n_free, assembly_seconds,
                                    condition_number, lambda_min, lambda_max, condition_method,
                                    condition_residual, jacobi_condition_number, cg_iterations,
                                    jacobi_cg_iterations, amg_cg_iterations, cg_seconds,
                                    jacobi_cg_seconds, amg_setup_seconds, amg_cg_seconds,
                                    cg_converged, e_max, e_mean, e_l2, e_h1, l2_error, h1_error,
-                                   l2_best, h1_best, most_points, status)
+                                   l2_best, h1_best, most_points, status, numbers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolvedRecords, records, seconds, eigenvectors, session)
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 /// Saves as CBOR, which is short and keeps every bit of a double.
 template <class T>
 void save_as_cbor(const fs::path& folder, const std::string& name, const T& value) {
-  const auto bytes = Json::to_cbor(Json(value));
+  const auto bytes = nlohmann::json::to_cbor(nlohmann::json(value));
   write_sealed(folder, name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -64,8 +64,8 @@ std::optional<T> load_cbor(const fs::path& folder, const std::string& name) {
   const auto content = read_sealed(folder, name);
   if (!content) return std::nullopt;
   try {
-    return Json::from_cbor(*content).get<T>();
-  } catch (const Json::exception&) {  // of another version of the program
+    return nlohmann::json::from_cbor(*content).get<T>();
+  } catch (const nlohmann::json::exception&) {  // of another version of the program
     refuse_damaged(folder / name);
   }
 }

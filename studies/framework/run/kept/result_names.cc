@@ -145,6 +145,17 @@ void add_method(const StudyMethod& method, Ingredients& made_of) {
   made_of.add("target", method.target ? static_cast<int>(*method.target) : -1);
 }
 
+/// Adds a solver with its parameters, and the files of its code.
+void add_solver(const StudySolver& solver, Ingredients& made_of) {
+  const auto in_file = method_in_file(solver.type);
+  made_of.add("solver", in_file ? in_file->scheme + ":" + in_file->object : solver.type);
+  for (const auto& [name, value] : solver.settings) made_of.add(name, value);
+  for (const auto& [parameter, name, value] : solver.keyed)
+    made_of.add(parameter + " " + name, value);
+  for (const auto& file : solver.files) made_of.add("file " + file.name, file.sha256);
+  made_of.add("version", solver.version);
+}
+
 /// Adds the problem that a method moves nodes by.
 void add_problem(const StudyMethod& method, const Study& study, Ingredients& made_of) {
   if (study.degrees.empty() || !method.needs_problem(study.dimensions)) return;
@@ -205,7 +216,7 @@ std::string trajectory_name(const std::string& mesh_content, const StudyMethod& 
     made_of.add("every of " + stage, interval);
   made_of.add("growth", study.record_every.growth);
   made_of.add("only results", only_results);
-  made_of.add("keeps all", !study.degrees.empty() || study.write_series || !study.metrics.empty());
+  made_of.add("keeps all", keeps_all_records(study));
   made_of.add("warpage", study.record_warpage);
   for (const double threshold : study.count_below) made_of.add("below", threshold);
   return made_of.name("smoothed");
@@ -235,6 +246,11 @@ std::string solved_name(const SolvedFrom& from, const StudySolution& solution, c
   made_of.add("degree", from.degree);
   made_of.add("refined", from.is_refined);
   made_of.add("further", from.is_further);
+  if (from.solver != nullptr) {
+    add_solver(*from.solver, made_of);
+    if (from.solver->traits.needs_solution) add_solution(solution, made_of);
+    return made_of.name("solved");
+  }
   made_of.add("series", study.write_series);
   add_options(study.finite_elements, made_of);
   add_solution(solution, made_of);
@@ -263,6 +279,11 @@ std::string rows_digest(const Study& study, unsigned int smoothing_threads) {
     for (const int degree : study.degrees)
       made_of.add("solved", solved_name({.mesh_content = "", .trajectory = "", .degree = degree},
                                         *solution, study));
+  }
+  for (const auto& solver : study.solvers) {
+    made_of.add("label", solver.label);
+    for (const int degree : solver.degrees) made_of.add("degree", degree);
+    add_solver(solver, made_of);
   }
   for (const int degree : study.refined_degrees) made_of.add("refined", degree);
   for (const Metric* metric : study.metrics) made_of.add("metric", metric->name);

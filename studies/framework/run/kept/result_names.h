@@ -44,8 +44,9 @@ struct SolvedFrom {
   bool is_refined = false;
   bool is_further = false;  ///< of a further solution: results only
   const NodeTies* ties = nullptr;
+  const StudySolver* solver = nullptr;  ///< null: Poisson's equation
 };
-/// Returns the name of finite element records.
+/// Returns the name of the records of a solver.
 std::string solved_name(const SolvedFrom& from, const StudySolution& solution, const Study& study);
 
 /// Returns a digest of everything else that determines the rows of a study: all but its meshes.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/hp/fe_collection.h>
+#include <deal.II/hp/mapping_collection.h>
+#include <deal.II/hp/q_collection.h>
+
+namespace smoothfem {
+
+/// Lagrange elements on a triangulation, which may have several types of cells: for each type an
+/// element, a straight-sided mapping and quadrature rules, in the order of the collections.
+template <int dim>
+struct LagrangeSpace {
+  dealii::hp::FECollection<dim> elements;
+  dealii::hp::MappingCollection<dim> mappings;
+  dealii::hp::QCollection<dim> rules;
+  dealii::hp::QCollection<dim - 1> facet_rules;
+  dealii::DoFHandler<dim> dofs;
+
+  /// Distributes the dofs. degree: 1 or 2 on simplices and on planar meshes of both types (deal.II
+  /// 9.4 has no others), 1 to 4 on quadrilaterals and hexahedra, 1 on pyramids and prisms.
+  /// n_components: of the solution. n_points: Gauss points per direction on cells that are not
+  /// simplices; 0: degree + 4. Throws InputError for cells and degrees that deal.II does not have,
+  /// such as volume meshes of several types.
+  LagrangeSpace(const dealii::Triangulation<dim>& triangulation, unsigned int degree,
+                unsigned int n_components, unsigned int n_points);
+
+  /// Returns the position of each dof, for the present positions of the vertices.
+  std::vector<dealii::Point<dim>> support_points() const;
+
+  /// Calls visit(dof, component, boundary id) for each dof of each boundary facet, so often more
+  /// than once for a dof.
+  template <class Visit>
+  void for_each_boundary_dof(const Visit& visit) const {
+    std::vector<dealii::types::global_dof_index> indices;
+    for (const auto& cell : dofs.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices()) {
+        const auto face = cell->face(f);
+        if (!face->at_boundary()) continue;
+        const auto& element = cell->get_fe();
+        indices.resize(element.n_dofs_per_face(f));
+        face->get_dof_indices(indices, cell->active_fe_index());
+        for (unsigned int i = 0; i < indices.size(); ++i)
+          visit(indices[i], element.face_system_to_component_index(i, f).first,
+                face->boundary_id());
+      }
+  }
+};
+
+}  // namespace smoothfem

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/hp/fe_values.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/numerics/error_estimator.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <cmath>
+
+#include "fem/deal_ii/lagrange_space.h"
+#include "fem/deal_ii/solution_functions.h"
+#include "fem/deal_ii/symmetric_system.h"
+#include "fem/deal_ii/triangulation_solver.h"
+
+namespace smoothfem {
+namespace {
+
+using dealii::VectorTools::NormType;
+
+/// -div(A grad u) = f with u given on the whole boundary, as deal.II's tutorials solve it: step-4
+/// with the formulas of a study.
+template <int dim>
+class PoissonByDealII final : public TriangulationSolver<dim> {
+ public:
+  SolverTraits traits() const override {
+    return {.degrees = {1, 2, 3, 4}, .needs_mpi = true, .needs_solution = true};
+  }
+
+  Parameters parameters() override {
+    return {{"cg_tolerance", "tolerance for |r| / |b|", &cg_tolerance_, 0.0, 1.0, true},
+            {"points", "Gauss points per direction on cells that are not simplices; 0: degree + 4",
+             &points_, 0.0, 20.0}};
+  }
+
+  std::vector<NumberDescription> numbers() const override {
+    auto all = SymmetricSystem::descriptions();
+    all.push_back({"l2_error", "", "Error in the L2 norm, by quadrature."});
+    all.push_back({"h1_error", "", "Error in the H1 norm, by quadrature."});
+    all.push_back({"kelly_estimate", "",
+                   "Square root of the sum of the squares of deal.II's Kelly error indicators, "
+                   "of -laplace(u) = f (meshes with one type of cells)."});
+    return all;
+  }
+
+  void use_solution(const ManufacturedSolution<dim>& solution) override {
+    if (!solution.material_of_kind.empty())
+      throw InputError(
+          "the solver deal.II has no diffusivity of groups of cells; give it as a formula of the "
+          "position");
+    solution_ = solution;
+  }
+
+ protected:
+  void setup(const Mesh<dim>& /*mesh*/, const dealii::Triangulation<dim>& triangulation,
+             unsigned int degree) override {
+    space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, 1,
+                                                  static_cast<unsigned int>(points_));
+    system_.reinit(*space_, boundary_values());
+  }
+
+  SolverResult solve(const dealii::Triangulation<dim>& triangulation) override {
+    const auto constraints = boundary_values();
+    assemble(constraints);
+    SolverResult result{.numbers = system_.solve(constraints, {}, cg_tolerance_)};
+    const auto error = [&](NormType norm) {
+      dealii::Vector<double> of_cells(triangulation.n_active_cells());
+      dealii::VectorTools::integrate_difference(space_->mappings, space_->dofs, system_.solution,
+                                                SolutionFunction<dim>(solution_), of_cells,
+                                                space_->rules, norm);
+      return dealii::VectorTools::compute_global_error(triangulation, of_cells, norm);
+    };
+    result.numbers.push_back({"l2_error", error(NormType::L2_norm)});
+    result.numbers.push_back({"h1_error", error(NormType::H1_norm)});
+    if (space_->elements.size() == 1 && !solution_.diffusivity)
+      result.numbers.push_back({"kelly_estimate", kelly_estimate(triangulation)});
+    return result;
+  }
+
+ private:
+  dealii::AffineConstraints<double> boundary_values() const {
+    dealii::AffineConstraints<double> constraints;
+    const auto points = space_->support_points();
+    space_->for_each_boundary_dof([&](auto dof, unsigned int, auto) {
+      constraints.add_line(dof);
+      constraints.set_inhomogeneity(dof, solution_.value(point_from(points[dof])));
+    });
+    constraints.close();
+    return constraints;
+  }
+
+  void assemble(const dealii::AffineConstraints<double>& constraints) {
+    system_.matrix = 0.0;
+    system_.right_hand_side = 0.0;
+    dealii::hp::FEValues<dim> values_of_types(space_->mappings, space_->elements, space_->rules,
+                                              dealii::update_values | dealii::update_gradients |
+                                                  dealii::update_quadrature_points |
+                                                  dealii::update_JxW_values);
+    dealii::FullMatrix<double> cell_matrix;
+    dealii::Vector<double> cell_load;
+    std::vector<dealii::types::global_dof_index> indices;
+    for (const auto& cell : space_->dofs.active_cell_iterators()) {
+      values_of_types.reinit(cell);
+      const auto& values = values_of_types.get_present_fe_values();
+      const unsigned int n = values.dofs_per_cell;
+      cell_matrix.reinit(n, n);
+      cell_load.reinit(n);
+      for (const unsigned int q : values.quadrature_point_indices()) {
+        const Point<dim> p = point_from(values.quadrature_point(q));
+        const auto a = diffusivity_at(p);
+        const double f = solution_.load(p);
+        for (const unsigned int i : values.dof_indices()) {
+          const auto flux = a * values.shape_grad(i, q);
+          for (const unsigned int j : values.dof_indices())
+            cell_matrix(i, j) += flux * values.shape_grad(j, q) * values.JxW(q);
+          cell_load(i) += values.shape_value(i, q) * f * values.JxW(q);
+        }
+      }
+      indices.resize(n);
+      cell->get_dof_indices(indices);
+      constraints.distribute_local_to_global(cell_matrix, cell_load, indices, system_.matrix,
+                                             system_.right_hand_side);
+    }
+  }
+
+  dealii::Tensor<2, dim> diffusivity_at(const Point<dim>& p) const {
+    dealii::Tensor<2, dim> a;
+    if (!solution_.diffusivity) return dealii::unit_symmetric_tensor<dim>();
+    const auto given = solution_.diffusivity(p);
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) a[i][j] = given(i, j);
+    return a;
+  }
+
+  double kelly_estimate(const dealii::Triangulation<dim>& triangulation) const {
+    dealii::Vector<float> of_cells(triangulation.n_active_cells());
+    dealii::KellyErrorEstimator<dim>::estimate(space_->mappings[0], space_->dofs,
+                                               space_->facet_rules, {}, system_.solution, of_cells);
+    return of_cells.l2_norm();
+  }
+
+  double cg_tolerance_ = 1e-8;
+  int points_ = 0;
+  ManufacturedSolution<dim> solution_;
+  std::unique_ptr<LagrangeSpace<dim>> space_;
+  SymmetricSystem system_;
+};
+
+const RegisteredSolver registered(
+    {.name = "deal.II",
+     .title = "deal.II",
+     .description = "the study's problem -div(A grad u) = f with u on the boundary, by deal.II's "
+                    "DoFHandler, FEValues, AffineConstraints and SolverCG",
+     .source = "deal.II's tutorial program step-4"},
+    solver_in_plane_and_space<PoissonByDealII>());
+
+}  // namespace
+}  // namespace smoothfem

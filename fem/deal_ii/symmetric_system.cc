@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/deal_ii/symmetric_system.h"
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/precondition.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "fem/linear_algebra/condition_number.h"
+
+namespace smoothfem {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Matrices with more rows have an estimate of their condition number from CG.
+constexpr std::size_t most_rows_to_factor = 40000;
+
+/// A run of CG.
+struct Run {
+  double iterations = unknown;  ///< unknown if it has not converged
+  double seconds = unknown;
+  double condition_number = unknown;  ///< estimate, slightly low
+};
+
+template <class Preconditioner>
+Run run_cg(const dealii::SparseMatrix<double>& matrix, dealii::Vector<double>& solution,
+           const dealii::Vector<double>& right_hand_side, const Preconditioner& preconditioner,
+           double tolerance) {
+  constexpr unsigned int iterations_per_row = 10;
+  dealii::SolverControl control(iterations_per_row * matrix.m(),
+                                tolerance * right_hand_side.l2_norm());
+  dealii::SolverCG<dealii::Vector<double>> cg(control);
+  Run run;
+  double estimate = unknown;
+  cg.connect_condition_number_slot([&](double value) { estimate = value; });
+  solution = 0.0;
+  const auto started = std::chrono::steady_clock::now();
+  try {
+    cg.solve(matrix, solution, right_hand_side, preconditioner);
+  } catch (const dealii::SolverControl::NoConvergence&) {
+    return run;
+  }
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  run.iterations = control.last_step();
+  run.condition_number = estimate;
+  return run;
+}
+
+/// Sets multigrid up, for a near null space of the user or, without one, the constants.
+void set_up_multigrid(const dealii::TrilinosWrappers::SparseMatrix& matrix,
+                      const std::vector<dealii::Vector<double>>& near_null_space,
+                      dealii::TrilinosWrappers::PreconditionAMG& multigrid) {
+  const dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data(true, matrix.m() < 1);
+  if (near_null_space.empty()) {
+    multigrid.initialize(matrix, data);
+    return;
+  }
+  Teuchos::ParameterList parameters;
+  std::unique_ptr<Epetra_MultiVector> constants;
+  data.set_parameters(parameters, constants, matrix);
+  Epetra_MultiVector vectors(matrix.trilinos_matrix().DomainMap(),
+                             static_cast<int>(near_null_space.size()));
+  for (std::size_t k = 0; k < near_null_space.size(); ++k)
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      vectors[static_cast<int>(k)][i] = near_null_space[k][i];
+  parameters.set("null space: type", "pre-computed");
+  parameters.set("null space: dimension", vectors.NumVectors());
+  parameters.set("null space: vectors", vectors.Values());
+  multigrid.initialize(matrix.trilinos_matrix(), parameters);
+}
+
+}  // namespace
+
+template <int dim>
+void SymmetricSystem::reinit(const LagrangeSpace<dim>& space,
+                             const dealii::AffineConstraints<double>& constrained) {
+  const auto n = space.dofs.n_dofs();
+  dealii::DynamicSparsityPattern pattern(n);
+  dealii::DoFTools::make_sparsity_pattern(space.dofs, pattern, constrained, false);
+  matrix.clear();
+  pattern_.copy_from(pattern);
+  matrix.reinit(pattern_);
+  right_hand_side.reinit(n);
+  solution.reinit(n);
+}
+
+std::vector<SolverNumber> SymmetricSystem::solve(
+    const dealii::AffineConstraints<double>& constraints,
+    const std::vector<dealii::Vector<double>>& near_null_space, double tolerance) {
+  const Run plain =
+      run_cg(matrix, solution, right_hand_side, dealii::PreconditionIdentity(), tolerance);
+  dealii::PreconditionJacobi<dealii::SparseMatrix<double>> jacobi;
+  jacobi.initialize(matrix);
+  const Run by_jacobi = run_cg(matrix, solution, right_hand_side, jacobi, tolerance);
+  if (!trilinos_) trilinos_ = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
+  trilinos_->reinit(matrix, 0.0);
+  dealii::TrilinosWrappers::PreconditionAMG multigrid;
+  const auto started = std::chrono::steady_clock::now();
+  set_up_multigrid(*trilinos_, near_null_space, multigrid);
+  const double setup =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  const Run by_multigrid = run_cg(matrix, solution, right_hand_side, multigrid, tolerance);
+  const bool is_solved = !std::isnan(by_multigrid.iterations);
+  if (!is_solved && std::isnan(by_jacobi.iterations) && std::isnan(plain.iterations))
+    throw SolverFailure("CG does not converge, with any preconditioner");
+  if (!is_solved) run_cg(matrix, solution, right_hand_side, jacobi, tolerance);
+  constraints.distribute(solution);
+  const bool is_factored = matrix.m() <= most_rows_to_factor;
+  return {
+      {"n_dofs", static_cast<double>(matrix.m())},
+      {"n_free", static_cast<double>(matrix.m() - constraints.n_constraints())},
+      {"condition_number", is_factored ? condition_number(constraints) : plain.condition_number},
+      {"jacobi_condition_number", by_jacobi.condition_number},
+      {"cg_iterations", plain.iterations},
+      {"cg_seconds", plain.seconds},
+      {"jacobi_cg_iterations", by_jacobi.iterations},
+      {"jacobi_cg_seconds", by_jacobi.seconds},
+      {"amg_cg_iterations", by_multigrid.iterations},
+      {"amg_setup_seconds", setup},
+      {"amg_cg_seconds", by_multigrid.seconds}};
+}
+
+double SymmetricSystem::condition_number(
+    const dealii::AffineConstraints<double>& constraints) const {
+  const auto n = static_cast<unsigned int>(matrix.m());
+  std::vector<int> numbers(n, -1);
+  int n_free = 0;
+  for (unsigned int i = 0; i < n; ++i)
+    if (!constraints.is_constrained(i)) numbers[i] = n_free++;
+  if (n_free == 0) return unknown;
+  SparseMatrix free(n_free, n_free);
+  std::vector<Eigen::Triplet<double, int>> entries;
+  for (unsigned int i = 0; i < n; ++i)
+    if (numbers[i] >= 0)
+      for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+        if (const int j = numbers[entry->column()]; j >= 0)
+          entries.emplace_back(numbers[i], j, entry->value());
+  free.setFromTriplets(entries.begin(), entries.end());
+  std::vector<std::size_t> columns(static_cast<std::size_t>(n_free));
+  for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = k;
+  const auto found = columns.size() <= dense_limit
+                         ? dense_condition_number(free, columns, columns.size(), {})
+                         : CholeskyConditionNumber().compute(free);
+  return found.lambda_min > 0.0 ? found.value() : unknown;
+}
+
+std::vector<NumberDescription> SymmetricSystem::descriptions() {
+  return {{"n_dofs", "", "Number of degrees of freedom."},
+          {"n_free", "", "Number of those that are not constrained."},
+          {"condition_number", "",
+           "Condition number in the 2-norm of the matrix of the free dofs; above 40,000 dofs an "
+           "estimate from CG, slightly low."},
+          {"jacobi_condition_number", "",
+           "Estimate of the condition number of the matrix scaled by its diagonal, slightly low."},
+          {"cg_iterations", "", "Iterations of CG without preconditioner."},
+          {"cg_seconds", "s", "Time of CG without preconditioner."},
+          {"jacobi_cg_iterations", "", "Iterations of CG with Jacobi."},
+          {"jacobi_cg_seconds", "s", "Time of CG with Jacobi."},
+          {"amg_cg_iterations", "", "Iterations of CG with algebraic multigrid (Trilinos ML)."},
+          {"amg_setup_seconds", "s", "Time to set multigrid up."},
+          {"amg_cg_seconds", "s", "Time of CG with multigrid."}};
+}
+
+template void SymmetricSystem::reinit(const LagrangeSpace<2>&,
+                                      const dealii::AffineConstraints<double>&);
+template void SymmetricSystem::reinit(const LagrangeSpace<3>&,
+                                      const dealii::AffineConstraints<double>&);
+
+}  // namespace smoothfem

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deal.II/grid/tria.h>
+
+#include <optional>
+
+#include "fem/solvers/mesh_solver.h"
+
+namespace smoothfem {
+
+/// Returns the mesh as a triangulation of deal.II. Its vertices are the nodes, with the same
+/// numbers; its cells are in the mesh's order. The material id of a cell and the boundary id of a
+/// boundary facet are their tags in the mesh; 0 without a tag. Throws InputError for tags that
+/// deal.II does not allow (below 0).
+template <int dim>
+std::unique_ptr<dealii::Triangulation<dim>> triangulation_of(const Mesh<dim>& mesh);
+
+/// Moves the vertices of such a triangulation to the nodes of a mesh with the same topology.
+template <int dim>
+void move_vertices(const Mesh<dim>& mesh, dealii::Triangulation<dim>& triangulation);
+
+/// A solver in deal.II's words: it gets a triangulation, with material and boundary ids, and gives
+/// numbers.
+template <int dim>
+class TriangulationSolver : public MeshSolver<dim> {
+ public:
+  void initialize(const Mesh<dim>& mesh, int degree) final {
+    triangulation_ = triangulation_of(mesh);
+    setup(mesh, *triangulation_, static_cast<unsigned int>(degree));
+  }
+
+  SolverResult solve(const Mesh<dim>& mesh) final {
+    move_vertices(mesh, *triangulation_);
+    return solve(*triangulation_);
+  }
+
+ protected:
+  /// Called once, for the initial mesh: make the DoFHandler and the sparsity pattern here. degree:
+  /// 0 if the solver has no degrees.
+  virtual void setup(const Mesh<dim>& mesh, const dealii::Triangulation<dim>& triangulation,
+                     unsigned int degree) = 0;
+
+  /// Called for each mesh, after its vertices have moved.
+  virtual SolverResult solve(const dealii::Triangulation<dim>& triangulation) = 0;
+
+ private:
+  std::unique_ptr<dealii::Triangulation<dim>> triangulation_;
+};
+
+}  // namespace smoothfem
