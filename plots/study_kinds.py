@@ -24,6 +24,7 @@ from .tables.regularization import make_regularization_tables
 from .tables.screen import screen
 from .tables.seeds import make_seed_tables
 from .tables.smoothing import make_tables
+from .tables.solvers import make_solver_tables
 
 LEAST_WIDTH = 6.0  # of figures whose panels cannot go below each other
 NO_CLAIMS = "No claims.md: the thesis says nothing about this study."
@@ -100,7 +101,7 @@ def smoothing_outputs(folder, request):
         from .report.page import write_report
         return write_report(results, outcomes, against, path, tables)
     tables = (*([chosen_table(results, request.columns)] if request.columns else []), *make_tables(results, printed),
-              *make_seed_tables(results), *make_energy_tables(of_all_degrees))
+              *make_solver_tables(results), *make_seed_tables(results), *make_energy_tables(of_all_degrees))
     shown = screen(results) + (claims_sentence(outcomes, results) if outcomes and not results.is_quick else "")
     return Outputs(results.folder, results.study_title, tables, plan, shown, plan_of_meshes, texts,
                    () if claims else (NO_CLAIMS,), tuple(left_out(results)), write_report=write_page,

@@ -155,7 +155,7 @@ double SymmetricSystem::condition_number(
 
 std::vector<NumberDescription> SymmetricSystem::descriptions() {
   return {{"n_dofs", "", "Number of degrees of freedom."},
-          {"n_free", "", "Number of those that are not constrained."},
+          {"n_free", "", "Number of degrees of freedom without a constraint."},
           {"condition_number", "",
            "Condition number in the 2-norm of the matrix of the free dofs; above 40,000 dofs an "
            "estimate from CG, slightly low."},
