@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/solvers/mesh_solver.h"
 
+#include <atomic>
+
+#include "fem/solvers/python_solvers.h"
 #include "smoothing/base/registry.h"
+#include "smoothing/loop/python_methods.h"
 
 namespace smoothfem {
 
@@ -18,7 +22,21 @@ Registry<SolverEntry>& registry() {
   return solvers;
 }
 
+std::atomic<SolverMakers (*)(const MethodInFile&)> python_maker{nullptr};
+
+/// Returns the makers of a registered solver, or of one in a file.
+SolverMakers makers_of(const std::string& type) {
+  const auto in_file = method_in_file(type);
+  if (!in_file) return registry().find(type).makers;
+  require_python();
+  return python_maker.load()(*in_file);
+}
+
 }  // namespace
+
+void set_python_solvers(SolverMakers (*make)(const MethodInFile&)) {
+  python_maker = make;
+}
 
 RegisteredSolver::RegisteredSolver(SolverInfo info, SolverMakers makers) {
   registry().add({info.name, std::move(info), std::move(makers)});
@@ -32,12 +50,12 @@ std::vector<SolverInfo> solver_catalogue() {
 
 template <int dim>
 std::unique_ptr<MeshSolver<dim>> make_solver(const std::string& type) {
-  const SolverEntry& entry = registry().find(type);
+  const SolverMakers makers = makers_of(type);
   const auto& make = [&]() -> const auto& {
     if constexpr (dim == 2)
-      return entry.makers.planar;
+      return makers.planar;
     else
-      return entry.makers.volume;
+      return makers.volume;
   }
   ();
   if (!make)

@@ -105,8 +105,9 @@ struct RegisteredSolver {
 /// Returns the registered solvers, sorted by name.
 std::vector<SolverInfo> solver_catalogue();
 
-/// Makes a solver with its default parameters. Throws InputError for an unknown type; the message
-/// lists the available types. Throws it also if the solver does not support this dimension.
+/// Makes a solver with its default parameters: a registered one, or "python:FILE:CLASS". Throws
+/// InputError for an unknown type; the message lists the available types. Throws it also if the
+/// solver does not support this dimension.
 template <int dim>
 std::unique_ptr<MeshSolver<dim>> make_solver(const std::string& type);
 

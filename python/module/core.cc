@@ -2,6 +2,7 @@
 #include "python/module/bind.h"
 #include "python/module/interruptible.h"
 #include "python/module/python_smoother.h"
+#include "python/module/python_solver.h"
 #include "smoothing/base/input_error.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/option_text.h"
@@ -32,4 +33,5 @@ PYBIND11_MODULE(_core, module) {
     smoothfem::options_are_arguments() = true;
   }
   smoothfem::set_python_methods(smoothfem::make_python_method);
+  smoothfem::set_python_solvers(smoothfem::make_python_solver);
 }

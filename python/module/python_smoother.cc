@@ -2,23 +2,12 @@
 #include "python/module/python_smoother.h"
 
 #include <pybind11/stl.h>
-#include <unistd.h>
 
-#include <filesystem>
-
-#include "python/module/python_mesh.h"
-#include "smoothing/base/interruption.h"
-#include "smoothing/loop/python_methods.h"
+#include "python/module/call_python.h"
 
 namespace smoothfem {
 
 namespace {
-
-/// A parameter that a class declares.
-struct DeclaredParameter {
-  std::string name, description;
-  std::variant<double, int, std::string> value;
-};
 
 /// Objects of Python that are let go of with the GIL held.
 struct PythonObjects {
@@ -36,48 +25,6 @@ struct PythonObjects {
   }
 };
 
-/// A text of Python's, which may have parts that are not Unicode.
-std::string utf8(const py::handle& text) {
-  return py::cast<std::string>(py::str(text).attr("encode")("utf-8", "replace"));
-}
-
-/// Keeps what a user's code may change in a program that has started the interpreter: the current
-/// folder, and that there is one process.
-class AsBefore {
- public:
-  AsBefore() : folder_(std::filesystem::current_path(ignored_)) {}
-  ~AsBefore() {
-    if (!started_python()) return;
-    if (::getpid() != process_) ::_exit(0);  // a copy by fork, which must not write results, too
-    if (std::filesystem::current_path(ignored_) != folder_)
-      std::filesystem::current_path(folder_, ignored_);
-  }
-  AsBefore(const AsBefore&) = delete;
-
- private:
-  std::error_code ignored_;
-  std::filesystem::path folder_;
-  pid_t process_ = ::getpid();
-};
-
-/// Runs Python. _smoothers.py makes InputErrors of what smoothers do wrong; a program that has
-/// started the interpreter knows no other exceptions of Python's, but in Python they keep what they
-/// know besides, and Ctrl-C is passed on.
-template <class Call>
-decltype(auto) with_python(const Call& call) {
-  const py::gil_scoped_acquire gil;
-  const AsBefore as_before;
-  try {
-    return call();
-  } catch (const py::error_already_set& error) {
-    if (!started_python()) throw;
-    if (interruption()) throw Interrupted{};
-    throw SmootherFailure(error.matches(PyExc_KeyboardInterrupt)
-                              ? "its code in Python has raised KeyboardInterrupt"
-                              : utf8(error.value()));
-  }
-}
-
 py::module_ helpers() {
   return py::module_::import("smoothfem._smoothers");
 }
@@ -88,19 +35,9 @@ template <int dim>
 class PythonSmoother final : public Smoother<dim> {
  public:
   explicit PythonSmoother(py::object definition)
-      : name_(py::cast<std::string>(definition.attr("name"))), python_(definition) {
-    for (const py::handle entry : definition.attr("parameters")) {
-      const auto [name, value, reason] =
-          py::cast<std::tuple<std::string, py::object, std::string>>(entry);
-      DeclaredParameter declared{name, reason, 0.0};
-      if (py::isinstance<py::str>(value))
-        declared.value = py::cast<std::string>(value);
-      else if (py::isinstance<py::int_>(value))
-        declared.value = py::cast<int>(value);
-      else
-        declared.value = py::cast<double>(value);
-      declared_.push_back(std::move(declared));
-    }
+      : name_(py::cast<std::string>(definition.attr("name"))),
+        declared_(definition.attr("parameters")),
+        python_(definition) {
     stopping_.tolerance = py::cast<double>(definition.attr("tolerance"));
     stopping_.patience = py::cast<int>(definition.attr("patience"));
     stopping_.max_iterations = py::cast<int>(definition.attr("max_iterations"));
@@ -120,29 +57,19 @@ class PythonSmoother final : public Smoother<dim> {
   }
 
   Parameters parameters() override {
-    Parameters all;
-    for (auto& declared : declared_)
-      std::visit(
-          [&](auto& value) {
-            all.push_back({declared.name, declared.description, &value});
-          },
-          declared.value);
+    Parameters all = declared_.list();
     for (auto& parameter : stopping_.parameters()) all.push_back(std::move(parameter));
     return all;
   }
 
   void initialize(const SmoothingState<dim>& state) override {
     with_python([&] {
-      py::dict values;
-      for (const auto& declared : declared_)
-        std::visit([&](const auto& value) { values[declared.name.c_str()] = value; },
-                   declared.value);
       python_.arrays = std::make_shared<TopologyArrays>(state.mesh.shared_topology());
       // Lent without the right to write.
       auto& mesh = const_cast<Mesh<dim>&>(state.mesh);
       const auto lent = std::make_shared<PythonMesh>(&mesh, python_.arrays, false);
       const GivenBack given_back(*lent);
-      python_.run = helpers().attr("Run")(python_.definition, values, lent);
+      python_.run = helpers().attr("Run")(python_.definition, declared_.values(), lent);
     });
   }
 
@@ -160,23 +87,8 @@ class PythonSmoother final : public Smoother<dim> {
   }
 
  private:
-  /// Gives a lent mesh back, whatever happens.
-  class GivenBack {
-   public:
-    explicit GivenBack(PythonMesh& lent) : lent_(&lent) {}
-    ~GivenBack() { (void)now(); }
-    GivenBack(const GivenBack&) = delete;
-    bool now() {
-      PythonMesh* const lent = std::exchange(lent_, nullptr);
-      return lent != nullptr && lent->give_back();
-    }
-
-   private:
-    PythonMesh* lent_;
-  };
-
   std::string name_;
-  std::vector<DeclaredParameter> declared_;
+  DeclaredParameters declared_;
   QualityGainStopping stopping_;
   PythonObjects python_;
 };

@@ -48,11 +48,7 @@ void start_python() {
 }
 
 MethodEntry make_python_method(const MethodInFile& method) {
-  static std::mutex mutex;
-  {
-    const std::lock_guard lock(mutex);
-    if (maker == nullptr) start_python();
-  }
+  require_python();
   return maker.load()(method);
 }
 
@@ -62,6 +58,12 @@ const RegisteredScheme registered({.name = "python", .make = make_python_method}
 
 void set_python_methods(MethodEntry (*make)(const MethodInFile&)) {
   maker = make;
+}
+
+void require_python() {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  if (maker == nullptr) start_python();
 }
 
 bool started_python() {

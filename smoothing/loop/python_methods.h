@@ -11,6 +11,10 @@ namespace smoothfem {
 /// name starts one, by libsmoothfem_python_host.so.
 void set_python_methods(MethodEntry (*make)(const MethodInFile& method));
 
+/// Starts the interpreter and loads the Python module, unless that has been done. Throws InputError
+/// if there is none.
+void require_python();
+
 /// True if this program has started the interpreter, false if Python has loaded this library.
 bool started_python();
 

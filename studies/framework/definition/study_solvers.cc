@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "smoothing/base/find_named.h"
+#include "smoothing/loop/method_scheme.h"
 #include "studies/framework/definition/study_keys.h"
 
 namespace smoothfem {
@@ -47,12 +48,28 @@ std::vector<std::string> types_of(const StudyText& text, const std::vector<std::
   return found;
 }
 
+/// True if the solver's code is in a file that is not to be run.
+bool is_not_run(const std::string& type) {
+  return OnlyLook::is_on() && method_in_file(type).has_value();
+}
+
+/// Declares the subsection of a solver whose parameters are not known: with any keys that it has.
+void declare_stand_in(ParameterHandler& p, const StudyText& text, const std::string& label) {
+  const Subsection subsection(p, section_of(label));
+  for (const auto& [section, key] : keys_of_sections(text))
+    if (section == section_of(label)) p.declare_entry(key, "", Patterns::Anything());
+}
+
 template <int dim>
 void declare_solver(ParameterHandler& p, const StudyText& text, const std::string& label,
                     const std::string& type) {
-  const auto solver = make_solver<dim>(type);
+  if (is_not_run(type)) return declare_stand_in(p, text, label);
+  const auto solver = make_solver<dim>(method_name_in(text.file().parent_path(), type));
   const Subsection subsection(p, section_of(label));
-  p.declare_entry("type", type, Patterns::Anything(), "Registered solver (see 'list').");
+  p.declare_entry(
+      "type", type, Patterns::Anything(),
+      "Registered solver (see 'list'), or 'python:FILE:CLASS', the file relative to this "
+      "one.");
   p.declare_entry("title", label, Patterns::Anything(), "Title in tables and figures.");
   p.declare_entry("degrees", "", Patterns::Anything(),
                   "Degrees of its finite elements; empty: those of the study.");
@@ -96,11 +113,13 @@ template <int dim>
 StudySolver read_solver(ParameterHandler& p, const StudyText& text, const std::string& label,
                         const std::vector<int>& degrees) {
   const Subsection subsection(p, section_of(label));
+  if (is_not_run(p.get("type")))
+    return {.label = label, .type = p.get("type"), .title = label};
   StudySolver solver{.label = label,
                      .type = p.get("type"),
                      .title = p.get("title"),
                      .folder = std::filesystem::absolute(text.file()).parent_path()};
-  auto defaults = make_solver<dim>(solver.type);
+  auto defaults = make_solver<dim>(method_name_in(solver.folder, solver.type));
   for (const auto& parameter : defaults->parameters())
     if (p.get(parameter.name) != value_text(parameter))
       solver.settings.emplace_back(parameter.name, p.get(parameter.name));
@@ -124,7 +143,7 @@ std::vector<std::string> others_of(std::vector<std::string> labels) {
 
 template <int dim>
 std::unique_ptr<MeshSolver<dim>> StudySolver::make() const {
-  auto solver = make_solver<dim>(type);
+  auto solver = make_solver<dim>(method_name_in(folder, type));
   const std::string owner = "the solver " + label;
   const auto parameters = solver->parameters();
   for (const auto& [name, value] : settings)

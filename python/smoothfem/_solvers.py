@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solvers written in Python: finds them in files, and runs them on the meshes of a study. A mistake of a solver raises an
+InputError of one sentence."""
+
+import math
+import re
+
+from ._core import InputError
+from ._files import class_in, files_of, unicode, with_context
+from ._parameters import parameters_of
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+class SolverDefinition:
+    """The attributes of a class with solve(self, mesh). Raises InputError if it is none."""
+
+    def __init__(self, path, name, once):
+        self.given, self.path = class_in(path, name, once, "solve"), path
+        self.name = unicode(name)
+        if not callable(getattr(self.given, "solve", None)):
+            raise InputError(f"the class {self.name} is not a solver: it has no solve(self, mesh)")
+        self.title = unicode(getattr(self.given, "title", self.name))
+        self.parameters = parameters_of(self.given, self.name)
+        self.numbers = [self._number(*entry) for entry in dict(getattr(self.given, "numbers", {})).items()]
+
+    @property
+    def files(self):
+        """The solver's file and those of the modules that it imports from the same folder: its code."""
+        return files_of(self.path)
+
+    def _number(self, name, declared):
+        """Returns (name, unit, meaning)."""
+        if not NAME.fullmatch(str(name)) or not (isinstance(declared, tuple) and len(declared) == 2):
+            raise InputError(f"{self.name}: numbers has the entry {name!r}: {declared!r}; write 'name': ('unit', 'meaning.'), the name of letters, "
+                             "digits and _")
+        return name, unicode(declared[0]), unicode(declared[1])
+
+
+class SolverRun:
+    """Runs a solver on the meshes of one topology."""
+
+    def __init__(self, definition, values, degree, mesh):
+        """values: the values of its parameters, by name. degree: 0 if the solver has none. mesh: a lent mesh."""
+        self.definition = definition
+        self.solver = self._with_context("cannot be created", lambda: self._made(values, degree))
+        if hasattr(self.solver, "initialize"):
+            self._with_context("initialize failed", lambda: self.solver.initialize(mesh))
+
+    def _made(self, values, degree):
+        solver = self.definition.given.__new__(self.definition.given)
+        for name, value in values.items():
+            setattr(solver, name, value)
+        solver.degree = degree
+        solver.__init__()
+        return solver
+
+    def _with_context(self, what, call):
+        return with_context(self.definition.path, f"{self.definition.name}: {what}", call)
+
+    def solve(self, mesh):
+        """Returns [(name, number)]. Raises InputError unless the solver gives finite numbers by their names."""
+        found = self._with_context("solve failed", lambda: self.solver.solve(mesh))
+        if not isinstance(found, dict) or not found:
+            raise InputError(f"{self.definition.name}: solve returned {type(found).__name__}, but has to return a dict such as {{'u_max': 1.5}}")
+        return [self._number(*entry) for entry in found.items()]
+
+    def _number(self, name, value):
+        if not NAME.fullmatch(str(name)):
+            raise InputError(f"{self.definition.name}: solve gives a number the name {name!r}; names have letters, digits and _, a letter first")
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            raise InputError(f"{self.definition.name}: solve gives {name} a value that is not a number") from None
+        if not math.isfinite(number):
+            raise InputError(f"{self.definition.name}: solve gives {name} the value {number}, which is not finite")
+        return str(name), number

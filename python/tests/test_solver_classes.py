@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solvers written in Python in studies: the example against the program's own elasticity, and refused solvers."""
+
+import csv
+import json
+
+from .built import EXAMPLES, PROGRAM, run
+from .smoother_files import InAFolder
+
+STUDY = """set meshes  = mesh
+set methods = laplace
+set solvers = own, mine
+set record every = 3
+set timing runs = 1
+subsection mesh mesh
+  set domain     = {domain}
+  set elements   = {elements}
+  set edge scale = 4
+  set distort to = 0.7
+end
+subsection solver own
+  set type         = elasticity
+  set degrees      = 1
+  set u            = {u}
+  set nu           = {nu}
+  set cg_tolerance = 1e-13
+end
+subsection solver mine
+  set type = python:{file}:{name}
+  {more}
+end
+"""
+U = {2: "0.1*(x^2 - y^2) ; -0.2*x*y", 3: "0.1*(x^2 - y^2) ; -0.2*x*y ; 0"}
+MISTAKES = """class Nothing:
+    def step(self, mesh):
+        pass
+class Raises:
+    def solve(self, mesh):
+        return {"a": 1 / 0}
+class List:
+    def solve(self, mesh):
+        return [1.0]
+class Word:
+    def solve(self, mesh):
+        return {"a": "high"}
+class Infinite:
+    def solve(self, mesh):
+        return {"a": float("inf")}
+class Name:
+    def solve(self, mesh):
+        return {"a b": 1.0}
+class Writes:
+    def solve(self, mesh):
+        mesh.points[0] = 7
+        return {"a": 1.0}
+class Numbers:
+    numbers = {"a": "metres"}
+    def solve(self, mesh):
+        return {"a": 1.0}
+"""
+REFUSED = {"Nothing": "is not a solver: it has no solve", "Numbers": "numbers has the entry 'a'", "Missing": "has no class 'Missing'"}
+FAILED = {"Raises": "Raises: solve failed: ", "List": "solve returned list", "Word": "gives a a value that is not a number",
+          "Infinite": "the value inf", "Name": "the name 'a b'", "Writes": "read-only"}
+
+
+class SolverClasses(InAFolder):
+    def study(self, **values):
+        """Runs the study; returns (exit code, standard error, rows of iterations.csv)."""
+        values = {"domain": "square", "elements": "triangles", "u": U[2], "nu": 0.3, "more": "", **values}
+        (self.folder / "my.prm").write_text(STUDY.format(**values), encoding="utf-8")
+        outcome = run(PROGRAM, "study", "my.prm", "--no-figures", "--quiet", "--force", "--out", "out", folder=self.folder, check=False)
+        if outcome.returncode:
+            return outcome.returncode, outcome.stderr, []
+        with open(self.folder / "out" / "iterations.csv", newline="", encoding="utf-8") as stream:
+            return 0, outcome.stderr, list(csv.DictReader(stream))
+
+    def test_the_example_has_the_numbers_of_the_programs_own_solver(self):
+        for domain, elements, dim, nu in (("square", "triangles", 2, 0.3), ("square", "triangles", 2, 0.499), ("cube", "tetrahedra", 3, 0.3)):
+            with self.subTest(elements, nu=nu):
+                code, message, rows = self.study(domain=domain, elements=elements, u=U[dim], nu=nu, file=EXAMPLES / "elasticity_p1.py",
+                                                 name="ElasticityP1", more=f"set nu = {nu}")
+                self.assertEqual(code, 0, message)
+                self.assertGreater(len(rows), 2)
+                for row in rows:
+                    self.assertEqual(row["status"], "ok")
+                    for number in ("energy", "u_max"):
+                        self.assertAlmostEqual(float(row[f"mine.{number}"]) / float(row[f"own.{number}"]), 1.0, delta=1e-8)
+                    self.assertAlmostEqual(float(row["mine.condition_number"]) / float(row["own.condition_number"]), 1.0, delta=1e-6)
+        solver = json.loads((self.folder / "out" / "provenance.json").read_text(encoding="utf-8"))["solvers"][1]
+        self.assertEqual(solver["type"], "python:elasticity_p1.py:ElasticityP1")
+        self.assertEqual(solver["files"][0]["name"], "elasticity_p1.py")
+
+    def test_classes_that_are_no_solvers_are_refused(self):
+        (self.folder / "wrong.py").write_text(MISTAKES, encoding="utf-8")
+        for name, why in REFUSED.items():
+            with self.subTest(name):
+                code, message, _ = self.study(file="wrong.py", name=name)
+                self.assertEqual((code, message.count("\n")), (2, 1), message)
+                self.assertIn(why, message)
+
+    def test_mistakes_are_rows_with_the_reason(self):
+        (self.folder / "wrong.py").write_text(MISTAKES, encoding="utf-8")
+        for name, why in FAILED.items():
+            with self.subTest(name):
+                code, message, rows = self.study(file="wrong.py", name=name)
+                self.assertEqual(code, 0, message)
+                self.assertTrue(rows[0]["status"].startswith("mine: failed: "), rows[0]["status"])
+                self.assertIn(why, rows[0]["status"])
+                self.assertNotEqual(rows[0]["own.energy"], "")
