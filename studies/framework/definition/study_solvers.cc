@@ -113,8 +113,7 @@ template <int dim>
 StudySolver read_solver(ParameterHandler& p, const StudyText& text, const std::string& label,
                         const std::vector<int>& degrees) {
   const Subsection subsection(p, section_of(label));
-  if (is_not_run(p.get("type")))
-    return {.label = label, .type = p.get("type"), .title = label};
+  if (is_not_run(p.get("type"))) return {.label = label, .type = p.get("type"), .title = label};
   StudySolver solver{.label = label,
                      .type = p.get("type"),
                      .title = p.get("title"),
