@@ -15,7 +15,7 @@ class ElasticityP1:
                "condition_number": ("", "Condition number of the matrix of the free dofs, up to 2,000 of them.")}
 
     def initialize(self, mesh):
-        """What depends on the topology alone: the dofs of each cell, and those that are not given."""
+        """Computes the dofs of each cell, and the free dofs: they depend on the topology alone."""
         self.cells, dim = np.asarray(mesh.cells), mesh.points.shape[1]
         self.dofs = (self.cells[:, :, None] * dim + np.arange(dim)).reshape(len(self.cells), -1)
         free = np.ones(len(mesh.points), dtype=bool)
