@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fem/deal_ii/lagrange_space.h"
+#include "fem/linear_algebra/sliced_matrix.h"
 #include "fem/solvers/mesh_solver.h"
 
 namespace smoothfem {
@@ -27,6 +28,9 @@ class SymmetricSystem {
   void reinit(const LagrangeSpace<dim>& space,
               const dealii::AffineConstraints<double>& constrained);
 
+  /// Takes pattern and values of another program's matrix, and its right-hand side.
+  void take(const SparseMatrix& a, const Eigen::VectorXd& b);
+
   /// Solves by CG without preconditioner, with Jacobi and with algebraic multigrid. The last
   /// solution counts. near_null_space: vectors that the matrix without boundary conditions takes to
   /// zero, for multigrid; empty: the constants. Returns the columns of `descriptions`.
@@ -40,6 +44,7 @@ class SymmetricSystem {
   /// Returns the condition number of the matrix without the constrained dofs.
   double condition_number(const dealii::AffineConstraints<double>& constraints) const;
 
+  std::size_t most_rows_to_factor_ = 0;  ///< for the condition number
   dealii::SparsityPattern pattern_;
   /// Made at first use, as it needs MPI.
   std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> trilinos_;

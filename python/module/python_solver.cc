@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+#include "fem/solvers/matrix_numbers.h"
 #include "python/module/call_python.h"
 
 namespace smoothfem {
@@ -27,18 +28,37 @@ struct SolverObjects {
   }
 };
 
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Indices = py::array_t<int, py::array::c_style | py::array::forcecast>;
+
+/// given: (offsets, columns, values, right-hand side) of a matrix in compressed rows.
+std::vector<SolverNumber> numbers_of_matrix(const py::tuple& given) {
+  const auto offsets = py::cast<Indices>(given[0]), columns = py::cast<Indices>(given[1]);
+  const auto values = py::cast<Numbers>(given[2]), b = py::cast<Numbers>(given[3]);
+  const Eigen::Index n = offsets.size() - 1;
+  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor, int>> a(
+      n, n, values.size(), offsets.data(), columns.data(), values.data());
+  return matrix_numbers(a, Eigen::Map<const Eigen::VectorXd>(b.data(), b.size()));
+}
+
 /// A class of Python's as a study takes it.
 template <int dim>
 class PythonSolver final : public MeshSolver<dim> {
  public:
   explicit PythonSolver(const py::object& definition)
       : declared_(definition.attr("parameters")), python_(definition) {
+    traits_.needs_mpi = py::cast<bool>(definition.attr("gives_matrix"));
+    traits_.degrees = py::cast<std::vector<int>>(definition.attr("degrees"));
     for (const py::handle entry : definition.attr("numbers")) {
       auto [name, unit, meaning] =
           py::cast<std::tuple<std::string, std::string, std::string>>(entry);
       numbers_.push_back({std::move(name), std::move(unit), std::move(meaning)});
     }
+    if (!traits_.needs_mpi) return;
+    for (auto& number : descriptions_of_matrix_numbers()) numbers_.push_back(std::move(number));
   }
+
+  SolverTraits traits() const override { return traits_; }
 
   Parameters parameters() override { return declared_.list(); }
   std::vector<NumberDescription> numbers() const override { return numbers_; }
@@ -67,10 +87,14 @@ class PythonSolver final : public MeshSolver<dim> {
       const auto lent = lend(mesh);
       const GivenBack given_back(*lent);
       SolverResult result;
-      for (const py::handle entry : python_.run.attr("solve")(lent)) {
+      const py::tuple found = python_.run.attr("solve")(lent);
+      for (const py::handle entry : found[0]) {
         auto [name, value] = py::cast<std::pair<std::string, double>>(entry);
         result.numbers.push_back({std::move(name), value});
       }
+      if (!found[1].is_none())
+        for (auto& number : numbers_of_matrix(found[1]))
+          result.numbers.push_back(std::move(number));
       return result;
     });
   }
@@ -81,6 +105,7 @@ class PythonSolver final : public MeshSolver<dim> {
     return std::make_shared<PythonMesh>(const_cast<Mesh<dim>*>(&mesh), python_.arrays, false);
   }
 
+  SolverTraits traits_;
   DeclaredParameters declared_;
   std::vector<NumberDescription> numbers_;
   SolverObjects python_;

@@ -12,6 +12,20 @@ from ._parameters import parameters_of
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
+def rows_of(matrix, right_hand_side):
+    """Returns (offsets, columns, values, right-hand side) of a square matrix of scipy or numpy; the right-hand side is that of ones if None."""
+    import numpy as np
+    import scipy.sparse as sp
+    rows = sp.csr_matrix(matrix, dtype=float)
+    if rows.shape[0] != rows.shape[1]:
+        raise ValueError(f"it has {rows.shape[0]} rows and {rows.shape[1]} columns")
+    rows.sum_duplicates()
+    b = rows @ np.ones(rows.shape[0]) if right_hand_side is None else np.asarray(right_hand_side, dtype=float).ravel()
+    if len(b) != rows.shape[0]:
+        raise ValueError(f"it has {rows.shape[0]} rows, but the right-hand side {len(b)} entries")
+    return rows.indptr, rows.indices, rows.data, b
+
+
 class SolverDefinition:
     """The attributes of a class with solve(self, mesh). Raises InputError if it is none."""
 
@@ -22,12 +36,20 @@ class SolverDefinition:
             raise InputError(f"the class {self.name} is not a solver: it has no solve(self, mesh)")
         self.title = unicode(getattr(self.given, "title", self.name))
         self.parameters = parameters_of(self.given, self.name)
+        self.gives_matrix = bool(getattr(self.given, "gives_matrix", False))
+        self.degrees = self._degrees(getattr(self.given, "degrees", ()))
         self.numbers = [self._number(*entry) for entry in dict(getattr(self.given, "numbers", {})).items()]
 
     @property
     def files(self):
         """The solver's file and those of the modules that it imports from the same folder: its code."""
         return files_of(self.path)
+
+    def _degrees(self, given):
+        """Returns the degrees of its finite elements; none without."""
+        if not isinstance(given, (list, tuple)) or any(isinstance(degree, bool) or not isinstance(degree, int) or degree < 1 for degree in given):
+            raise InputError(f"{self.name}: degrees is {given!r}, but has to be a list of whole numbers, such as [1, 2]")
+        return list(given)
 
     def _number(self, name, declared):
         """Returns (name, unit, meaning)."""
@@ -59,11 +81,18 @@ class SolverRun:
         return with_context(self.definition.path, f"{self.definition.name}: {what}", call)
 
     def solve(self, mesh):
-        """Returns [(name, number)]. Raises InputError unless the solver gives finite numbers by their names."""
+        """Returns ([(name, number)], matrix), the matrix as (offsets, columns, values, right-hand side) or None. Raises InputError
+        unless the solver gives finite numbers by their names."""
         found = self._with_context("solve failed", lambda: self.solver.solve(mesh))
         if not isinstance(found, dict) or not found:
             raise InputError(f"{self.definition.name}: solve returned {type(found).__name__}, but has to return a dict such as {{'u_max': 1.5}}")
-        return [self._number(*entry) for entry in found.items()]
+        found = dict(found)
+        matrix, right_hand_side = found.pop("matrix", None), found.pop("right_hand_side", None)
+        if (matrix is not None) != self.definition.gives_matrix:
+            raise InputError(f"{self.definition.name}: solve gives {'a' if matrix is not None else 'no'} matrix, but the class has gives_matrix = "
+                             f"{self.definition.gives_matrix}")
+        numbers = [self._number(*entry) for entry in found.items()]
+        return numbers, None if matrix is None else self._with_context("its matrix cannot be read", lambda: rows_of(matrix, right_hand_side))
 
     def _number(self, name, value):
         if not NAME.fullmatch(str(name)):

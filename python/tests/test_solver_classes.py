@@ -34,6 +34,9 @@ U = {2: "0.1*(x^2 - y^2) ; -0.2*x*y", 3: "0.1*(x^2 - y^2) ; -0.2*x*y ; 0"}
 MISTAKES = """class Nothing:
     def step(self, mesh):
         pass
+class Right:
+    def solve(self, mesh):
+        return {"a": 2.5}
 class Raises:
     def solve(self, mesh):
         return {"a": 1 / 0}
@@ -53,14 +56,34 @@ class Writes:
     def solve(self, mesh):
         mesh.points[0] = 7
         return {"a": 1.0}
+class Untold:
+    def solve(self, mesh):
+        return {"matrix": [[1.0]]}
+class Given:
+    gives_matrix = True
+    def solve(self, mesh):
+        return {"matrix": self.matrix}
+class Missing(Given):
+    def solve(self, mesh):
+        return {"a": 1.0}
+class Skew(Given):
+    matrix = [[1.0, 2.0], [0.0, 1.0]]
+class Negative(Given):
+    matrix = [[-1.0, 0.0], [0.0, 1.0]]
+class Indefinite(Given):
+    matrix = [[1.0, 2.0], [2.0, 1.0]]
+class Oblong(Given):
+    matrix = [[1.0, 2.0]]
 class Numbers:
     numbers = {"a": "metres"}
     def solve(self, mesh):
         return {"a": 1.0}
 """
-REFUSED = {"Nothing": "is not a solver: it has no solve", "Numbers": "numbers has the entry 'a'", "Missing": "has no class 'Missing'"}
+REFUSED = {"Nothing": "is not a solver: it has no solve", "Numbers": "numbers has the entry 'a'", "Absent": "has no class 'Absent'"}
 FAILED = {"Raises": "Raises: solve failed: ", "List": "solve returned list", "Word": "gives a a value that is not a number",
-          "Infinite": "the value inf", "Name": "the name 'a b'", "Writes": "read-only"}
+          "Infinite": "the value inf", "Name": "the name 'a b'", "Writes": "read-only", "Untold": "gives a matrix, but the class has gives_matrix = False",
+          "Missing": "gives no matrix, but the class has gives_matrix = True", "Skew": "is not symmetric", "Negative": "no positive number",
+          "Indefinite": "is not positive definite", "Oblong": "1 rows and 2 columns"}
 
 
 class SolverClasses(InAFolder):
@@ -74,21 +97,36 @@ class SolverClasses(InAFolder):
         with open(self.folder / "out" / "iterations.csv", newline="", encoding="utf-8") as stream:
             return 0, outcome.stderr, list(csv.DictReader(stream))
 
+    def checked_example(self):
+        """Writes the example's class with one more number, the condition number by all singular values."""
+        (self.folder / "checked.py").write_text(
+            "import sys\n"
+            f"sys.path.append({str(EXAMPLES)!r})\n"
+            "import numpy as np\n"
+            "from elasticity_p1 import ElasticityP1\n"
+            "class Checked(ElasticityP1):\n"
+            "    def solve(self, mesh):\n"
+            "        found = super().solve(mesh)\n"
+            "        return {**found, 'dense': np.linalg.cond(found['matrix'].toarray())}\n", encoding="utf-8")
+        return {"file": "checked.py", "name": "Checked"}
+
     def test_the_example_has_the_numbers_of_the_programs_own_solver(self):
         for domain, elements, dim, nu in (("square", "triangles", 2, 0.3), ("square", "triangles", 2, 0.499), ("cube", "tetrahedra", 3, 0.3)):
             with self.subTest(elements, nu=nu):
-                code, message, rows = self.study(domain=domain, elements=elements, u=U[dim], nu=nu, file=EXAMPLES / "elasticity_p1.py",
-                                                 name="ElasticityP1", more=f"set nu = {nu}")
+                code, message, rows = self.study(domain=domain, elements=elements, u=U[dim], nu=nu, more=f"set nu = {nu}",
+                                                 **self.checked_example())
                 self.assertEqual(code, 0, message)
                 self.assertGreater(len(rows), 2)
                 for row in rows:
                     self.assertEqual(row["status"], "ok")
                     for number in ("energy", "u_max"):
                         self.assertAlmostEqual(float(row[f"mine.{number}"]) / float(row[f"own.{number}"]), 1.0, delta=1e-8)
-                    self.assertAlmostEqual(float(row["mine.condition_number"]) / float(row["own.condition_number"]), 1.0, delta=1e-6)
+                    for solver in ("own", "mine"):
+                        self.assertAlmostEqual(float(row[f"{solver}.condition_number"]) / float(row["mine.dense"]), 1.0, delta=1e-6)
+                    self.assertLess(float(row["mine.amg_cg_iterations"]), float(row["mine.cg_iterations"]))
         solver = json.loads((self.folder / "out" / "provenance.json").read_text(encoding="utf-8"))["solvers"][1]
-        self.assertEqual(solver["type"], "python:elasticity_p1.py:ElasticityP1")
-        self.assertEqual(solver["files"][0]["name"], "elasticity_p1.py")
+        self.assertEqual(solver["type"], "python:checked.py:Checked")
+        self.assertEqual(solver["files"][0]["name"], "checked.py")
 
     def test_classes_that_are_no_solvers_are_refused(self):
         (self.folder / "wrong.py").write_text(MISTAKES, encoding="utf-8")
@@ -99,11 +137,17 @@ class SolverClasses(InAFolder):
                 self.assertIn(why, message)
 
     def test_mistakes_are_rows_with_the_reason(self):
+        """All wrong classes are solvers of one study."""
         (self.folder / "wrong.py").write_text(MISTAKES, encoding="utf-8")
+        sections = "".join(f"subsection solver {name}\n set type = python:wrong.py:{name}\nend\n" for name in FAILED)
+        text = STUDY.format(domain="square", elements="triangles", u=U[2], nu=0.3, more="", file="wrong.py", name="Right")
+        (self.folder / "my.prm").write_text(text.replace("own, mine", f"own, mine, {', '.join(FAILED)}") + sections, encoding="utf-8")
+        run(PROGRAM, "study", "my.prm", "--no-figures", "--quiet", "--out", "out", folder=self.folder)
+        with open(self.folder / "out" / "summary.csv", newline="", encoding="utf-8") as stream:
+            row = next(csv.DictReader(stream))
+        self.assertNotEqual(row["own.energy"], "")
+        self.assertEqual(row["mine.a"], "2.5")
+        reasons = dict(part.split(": failed: ", 1) for part in row["status"].split("; ") if ": failed: " in part)
+        self.assertEqual(set(reasons), set(FAILED))
         for name, why in FAILED.items():
-            with self.subTest(name):
-                code, message, rows = self.study(file="wrong.py", name=name)
-                self.assertEqual(code, 0, message)
-                self.assertTrue(rows[0]["status"].startswith("mine: failed: "), rows[0]["status"])
-                self.assertIn(why, rows[0]["status"])
-                self.assertNotEqual(rows[0]["own.energy"], "")
+            self.assertIn(why, reasons[name])

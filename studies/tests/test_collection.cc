@@ -99,6 +99,29 @@ TEST_F(Collections, BrokenMeshesAreRowsWithTheReason) {
   EXPECT_THAT(again.err, ::testing::HasSubstr("nothing to do"));
 }
 
+TEST_F(Collections, SolversThatFailOnAMemberLeaveItsFieldsEmpty) {
+  fs::create_directories(file("meshes"));
+  write_mesh(file("meshes/a.mesh"), shaken_grid(6, 0.2));
+  write_mesh(file("meshes/b.mesh"), shaken_grid(3, 0.2));
+  file_with("all.prm",
+            "set kind = collection\nset collection = meshes/*\nset methods = laplace\n"
+            "set timing runs = 1\nset solvers = small\nsubsection solver small\n"
+            " set command = sh -c 'test $(wc -l < {in}) -lt 60 && echo n 7, m 8' {in}\n"
+            " set format = mesh\n set number n = n ([0-9]+)\n set number m = m ([0-9]+)\nend\n");
+  const Outcome outcome = smoothfem({"study", "all.prm", "--out", "out", "--no-figures"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const CsvTable summary = table("out/summary.csv");
+  const auto failed = summary.select({{"member", "a"}}), solved = summary.select({{"member", "b"}});
+  ASSERT_EQ(failed.size(), 2u);
+  ASSERT_EQ(solved.size(), 2u);
+  EXPECT_EQ(failed[1].at("small.n"), "");
+  EXPECT_THAT(failed[1].at("status"),
+              ::testing::HasSubstr("small: failed: it ended with exit code"));
+  EXPECT_EQ(solved[1].at("small.n"), "7");
+  EXPECT_EQ(solved[1].at("small.m"), "8");
+  EXPECT_EQ(solved[1].at("status"), "ok");
+}
+
 TEST_F(Collections, FilesAreDistortedForEachSeed) {
   fs::create_directories(file("meshes"));
   write_mesh(file("meshes/grid.vtk"), shaken_grid(5, 0.2));

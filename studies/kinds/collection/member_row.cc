@@ -40,43 +40,93 @@ std::string leading_fields(const MemberRow& row) {
   return csv.text().substr(1);  // without the empty header
 }
 
+/// True for the column of a solver that is not Poisson's. A member has none of a solver that failed
+/// on all its meshes.
+bool is_of_solver(const std::string& column) {
+  return column.find('.') != std::string::npos && !column.starts_with("n_below_") &&
+         !column.starts_with("n_star_below_");
+}
+
 /// One table of all members, written one line at a time.
 class CollectedTable {
  public:
   CollectedTable(const fs::path& out, const std::string& name) : out_(out), name_(name) {}
 
   void write(const std::vector<MemberRow>& rows, const fs::path& file) {
-    std::ofstream stream(file, std::ios::binary);
     for (const auto& row : rows)
-      if (row.at("status") == member_complete) append(row, stream);
+      if (row.at("status") == member_complete) add_columns(row);
+    std::ofstream stream(file, std::ios::binary);
+    bool has_header = false;
+    for (const auto& row : rows) {
+      if (row.at("status") != member_complete) continue;
+      if (!has_header) stream << header(leading_columns()) << ',' << header(columns_) << '\n';
+      has_header = true;
+      append(row, stream);
+    }
     stream.flush();
     if (!stream)
       throw InputError("cannot write " + (out_ / name_).string() + "; is the disk full?");
   }
 
  private:
-  void append(const MemberRow& row, std::ostream& stream) {
-    const fs::path path = member_folder(out_, row.at("member")) / name_;
-    std::ifstream table(path, std::ios::binary);
+  fs::path path_of(const MemberRow& row) const {
+    return member_folder(out_, row.at("member")) / name_;
+  }
+
+  std::string header_line(const MemberRow& row) const {
+    std::ifstream table(path_of(row), std::ios::binary);
     std::string line;
     if (!std::getline(table, line))
       throw InputError(
-          path.string() +
+          path_of(row).string() +
           " is missing, although the member is complete; remove its folder to make it again");
-    if (columns_.empty()) {
-      columns_ = line;
-      stream << header(leading_columns()) << ',' << columns_ << '\n';
+    return line;
+  }
+
+  /// Adds columns of solvers that no member before this one has. All others have to be the same.
+  void add_columns(const MemberRow& row) {
+    std::string others;
+    for (const auto& column : csv_fields(header_line(row)))
+      if (!is_of_solver(column))
+        others += "," + column;
+      else if (std::find(columns_.begin(), columns_.end(), column) == columns_.end())
+        for (auto* columns : {&of_solvers_, &columns_}) columns->push_back(column);
+    if (others_.empty()) {
+      others_ = others;
+      columns_ = csv_fields(others.substr(1));
+      columns_.insert(columns_.end(), of_solvers_.begin(), of_solvers_.end());
     }
-    if (columns_ != line)
-      throw InputError(path.string() +
+    if (others_ != others)
+      throw InputError(path_of(row).string() +
                        " has other columns than the tables of the members before it: they come "
                        "from different versions of the program, so run one of them again");
+  }
+
+  void append(const MemberRow& row, std::ostream& stream) const {
+    const auto given = csv_fields(header_line(row));
+    std::ifstream table(path_of(row), std::ios::binary);
+    std::string line;
+    std::getline(table, line);
     const std::string lead = leading_fields(row);
-    while (std::getline(table, line)) stream << lead << ',' << line << '\n';
+    while (std::getline(table, line))
+      stream << lead << ',' << (given == columns_ ? line : in_all_columns(given, line)) << '\n';
+  }
+
+  /// Returns a row with an empty field for each column that its member does not have.
+  std::string in_all_columns(const std::vector<std::string>& given, const std::string& line) const {
+    const auto fields = csv_fields(line);
+    CsvText csv("");
+    for (const auto& column : columns_) {
+      const auto at = std::find(given.begin(), given.end(), column);
+      const auto k = static_cast<std::size_t>(at - given.begin());
+      csv.field(k < fields.size() ? fields[k] : "");
+    }
+    return csv.text().substr(1);  // without the empty header
   }
 
   const fs::path& out_;
-  std::string name_, columns_;
+  std::string name_, others_;
+  std::vector<std::string> columns_, of_solvers_;
 };
 
 }  // namespace
