@@ -519,7 +519,7 @@ class Elasticity final : public TriangulationSolver<dim> {
   SymmetricSystem system_;
 };
 
-const RegisteredSolver registered(
+const RegisteredSolver registered_elasticity(
     {.name = "elasticity",
      .title = "Linear elasticity",
      .description = "linear elasticity of isotropic materials, with a known displacement or under "

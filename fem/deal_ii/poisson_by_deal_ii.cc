@@ -145,7 +145,7 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
   SymmetricSystem system_;
 };
 
-const RegisteredSolver registered(
+const RegisteredSolver registered_poisson(
     {.name = "deal.II",
      .title = "deal.II",
      .description = "the study's problem -div(A grad u) = f with u on the boundary, by deal.II's "
