@@ -5,7 +5,7 @@
 
 #include "fem/solvers/python_solvers.h"
 #include "smoothing/base/registry.h"
-#include "smoothing/loop/python_methods.h"
+#include "smoothing/loop/python_interpreter.h"
 
 namespace smoothfem {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fem/solvers/mesh_solver.h"
-#include "smoothing/loop/method_scheme.h"
+#include "smoothing/loop/method_in_file.h"
 
 namespace smoothfem {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "smoothing/loop/method_scheme.h"
+#include "smoothing/loop/python_interpreter.h"
 
 namespace smoothfem {
 
@@ -10,12 +11,5 @@ namespace smoothfem {
 /// this function when an interpreter loads it. In a program without an interpreter the first such
 /// name starts one, by libsmoothfem_python_host.so.
 void set_python_methods(MethodEntry (*make)(const MethodInFile& method));
-
-/// Starts the interpreter and loads the Python module, unless that has been done. Throws InputError
-/// if there is none.
-void require_python();
-
-/// True if this program has started the interpreter, false if Python has loaded this library.
-bool started_python();
 
 }  // namespace smoothfem

@@ -166,7 +166,7 @@ TEST_F(Results, ListHasParts) {
   EXPECT_EQ(methods.find("max_iterations"), std::string::npos) << "one line each";
   std::string all;
   for (const std::string part :
-       {"presets", "studies", "domains", "solutions", "metrics", "transformations"})
+       {"presets", "studies", "domains", "solutions", "solvers", "metrics", "transformations"})
     all += smoothfem({"list", part}).out + "\n";
   EXPECT_THAT(smoothfem({"list"}).out, HasSubstr(all + smoothfem({"list", "formats"}).out));
 }
