@@ -70,6 +70,15 @@ TEST_F(StudySolvers, FillColumnsOfEveryRow) {
   EXPECT_EQ(provenance.at("solvers").at(1).at("numbers").at(0).at("column"), "beam.n_dofs");
 }
 
+TEST_F(StudySolvers, WithoutDegreesAreSolvedAtAllRecords) {
+  summary_of("set degrees = 1, 2\nset record degrees = 1\nset solvers = poisson, count\n" +
+             counting("1"));
+  const CsvTable iterations(content_of(file("out") / "iterations.csv"));
+  const auto rows = iterations.select({{"method", "laplace"}, {"degree", "1"}});
+  EXPECT_GT(rows.size(), iterations.select({{"method", "laplace"}, {"degree", "2"}}).size());
+  for (const auto& row : rows) EXPECT_EQ(row.at("count.n"), "1");
+}
+
 TEST_F(StudySolvers, NeedNoPoisson) {
   const CsvTable summary = summary_of("set solvers = count\n" + counting("1"));
   const auto rows = summary.select({{"method", "laplace"}});

@@ -191,10 +191,11 @@ inline bool is_of_results_only(const Study& study, const StudyMesh& mesh) {
   return study.only_results_of_seeds && !mesh.repeats.empty();
 }
 
-/// True if finite elements of this degree are solved at all records.
+/// True if finite elements of this degree are solved at all records, as solvers without degrees (0)
+/// are.
 inline bool is_recorded(const Study& study, int degree) {
   const auto& chosen = study.record_degrees;
-  return chosen.empty() || std::find(chosen.begin(), chosen.end(), degree) != chosen.end();
+  return degree == 0 || chosen.empty() || std::find(chosen.begin(), chosen.end(), degree) != chosen.end();
 }
 
 /// Returns the solves of every recorded mesh. Those of Poisson's equation are the first, in the
