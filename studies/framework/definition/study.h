@@ -195,7 +195,8 @@ inline bool is_of_results_only(const Study& study, const StudyMesh& mesh) {
 /// are.
 inline bool is_recorded(const Study& study, int degree) {
   const auto& chosen = study.record_degrees;
-  return degree == 0 || chosen.empty() || std::find(chosen.begin(), chosen.end(), degree) != chosen.end();
+  return degree == 0 || chosen.empty() ||
+         std::find(chosen.begin(), chosen.end(), degree) != chosen.end();
 }
 
 /// Returns the solves of every recorded mesh. Those of Poisson's equation are the first, in the
