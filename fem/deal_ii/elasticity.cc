@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/hp/fe_values.h>
-#include <deal.II/lac/full_matrix.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +12,7 @@
 #include "fem/materials/cell_kinds.h"
 #include "fem/solutions/displacement.h"
 #include "smoothing/base/text.h"
+#include "smoothing/mesh/boundary_tags.h"
 
 namespace smoothfem {
 namespace {
@@ -189,9 +186,7 @@ class Elasticity final : public TriangulationSolver<dim> {
     SolverResult result{
         .numbers = system_.solve(constraints, rigid_body_modes(constraints), cg_tolerance_)};
     add_norms(result);
-    double most = 0.0;
-    for (const auto& p : displacements_at_nodes()) most = std::max(most, p.norm());
-    result.numbers.push_back({"u_max", most});
+    result.numbers.push_back({"u_max", largest_displacement()});
     return result;
   }
 
@@ -246,12 +241,8 @@ class Elasticity final : public TriangulationSolver<dim> {
 
   /// Returns the id of a group of the boundary, given by its tag or name.
   static Id id_of(const Topology& topology, const std::string& group) {
-    const MeshLabels& labels = topology.labels();
-    for (const int tag : labels.facet_tags) {
-      const auto name = labels.names.find({dim - 1, tag});
-      if (group == std::to_string(tag) || (name != labels.names.end() && name->second == group))
-        return static_cast<Id>(tag);
-    }
+    for (const int tag : topology.labels().facet_tags)
+      if (is_group(topology.labels(), dim - 1, tag, group)) return static_cast<Id>(tag);
     throw InputError("elasticity names the group '" + group +
                      "' of the boundary, which the mesh does not have; 'smoothfem quality' lists "
                      "the groups");
@@ -305,35 +296,20 @@ class Elasticity final : public TriangulationSolver<dim> {
   }
 
   void assemble(const dealii::AffineConstraints<double>& constraints) {
-    system_.matrix = 0.0;
-    system_.right_hand_side = 0.0;
-    dealii::hp::FEValues<dim> values_of_types(space_->mappings, space_->elements, space_->rules,
-                                              dealii::update_values | dealii::update_gradients |
-                                                  dealii::update_quadrature_points |
-                                                  dealii::update_JxW_values);
-    dealii::FullMatrix<double> cell_matrix;
-    dealii::Vector<double> cell_load;
-    std::vector<dealii::types::global_dof_index> indices;
-    for (const auto& cell : space_->dofs.active_cell_iterators()) {
-      values_of_types.reinit(cell);
-      const auto& values = values_of_types.get_present_fe_values();
-      const Lame& c = materials_[cell->active_cell_index()];
-      const unsigned int n = values.dofs_per_cell;
-      cell_matrix.reinit(n, n);
-      cell_load.reinit(n);
-      add_stiffness(values, c, cell_matrix);
-      for (const unsigned int q : values.quadrature_point_indices()) {
-        const auto f = load_at(point_from(values.quadrature_point(q)), c);
-        for (const unsigned int i : values.dof_indices())
-          cell_load(i) +=
-              values.shape_value(i, q) * f[component(cell->get_fe(), i)] * values.JxW(q);
-      }
-      add_tractions(cell, c, cell_load);
-      indices.resize(n);
-      cell->get_dof_indices(indices);
-      constraints.distribute_local_to_global(cell_matrix, cell_load, indices, system_.matrix,
-                                             system_.right_hand_side);
-    }
+    system_.assemble(
+        *space_, constraints,
+        [&](const dealii::FEValues<dim>& values, const auto& cell,
+            dealii::FullMatrix<double>& cell_matrix, dealii::Vector<double>& cell_load) {
+          const Lame& c = materials_[cell->active_cell_index()];
+          add_stiffness(values, c, cell_matrix);
+          for (const unsigned int q : values.quadrature_point_indices()) {
+            const auto f = load_at(point_from(values.quadrature_point(q)), c);
+            for (const unsigned int i : values.dof_indices())
+              cell_load(i) +=
+                  values.shape_value(i, q) * f[component(cell->get_fe(), i)] * values.JxW(q);
+          }
+          add_tractions(cell, c, cell_load);
+        });
   }
 
   static int component(const dealii::FiniteElement<dim>& element, unsigned int i) {
@@ -405,22 +381,22 @@ class Elasticity final : public TriangulationSolver<dim> {
     }
   }
 
-  /// Returns the displacement at each support point; each occurs once per component.
-  std::vector<Eigen::Matrix<double, dim, 1>> displacements_at_nodes() const {
-    std::vector<Eigen::Matrix<double, dim, 1>> all;
+  /// Returns the largest displacement of a support point.
+  double largest_displacement() const {
     std::vector<dealii::types::global_dof_index> indices;
+    double most = 0.0;
     for (const auto& cell : space_->dofs.active_cell_iterators()) {
       const auto& element = cell->get_fe();
       indices.resize(element.n_dofs_per_cell());
       cell->get_dof_indices(indices);
-      std::vector<Eigen::Matrix<double, dim, 1>> here(indices.size() / dim);
+      std::vector<double> squares(indices.size() / dim);  // of each support point
       for (unsigned int i = 0; i < indices.size(); ++i) {
-        const auto [c, k] = element.system_to_component_index(i);
-        here[k][static_cast<int>(c)] = system_.solution[indices[i]];
+        const double u = system_.solution[indices[i]];
+        squares[element.system_to_component_index(i).second] += u * u;
       }
-      all.insert(all.end(), here.begin(), here.end());
+      most = std::max(most, *std::max_element(squares.begin(), squares.end()));
     }
-    return all;
+    return std::sqrt(most);
   }
 
   /// Returns translations and rotations, zero at constrained dofs.
@@ -430,40 +406,26 @@ class Elasticity final : public TriangulationSolver<dim> {
     std::vector<dealii::Vector<double>> modes(n_modes,
                                               dealii::Vector<double>(space_->dofs.n_dofs()));
     const auto points = space_->support_points();
-    std::vector<dealii::types::global_dof_index> indices;
-    for (const auto& cell : space_->dofs.active_cell_iterators()) {
-      const auto& element = cell->get_fe();
-      indices.resize(element.n_dofs_per_cell());
-      cell->get_dof_indices(indices);
-      for (unsigned int i = 0; i < indices.size(); ++i) {
-        const auto dof = indices[i];
-        if (constraints.is_constrained(dof)) continue;
-        const auto c = static_cast<unsigned int>(component(element, i));
-        modes[c][dof] = 1.0;
-        unsigned int mode = dim;
-        for (unsigned int a = 0; a < dim; ++a)
-          for (unsigned int b = a + 1; b < dim; ++b, ++mode) {
-            if (c == a) modes[mode][dof] = -points[dof][b];
-            if (c == b) modes[mode][dof] = points[dof][a];
-          }
-      }
-    }
+    space_->for_each_dof([&](auto dof, unsigned int c) {
+      if (constraints.is_constrained(dof)) return;
+      modes[c][dof] = 1.0;
+      unsigned int mode = dim;
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int b = a + 1; b < dim; ++b, ++mode) {
+          if (c == a) modes[mode][dof] = -points[dof][b];
+          if (c == b) modes[mode][dof] = points[dof][a];
+        }
+    });
     return modes;
   }
 
   /// Adds norms of the error and of the displacement.
   void add_norms(SolverResult& result) const {
-    dealii::hp::FEValues<dim> values_of_types(space_->mappings, space_->elements, space_->rules,
-                                              dealii::update_values | dealii::update_gradients |
-                                                  dealii::update_quadrature_points |
-                                                  dealii::update_JxW_values);
     const dealii::FEValuesExtractors::Vector displacement(0);
     std::vector<dealii::Tensor<1, dim>> u_h;
     std::vector<dealii::Tensor<2, dim>> gradients;
     double l2 = 0.0, h1 = 0.0, energy_error = 0.0, energy = 0.0, stress_error = 0.0, stress = 0.0;
-    for (const auto& cell : space_->dofs.active_cell_iterators()) {
-      values_of_types.reinit(cell);
-      const auto& values = values_of_types.get_present_fe_values();
+    space_->for_each_cell([&](const dealii::FEValues<dim>& values, const auto& cell) {
       const Lame& c = materials_[cell->active_cell_index()];
       u_h.resize(values.n_quadrature_points);
       gradients.resize(values.n_quadrature_points);
@@ -488,7 +450,7 @@ class Elasticity final : public TriangulationSolver<dim> {
         stress_error =
             std::max(stress_error, std::abs(von_mises<dim>(exact.gradient, c) - stress_here));
       }
-    }
+    });
     if (u_) {
       result.numbers.push_back({"l2_error", std::sqrt(l2)});
       result.numbers.push_back({"h1_error", std::sqrt(l2 + h1)});

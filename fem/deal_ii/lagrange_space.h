@@ -2,7 +2,9 @@
 #pragma once
 
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/hp/fe_collection.h>
+#include <deal.II/hp/fe_values.h>
 #include <deal.II/hp/mapping_collection.h>
 #include <deal.II/hp/q_collection.h>
 
@@ -25,6 +27,33 @@ struct LagrangeSpace {
   /// such as volume meshes of several types.
   LagrangeSpace(const dealii::Triangulation<dim>& triangulation, unsigned int degree,
                 unsigned int n_components, unsigned int n_points);
+
+  /// Calls visit(values, cell) for each cell, with its FEValues at the points of its rule: values,
+  /// gradients, positions and weights.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    dealii::hp::FEValues<dim> values_of_types(mappings, elements, rules,
+                                              dealii::update_values | dealii::update_gradients |
+                                                  dealii::update_quadrature_points |
+                                                  dealii::update_JxW_values);
+    for (const auto& cell : dofs.active_cell_iterators()) {
+      values_of_types.reinit(cell);
+      visit(values_of_types.get_present_fe_values(), cell);
+    }
+  }
+
+  /// Calls visit(dof, component) for each dof of each cell, so often more than once for a dof.
+  template <class Visit>
+  void for_each_dof(const Visit& visit) const {
+    std::vector<dealii::types::global_dof_index> indices;
+    for (const auto& cell : dofs.active_cell_iterators()) {
+      const auto& element = cell->get_fe();
+      indices.resize(element.n_dofs_per_cell());
+      cell->get_dof_indices(indices);
+      for (unsigned int i = 0; i < indices.size(); ++i)
+        visit(indices[i], element.system_to_component_index(i).first);
+    }
+  }
 
   /// Returns the position of each dof, for the present positions of the vertices.
   std::vector<dealii::Point<dim>> support_points() const;

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/hp/fe_values.h>
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/numerics/error_estimator.h>
 #include <deal.II/numerics/vector_tools.h>
 
@@ -89,37 +86,22 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
   }
 
   void assemble(const dealii::AffineConstraints<double>& constraints) {
-    system_.matrix = 0.0;
-    system_.right_hand_side = 0.0;
-    dealii::hp::FEValues<dim> values_of_types(space_->mappings, space_->elements, space_->rules,
-                                              dealii::update_values | dealii::update_gradients |
-                                                  dealii::update_quadrature_points |
-                                                  dealii::update_JxW_values);
-    dealii::FullMatrix<double> cell_matrix;
-    dealii::Vector<double> cell_load;
-    std::vector<dealii::types::global_dof_index> indices;
-    for (const auto& cell : space_->dofs.active_cell_iterators()) {
-      values_of_types.reinit(cell);
-      const auto& values = values_of_types.get_present_fe_values();
-      const unsigned int n = values.dofs_per_cell;
-      cell_matrix.reinit(n, n);
-      cell_load.reinit(n);
-      for (const unsigned int q : values.quadrature_point_indices()) {
-        const Point<dim> p = point_from(values.quadrature_point(q));
-        const auto a = diffusivity_at(p);
-        const double f = solution_.load(p);
-        for (const unsigned int i : values.dof_indices()) {
-          const auto flux = a * values.shape_grad(i, q);
-          for (const unsigned int j : values.dof_indices())
-            cell_matrix(i, j) += flux * values.shape_grad(j, q) * values.JxW(q);
-          cell_load(i) += values.shape_value(i, q) * f * values.JxW(q);
-        }
-      }
-      indices.resize(n);
-      cell->get_dof_indices(indices);
-      constraints.distribute_local_to_global(cell_matrix, cell_load, indices, system_.matrix,
-                                             system_.right_hand_side);
-    }
+    system_.assemble(
+        *space_, constraints,
+        [&](const dealii::FEValues<dim>& values, const auto& /*cell*/,
+            dealii::FullMatrix<double>& cell_matrix, dealii::Vector<double>& cell_load) {
+          for (const unsigned int q : values.quadrature_point_indices()) {
+            const Point<dim> p = point_from(values.quadrature_point(q));
+            const auto a = diffusivity_at(p);
+            const double f = solution_.load(p);
+            for (const unsigned int i : values.dof_indices()) {
+              const auto flux = a * values.shape_grad(i, q);
+              for (const unsigned int j : values.dof_indices())
+                cell_matrix(i, j) += flux * values.shape_grad(j, q) * values.JxW(q);
+              cell_load(i) += values.shape_value(i, q) * f * values.JxW(q);
+            }
+          }
+        });
   }
 
   dealii::Tensor<2, dim> diffusivity_at(const Point<dim>& p) const {

@@ -9,11 +9,11 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "fem/linear_algebra/condition_number.h"
+#include "smoothing/base/scoped_timer.h"
 
 namespace smoothfem {
 
@@ -44,13 +44,14 @@ Run run_cg(const dealii::SparseMatrix<double>& matrix, dealii::Vector<double>& s
   double estimate = unknown;
   cg.connect_condition_number_slot([&](double value) { estimate = value; });
   solution = 0.0;
-  const auto started = std::chrono::steady_clock::now();
+  double seconds = 0.0;
   try {
+    const ScopedTimer timer(seconds);
     cg.solve(matrix, solution, right_hand_side, preconditioner);
   } catch (const dealii::SolverControl::NoConvergence&) {
     return run;
   }
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  run.seconds = seconds;
   run.iterations = control.last_step();
   run.condition_number = estimate;
   return run;
@@ -129,10 +130,11 @@ std::vector<SolverNumber> SymmetricSystem::solve(
   if (!trilinos_) trilinos_ = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
   trilinos_->reinit(matrix, 0.0);
   dealii::TrilinosWrappers::PreconditionAMG multigrid;
-  const auto started = std::chrono::steady_clock::now();
-  set_up_multigrid(*trilinos_, near_null_space, multigrid);
-  const double setup =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  double setup = 0.0;
+  {
+    const ScopedTimer timer(setup);
+    set_up_multigrid(*trilinos_, near_null_space, multigrid);
+  }
   const Run by_multigrid = run_cg(matrix, solution, right_hand_side, multigrid, tolerance);
   const bool is_solved = !std::isnan(by_multigrid.iterations);
   if (!is_solved && std::isnan(by_jacobi.iterations) && std::isnan(plain.iterations))

@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -27,6 +28,28 @@ class SymmetricSystem {
   template <int dim>
   void reinit(const LagrangeSpace<dim>& space,
               const dealii::AffineConstraints<double>& constrained);
+
+  /// Assembles matrix and right-hand side. integrate(values, cell, cell_matrix, cell_load) adds the
+  /// integrals over a cell to zeros (see LagrangeSpace::for_each_cell).
+  template <int dim, class Integrate>
+  void assemble(const LagrangeSpace<dim>& space,
+                const dealii::AffineConstraints<double>& constraints, const Integrate& integrate) {
+    matrix = 0.0;
+    right_hand_side = 0.0;
+    dealii::FullMatrix<double> cell_matrix;
+    dealii::Vector<double> cell_load;
+    std::vector<dealii::types::global_dof_index> indices;
+    space.for_each_cell([&](const dealii::FEValues<dim>& values, const auto& cell) {
+      const unsigned int n = values.dofs_per_cell;
+      cell_matrix.reinit(n, n);
+      cell_load.reinit(n);
+      integrate(values, cell, cell_matrix, cell_load);
+      indices.resize(n);
+      cell->get_dof_indices(indices);
+      constraints.distribute_local_to_global(cell_matrix, cell_load, indices, matrix,
+                                             right_hand_side);
+    });
+  }
 
   /// Takes pattern and values of another program's matrix, and its right-hand side.
   void take(const SparseMatrix& a, const Eigen::VectorXd& b);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/elements/reference_element.h"
 
-#include <deal.II/base/multithread_info.h>
 #include <deal.II/fe/fe_pyramid_p.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -12,21 +11,12 @@
 
 #include "fem/elements/adaptive_quadrature.h"
 #include "fem/elements/quadrature_rules.h"
+#include "fem/elements/single_threaded.h"
 #include "smoothing/base/input_error.h"
 
 namespace smoothfem {
 
 namespace {
-
-/// Keeps deal.II on this thread. For its tables, which take no time, it would start as many threads
-/// as the machine has, whatever --threads sets. Parallel loops of this program use their own
-/// threads.
-void keep_deal_ii_single_threaded() {
-  [[maybe_unused]] static const bool once = [] {
-    dealii::MultithreadInfo::set_thread_limit(1);
-    return true;
-  }();
-}
 
 /// Pyramids and prisms: degree 1 only.
 template <int dim>

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fem/materials/cell_kinds.h"
+#include "smoothing/mesh/boundary_tags.h"
 #include "smoothing/mesh/fixed_nodes.h"
 
 namespace smoothfem {
@@ -22,9 +23,7 @@ std::vector<Facet> facets_of_group(const Topology& topology, const std::string& 
   const MeshLabels& labels = topology.labels();
   std::set<Facet> labelled;
   for (std::size_t f = 0; f < labels.facets.size(); ++f) {
-    const int tag = labels.facet_tags[f];
-    const auto name = labels.names.find({topology.dimension() - 1, tag});
-    if (group == std::to_string(tag) || (name != labels.names.end() && group == name->second))
+    if (is_group(labels, topology.dimension() - 1, labels.facet_tags[f], group))
       labelled.insert(sorted({labels.facets[f].begin(), labels.facets[f].end()}));
   }
   std::vector<Facet> facets;

@@ -2,7 +2,6 @@
 #pragma once
 
 // Reference implementation for the kernels: deal.II's FEValues with deal.II's numbering.
-#include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -18,35 +17,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "fem/solutions/manufactured_solution.h"
+#include "fem/deal_ii/solution_functions.h"
 
 namespace smoothfem {
-
-template <int dim>
-Point<dim> point_from(const dealii::Point<dim>& p) {
-  Point<dim> result;
-  for (int d = 0; d < dim; ++d) result[d] = p[d];
-  return result;
-}
-
-/// A manufactured solution in the form of deal.II's functions.
-template <int dim>
-class SolutionFunction : public dealii::Function<dim> {
- public:
-  explicit SolutionFunction(const ManufacturedSolution<dim>& solution) : solution_(solution) {}
-  double value(const dealii::Point<dim>& p, unsigned int) const override {
-    return solution_.value(point_from(p));
-  }
-  dealii::Tensor<1, dim> gradient(const dealii::Point<dim>& p, unsigned int) const override {
-    const auto gradient = solution_.value_and_gradient(point_from(p)).gradient;
-    dealii::Tensor<1, dim> result;
-    for (int d = 0; d < dim; ++d) result[d] = gradient[d];
-    return result;
-  }
-
- private:
-  const ManufacturedSolution<dim>& solution_;
-};
 
 /// The rules for matrices and for errors. On simplices the rule for matrices differs from that of
 /// smoothfem: any exact rule will do.

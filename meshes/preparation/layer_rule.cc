@@ -6,6 +6,7 @@
 
 #include "smoothing/base/option_text.h"
 #include "smoothing/base/text.h"
+#include "smoothing/mesh/boundary_tags.h"
 #include "smoothing/quality/layers.h"
 
 namespace smoothfem {
@@ -20,11 +21,8 @@ std::set<int> tags_of_group(const Topology& topology, const std::string& rule) {
   (void)fixed_nodes(topology, {FixedNodesRule::Kind::groups, {name}});  // refuses unknown ones
   std::set<int> tags;
   const MeshLabels& labels = topology.labels();
-  for (const int tag : labels.facet_tags) {
-    const auto found = labels.names.find({topology.dimension() - 1, tag});
-    if (std::to_string(tag) == name || (found != labels.names.end() && found->second == name))
-      tags.insert(tag);
-  }
+  for (const int tag : labels.facet_tags)
+    if (is_group(labels, topology.dimension() - 1, tag, name)) tags.insert(tag);
   return tags;
 }
 

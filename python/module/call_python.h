@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -59,6 +60,22 @@ decltype(auto) with_python(const Call& call) {
                               : utf8(error.value()));
   }
 }
+
+/// Objects of Python that are let go of with the GIL held.
+struct PythonObjects {
+  py::object definition;                     ///< of a user's class, by _smoothers.py or _solvers.py
+  py::object run{};                          ///< of it on one mesh, from initialize on
+  std::shared_ptr<TopologyArrays> arrays{};  ///< of the mesh of that run
+
+  explicit PythonObjects(py::object of) : definition(std::move(of)) {}
+  PythonObjects(const PythonObjects&) = delete;
+  ~PythonObjects() {
+    const py::gil_scoped_acquire gil;
+    arrays.reset();
+    run = {};
+    definition = {};
+  }
+};
 
 /// The parameters that a class declares, with their values.
 class DeclaredParameters {

@@ -9,22 +9,6 @@ namespace smoothfem {
 
 namespace {
 
-/// Objects of Python that are let go of with the GIL held.
-struct PythonObjects {
-  py::object definition;                     ///< Definition of _smoothers.py
-  py::object run{};                          ///< Run of _smoothers.py, from initialize on
-  std::shared_ptr<TopologyArrays> arrays{};  ///< of the mesh of that run
-
-  explicit PythonObjects(py::object of) : definition(std::move(of)) {}
-  PythonObjects(const PythonObjects&) = delete;
-  ~PythonObjects() {
-    const py::gil_scoped_acquire gil;
-    arrays.reset();
-    run = {};
-    definition = {};
-  }
-};
-
 py::module_ helpers() {
   return py::module_::import("smoothfem._smoothers");
 }

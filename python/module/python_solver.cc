@@ -12,22 +12,6 @@ namespace smoothfem {
 
 namespace {
 
-/// Objects of Python that are let go of with the GIL held.
-struct SolverObjects {
-  py::object definition;                     ///< SolverDefinition of _solvers.py
-  py::object run{};                          ///< SolverRun of _solvers.py, from initialize on
-  std::shared_ptr<TopologyArrays> arrays{};  ///< of the meshes of that run
-
-  explicit SolverObjects(py::object of) : definition(std::move(of)) {}
-  SolverObjects(const SolverObjects&) = delete;
-  ~SolverObjects() {
-    const py::gil_scoped_acquire gil;
-    arrays.reset();
-    run = {};
-    definition = {};
-  }
-};
-
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Indices = py::array_t<int, py::array::c_style | py::array::forcecast>;
 
@@ -108,11 +92,11 @@ class PythonSolver final : public MeshSolver<dim> {
   SolverTraits traits_;
   DeclaredParameters declared_;
   std::vector<NumberDescription> numbers_;
-  SolverObjects python_;
+  PythonObjects python_;
 };
 
 template <int dim>
-std::unique_ptr<MeshSolver<dim>> solver_of(const SolverObjects& objects) {
+std::unique_ptr<MeshSolver<dim>> solver_of(const PythonObjects& objects) {
   return with_python([&]() -> std::unique_ptr<MeshSolver<dim>> {
     return std::make_unique<PythonSolver<dim>>(objects.definition);
   });
@@ -122,7 +106,7 @@ std::unique_ptr<MeshSolver<dim>> solver_of(const SolverObjects& objects) {
 
 SolverMakers make_python_solver(const MethodInFile& solver) {
   return with_python([&] {
-    const auto shared = std::make_shared<const SolverObjects>(
+    const auto shared = std::make_shared<const PythonObjects>(
         py::module_::import("smoothfem._solvers")
             .attr("SolverDefinition")(solver.file.string(), solver.object, started_python()));
     return SolverMakers{.planar = [shared] { return solver_of<2>(*shared); },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "smoothing/mesh/topology.h"
@@ -10,5 +11,11 @@ namespace smoothfem {
 /// Returns the tags of the boundary facets in their order, 0 for those without a label; empty if
 /// the mesh has no labelled facets.
 std::vector<int> boundary_tags(const Topology& topology);
+
+/// True if a user's group, given by its tag or name, is that of a tag of elements of a dimension.
+inline bool is_group(const MeshLabels& labels, int dimension, int tag, const std::string& group) {
+  const auto name = labels.names.find({dimension, tag});
+  return group == std::to_string(tag) || (name != labels.names.end() && group == name->second);
+}
 
 }  // namespace smoothfem

@@ -273,9 +273,9 @@ std::vector<SolveQueue::Worker> solve_workers(StudyData<3>& data,
 
 void serve_solves(const Study& study, const Ranks& ranks) {
   std::vector<ManufacturedSolution<3>> solutions;
-  if (study.degrees.empty()) return SolverTeam::serve(ranks, study.finite_elements, solutions);
-  for (const StudySolution* solution : solutions_of(study))
-    solutions.push_back(study_solution<3>(*solution, {}));
+  if (!study.degrees.empty())
+    for (const StudySolution* solution : solutions_of(study))
+      solutions.push_back(study_solution<3>(*solution, {}));
   SolverTeam::serve(ranks, study.finite_elements, solutions);
 }
 

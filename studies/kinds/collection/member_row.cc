@@ -73,20 +73,22 @@ class CollectedTable {
     return member_folder(out_, row.at("member")) / name_;
   }
 
-  std::string header_line(const MemberRow& row) const {
-    std::ifstream table(path_of(row), std::ios::binary);
+  /// Opens a member's table, and reads its columns.
+  std::vector<std::string> open(const MemberRow& row, std::ifstream& table) const {
+    table.open(path_of(row), std::ios::binary);
     std::string line;
     if (!std::getline(table, line))
       throw InputError(
           path_of(row).string() +
           " is missing, although the member is complete; remove its folder to make it again");
-    return line;
+    return csv_fields(line);
   }
 
   /// Adds columns of solvers that no member before this one has. All others have to be the same.
   void add_columns(const MemberRow& row) {
+    std::ifstream table;
     std::string others;
-    for (const auto& column : csv_fields(header_line(row)))
+    for (const auto& column : open(row, table))
       if (!is_of_solver(column))
         others += "," + column;
       else if (std::find(columns_.begin(), columns_.end(), column) == columns_.end())
@@ -103,12 +105,10 @@ class CollectedTable {
   }
 
   void append(const MemberRow& row, std::ostream& stream) const {
-    const auto given = csv_fields(header_line(row));
-    std::ifstream table(path_of(row), std::ios::binary);
-    std::string line;
-    std::getline(table, line);
+    std::ifstream table;
+    const auto given = open(row, table);
     const std::string lead = leading_fields(row);
-    while (std::getline(table, line))
+    for (std::string line; std::getline(table, line);)
       stream << lead << ',' << (given == columns_ ? line : in_all_columns(given, line)) << '\n';
   }
 
