@@ -142,6 +142,18 @@ TEST_F(StudySolvers, FailuresAreRowsWithTheReason) {
   EXPECT_THAT(status_of("echo n inf {in}" + number), HasSubstr("not a finite number"));
 }
 
+TEST_F(StudySolvers, GroupsThatTheMeshLacksAreFoundBeforeAnythingIsWritten) {
+  for (const std::string key : {"E group=steel = 2", "natural = wall"}) {
+    const Study with_key = study(
+        "set solvers = a\nsubsection solver a\n set type = elasticity\n"
+        " set degrees = 1\n set u = x ; y\n set " +
+        key + "\nend\n");
+    EXPECT_THAT([&] { summary_of(with_key); },
+                ThrowsMessage<InputError>(StartsWith("mesh grid, solver a: elasticity ")));
+    EXPECT_FALSE(fs::exists(file("out")));
+  }
+}
+
 TEST_F(StudySolvers, WrongKeysAreRefused) {
   const auto refused = [&](const std::string& keys, const std::string& why) {
     EXPECT_THAT([&] { (void)study(keys); }, ThrowsMessage<InputError>(HasSubstr(why)));

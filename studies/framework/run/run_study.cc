@@ -62,6 +62,7 @@ class StudyRun {
         differences_from(earlier_, study_.header, mesh_facts(), study_.methods, study_.solvers);
     if (earlier_.status == "complete" && changes_.empty() && !options_.retime)
       return report_complete();
+    require_support_of_solvers();
     begin_writing();
     if (options_.until == RunUntil::meshes) return write_provenance("interrupted");
     times_.measure("smoothing", [&] { smooth_meshes(); });
@@ -127,6 +128,17 @@ class StudyRun {
               what + ", which method " + method.name +
               " does not support, because it moves nodes by the solution; leave it out");
     }
+  }
+
+  /// Throws InputError if a solver cannot be used on a mesh. One that fails on it gets rows with
+  /// the reason later.
+  void require_support_of_solvers() const {
+    if constexpr (dim == spacedim)
+      for (std::size_t m = 0; m < data_.meshes.size(); ++m)
+        for (const StudySolve& solve : data_.solves) try {
+            if (solve.solver != nullptr) (void)solver_on_mesh(data_, m, solve);
+          } catch (const SolverFailure&) {
+          }
   }
 
   /// Makes the solutions. Expressions are checked at nodes of the first mesh.

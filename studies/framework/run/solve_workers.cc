@@ -72,11 +72,7 @@ class OtherSolvers {
       const auto& initial = data_.meshes[job.mesh].mesh;
       if (!solver_ || mesh_ != job.mesh || solve_ != job.solve) {
         solver_.reset();
-        auto made = chosen.solver->template make<dim>();
-        if (chosen.solver->traits.needs_solution)
-          made->use_solution(data_.solutions[job.mesh].front());
-        made->initialize(initial, chosen.degree);
-        solver_ = std::move(made);
+        solver_ = solver_on_mesh(data_, job.mesh, chosen);
         mesh_ = job.mesh;
         solve_ = job.solve;
       }
@@ -240,6 +236,26 @@ std::string diffusivity_text(const StudySolution& solution) {
     text += (text.empty() ? "" : "; ") + of_group.formula + " in group " + of_group.group;
   return text.empty() ? "1" : text;
 }
+
+template <int dim>
+std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std::size_t mesh,
+                                                const StudySolve& solve) {
+  auto solver = solve.solver->template make<dim>();
+  try {
+    if (solve.solver->traits.needs_solution) solver->use_solution(data.solutions[mesh].front());
+    solver->initialize(data.meshes[mesh].mesh, solve.degree);
+  } catch (const SolverFailure&) {
+    throw;
+  } catch (const InputError& error) {
+    throw InputError("mesh " + data.meshes[mesh].description.name + ", solver " +
+                     solve.solver->label + ": " + error.what());
+  }
+  return solver;
+}
+template std::unique_ptr<MeshSolver<2>> solver_on_mesh(const StudyData<2>&, std::size_t,
+                                                       const StudySolve&);
+template std::unique_ptr<MeshSolver<3>> solver_on_mesh(const StudyData<3>&, std::size_t,
+                                                       const StudySolve&);
 
 bool needs_mpi(const Study& study) {
   for (const auto& solver : study.solvers)

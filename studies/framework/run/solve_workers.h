@@ -26,6 +26,12 @@ bool needs_mpi(const Study& study);
 /// Returns the number of records that are solved at once. Trilinos runs on one thread at a time.
 unsigned int n_solve_workers(const Study& study, const StudyOptions& options);
 
+/// Makes a solver that is not Poisson's, ready for meshes of one topology. Throws InputError if it
+/// cannot be used on them; a SolverFailure if it fails.
+template <int dim>
+std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std::size_t mesh,
+                                                const StudySolve& solve);
+
 /// Returns workers for a queue of these tasks. They store the results in the data and
 /// keep them.
 /// Planar meshes have n_workers workers, each with its own solvers. Volume meshes have one worker,
