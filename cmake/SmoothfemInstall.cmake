@@ -58,7 +58,7 @@ install(DIRECTORY meshes/io/foreign DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothf
   FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY adapters DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem COMPONENT program
   USE_SOURCE_PERMISSIONS)
-install(DIRECTORY launcher/new_smoother DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/launcher COMPONENT program
+install(DIRECTORY launcher/new_smoother launcher/new_problem DESTINATION ${CMAKE_INSTALL_DATADIR}/smoothfem/launcher COMPONENT program
   USE_SOURCE_PERMISSIONS)
 
 # Headers for users' smoothers, and for reading and generating meshes and for solving.
@@ -69,7 +69,8 @@ foreach(folder base geometry getme laplacian loop mesh optimization periodic pol
 endforeach()
 foreach(header meshes/distortion/distort.h meshes/domains/catalogue.h meshes/io/mesh_file.h
         meshes/io/mesh_view.h meshes/io/vtu_series.h fem/space/finite_element_space.h fem/solutions/manufactured_solution.h fem/solutions/point_function.h
-        fem/constraints/node_ties.h fem/poisson_solver.h fem/assembly/load.h fem/solution_record.h fem/ranks/ranks.h fem/elements/reference_element.h)
+        fem/constraints/node_ties.h fem/poisson_solver.h fem/assembly/load.h fem/solution_record.h fem/ranks/ranks.h fem/elements/reference_element.h
+        fem/solvers/mesh_solver.h fem/deal_ii/triangulation_solver.h)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/smoothfem/${folder} COMPONENT development)
 endforeach()
@@ -104,5 +105,6 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Smooths meshes by GETMe, Laplacian variants and global optimization, and solves a Poisson problem after every iteration.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsmoothfem-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "smoothfem (= ${PROJECT_VERSION}), libeigen3-dev, libopenmpi-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libdeal.ii-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and CMake package of smoothfem's libraries.")
 include(CPack)

@@ -39,6 +39,7 @@ SHORTER = {
                                         "smoothfem study mine.prm --quiet",
     "smoothfem study half-laplace.prm --quiet": "sed -i '/edge scale/s/2/3/; /^subsection mesh quad/,/^end/d; /^set meshes/s/, quad//' half-laplace.prm; "
                                                 "smoothfem study half-laplace.prm --quiet",
+    "smoothfem study heat-flow.prm --quiet --no-figures": "sed -i '/edge scale/s/2/3/' heat-flow.prm; smoothfem study heat-flow.prm --quiet --no-figures",
     "cmake -S . -B build": "cmake -S . -B build -DCMAKE_BUILD_TYPE=None",
 }
 # Commands above that are run whole with the long tests: minutes, not hours.
@@ -71,6 +72,7 @@ EXPECTED = {
     "tutorials/your-mesh-your-problem": r"Smart Laplace",
     "tutorials/smoother-in-python": r"(?s)To centroids.*mine",
     "how-to/smoother-in-cpp": r"(?s)100% tests passed.*\| HalfLaplace",
+    "how-to/solver-in-cpp": r"(?s)100% tests passed.*records h1_error.*\| quad",
     "how-to/smoother-as-a-program": r"(?s)\$ .*exit code 0",
     "how-to/many-meshes": r"(?sm)^gear3\.smooth,complete,$",
     "how-to/latex": r"(?s)history\S*\.pdf.*tab:gear:",

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 #include "fem/elements/single_threaded.h"
 #include "fem/space/fill_triangulation.h"
+#include "smoothing/base/text.h"
+#include "smoothing/loop/plugin.h"
 
 namespace smoothfem {
 
@@ -46,6 +49,19 @@ void set_boundary_ids(const MeshLabels& labels, dealii::Triangulation<dim>& tria
 }
 
 }  // namespace
+
+static const RegisteredPluginKind deal_ii_of_plugins({.abi = deal_ii_abi});
+
+void with_failures_of_deal_ii(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const dealii::ExceptionBase& error) {
+    std::ostringstream text;
+    error.print_info(text);
+    throw SolverFailure(std::string("deal.II: ") + error.get_exc_name() + " " +
+                        in_one_line(text.str()));
+  }
+}
 
 template <int dim>
 std::unique_ptr<dealii::Triangulation<dim>> triangulation_of(const Mesh<dim>& mesh) {

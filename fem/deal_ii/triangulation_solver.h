@@ -20,19 +20,31 @@ std::unique_ptr<dealii::Triangulation<dim>> triangulation_of(const Mesh<dim>& me
 template <int dim>
 void move_vertices(const Mesh<dim>& mesh, dealii::Triangulation<dim>& triangulation);
 
+/// Every plugin with such a solver contains it.
+[[gnu::used]] inline constexpr PluginAbi deal_ii_abi =
+    abi_with("smoothfem dealii types:",
+             {DEAL_II_VERSION_MAJOR, DEAL_II_VERSION_MINOR, DEAL_II_VERSION_SUBMINOR,
+              sizeof(dealii::Triangulation<3>), sizeof(dealii::types::global_dof_index)});
+
+/// Calls work(). Exceptions of deal.II become a SolverFailure with their message in one line.
+void with_failures_of_deal_ii(const std::function<void()>& work);
+
 /// A solver in deal.II's words: it gets a triangulation, with material and boundary ids, and gives
-/// numbers.
+/// numbers. Exceptions of deal.II are failures: the row of the mesh has their message.
 template <int dim>
 class TriangulationSolver : public MeshSolver<dim> {
  public:
   void initialize(const Mesh<dim>& mesh, int degree) final {
     triangulation_ = triangulation_of(mesh);
-    setup(mesh, *triangulation_, static_cast<unsigned int>(degree));
+    with_failures_of_deal_ii(
+        [&] { setup(mesh, *triangulation_, static_cast<unsigned int>(degree)); });
   }
 
   SolverResult solve(const Mesh<dim>& mesh) final {
     move_vertices(mesh, *triangulation_);
-    return solve(*triangulation_);
+    SolverResult result;
+    with_failures_of_deal_ii([&] { result = solve(*triangulation_); });
+    return result;
   }
 
  protected:

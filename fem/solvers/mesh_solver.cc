@@ -5,6 +5,7 @@
 
 #include "fem/solvers/python_solvers.h"
 #include "smoothing/base/registry.h"
+#include "smoothing/loop/plugin.h"
 #include "smoothing/loop/python_interpreter.h"
 
 namespace smoothfem {
@@ -39,7 +40,18 @@ void set_python_solvers(SolverMakers (*make)(const MethodInFile&)) {
 }
 
 RegisteredSolver::RegisteredSolver(SolverInfo info, SolverMakers makers) {
+  info.library = plugin_being_loaded();
   registry().add({info.name, std::move(info), std::move(makers)});
+}
+
+static const RegisteredPluginKind solvers_of_plugins({.registration = "RegisteredSolver",
+                                                      .abi = solver_abi,
+                                                      .n_registered = [] {
+                                                        return registry().all().size();
+                                                      }});
+
+std::filesystem::path library_of_solver(const std::string& type) {
+  return method_in_file(type) ? std::filesystem::path() : registry().find(type).info.library;
 }
 
 std::vector<SolverInfo> solver_catalogue() {

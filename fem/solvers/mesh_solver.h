@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "smoothing/loop/parameter.h"
+#include "smoothing/loop/plugin_abi.h"
 #include "smoothing/loop/smoother.h"
 #include "smoothing/mesh/mesh.h"
 
@@ -76,12 +78,18 @@ class MeshSolver {
   virtual SolverResult solve(const Mesh<dim>& mesh) = 0;
 };
 
+/// Every plugin with a solver contains it.
+[[gnu::used]] inline constexpr PluginAbi solver_abi =
+    abi_with("smoothfem solver types:",
+             {sizeof(SolverResult), sizeof(SolverTraits), sizeof(NumberDescription),
+              sizeof(Parameter), sizeof(ManufacturedSolution<3>)});
+
 struct SolverInfo {
-  std::string name;          ///< as the type in study files
-  std::string title;         ///< in tables and figures
-  std::string description;   ///< one sentence
-  std::string source;        ///< paper, program or tutorial
-  std::string library = {};  ///< the plugin that registered it; empty: this program
+  std::string name;                    ///< as the type in study files
+  std::string title;                   ///< in tables and figures
+  std::string description;             ///< one sentence
+  std::string source;                  ///< paper, program or tutorial
+  std::filesystem::path library = {};  ///< the plugin that registered it; empty: this program
 };
 
 /// Functions that make a solver for planar and volume meshes; empty where it has none.
@@ -104,6 +112,9 @@ struct RegisteredSolver {
 
 /// Returns the registered solvers, sorted by name.
 std::vector<SolverInfo> solver_catalogue();
+
+/// Returns the plugin that registered a solver; empty for others.
+std::filesystem::path library_of_solver(const std::string& type);
 
 /// Makes a solver with its default parameters: a registered one, or "python:FILE:CLASS". Throws
 /// InputError for an unknown type; the message lists the available types. Throws it also if the

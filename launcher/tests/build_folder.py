@@ -8,7 +8,7 @@ from pathlib import Path
 SOURCE = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("SMOOTHFEM_BUILD", SOURCE / "build" / "release"))
 SMOOTHFEM = BUILD / "bin" / "smoothfem"
-COMMANDS = ("study", "smooth", "quality", "check", "repair", "convert", "generate", "list", "merge", "new-smoother")
+COMMANDS = ("study", "smooth", "quality", "check", "repair", "convert", "generate", "list", "merge", "new-smoother", "new-problem")
 DRAWING = ("plot", "report")  # commands of the launcher, not of the program
 
 

@@ -171,7 +171,7 @@ class Installed(Study, unittest.TestCase):
         self.assertIn("there is no plugin none.so", self.refused("list", "--plugin", "none.so"))
         (self.folder / "text.so").write_text("text")
         self.assertIn("is not a shared library", self.refused("list", "--plugin", "text.so"))
-        other = next(self.prefix.rglob("libsmoothfem_fem.so*"))
+        other = next(self.prefix.rglob("libsmoothfem_python_host.so*"))
         self.assertIn("is not a plugin of smoothfem", self.refused("list", "--plugin", other))
         library = self.plugin() / "libab_cd.so"
         good = library.read_bytes()

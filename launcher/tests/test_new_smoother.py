@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What new-smoother makes runs at once. launcher/tests/test_installed.py builds and runs the smoother in C++."""
+"""What new-smoother and new-problem make runs at once. launcher/tests/test_installed.py builds and runs the smoother in C++, and
+docs/tests/test_pages.py the solver in C++."""
 
 import csv
 import re
@@ -16,9 +17,9 @@ def rows(path):
         return list(csv.DictReader(stream))
 
 
-def make(folder, name, *options, smoothfem=SMOOTHFEM):
-    """Makes a new smoother below a folder; returns its own folder."""
-    shown = run(smoothfem, "new-smoother", name, *options, folder=folder).stdout
+def make(folder, name, *options, smoothfem=SMOOTHFEM, command="new-smoother"):
+    """Makes a new smoother, or a problem, below a folder; returns its own folder."""
+    shown = run(smoothfem, command, name, *options, folder=folder).stdout
     if f"{name}/README.md says what to do next:" not in shown:
         raise AssertionError(shown)
     for path in (folder / name).iterdir():
@@ -68,6 +69,10 @@ class NewSmoother(Study, unittest.TestCase):
         run("sh", "test.sh", SMOOTHFEM, folder=folder)
         self.study(folder, "ab-cd")
         self.assertTrue((folder / "results" / "ab-cd" / "logs" / "tri_ab-cd.log").is_file())
+
+    def test_problem_in_python(self):
+        folder = make(self.folder, "ab-cd", "--python", command="new-problem")
+        run("sh", "test.sh", SMOOTHFEM, folder=folder)
 
     def test_names_that_cannot_be(self):
         (self.folder / "here").mkdir()

@@ -26,6 +26,14 @@ std::string shortened(const std::string& text) {
   return text.substr(0, length) + "...";
 }
 
+std::string in_one_line(const std::string& text) {
+  constexpr std::size_t longest = 400;
+  std::istringstream words(text);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  return line.size() > longest ? line.substr(0, longest) + "..." : line;
+}
+
 std::string as_utf8(const std::string& text) {
   namespace utf = boost::locale::utf;
   std::string result;

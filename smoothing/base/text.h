@@ -29,6 +29,9 @@ std::vector<std::string> split_list(const std::string& text);
 /// Returns the text for a message: at most about 60 bytes, followed by "..." if there are more.
 std::string shortened(const std::string& text);
 
+/// Returns the words of the text with one space between them, for a message; at most 400 bytes.
+std::string in_one_line(const std::string& text);
+
 /// Returns the text with U+FFFD in place of each byte that is not UTF-8. Names of files may have
 /// such bytes.
 std::string as_utf8(const std::string& text);

@@ -6,6 +6,7 @@
 
 #include "smoothing/base/registry.h"
 #include "smoothing/loop/method_scheme.h"
+#include "smoothing/loop/plugin.h"
 
 namespace smoothfem {
 
@@ -23,28 +24,17 @@ MethodEntry entry(const std::string& name) {
 
 }  // namespace
 
-namespace {
-
-std::filesystem::path& present_library() {
-  static std::filesystem::path library;
-  return library;
-}
-
-}  // namespace
-
-PluginScope::PluginScope(const std::filesystem::path& library) {
-  present_library() = library;
-}
-
-PluginScope::~PluginScope() {
-  present_library().clear();
-}
-
 RegisteredMethod::RegisteredMethod(MethodInfo info, StageFactories factories) {
   std::string name = info.name;
-  info.library = present_library();
+  info.library = plugin_being_loaded();
   registry().add({std::move(name), std::move(info), std::move(factories)});
 }
+
+static const RegisteredPluginKind methods_of_plugins({.registration = "RegisteredMethod",
+                                                      .abi = method_abi,
+                                                      .n_registered = [] {
+                                                        return method_catalogue(true).size();
+                                                      }});
 
 std::vector<MethodInfo> method_catalogue(bool include_special) {
   std::vector<MethodInfo> infos;

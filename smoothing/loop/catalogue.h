@@ -13,6 +13,11 @@
 
 namespace smoothfem {
 
+/// Every plugin with a method contains it.
+[[gnu::used]] inline constexpr PluginAbi method_abi = abi_with(
+    "smoothfem plugin types:", {sizeof(SmoothingState<3>), sizeof(StepReport), sizeof(StoppingRule),
+                                sizeof(Parameter), sizeof(SmootherTraits)});
+
 struct MethodInfo {
   std::string name;         ///< on the command line, in study files and results
   std::string title;        ///< in tables and figures
@@ -76,14 +81,6 @@ struct MethodEntry {
 /// Registers a method when its file is loaded: one namespace-scope object for each method.
 struct RegisteredMethod {
   RegisteredMethod(MethodInfo info, StageFactories factories);
-};
-
-/// While it lives, methods that register themselves are recorded as those of this library.
-class PluginScope {
- public:
-  explicit PluginScope(const std::filesystem::path& library);
-  ~PluginScope();
-  PluginScope(const PluginScope&) = delete;
 };
 
 /// Returns the registered methods, sorted by name. Methods that need parameters or a problem are

@@ -48,6 +48,9 @@ const std::vector<Command>& commands() {
        nullptr, study_commands},
       {"new-smoother", "make a folder with the source of a new smoother, ready to build and to run",
        add_new_smoother_command},
+      {"new-problem",
+       "make a folder with the source of a solver of your equation, ready to build and to run",
+       add_new_problem_command},
   };
   return all;
 }

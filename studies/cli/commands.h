@@ -14,6 +14,7 @@ void add_check_command(CLI::App& app);
 void add_repair_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_new_smoother_command(CLI::App& app);
+void add_new_problem_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_complete_command(CLI::App& app);

@@ -496,7 +496,7 @@ Study study_of_text(const StudyText& text, const std::string& scale) {
     type_of[method] = type;
   }
   declare_group_diffusivities(p, text);
-  in_file(file, [&] { declare_solvers(p, text, solvers, dimensions.cells); });
+  in_file(file, [&] { declare_solvers(p, text, solvers, dimensions.cells, !plugins.empty()); });
   parse_study(p, text, false);
   p.set("dimension", std::to_string(dimensions.cells));
   p.set("surface", dimensions.space > dimensions.cells);

@@ -48,9 +48,13 @@ std::vector<std::string> types_of(const StudyText& text, const std::vector<std::
   return found;
 }
 
-/// True if the solver's code is in a file that is not to be run.
-bool is_not_run(const std::string& type) {
-  return OnlyLook::is_on() && method_in_file(type).has_value();
+/// True if the solver's code is in a file that is not to be run: in Python, or in a plugin.
+bool is_not_run(const std::string& type, bool has_plugins) {
+  if (!OnlyLook::is_on()) return false;
+  if (method_in_file(type)) return true;
+  const auto known = solver_catalogue();
+  return has_plugins && std::none_of(known.begin(), known.end(),
+                                     [&](const SolverInfo& info) { return info.name == type; });
 }
 
 /// Declares the subsection of a solver whose parameters are not known: with any keys that it has.
@@ -62,8 +66,8 @@ void declare_stand_in(ParameterHandler& p, const StudyText& text, const std::str
 
 template <int dim>
 void declare_solver(ParameterHandler& p, const StudyText& text, const std::string& label,
-                    const std::string& type) {
-  if (is_not_run(type)) return declare_stand_in(p, text, label);
+                    const std::string& type, bool has_plugins) {
+  if (is_not_run(type, has_plugins)) return declare_stand_in(p, text, label);
   const auto solver = make_solver<dim>(method_name_in(text.file().parent_path(), type));
   const Subsection subsection(p, section_of(label));
   p.declare_entry(
@@ -112,8 +116,10 @@ std::vector<int> degrees_of(const std::string& given, const std::vector<int>& of
 template <int dim>
 StudySolver read_solver(ParameterHandler& p, const StudyText& text, const std::string& label,
                         const std::vector<int>& degrees) {
+  const bool has_plugins = !p.get("plugins").empty();
   const Subsection subsection(p, section_of(label));
-  if (is_not_run(p.get("type"))) return {.label = label, .type = p.get("type"), .title = label};
+  if (is_not_run(p.get("type"), has_plugins))
+    return {.label = label, .type = p.get("type"), .title = label};
   StudySolver solver{.label = label,
                      .type = p.get("type"),
                      .title = p.get("title"),
@@ -156,12 +162,13 @@ template std::unique_ptr<MeshSolver<2>> StudySolver::make() const;
 template std::unique_ptr<MeshSolver<3>> StudySolver::make() const;
 
 void declare_solvers(ParameterHandler& p, const StudyText& text,
-                     const std::vector<std::string>& labels, int dimension) {
+                     const std::vector<std::string>& labels, int dimension, bool has_plugins) {
   const auto others = others_of(labels);
   const auto types = types_of(text, others);
   for (std::size_t k = 0; k < others.size(); ++k)
-    with_dimension(dimension,
-                   [&]<int dim>() { declare_solver<dim>(p, text, others[k], types[k]); });
+    with_dimension(dimension, [&]<int dim>() {
+      declare_solver<dim>(p, text, others[k], types[k], has_plugins);
+    });
 }
 
 std::vector<StudySolver> read_solvers(ParameterHandler& p, const StudyText& text,

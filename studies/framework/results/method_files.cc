@@ -27,7 +27,10 @@ template <int dim>
 void note_files_of(StudySolver& entry) {
   const SmootherOrigin origin = entry.make<dim>()->origin();
   entry.version = origin.version;
-  for (const auto& file : origin.files)
+  auto files = origin.files;
+  if (const auto library = library_of_solver(entry.type); !library.empty())
+    files.push_back(library);
+  for (const auto& file : files)
     entry.files.push_back({file.filename().string(), sha256_of_file(file)});
 }
 

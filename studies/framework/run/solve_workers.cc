@@ -6,6 +6,7 @@
 #include "fem/materials/cell_kinds.h"
 #include "meshes/refinement/split_cells.h"
 #include "smoothing/base/scoped_timer.h"
+#include "smoothing/base/text.h"
 #include "smoothing/quality/mesh_quality.h"
 #include "studies/framework/definition/study_file.h"
 
@@ -82,6 +83,10 @@ class OtherSolvers {
       record.status = std::move(result.status);
     } catch (const SolverFailure& failure) {
       record.status = std::string("failed: ") + failure.what();
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::exception& error) {  // from a plugin's libraries
+      record.status = "failed: " + in_one_line(error.what());
     }
     return record;
   }

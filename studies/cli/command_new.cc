@@ -17,7 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct NewSmootherArguments {
+/// What a folder of templates is for.
+struct Kind {
+  const char* what;       ///< for example "smoother"
+  const char* templates;  ///< folder below launcher/
+};
+
+constexpr Kind smoother{"smoother", "new_smoother"}, problem{"problem", "new_problem"};
+
+struct NewArguments {
   std::string name;
   bool python = false, command = false;
 };
@@ -67,9 +75,10 @@ bool is_name(const std::string& name) {
          name.find("--") == std::string::npos && std::all_of(name.begin(), name.end(), is_allowed);
 }
 
-void make_folder(const NewSmootherArguments& arguments) {
+void make_folder(const Kind& kind, const NewArguments& arguments) {
   if (!is_name(arguments.name))
-    throw InputError("a smoother cannot be called '" + shortened(arguments.name) +
+    throw InputError("a " + std::string(kind.what) + " cannot be called '" +
+                     shortened(arguments.name) +
                      "'; use at most 100 lower-case letters, digits and '-', as in half-laplace");
   if (fs::exists(arguments.name))
     throw InputError("a file or folder '" + arguments.name +
@@ -77,8 +86,8 @@ void make_folder(const NewSmootherArguments& arguments) {
   for (const auto& info : method_catalogue(true))
     if (info.name == arguments.name)
       throw InputError("a method '" + arguments.name + "' exists; choose another name");
-  const char* kind = arguments.python ? "python" : arguments.command ? "command" : "cpp";
-  const fs::path templates = data_folder() / "launcher" / "new_smoother" / kind;
+  const char* language = arguments.python ? "python" : arguments.command ? "command" : "cpp";
+  const fs::path templates = data_folder() / "launcher" / kind.templates / language;
   if (!fs::is_directory(templates))
     throw InputError("the folder " + templates.string() + " is missing; install the program anew");
   const Spellings names = spellings(arguments.name);
@@ -96,7 +105,7 @@ void make_folder(const NewSmootherArguments& arguments) {
 }  // namespace
 
 void add_new_smoother_command(CLI::App& app) {
-  auto arguments = std::make_shared<NewSmootherArguments>();
+  auto arguments = std::make_shared<NewArguments>();
   auto* command = add_subcommand(app, "new-smoother");
   command->add_option("name", arguments->name, "name of the smoother, for example half-laplace")
       ->required();
@@ -107,7 +116,19 @@ void add_new_smoother_command(CLI::App& app) {
       ->excludes(python);
   add_examples(*command,
                {"smoothfem new-smoother half-laplace", "smoothfem new-smoother mine --python"});
-  command->callback([arguments] { make_folder(*arguments); });
+  command->callback([arguments] { make_folder(smoother, *arguments); });
+}
+
+void add_new_problem_command(CLI::App& app) {
+  auto arguments = std::make_shared<NewArguments>();
+  auto* command = add_subcommand(app, "new-problem");
+  command->add_option("name", arguments->name, "name of the problem, for example heat-flow")
+      ->required();
+  command->add_flag("--python", arguments->python,
+                    "in Python with scipy (default: in C++ with deal.II)");
+  add_examples(*command,
+               {"smoothfem new-problem heat-flow", "smoothfem new-problem mine --python"});
+  command->callback([arguments] { make_folder(problem, *arguments); });
 }
 
 }  // namespace smoothfem
