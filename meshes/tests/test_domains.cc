@@ -22,7 +22,7 @@ TEST(Domains, AllAreRegisteredAndSortedByName) {
   EXPECT_THAT(
       names,
       ::testing::ElementsAre(
-          "aorta", "axle", "blade", "bracket", "bracket-plate", "bridge", "car", "channel", "comb",
+          "aorta", "axle", "beam", "blade", "bracket", "bracket-plate", "bridge", "car", "channel", "comb",
           "crack", "cube", "cube-halves", "disc", "drill", "elbow", "fichera", "flange", "gear",
           "heat-sink", "holed-plate", "hook", "kershaw", "kershaw-cube", "l-shape", "lake",
           "nonuniform-grid", "nonuniform-grid-sinh", "nonuniform-grid-z", "piston", "plate",
