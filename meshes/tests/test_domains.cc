@@ -22,9 +22,9 @@ TEST(Domains, AllAreRegisteredAndSortedByName) {
   EXPECT_THAT(
       names,
       ::testing::ElementsAre(
-          "aorta", "axle", "beam", "blade", "bracket", "bracket-plate", "bridge", "car", "channel", "comb",
-          "crack", "cube", "cube-halves", "disc", "drill", "elbow", "fichera", "flange", "gear",
-          "heat-sink", "holed-plate", "hook", "kershaw", "kershaw-cube", "l-shape", "lake",
+          "aorta", "axle", "beam", "blade", "bracket", "bracket-plate", "bridge", "car", "channel",
+          "comb", "crack", "cube", "cube-halves", "disc", "drill", "elbow", "fichera", "flange",
+          "gear", "heat-sink", "holed-plate", "hook", "kershaw", "kershaw-cube", "l-shape", "lake",
           "nonuniform-grid", "nonuniform-grid-sinh", "nonuniform-grid-z", "piston", "plate",
           "prosthesis", "pump", "random-planar", "ring", "roof", "sheet", "sphere", "square",
           "square-disc", "square-halves", "star", "subdivision", "sweep", "washer", "wing"));
