@@ -14,7 +14,7 @@ MADE = {"reference/commands.md", "reference/study-keys.md", "reference/columns.m
         "explanation/claims.md"}
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 # Options of external programs.
-OTHERS = {"--exclusive", "--gtest"}
+OTHERS = {"--at", "--clamp", "--exclusive", "--gtest", "--load", "--plane"}
 
 
 def texts():
