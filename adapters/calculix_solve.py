@@ -139,7 +139,10 @@ def run_ccx(text):
 def displacements(dat):
     """Returns {node: displacement}, with the 7 digits that CalculiX prints."""
     rows = [line.split() for line in dat.splitlines() if line[:10].strip().isdigit()]
-    return {int(row[0]): np.array(row[1:4], dtype=float) for row in rows}
+    try:
+        return {int(row[0]): np.array(row[1:4], dtype=float) for row in rows}
+    except ValueError:
+        raise Failure("CalculiX printed a displacement that is no number; does the clamp hold the part?") from None
 
 
 def von_mises(frd, node):
@@ -149,13 +152,18 @@ def von_mises(frd, node):
         if line.startswith(" -4"):
             is_stress = line.split()[1] == "STRESS"
         elif is_stress and line.startswith(" -1") and int(line[3:13]) == node:
-            xx, yy, zz, xy, yz, zx = (float(line[13 + 12 * i:25 + 12 * i]) for i in range(6))
+            try:
+                xx, yy, zz, xy, yz, zx = (float(line[13 + 12 * i:25 + 12 * i]) for i in range(6))
+            except ValueError:
+                break
             return np.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy ** 2 + yz ** 2 + zx ** 2))
-    raise Failure(f"CalculiX gives no stress at node {node}; is it a node of a cell?")
+    raise Failure(f"CalculiX gives no stress at node {node}")
 
 
 def solve(options):
     """Returns the numbers."""
+    if not 0 < options.E < np.inf or not -1 < options.nu < 0.5:
+        raise Failure(f"E is {options.E:g} and nu is {options.nu:g}, but E has to be positive and nu between -1 and 0.5")
     mesh = Mesh(options.mesh)
     at = mesh.node(options.at)
     clamped = sorted({node for group in options.clamp for face in mesh.group(group, mesh.dim - 1) for node in face})
@@ -174,15 +182,28 @@ def solve(options):
     return {name: float(value) for name, value in numbers.items()}
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Failure(message + "; --help shows all options")
+
+
 def three_numbers(text):
     numbers = [float(word) for word in text.split()]
-    if len(numbers) not in (2, 3):
-        raise ValueError
+    if len(numbers) not in (2, 3) or not np.isfinite(numbers).all():
+        raise argparse.ArgumentTypeError(f"'{text}' is not two or three numbers")
     return np.array((numbers + [0.0])[:3])
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Solves linear elasticity by CalculiX.")
+def write(numbers, path):
+    """Writes the numbers as JSON, all or nothing."""
+    part = Path(path + ".part")
+    part.write_text(json.dumps(numbers), encoding="utf-8")
+    os.replace(part, path)
+
+
+def parsed():
+    """Returns the options of the command line."""
+    parser = Parser(description="Solves linear elasticity by CalculiX.")
     parser.add_argument("mesh", metavar="IN", help="mesh in Gmsh's format 2.2, as text")
     parser.add_argument("out", metavar="OUT", help="JSON file with the numbers")
     parser.add_argument("--clamp", required=True, action="append", metavar="GROUP", help="group of edges or faces that is held; may be repeated")
@@ -192,16 +213,19 @@ def main():
     parser.add_argument("--nu", required=True, type=float, help="Poisson's ratio")
     parser.add_argument("--at", required=True, metavar="NODE", help="group of one node, or the number of a node")
     parser.add_argument("--plane", choices=PLANE, default="strain", help="state of planar meshes (default: strain)")
-    options = parser.parse_args()
+    return parser.parse_args()
+
+
+def main():
     try:
-        numbers = solve(options)
+        options = parsed()
+        write(solve(options), options.out)
     except Failure as failure:
         sys.exit(f"calculix_solve.py: {failure}")
-    except (OSError, ValueError, IndexError, StopIteration) as error:
-        sys.exit(f"calculix_solve.py: {options.mesh} cannot be read: {type(error).__name__}: {error}")
-    part = Path(options.out).with_name(Path(options.out).name + ".part")
-    part.write_text(json.dumps(numbers), encoding="utf-8")
-    os.replace(part, options.out)
+    except OSError as error:
+        sys.exit(f"calculix_solve.py: {error.filename}: {error.strerror}")
+    except (ValueError, IndexError, KeyError, StopIteration) as error:
+        sys.exit(f"calculix_solve.py: {options.mesh} is damaged: {type(error).__name__}: {error}")
 
 
 if __name__ == "__main__":

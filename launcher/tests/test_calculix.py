@@ -140,8 +140,11 @@ class CalculiX(unittest.TestCase):
         for words, why in {("--clamp", "left"): "no cells of dimension 2 in a group 'left'; its groups of this dimension are: clamp, load",
                            ("--load", "part"): "no cells of dimension 2 in a group 'part'",
                            ("--at", "clamp"): "no cells of dimension 0 in a group 'clamp'", ("--at", "999"): "no node 999",
-                           ("--nu", "0.5"): "CalculiX", ("bad.msh",): "use 'set format = msh22'", ("cut.msh",): "cannot be read",
-                           ("old.msh",): "CalculiX takes linear cells", ("none.msh",): "cannot be read"}.items():
+                           ("--nu", "0.5"): "nu between -1 and 0.5", ("--E", "0"): "E has to be positive",
+                           ("--traction", "1"): "'1' is not two or three numbers", ("--E", "steel"): "invalid float value: 'steel'",
+                           ("--weight", "1"): "unrecognized arguments: --weight 1; --help shows all options",
+                           ("bad.msh",): "use 'set format = msh22'", ("cut.msh",): "cut.msh is damaged",
+                           ("old.msh",): "CalculiX takes linear cells", ("none.msh",): "none.msh: No such file or directory"}.items():
             with self.subTest(words):
                 mesh = [words[0]] if words[0].endswith(".msh") else ["box.msh"]
                 outcome = run(ADAPTER, *mesh, "out.json", *LOADS, "0 1 0", *(words if mesh == ["box.msh"] else ()), folder=self.folder, check=False)
