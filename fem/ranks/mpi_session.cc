@@ -25,6 +25,9 @@ bool started_by_mpirun() {
 }
 
 void begin_mpi() {
+  int has_begun = 0;
+  MPI_Initialized(&has_begun);
+  if (has_begun) return;  // for example by a file in Python that imports mpi4py
   // Removed again after MPI has read them: a Python that uses this library may start programs by
   // mpirun.
   std::vector<const char*> added;
@@ -37,7 +40,9 @@ void begin_mpi() {
 }
 
 MpiSession::~MpiSession() {
-  MPI_Finalize();
+  int is_over = 0;
+  MPI_Finalized(&is_over);
+  if (!is_over) MPI_Finalize();
 }
 
 }  // namespace smoothfem

@@ -8,6 +8,11 @@ import logging
 
 import numpy as np
 import scipy.sparse as sp
+import ufl
+from dolfinx import cpp, fem
+from dolfinx.fem import assemble_scalar
+from dolfinx.mesh import create_mesh, exterior_facet_indices, to_type
+from mpi4py import MPI
 
 NAMES = {(2, 3): "triangle", (2, 4): "quadrilateral", (3, 4): "tetrahedron", (3, 8): "hexahedron"}
 
@@ -21,11 +26,6 @@ class ElasticityDolfinx:
 
     def initialize(self, mesh):
         """Sets up what depends on the topology alone: the mesh, the forms, and the dofs on the boundary."""
-        # Imported here because DOLFINx starts MPI, and the program starts it after it has read this file.
-        import ufl
-        from dolfinx import cpp, fem
-        from dolfinx.mesh import create_mesh, exterior_facet_indices, to_type
-        from mpi4py import MPI
         logging.disable(logging.INFO)  # no lines for each form that is compiled
         if isinstance(mesh.cells, tuple):
             raise ValueError("the mesh has cells of several types; this solver takes one")
@@ -61,7 +61,6 @@ class ElasticityDolfinx:
 
     def solve(self, mesh):
         """Returns the numbers of one mesh."""
-        from dolfinx.fem import assemble_scalar
         dim = mesh.points.shape[1]
         self.domain.geometry.x[:, :dim] = mesh.points[self.origin]
         self.boundary_values.interpolate(self.given)

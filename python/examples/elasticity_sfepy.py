@@ -5,6 +5,14 @@ The displacement is given on the whole boundary; there is no load inside. Planar
 Needs python3-sfepy, a Debian package."""
 
 import numpy as np
+from sfepy.base.base import output
+from sfepy.discrete import Equation, Equations, FieldVariable, Function, Integral, Integrals, Material, Problem
+from sfepy.discrete.conditions import Conditions, EssentialBC
+from sfepy.discrete.fem import FEDomain, Field, Mesh
+from sfepy.mechanics.matcoefs import stiffness_from_youngpoisson
+from sfepy.solvers.ls import ScipyDirect
+from sfepy.solvers.nls import Newton
+from sfepy.terms import Term
 
 
 class ElasticitySfepy:
@@ -22,15 +30,6 @@ class ElasticitySfepy:
 
     def solve(self, mesh):
         """Returns the numbers of one mesh."""
-        # Imported here because sfepy starts MPI, and the program starts it after it has read this file.
-        from sfepy.base.base import output
-        from sfepy.discrete import Equation, Equations, FieldVariable, Function, Integral, Integrals, Material, Problem
-        from sfepy.discrete.conditions import Conditions, EssentialBC
-        from sfepy.discrete.fem import FEDomain, Field, Mesh
-        from sfepy.mechanics.matcoefs import stiffness_from_youngpoisson
-        from sfepy.solvers.ls import ScipyDirect
-        from sfepy.solvers.nls import Newton
-        from sfepy.terms import Term
         output.set_output(quiet=True)
         dim, n_corners = mesh.points.shape[1], self.cells.shape[1]
         domain = FEDomain("domain", Mesh.from_data("mesh", np.array(mesh.points), None, [self.cells],
