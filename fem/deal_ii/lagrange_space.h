@@ -29,11 +29,11 @@ struct LagrangeSpace {
                 unsigned int n_components, unsigned int n_points);
 
   /// Calls visit(values, cell) for each cell, with its FEValues at the points of its rule: values,
-  /// gradients, positions and weights.
+  /// gradients, positions and weights, and what `more` names.
   template <class Visit>
-  void for_each_cell(const Visit& visit) const {
+  void for_each_cell(const Visit& visit, dealii::UpdateFlags more = dealii::update_default) const {
     dealii::hp::FEValues<dim> values_of_types(mappings, elements, rules,
-                                              dealii::update_values | dealii::update_gradients |
+                                              more | dealii::update_values | dealii::update_gradients |
                                                   dealii::update_quadrature_points |
                                                   dealii::update_JxW_values);
     for (const auto& cell : dofs.active_cell_iterators()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solvers by deal.II: Poisson's equation against the fast path, elasticity against known solutions.
+// Solvers by deal.II: Poisson's equation against the fast path, others against known solutions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -211,6 +211,70 @@ TEST(Elasticity, RefusesWhatItCannotSolve) {
           "no part of the boundary is held");
   refused({{"u", "x ; y"}}, {{"traction group", "left", "1 ; 0"}}, "leave out u, or 'f'");
   refused({}, {{"displacement group", "left", "free ; free"}}, "no part of the boundary is held");
+}
+
+/// Returns the numbers of convection-diffusion with a known u.
+std::map<std::string, double> convected(const Mesh<2>& mesh, int degree, const std::string& u,
+                                        const Settings& settings) {
+  const auto made = solver<2>("convection-diffusion", settings);
+  made->use_solution(derived_solution<2>(u, "", {}));
+  made->initialize(mesh, degree);
+  return numbers_of(made->solve(mesh));
+}
+
+TEST(ConvectionDiffusion, HasTheOrdersOfItsDegree) {
+  for (const std::string stabilization : {"supg", "none"})
+    for (const Cells cells : {Cells::triangles, Cells::quadrilaterals})
+      for (const int degree : {1, 2}) {
+        std::array<std::map<std::string, double>, 2> of_size;
+        for (std::size_t k = 0; k < 2; ++k)
+          of_size[k] = convected(
+              unit_square((k + 1) * 8, cells, 0.1), degree, "sin(2*x + y)",
+              {{"diffusion", "0.05"}, {"velocity", "1 + y ; x"}, {"stabilization", stabilization}});
+        const auto order = [&](const std::string& error) {
+          return std::log2(of_size[0].at(error) / of_size[1].at(error));
+        };
+        EXPECT_NEAR(order("h1_error"), degree, 0.2) << stabilization << name_of(cells);
+        EXPECT_NEAR(order("l2_error"), degree + 1, 0.35) << stabilization << name_of(cells);
+      }
+}
+
+// In one dimension, linear elements with this stabilization have the exact values at the nodes.
+TEST(ConvectionDiffusion, SupgInterpolatesABoundaryLayer) {
+  constexpr int n = 8;
+  constexpr double eps = 0.1;
+  const auto exact = [](double x) { return std::expm1(x / eps) / std::expm1(1.0 / eps); };
+  double squares = 0.0;
+  constexpr int steps = 4000;  // of the midpoint rule
+  for (int k = 0; k < steps; ++k) {
+    const double x = (k + 0.5) / steps, cell = std::floor(x * n);
+    const double between = std::lerp(exact(cell / n), exact((cell + 1.0) / n), x * n - cell);
+    squares += (exact(x) - between) * (exact(x) - between) / steps;
+  }
+  const auto mesh = unit_square(n, Cells::quadrilaterals, 0.0);
+  const std::string u = "(exp(10*x) - 1)/(exp(10) - 1)";
+  const Settings settings{{"diffusion", "0.1"}, {"velocity", "1 ; 0"}, {"points", "8"}};
+  const auto numbers = convected(mesh, 1, u, settings);
+  EXPECT_NEAR(numbers.at("l2_error"), std::sqrt(squares), 1e-5 * std::sqrt(squares));
+  EXPECT_NEAR(numbers.at("peclet_max"), 1.0 / (2.0 * n * eps), 1e-12);
+  EXPECT_LT(numbers.at("overshoot"), 1e-12);
+
+  Settings galerkin{{"diffusion", "0.01"}, {"velocity", "1 ; 0"}, {"stabilization", "none"}};
+  const std::string steep = "(exp(100*x) - 1)/(exp(100) - 1)";
+  EXPECT_GT(convected(mesh, 1, steep, galerkin).at("overshoot"), 0.1);
+  galerkin["stabilization"] = "supg";
+  EXPECT_LT(convected(mesh, 1, steep, galerkin).at("overshoot"), 1e-9);
+}
+
+TEST(ConvectionDiffusion, RefusesWhatItCannotSolve) {
+  const auto mesh = unit_square(2, Cells::triangles, 0.0);
+  EXPECT_THAT([&] { (void)convected(mesh, 1, "x", {}); },
+              ThrowsMessage<InputError>(HasSubstr("needs a velocity, such as")));
+  EXPECT_THAT(
+      [&] {
+        (void)convected(mesh, 1, "x", {{"velocity", "1"}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("'velocity', '1', needs 2 formulas")));
 }
 
 TEST(DealII, RefusesDegreesThatItDoesNotHave) {
