@@ -32,10 +32,10 @@ struct LagrangeSpace {
   /// gradients, positions and weights, and what `more` names.
   template <class Visit>
   void for_each_cell(const Visit& visit, dealii::UpdateFlags more = dealii::update_default) const {
-    dealii::hp::FEValues<dim> values_of_types(mappings, elements, rules,
-                                              more | dealii::update_values | dealii::update_gradients |
-                                                  dealii::update_quadrature_points |
-                                                  dealii::update_JxW_values);
+    dealii::hp::FEValues<dim> values_of_types(
+        mappings, elements, rules,
+        more | dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
+            dealii::update_JxW_values);
     for (const auto& cell : dofs.active_cell_iterators()) {
       values_of_types.reinit(cell);
       visit(values_of_types.get_present_fe_values(), cell);
