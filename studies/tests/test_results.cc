@@ -296,6 +296,20 @@ TEST(Thresholds, SkipInvalidMeshes) {
   EXPECT_EQ(rows[0].method_seconds, 3.0);
 }
 
+TEST(Thresholds, ErrorsOfOtherSolversHaveThem) {
+  auto all = joined(curve("reference", {invalid, invalid, invalid}),
+                    curve("other", {invalid, invalid, invalid}));
+  const std::vector<double> errors{10, invalid, 4, 10, 3, 2};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i].numbers = {{"plate.u_max", 1.0}, {"plate.energy_error", errors[i]}};
+  const auto rows = reach_thresholds(all, "reference", 0.1);
+  ASSERT_EQ(rows.size(), 1u) << "none of Poisson's equation, which has no numbers";
+  EXPECT_EQ(rows[0].error, "plate.energy_error");
+  EXPECT_DOUBLE_EQ(rows[0].threshold, 4.4);
+  EXPECT_EQ(rows[0].reference_seconds, 2.0);
+  EXPECT_EQ(rows[0].method_seconds, 1.0);
+}
+
 TEST(Thresholds, AreSetForEachMeshAndDegreeAlone) {
   auto all = joined(curve("reference", {10, 2}), curve("other", {10, 2}));
   auto coarse = joined(curve("reference", {10, 8}), curve("other", {10, 9}));

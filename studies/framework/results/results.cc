@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studies/framework/results/results.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -92,6 +94,8 @@ class SolverColumns {
     return text;
   }
 
+  const std::vector<std::string>& names() const { return names_; }
+
   void add(CsvText& csv, const SolverNumbers& numbers) const {
     std::vector<std::optional<double>> values(names_.size());
     for (const auto& [column, value] : numbers)
@@ -104,23 +108,52 @@ class SolverColumns {
   std::map<std::string, std::size_t> places_;
 };
 
+/// An error that has thresholds. value: of a row; NaN where it is not known.
 struct NamedError {
-  const char* name;
-  double SolutionRecord::*value;
+  std::string name;
+  std::function<double(const IterationRow&)> value;
 };
-constexpr std::array<NamedError, 6> threshold_errors{{{"e_max", &SolutionRecord::e_max},
-                                                      {"e_mean", &SolutionRecord::e_mean},
-                                                      {"e_l2", &SolutionRecord::e_l2},
-                                                      {"e_h1", &SolutionRecord::e_h1},
-                                                      {"l2_error", &SolutionRecord::l2_error},
-                                                      {"h1_error", &SolutionRecord::h1_error}}};
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns Poisson's errors, then the numbers of other solvers whose names end with "error".
+std::vector<NamedError> threshold_errors(const std::vector<IterationRow>& rows) {
+  std::vector<NamedError> errors;
+  const auto add = [&](const char* name, double SolutionRecord::*error) {
+    errors.push_back({name, [error](const IterationRow& row) {
+                        return row.solved ? (*row.solved).*error : unknown;
+                      }});
+  };
+  add("e_max", &SolutionRecord::e_max);
+  add("e_mean", &SolutionRecord::e_mean);
+  add("e_l2", &SolutionRecord::e_l2);
+  add("e_h1", &SolutionRecord::e_h1);
+  add("l2_error", &SolutionRecord::l2_error);
+  add("h1_error", &SolutionRecord::h1_error);
+  const SolverColumns solver_columns(rows);
+  for (const auto& column : solver_columns.names())
+    if (column.ends_with("error"))
+      errors.push_back({column, [column](const IterationRow& row) {
+                          const auto found = std::ranges::find(row.numbers, column,
+                                                               &SolverNumbers::value_type::first);
+                          return found == row.numbers.end() ? unknown : found->second;
+                        }});
+  return errors;
+}
 
 using Curve = std::vector<const IterationRow*>;  ///< one method's solved rows, in time
+
+/// Returns the least error of a curve; NaN if none is known.
+double least_of(const Curve& curve, const NamedError& error) {
+  double least = unknown;
+  for (const auto* row : curve) least = std::fmin(least, error.value(*row));
+  return least;
+}
 
 std::optional<double> first_time_below(const Curve& curve, const NamedError& error,
                                        double threshold) {
   for (const auto* row : curve)
-    if ((*row->solved).*error.value <= threshold) return row->iteration.smoothing_seconds;
+    if (error.value(*row) <= threshold) return row->iteration.smoothing_seconds;
   return std::nullopt;
 }
 
@@ -136,7 +169,7 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
   std::vector<std::pair<std::string, int>> groups;
   std::map<std::pair<std::string, int>, std::vector<std::pair<std::string, Curve>>> curves;
   for (const auto& row : rows) {
-    if (!row.solved) continue;
+    if (!row.solved && row.numbers.empty()) continue;
     const std::pair key(row.mesh, row.degree);
     auto& methods = curves[key];
     if (methods.empty()) groups.push_back(key);
@@ -146,14 +179,14 @@ std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows
     found->second.push_back(&row);
   }
   std::vector<ThresholdRow> result;
+  const auto errors = threshold_errors(rows);
   for (const auto& group : groups) {
     const auto& methods = curves[group];
-    for (const auto& error : threshold_errors) {
+    for (const auto& error : errors) {
       for (const auto& [reference_name, reference_curve] : methods) {
         if (reference_name != reference) continue;
-        double least = (*reference_curve.front()->solved).*error.value;
-        for (const auto* row : reference_curve)
-          least = std::min(least, (*row->solved).*error.value);
+        const double least = least_of(reference_curve, error);
+        if (std::isnan(least)) continue;
         const double threshold = (1.0 + margin) * least;
         for (const auto& [method, curve] : methods)
           if (method != reference)
