@@ -25,7 +25,7 @@ template <int dim>
 class ConvectionDiffusion final : public TriangulationSolver<dim> {
  public:
   SolverTraits traits() const override {
-    return {.degrees = {1, 2}, .needs_mpi = true, .needs_solution = true};
+    return {.degrees = {1, 2}, .needs_mpi = true, .needs_solution = true, .takes_ties = true};
   }
 
   Parameters parameters() override {
@@ -68,9 +68,9 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
              unsigned int degree) override {
     velocity_.emplace("velocity", velocity_text_);
     space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, 1,
-                                                  static_cast<unsigned int>(points_));
+                                                  static_cast<unsigned int>(points_), this->ties());
     dealii::DynamicSparsityPattern pattern(space_->dofs.n_dofs());
-    dealii::DoFTools::make_sparsity_pattern(space_->dofs, pattern);
+    dealii::DoFTools::make_sparsity_pattern(space_->dofs, pattern, boundary_values(), false);
     matrix_.clear();
     pattern_.copy_from(pattern);
     matrix_.reinit(pattern_);
@@ -109,6 +109,7 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
       constraints.add_line(dof);
       constraints.set_inhomogeneity(dof, solution_.value(point_from(points[dof])));
     });
+    space_->add_ties(constraints);
     constraints.close();
     return constraints;
   }

@@ -86,7 +86,8 @@ template <int dim>
 class Elasticity final : public TriangulationSolver<dim> {
  public:
   SolverTraits traits() const override {
-    return {.degrees = {1, 2, 3, 4}, .needs_mpi = true, .needs_solution = false};
+    return {
+        .degrees = {1, 2, 3, 4}, .needs_mpi = true, .needs_solution = false, .takes_ties = true};
   }
 
   Parameters parameters() override {
@@ -171,7 +172,7 @@ class Elasticity final : public TriangulationSolver<dim> {
     set_materials(mesh.topology());
     set_boundary(mesh.topology());
     space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, dim,
-                                                  static_cast<unsigned int>(points_));
+                                                  static_cast<unsigned int>(points_), this->ties());
     const auto constraints = boundary_values();
     if (constraints.n_constraints() == 0)
       throw InputError(
@@ -282,6 +283,7 @@ class Elasticity final : public TriangulationSolver<dim> {
         if (displacements_[k].is_given[component])
           hold(dof, displacements_[k].values.at(p)[component]);
     });
+    space_->add_ties(constraints);
     constraints.close();
     return constraints;
   }
@@ -346,7 +348,7 @@ class Elasticity final : public TriangulationSolver<dim> {
   void add_tractions(const typename dealii::DoFHandler<dim>::active_cell_iterator& cell,
                      const Lame& c, dealii::Vector<double>& cell_load) const {
     for (const unsigned int f : cell->face_indices()) {
-      if (!cell->face(f)->at_boundary()) continue;
+      if (!cell->face(f)->at_boundary() || space_->is_tied(cell->face(f))) continue;
       const Id id = cell->face(f)->boundary_id();
       const auto given = traction_of_.find(id);
       if (!(u_ && is_natural(id)) && given == traction_of_.end()) continue;

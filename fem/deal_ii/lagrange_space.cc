@@ -78,10 +78,13 @@ dealii::Quadrature<dim> rule_of(const ReferenceCell& type, unsigned int degree,
 template <int dim>
 LagrangeSpace<dim>::LagrangeSpace(const dealii::Triangulation<dim>& triangulation,
                                   unsigned int degree, unsigned int n_components,
-                                  unsigned int n_points)
-    : dofs(triangulation) {
+                                  unsigned int n_points, std::shared_ptr<const NodeTies> given)
+    : dofs(triangulation), ties(std::move(given)) {
   const auto types = types_of(triangulation);
   check_degree<dim>(types, degree);
+  if (ties && degree > 1)
+    throw InputError(
+        "hanging and periodic nodes need finite elements of degree 1; write 'set degrees = 1'");
   if (n_points == 0) n_points = degree + 4;
   for (const ReferenceCell& type : types) {
     elements.push_back(dealii::FESystem<dim>(*element_of<dim>(type, degree), n_components));
@@ -106,6 +109,27 @@ std::vector<dealii::Point<dim>> LagrangeSpace<dim>::support_points() const {
   std::vector<dealii::Point<dim>> points(dofs.n_dofs());
   dealii::DoFTools::map_dofs_to_support_points(mappings, dofs, points);
   return points;
+}
+
+template <int dim>
+void LagrangeSpace<dim>::add_ties(dealii::AffineConstraints<double>& constraints) const {
+  if (!ties) return;
+  const unsigned int n_components = elements[0].n_components();
+  std::vector<dealii::types::global_dof_index> of_nodes(n_components *
+                                                        dofs.get_triangulation().n_vertices());
+  for (const auto& cell : dofs.active_cell_iterators())
+    for (const unsigned int v : cell->vertex_indices())
+      for (unsigned int c = 0; c < n_components; ++c)
+        of_nodes[n_components * cell->vertex_index(v) + c] =
+            cell->vertex_dof_index(v, c, cell->active_fe_index());
+  for (const NodeTie& tie : ties->nodes)
+    for (unsigned int c = 0; c < n_components; ++c) {
+      const auto dof = of_nodes[n_components * tie.node + c];
+      if (constraints.is_constrained(dof)) continue;
+      constraints.add_line(dof);
+      for (const auto& [master, weight] : tie.masters)
+        constraints.add_entry(dof, of_nodes[n_components * master + c], weight);
+    }
 }
 
 template struct LagrangeSpace<2>;

@@ -7,6 +7,12 @@
 #include <deal.II/hp/fe_values.h>
 #include <deal.II/hp/mapping_collection.h>
 #include <deal.II/hp/q_collection.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "fem/constraints/node_ties.h"
 
 namespace smoothfem {
 
@@ -19,14 +25,16 @@ struct LagrangeSpace {
   dealii::hp::QCollection<dim> rules;
   dealii::hp::QCollection<dim - 1> facet_rules;
   dealii::DoFHandler<dim> dofs;
+  std::shared_ptr<const NodeTies> ties;  ///< null: none
 
   /// Distributes the dofs. degree: 1 or 2 on simplices and on planar meshes of both types (deal.II
   /// 9.4 has no others), 1 to 4 on quadrilaterals and hexahedra, 1 on pyramids and prisms.
   /// n_components: of the solution. n_points: Gauss points per direction on cells that are not
   /// simplices; 0: degree + 4. Throws InputError for cells and degrees that deal.II does not have,
-  /// such as volume meshes of several types.
+  /// such as volume meshes of several types. ties: of degree 1.
   LagrangeSpace(const dealii::Triangulation<dim>& triangulation, unsigned int degree,
-                unsigned int n_components, unsigned int n_points);
+                unsigned int n_components, unsigned int n_points,
+                std::shared_ptr<const NodeTies> ties = nullptr);
 
   /// Calls visit(values, cell) for each cell, with its FEValues at the points of its rule: values,
   /// gradients, positions and weights, and what `more` names.
@@ -58,15 +66,18 @@ struct LagrangeSpace {
   /// Returns the position of each dof, for the present positions of the vertices.
   std::vector<dealii::Point<dim>> support_points() const;
 
+  /// Constrains the dofs of tied nodes that are not constrained yet.
+  void add_ties(dealii::AffineConstraints<double>& constraints) const;
+
   /// Calls visit(dof, component, boundary id) for each dof of each boundary facet, so often more
-  /// than once for a dof.
+  /// than once for a dof. Facets where parts of the mesh are tied are left out.
   template <class Visit>
   void for_each_boundary_dof(const Visit& visit) const {
     std::vector<dealii::types::global_dof_index> indices;
     for (const auto& cell : dofs.active_cell_iterators())
       for (const unsigned int f : cell->face_indices()) {
         const auto face = cell->face(f);
-        if (!face->at_boundary()) continue;
+        if (!face->at_boundary() || is_tied(face)) continue;
         const auto& element = cell->get_fe();
         indices.resize(element.n_dofs_per_face(f));
         face->get_dof_indices(indices, cell->active_fe_index());
@@ -74,6 +85,16 @@ struct LagrangeSpace {
           visit(indices[i], element.face_system_to_component_index(i, f).first,
                 face->boundary_id());
       }
+  }
+
+  /// True for a facet where parts of the mesh are tied.
+  template <class Face>
+  bool is_tied(const Face& face) const {
+    if (!ties) return false;
+    std::vector<NodeIndex> nodes;
+    for (const unsigned int v : face->vertex_indices()) nodes.push_back(face->vertex_index(v));
+    std::sort(nodes.begin(), nodes.end());
+    return ties->inner_facets.contains(nodes);
   }
 };
 

@@ -20,7 +20,7 @@ template <int dim>
 class PoissonByDealII final : public TriangulationSolver<dim> {
  public:
   SolverTraits traits() const override {
-    return {.degrees = {1, 2, 3, 4}, .needs_mpi = true, .needs_solution = true};
+    return {.degrees = {1, 2, 3, 4}, .needs_mpi = true, .needs_solution = true, .takes_ties = true};
   }
 
   Parameters parameters() override {
@@ -51,7 +51,7 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
   void setup(const Mesh<dim>& /*mesh*/, const dealii::Triangulation<dim>& triangulation,
              unsigned int degree) override {
     space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, 1,
-                                                  static_cast<unsigned int>(points_));
+                                                  static_cast<unsigned int>(points_), this->ties());
     system_.reinit(*space_, boundary_values());
   }
 
@@ -81,6 +81,7 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
       constraints.add_line(dof);
       constraints.set_inhomogeneity(dof, solution_.value(point_from(points[dof])));
     });
+    space_->add_ties(constraints);
     constraints.close();
     return constraints;
   }

@@ -34,6 +34,8 @@ void with_failures_of_deal_ii(const std::function<void()>& work);
 template <int dim>
 class TriangulationSolver : public MeshSolver<dim> {
  public:
+  void use_ties(const std::shared_ptr<const NodeTies>& ties) final { ties_ = ties; }
+
   void initialize(const Mesh<dim>& mesh, int degree) final {
     triangulation_ = triangulation_of(mesh);
     with_failures_of_deal_ii(
@@ -56,7 +58,11 @@ class TriangulationSolver : public MeshSolver<dim> {
   /// Called for each mesh, after its vertices have moved.
   virtual SolverResult solve(const dealii::Triangulation<dim>& triangulation) = 0;
 
+  /// Hanging and periodic nodes; null: none.
+  const std::shared_ptr<const NodeTies>& ties() const { return ties_; }
+
  private:
+  std::shared_ptr<const NodeTies> ties_;
   std::unique_ptr<dealii::Triangulation<dim>> triangulation_;
 };
 

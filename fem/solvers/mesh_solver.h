@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/constraints/node_ties.h"
 #include "fem/solution_record.h"
 #include "fem/solutions/manufactured_solution.h"
 #include "smoothing/loop/parameter.h"
@@ -36,6 +37,7 @@ struct SolverTraits {
   std::vector<int> degrees = {};  ///< of finite elements that it offers; empty: it has no degrees
   bool needs_mpi = false;       ///< it calls libraries that need MPI, and is not called by threads
   bool needs_solution = false;  ///< of the study, by use_solution
+  bool takes_ties = false;      ///< it solves on meshes with tied nodes (use_ties)
 };
 
 /// Computes numbers on meshes of one topology, for the records of a study. A new solver is one
@@ -66,6 +68,9 @@ class MeshSolver {
 
   /// Takes the study's solution on the mesh; called before initialize.
   virtual void use_solution(const ManufacturedSolution<dim>& /*solution*/) {}
+
+  /// Takes the ties of the mesh's hanging and periodic nodes; called before initialize.
+  virtual void use_ties(const std::shared_ptr<const NodeTies>& /*ties*/) {}
 
   /// Returns the descriptions of its numbers. It may give other numbers, too.
   virtual std::vector<NumberDescription> numbers() const { return {}; }

@@ -213,6 +213,32 @@ TEST(Elasticity, RefusesWhatItCannotSolve) {
   refused({}, {{"displacement group", "left", "free ; free"}}, "no part of the boundary is held");
 }
 
+TEST_P(SolverOfCells, TiedNodesHaveTheNumbersOfTheFastPath) {
+  GetParam().on_mesh(6, 3, 0.2, [&]<int dim>(const Mesh<dim>& mesh) {
+    const auto ties = std::make_shared<const NodeTies>(periodic_in_x(mesh));
+    const auto solution = derived_solution<dim>("sin(2*pi*x + 1)*cos(y)", "", {});
+    const auto made = solver<dim>("deal.II", {{"cg_tolerance", "1e-13"}, {"points", "5"}});
+    made->use_solution(solution);
+    made->use_ties(ties);
+    if (GetParam().degree > 1) {
+      EXPECT_THAT([&] { made->initialize(mesh, GetParam().degree); },
+                  ThrowsMessage<InputError>(HasSubstr("need finite elements of degree 1")));
+      return;
+    }
+    PoissonOptions options;
+    options.cg_tolerance = 1e-13;
+    options.tensor_points = {5, 5};
+    options.ties = ties;
+    const SolutionRecord fast =
+        PoissonSolver<dim>(&mesh, options).solve(mesh.coordinates(), solution);
+    made->initialize(mesh, 1);
+    const auto other = numbers_of(made->solve(mesh));
+    EXPECT_EQ(other.at("n_free"), static_cast<double>(fast.n_free));
+    EXPECT_NEAR(other.at("h1_error"), fast.h1_error, 1e-10 * fast.h1_error);
+    EXPECT_NEAR(other.at("condition_number"), fast.condition_number, 1e-6 * fast.condition_number);
+  });
+}
+
 /// Returns the numbers of convection-diffusion with a known u.
 std::map<std::string, double> convected(const Mesh<2>& mesh, int degree, const std::string& u,
                                         const Settings& settings) {

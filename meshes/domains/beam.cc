@@ -64,6 +64,7 @@ const RegisteredDomain beam(
                     "held, loaded and sides of its boundary",
      .dimension = 3,
      .elements = {"tetrahedra", "hexahedra"},
+     .has_groups = true,
      .make = generate});
 
 }  // namespace

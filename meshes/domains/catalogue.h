@@ -33,7 +33,7 @@ struct Domain {
   /// have one algorithm, without a name.
   std::map<std::string, std::vector<std::string>> algorithms{};
   bool is_surface = false;      ///< its meshes are surfaces in space
-  bool has_groups = false;      ///< its cells have groups
+  bool has_groups = false;      ///< its cells or its boundary have groups
   std::optional<double> eps{};  ///< default of DomainParameters::eps; nothing: it has none
   /// Its parameters `elements` and `algorithm` are names of the domain's lists; `eps` has a value
   /// if the domain has it.

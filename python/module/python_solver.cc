@@ -32,6 +32,7 @@ class PythonSolver final : public MeshSolver<dim> {
   explicit PythonSolver(const py::object& definition)
       : declared_(definition.attr("parameters")), python_(definition) {
     traits_.needs_mpi = py::cast<bool>(definition.attr("gives_matrix"));
+    traits_.takes_ties = true;  // the class gets the mesh as it is
     traits_.degrees = py::cast<std::vector<int>>(definition.attr("degrees"));
     for (const py::handle entry : definition.attr("numbers")) {
       auto [name, unit, meaning] =

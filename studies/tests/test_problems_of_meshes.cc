@@ -210,14 +210,22 @@ TEST_F(ProblemOfMesh, HangingNodesAreRefusedOrConstrained) {
   const std::string linear = "subsection solution\n set u = 1 + 2*x - 3*y\nend\n";
   EXPECT_THAT(refused("set degrees = 1\n" + linear),
               testing::AllOf(HasSubstr("4 hanging nodes"), HasSubstr("hanging nodes = constrain")));
-  run("out", "set degrees = 1\nset hanging nodes = constrain\n" + linear);
-  EXPECT_LT(largest("out", "h1_error"), 1e-10);
+  const std::string solvers =
+      "set solvers = poisson, plate, convected\n"
+      "subsection solver plate\n set type = elasticity\n set u = x + 2*y ; 3*x - y\nend\n"
+      "subsection solver convected\n set type = convection-diffusion\n set velocity = 1 ; 2\nend\n";
+  run("out", "set degrees = 1\nset hanging nodes = constrain\n" + linear + solvers);
+  for (const std::string error : {"h1_error", "plate.h1_error", "convected.h1_error"})
+    EXPECT_LT(largest("out", error), 1e-9) << error;
   EXPECT_THAT(content_of(file("out") / "provenance.json"), HasSubstr("4 hanging nodes"));
   for (const auto& [more, word] : std::map<std::string, std::string>{
            {"set degrees = 1, 2\n", "degree 2"},
            {"set degrees = 1\nset refined degrees = 1\n", "refined"},
            {"set degrees = 1\nset methods = energy-descent\n", "energy-descent"}})
     EXPECT_THAT(refused("set hanging nodes = constrain\n" + more + linear), HasSubstr(word));
+  EXPECT_THAT(refused("set degrees = 2\nset hanging nodes = constrain\nset solvers = plate\n"
+                      "subsection solver plate\n set type = elasticity\n set u = x ; y\nend\n"),
+              HasSubstr("hanging and periodic nodes need finite elements of degree 1"));
 }
 
 /// Writes a unit mesh whose nodes at x = 1 are periodic partners of those at x = 0.

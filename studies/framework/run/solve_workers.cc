@@ -248,6 +248,12 @@ std::unique_ptr<MeshSolver<dim>> solver_on_mesh(const StudyData<dim>& data, std:
   auto solver = solve.solver->template make<dim>();
   try {
     if (solve.solver->traits.needs_solution) solver->use_solution(data.solutions[mesh].front());
+    if (const auto& ties = data.meshes[mesh].ties) {
+      if (!solve.solver->traits.takes_ties)
+        throw InputError(
+            "it has no constraints for hanging or periodic nodes; leave it out of 'solvers'");
+      solver->use_ties(ties);
+    }
     solver->initialize(data.meshes[mesh].mesh, solve.degree);
   } catch (const SolverFailure&) {
     throw;

@@ -218,7 +218,7 @@ PreparedMesh<dim, spacedim> prepare_mesh(const StudyMesh& description, const Stu
           : make_mesh<dim, spacedim>(description, source, study.edge_scale * description.edge_scale,
                                      found.value_or(std::filesystem::path()), changes);
   std::shared_ptr<const NodeTies> ties;
-  if (!study.degrees.empty()) {
+  if (!study.degrees.empty() || !study.solvers.empty()) {
     if constexpr (dim == spacedim)
       if (!source.file.empty()) {
         const auto seam =

@@ -33,6 +33,9 @@ bool is_number_name(const std::string& name) {
 template <int dim>
 class CommandSolver final : public MeshSolver<dim> {
  public:
+  /// The program gets the mesh with its hanging nodes and periodic partners.
+  SolverTraits traits() const override { return {.takes_ties = true}; }
+
   Parameters parameters() override {
     return {
         {"command",
