@@ -86,8 +86,9 @@ struct ThresholdRow {
 };
 
 /// Returns when each method first comes below the thresholds (thesis, Table 6.4). On each mesh,
-/// degree and error, the threshold is the reference's smallest error increased by the margin. Errors
-/// are those of Poisson's equation, and numbers of other solvers whose names end with "error".
+/// degree and error, the threshold is the reference's smallest error increased by the margin.
+/// Errors are those of Poisson's equation, and numbers of other solvers whose names end with
+/// "error".
 std::vector<ThresholdRow> reach_thresholds(const std::vector<IterationRow>& rows,
                                            const std::string& reference, double margin);
 
