@@ -13,7 +13,7 @@ from ..results.smoothing import INITIAL
 from ..results.symbols import THESIS_NORMS, symbol_of
 from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
                        styles_in_order, thin_markers)
-from .history_lines import COUNTS, QUALITY, panel_lines, range_of
+from .history_lines import COUNTS, depends_on_degree, panel_lines, range_of
 from .scales import make_room_for_labels, scale_values, space_ticks, spans_magnitudes
 
 # Numbers that lie between 0 and 1 have linear axes.
@@ -27,6 +27,7 @@ GAP = {"linewidth": 0.8, "linestyle": (0, (1, 1.6)), "marker": "x", "markersize"
 TITLE_LINE, NO_TITLE = 0.15, 0.06  # inches
 # Sizes of sentences in a panel or above it, to place them next to the lines.
 LETTERS_OF_AN_INCH, POINTS_OF_A_SEGMENT = 15, 20
+LONGEST_LABEL = 20  # letters of a vertical axis that has degree and scale on the same line
 
 
 def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log_y=False, x_range=(None, None),
@@ -56,7 +57,8 @@ def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log
             draw_panel(ax, lines[name, mesh], styles, extent)
             scale_values(ax, shown, logarithmic, y_range)
             bridge_gaps(ax, lines[name, mesh], styles, extent)
-    label_axes(figure, axes, columns, degree, x, ranges)
+    units = {name: unit for solver in results.solvers for name, (unit, _) in solver.described.items() if unit}
+    label_axes(figure, axes, {name: degree if depends_on_degree(results, name) else "" for name in columns}, units, x, ranges)
     for ax in axes[-1]:
         space_ticks(ax, whole=x in COUNTS)
     for row, name in zip(axes, columns):
@@ -96,15 +98,19 @@ def empty_panels(results, styles, lines, titles):
     return figure, axes
 
 
-def label_axes(figure, axes, columns, degree, x, ranges):
-    """Names of the axes, and room for them."""
-    for letter, row, name in zip(string.ascii_lowercase, axes, columns):
-        words = [*([f"$d={degree}$"] if degree and name not in QUALITY else []),
+def label_axes(figure, axes, columns, units, x, ranges):
+    """Names of the axes, and room for them. columns: each with its degree; empty: it has none. units: of columns whose headings have
+    none."""
+    def name_of(column):
+        return label_of(column) + (f" [{units[column]}]" if column in units else "")
+    for letter, row, (name, degree) in zip(string.ascii_lowercase, axes, columns.items()):
+        words = [*([f"$d={degree}$"] if degree else []),
                  *(["log"] if row[0].get_yscale() == "log" else [])]
-        row[0].set_ylabel((f"({letter})  " if len(axes) > 1 else "") + label_of(name)
-                          + (f"  ({', '.join(words)})" if words else ""))
+        gap = "\n" if len(symbol_of(name).text) > LONGEST_LABEL else "  "
+        row[0].set_ylabel((f"({letter})  " if len(axes) > 1 else "") + name_of(name)
+                          + (f"{gap}({', '.join(words)})" if words else ""))
     for ax, extent in zip(axes[-1], ranges):
-        ax.set_xlabel(label_of(x) + (", log" if extent.logarithmic else "")
+        ax.set_xlabel(name_of(x) + (", log" if extent.logarithmic else "")
                       + ("" if extent.zero is None else "; 0 at the left edge"))
     make_room_for_labels(figure, axes)
 

@@ -57,10 +57,15 @@ class Line:
         return not (self.valid[1:] if len(self.valid) > 1 else self.valid).any()
 
 
+def depends_on_degree(results, column):
+    """False for numbers of the mesh, and for those of a solver without degrees."""
+    return column not in QUALITY and not any(column in solver.columns and not solver.degrees for solver in results.solvers)
+
+
 def panel_lines(results, name, mesh, degree, x=TIME):
     """Method -> Line of a column against column `x`, on one mesh."""
     rows = results.iterations.select(mesh=mesh)
-    if name in QUALITY:
+    if not depends_on_degree(results, name):
         degree = next((d for d in rows.text("degree")), degree)
     rows = rows.select(degree=degree)
     lines = {}

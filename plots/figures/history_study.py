@@ -7,11 +7,12 @@ import numpy as np
 
 from ..results.names import find_column
 from ..results.request import TIME
-from ..results.rows import ResultsError, solves_itself
+from ..results.rows import ResultsError, groups_of, solves_itself
 from ..results.smoothing import number_columns
+from ..results.solvers import main_numbers
 from ..results.symbols import THESIS_NORMS
 from .history import draw_history
-from .history_lines import QUALITY
+from .history_lines import depends_on_degree
 from .pages import fits_as_columns, pages
 from .planned import PlannedFigure
 from .thesis_numbers import HISTORY_DEGREES, THESIS_NUMBERS, figure_name
@@ -50,7 +51,7 @@ def plan_histories(results):
                 plan(prefix, f"_d{degree}", f"history, d = {degree}", main_columns(results), degree, False, meshes)
             if has_norms:
                 plan(prefix, f"_norms_d{degree}", f"norms of the thesis, d = {degree}", THESIS_NORMS, degree, False, meshes)
-    return planned + plan_solves(results)
+    return planned + plan_solves(results) + plan_solvers(results)
 
 
 def plan_solves(results):
@@ -69,6 +70,28 @@ def plan_solves(results):
     return planned
 
 
+def plan_solvers(results):
+    """The numbers of each solver that is not Poisson's against smoothing time, for each of its degrees."""
+    planned = []
+    for solver in results.solvers:
+        columns = main_numbers(varying(solver.numbers, results.iterations))
+        degrees = [degree for degree in solver.degrees if degree in results.degrees] or [*results.degrees, ""][:1]
+        for part, meshes in pages(results.meshes, fits_as_columns).items():
+            for degree in degrees:
+                name, variant = f"solver_{solver.label}", "" if degree == degrees[0] else f"_d{degree}"
+                planned.append(PlannedFigure(
+                    name + part + variant, solver.title + (f", d = {degree}" if solver.degrees else ""),
+                    lambda columns=columns, degree=degree, meshes=meshes: draw_history(results, columns, degree, False, meshes),
+                    whole=name + variant))
+    return planned
+
+
+def varying(columns, rows):
+    """The columns that smoothing changes, unlike the number of degrees of freedom; all columns if it changes none."""
+    groups = [group for _, group in groups_of(rows, "mesh", "degree")]
+    return [name for name in columns if any(len({*group.text(name)} - {""}) > 1 for group in groups)] or columns
+
+
 def plan_requested_history(results, request):
     """The history that a user asks for; raises ResultsError for a column that is not there or holds
     no numbers."""
@@ -80,7 +103,7 @@ def plan_requested_history(results, request):
         if not np.isfinite(results.iterations.number(name)).any():
             raise ResultsError(f"{results.iterations.path}: column `{name}` has no numbers.")
     columns = request.y or main_columns(results)
-    by_degree = len(results.degrees) > 1 and not {*columns, request.x or TIME} <= {*QUALITY}
+    by_degree = len(results.degrees) > 1 and any(depends_on_degree(results, name) for name in (*columns, request.x or TIME))
     planned = []
     for part, meshes in pages(results.meshes, fits_as_columns).items():
         for degree in results.degrees if by_degree else (results.degrees or ("",))[:1]:

@@ -63,11 +63,11 @@ def space_ticks(ax, whole=False):
 
 def make_room_for_labels(figure, axes, right=0.18):
     """Moves columns of panels so far apart that the labels of their vertical axes have room; `axes` as
-    an array (rows, columns). The labels of the first column stand in one line."""
+    an array (rows, columns). The labels of the first column end at the same distance from the panels."""
     renderer = figure.canvas.get_renderer()
     widths = [max(width_of_tick_labels(ax, renderer) for ax in column) / figure.dpi for column in axes.T]
     width, n = figure.get_figwidth(), len(widths)
-    left = widths[0] + 2 * PAD + LABEL_HEIGHT
+    left = widths[0] + 2 * PAD + LABEL_HEIGHT * max(1 + ax.get_ylabel().count("\n") for ax in axes[:, 0])
     gap = max(widths[1:], default=0.0) + 2 * PAD
     panel = (width - left - right - (n - 1) * gap) / n
     figure.subplots_adjust(left=left / width, right=1 - right / width, wspace=gap / panel)

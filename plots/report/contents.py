@@ -7,11 +7,12 @@ import numpy as np
 
 from ..results.rows import ResultsError
 from ..results.smoothing import INITIAL, read_results
+from ..results.solvers import main_numbers
 from ..results.symbols import THESIS_NORMS, symbol_of
 from .looks import looks_of
 from .mesh_views import mesh_view
 
-# Columns that may be drawn against one another; those without a number are left out.
+# Columns that may be drawn against one another, besides those of other solvers; those without a number are left out.
 DRAWN = ("iteration", "smoothing_seconds", "wall_seconds", "q_min", "q_star_min", "q_mean", "n_invalid", "w_mean",
          "condition_number", "cg_iterations", "jacobi_cg_iterations", "amg_cg_iterations", "h1_error", "l2_error",
          *THESIS_NORMS)
@@ -33,17 +34,19 @@ def curves(results):
     """Column -> numbers of every row of iterations.csv, and the keys of the rows."""
     rows = results.iterations
     columns = {}
-    for name in DRAWN:
+    described = {name: words for solver in results.solvers for name, words in solver.described.items()}
+    for name in (*DRAWN, *(name for solver in results.solvers for name in solver.columns)):
         values = rows.number(name)
         if np.isfinite(values).any():
             columns[name] = [number_or_none(value) for value in values]
     return {"keys": {name: list(rows.text(name)) for name in KEYS}, "columns": columns,
-            "headings": {name: heading_of(name) for name in columns}}
+            "headings": {name: heading_of(name, described.get(name, ("", ""))[0]) for name in columns},
+            "meanings": {name: f"{meaning}." for name, (_, meaning) in described.items() if meaning and name in columns}}
 
 
-def heading_of(column):
+def heading_of(column, unit=""):
     """The heading of a column; norms of the thesis are called so, as they are not the true errors."""
-    return symbol_of(column).text + (" (norm of the thesis)" if column in THESIS_NORMS else "")
+    return symbol_of(column).text + (f" [{unit}]" if unit else "") + (" (norm of the thesis)" if column in THESIS_NORMS else "")
 
 
 def summary_table(results):
@@ -73,16 +76,16 @@ def comparison(results, against):
     common row."""
     other = read_results(against)
     others = {tuple(row[key] for key in KEYS): row for row in other.summary.records()}
-    rows = []
+    rows, names = [], (*COMPARED, *(name for solver in results.solvers for name in main_numbers(solver.numbers)))
     for row in results.summary.records():
         key = tuple(row[key] for key in KEYS)
         if key in others:
             rows.append([{"text": results.title(row["mesh"])}, {"text": results.title(row["method"])},
-                         {"text": row["degree"]}, *(ratio(row.get(name), others[key].get(name)) for name in COMPARED)])
+                         {"text": row["degree"]}, *(ratio(row.get(name), others[key].get(name)) for name in names)])
     if not rows:
         raise ResultsError(f"{against}: no mesh, method and degree of this folder is in {results.folder}; compare "
                            "results of the same study.")
-    return {"headings": ["Mesh", "Method", "degree", *(symbol_of(name).text for name in COMPARED)], "rows": rows,
+    return {"headings": ["Mesh", "Method", "degree", *(symbol_of(name).text for name in names)], "rows": rows,
             "made_by": other.provenance.get("program", {}).get("commit", ""), "study": other.study_title}
 
 

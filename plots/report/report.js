@@ -28,6 +28,7 @@
     });
     const axis = (name, box) => page.axis(heading(name), $id(box).checked ? "log" : "linear");
     Plotly.react("curve", traces, layout({ xaxis: axis(x, "log-x"), yaxis: axis(y, "log-y"), showlegend: true }), config);
+    $id("curve-meaning").textContent = [x, y].map((name) => data.curves.meanings[name] || "").filter(Boolean).join(" ");
     $id("curve").setAttribute("aria-label", heading(y) + " against " + heading(x) + " on " + title(mesh) +
       " for " + traces.map((t) => t.name).join(", ") + "; the numbers are in the table below");
   }
@@ -39,7 +40,8 @@
     fill($id("curve-x"), names.filter((name) => /iteration$|seconds$/.test(name)), heading);
     fill($id("curve-y"), names, heading);
     $id("curve-x").value = columns.smoothing_seconds ? "smoothing_seconds" : "iteration";
-    $id("curve-y").value = ["h1_error", "q_mean", "q_min"].find((name) => columns[name]) || names[0];
+    $id("curve-y").value = ["h1_error", names.find((name) => /\..*error$/.test(name)), "q_mean", "q_min"]
+      .find((name) => columns[name]) || names[0];
     page.addBoxes("curve-methods", data.methods.slice(1), title);
     document.querySelectorAll("#curves select, #curves input").forEach((e) => e.addEventListener("change", drawCurves));
     drawCurves();

@@ -12,6 +12,8 @@ import numpy as np
 from .names import find_all
 from .rows import ResultsError, Rows, entries, is_built_in, is_there, order_of, read_provenance, read_rows
 from .seeds import by_seed
+from .solvers import solvers_of
+from .symbols import of_solver
 
 # What tables and figures cannot do without; any other column may be absent and then counts as empty.
 REQUIRED_COLUMNS = {
@@ -94,6 +96,11 @@ class Results:
             return rows.where(np.array([pair not in failures for pair in pairs], dtype=bool))
         return replace(self, summary=rows_of(self.summary), iterations=rows_of(self.iterations),
                        thresholds=rows_of(self.thresholds))
+
+    @property
+    def solvers(self):
+        """The solvers besides Poisson's that have given a number."""
+        return solvers_of(self.summary, self.provenance)
 
     @property
     def note(self):
@@ -189,7 +196,7 @@ def read_checked(path):
 
 def number_columns(rows):
     """The columns that hold numbers."""
-    return [name for name in rows.columns if name in NUMBERS]
+    return [name for name in rows.columns if name in NUMBERS or of_solver(name)[0]]
 
 
 def left_out(results):

@@ -40,11 +40,24 @@ SHORT_COLUMNS = {"h1_error": "h1", "l2_error": "l2", "condition_number": "cond",
                  "smoothing_seconds": "time", "preparation_seconds": "preparation", "iteration": "iterations"}
 
 
+# How columns begin that have a point, but no solver: n_below_0.3.
+COUNTS_BELOW = ("n_below_", "n_star_below_")
+
+
+def of_solver(column):
+    """(label, number) of a solver's column LABEL.NUMBER; an empty label and the column for any other."""
+    label, _, number = column.rpartition(".")
+    return (label, number) if label and not column.startswith(COUNTS_BELOW) else ("", column)
+
+
 def short_column(column):
-    """A short name of a column: h1 for h1_error."""
-    return SHORT_COLUMNS.get(column, column)
+    """A short name of a column: h1 for h1_error, plate_h1 for plate.h1_error."""
+    label, number = of_solver(column)
+    return "_".join(filter(None, (label, SHORT_COLUMNS.get(number, number))))
 
 
 def symbol_of(column):
-    """The heading of a column; the name of one that has none."""
-    return SYMBOLS.get(column, Heading(column, column))
+    """The heading of a column; the name of one that has none. That of a solver begins with its label."""
+    label, number = of_solver(column)
+    symbol = SYMBOLS.get(number, Heading(number, number))
+    return Heading(f"{label}: {symbol.text}", f"{label}: {symbol.tex}") if label else symbol

@@ -3,13 +3,12 @@
 
 from ..results.names import find_column
 from ..results.rows import ResultsError
-from ..results.smoothing import NUMBERS
-from ..results.symbols import Heading, symbol_of
+from ..results.smoothing import number_columns
 from .descriptions import KEY_HEADINGS, TABLES, Measure
 from .number_format import format_numbers
 from .smoothing import in_study_order, invalid_meshes, key_cells, make_group, meanings, without_failures
 from .notes import Notes
-from .table import Group, Table, escape_tex, text_cell
+from .table import Group, Table, heading_of, text_cell
 
 CHOSEN = "table_chosen"  # its file name without suffix
 KEYS = ("mesh", "degree", "method")
@@ -27,7 +26,8 @@ def chosen_table(results, wanted):
     sentences += invalid_meshes(rows, results)
     rows = list({tuple(row.get(name, "") for name in columns): row for row in reversed(rows)}.values())[::-1]
     refuse_unclear(rows, keys, results)
-    measures = [DESCRIBED.get(name) or plain_measure(name) for name in columns if name not in keys]
+    numbers = number_columns(results.summary)
+    measures = [DESCRIBED.get(name) or plain_measure(name, numbers) for name in columns if name not in keys]
     groups = {measure: make_column(measure, rows) for measure in measures}
     cells, rules = key_cells(rows, keys, results) if keys else (((),) * len(rows), ())
     return Table(study=results.study, name=CHOSEN, caption=results.study_title, keys=cells, rules=rules,
@@ -36,11 +36,9 @@ def chosen_table(results, wanted):
                  notes=meanings(keys, groups, rows) + sentences)
 
 
-def plain_measure(column):
-    """How a column is shown that no other table has."""
-    heading = symbol_of(column)
-    heading = Heading(heading.text, escape_tex(column)) if heading.text == column else heading
-    return Measure(column, heading, format_numbers if column in NUMBERS or column.endswith("_seconds") else None)
+def plain_measure(column, numbers):
+    """How a column is shown that no other table has; numbers: the columns that hold numbers."""
+    return Measure(column, heading_of(column), format_numbers if column in numbers or column.endswith("_seconds") else None)
 
 
 def make_column(measure, rows):

@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-from ..results.symbols import Heading
+from ..results.symbols import SYMBOLS, Heading, of_solver, symbol_of
 from .number_format import MISSING, grouped
 
 
@@ -52,6 +52,13 @@ def number_cell(text, mark=""):
     if exponent:
         return Cell(text, mark, rf"${mantissa}\cdot10^{{{int(power)}}}$")
     return Cell(text, mark, f"${text}$" if text[0] in "+-" else text)
+
+
+def heading_of(column):
+    """The heading of a column, with names that are no symbols escaped for LaTeX."""
+    label, number = of_solver(column)
+    tex = SYMBOLS[number].tex if number in SYMBOLS else escape_tex(number)
+    return Heading(symbol_of(column).text, f"{escape_tex(label)}: {tex}" if label else tex)
 
 
 def escape_tex(text):
