@@ -11,7 +11,8 @@ import numpy as np
 
 from ..statistics.profiles import time_to_target
 from ..statistics.units import geometric, holm, least_p, mean_of_units, sign_flips, unit_means, unit_medians
-from .problems import ERROR, LEAST_SECONDS, WORSE, kinds_of_problems
+from ..results.solvers import main_numbers, varying
+from .problems import ERROR, LEAST_SECONDS, WORSE, kinds_of_problems, problems_by
 
 NEAR_LEAST = 1.05  # a problem counts as solved below this multiple of the smallest error of any method
 SURE = 0.05  # an adjusted p-value below this distinguishes two methods
@@ -79,6 +80,15 @@ def mean_ratio(ratios, problems, of_family=unit_means):
 def gains(problems, methods):
     """The gain of every method on every kind of meshes."""
     return [gain for key, of_kind in kinds_of_problems(problems).items() for gain in gains_of_kind(key, of_kind, methods)]
+
+
+def gains_by_number(results, solver):
+    """Column -> gains, of the main numbers of another solver that smoothing changes, and that are positive: ratios of others mean
+    nothing."""
+    rows = results.summary if len(results.summary) else results.iterations
+    columns = [name for name in varying(solver.numbers, rows) if not (rows.number(name) <= 0).any()]
+    found = {name: gains(problems_by(results, solver, name), results.methods) for name in main_numbers(columns)}
+    return {name: of_number for name, of_number in found.items() if of_number}
 
 
 def gains_of_kind(key, problems, methods):

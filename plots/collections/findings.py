@@ -4,7 +4,7 @@
 import math
 from collections import Counter
 
-from ..results.symbols import symbol_of
+from ..results.symbols import of_solver, symbol_of
 from .comparison import AS_IS, INITIAL_MESH, NEXT_DEGREE, SPLIT, SURE, can_test
 from .orders import ERRORS, LEAST_CHANGE, changed
 from .prediction import differ
@@ -16,11 +16,13 @@ OWN_MEASURE = "q_mean"  # what methods of this program optimize
 MOST_KINDS = 3  # of meshes that a sentence names
 
 
-def findings_as_markdown(results, problems, found, budgets, alternatives, predictions, orders=()):
-    """A page of sentences, from what the tables show: gains, gains at budgets, payoffs, predictions and orders."""
+def findings_as_markdown(results, problems, found, budgets, alternatives, predictions, orders=(), of_solvers=()):
+    """A page of sentences, from what the tables show: gains, gains at budgets, payoffs, predictions, orders, and for each further
+    solver its gains by number."""
     sections = (("What was run", what_was_run(results, problems)),
                 ("How much", how_much(results, found)),
                 ("Which method", which_method(results, found)),
+                ("Other solvers", [sentence for by_number in of_solvers for sentence in what_others_say(results, by_number)]),
                 ("At equal times", at_equal_times(results, budgets)),
                 ("Does smoothing pay?", what_pays(results, alternatives)),
                 ("Order or constant", what_orders(results, orders)),
@@ -47,7 +49,7 @@ def counted(n, what, several=""):
 def kind_of(entry):
     """"Triangles, degree 1, distorted to 0.45"."""
     level = entry.level if entry.level == AS_GENERATED else f"distorted to {entry.level}"
-    return f"{entry.elements.capitalize()}, degree {entry.degree}, {level}"
+    return ", ".join([entry.elements.capitalize(), *([f"degree {entry.degree}"] if entry.degree else []), level])
 
 
 def of_kinds(entries):
@@ -74,15 +76,25 @@ def what_was_run(results, problems):
                         for (family, reason), n in sorted(reasons.items())]
 
 
-def how_much(results, found):
+def what_others_say(results, by_number):
+    """The gain of the reference method, and the other methods, by one number of a further solver: the H1 error, or the first one."""
+    column = next((name for name in by_number if of_solver(name)[1] == ERROR), next(iter(by_number), None))
+    if column is None:
+        return []
+    label, number = of_solver(column)
+    words = f"{symbol_of(number).text} of {label}"
+    return how_much(results, by_number[column], f"the {words}") + which_method(results, by_number[column], f"{words} over that")
+
+
+def how_much(results, found, what="the error"):
     """The gain of the reference method on each kind of meshes."""
-    return [f"{kind_of(gain)}: {results.title(gain.method)} leaves {gain.ratio:.3f}{bracket(gain.interval, '.3f')} of the error, on "
+    return [f"{kind_of(gain)}: {results.title(gain.method)} leaves {gain.ratio:.3f}{bracket(gain.interval, '.3f')} of {what}, on "
             f"{counted(gain.n_problems, 'problem')} of {counted(gain.n_families, 'family', 'families')}. It raises it by more than 1 % on "
             f"{percent(gain.worse)}" + (f", and has no valid result on {percent(gain.failed)}" if gain.failed else "") + " of them."
             for gain in found if gain.method == results.methods[0]]
 
 
-def which_method(results, found):
+def which_method(results, found, what="errors over those"):
     """The errors of the other methods over the reference method's, the least first."""
     sentences = []
     for of_kind in of_kinds(found):
@@ -98,7 +110,7 @@ def which_method(results, found):
             told = f"different from {results.title(results.methods[0])}, by an adjusted test: {', '.join(differing)}"
         else:
             told = f"no test separates one of them from {results.title(results.methods[0])}"
-        sentences.append(f"{kind_of(of_kind[0])}, errors over those of {results.title(results.methods[0])}: {text}; {told}.")
+        sentences.append(f"{kind_of(of_kind[0])}, {what} of {results.title(results.methods[0])}: {text}; {told}.")
     interpreted = [results.title(method) for method in results.methods if method in results.interpreted]
     if sentences and interpreted and len(interpreted) < len(results.methods):
         sentences.append(f"Times of {', '.join(interpreted)} include the Python interpreter and cannot be compared with those of compiled "

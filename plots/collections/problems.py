@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..results.rows import groups_of, solving_seconds
+from ..results.rows import SOLVING, Rows, groups_of, solving_seconds
 from ..results.smoothing import INITIAL
 
 ERROR = "h1_error"
@@ -73,14 +73,30 @@ class Problem:
 @lru_cache(maxsize=1)
 def problems_of(results):
     """All problems whose initial mesh is solved, in the order of the file."""
-    rows = results.iterations
+    return find_problems(results.iterations, results.summary, results.refined)
+
+
+def problems_by(results, solver, column):
+    """The same with a number of another solver as the error, and with its times. A solver without degrees has one problem a member,
+    whose degree is empty."""
+    columns = {ERROR: column, **{name: f"{solver.label}.{name}" for name in SOLVING}}
+
+    def of_number(rows):
+        if not solver.degrees and len(rows):
+            rows = rows.select(degree=min(rows.text("degree")))
+            columns["degree"] = ""
+        return Rows(rows.path, {**rows.columns, **{name: rows.text(other) for name, other in columns.items()}})
+    return find_problems(*map(of_number, (results.iterations, results.summary)), Rows(results.refined.path, {}))
+
+
+def find_problems(rows, summary, refined):
+    """The problems of iterations.csv, summary.csv and refined.csv."""
     errors, seconds, invalid = rows.number(ERROR), smoothing_seconds(rows), rows.number("n_invalid")
-    solving, ends, split = solving_seconds(rows), results_of(results.summary), split_of(results.refined)
+    solving, ends, split = solving_seconds(rows), results_of(summary), split_of(refined)
     members, degrees, methods = (rows.text(name) for name in ("member", "degree", "method"))
     places = {}
     for number, key in enumerate(zip(members, degrees)):
-        if key[1]:
-            places.setdefault(key, {}).setdefault(methods[number], []).append(number)
+        places.setdefault(key, {}).setdefault(methods[number], []).append(number)
     found = []
     for key, of_methods in places.items():
         curves, broken, of_ends = {}, {}, {}
@@ -89,13 +105,13 @@ def problems_of(results):
             solved = np.isfinite(errors[chosen])
             if not solved[0]:
                 continue
-            last, is_broken = chosen[-1], invalid[chosen[-1]] > 0
+            last, is_broken, is_solved = chosen[-1], invalid[chosen[-1]] > 0, solved[-1]
             if is_broken:
                 broken[method] = seconds[last]
             chosen = chosen[solved]
             curves[method] = {"seconds": seconds[chosen], "solving": solving[chosen], ERROR: errors[chosen]}
             # Results of earlier versions have no summary of all members.
-            result = ends.get((*key, method)) if ends else None if is_broken else Result(errors[last], seconds[last], solving[last])
+            result = ends.get((*key, method)) if ends else None if is_broken or not is_solved else Result(errors[last], seconds[last], solving[last])
             if result is not None:
                 of_ends[method] = result
         if curves:

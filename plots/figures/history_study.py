@@ -7,9 +7,9 @@ import numpy as np
 
 from ..results.names import find_column
 from ..results.request import TIME
-from ..results.rows import ResultsError, groups_of, solves_itself
+from ..results.rows import ResultsError, solves_itself
 from ..results.smoothing import number_columns
-from ..results.solvers import main_numbers
+from ..results.solvers import main_numbers, varying
 from ..results.symbols import THESIS_NORMS
 from .history import draw_history
 from .history_lines import depends_on_degree
@@ -74,7 +74,7 @@ def plan_solvers(results):
     """The numbers of each solver that is not Poisson's against smoothing time, for each of its degrees."""
     planned = []
     for solver in results.solvers:
-        columns = main_numbers(varying(solver.numbers, results.iterations))
+        columns = main_numbers(varying(solver.numbers, results.iterations) or solver.numbers)
         degrees = [degree for degree in solver.degrees if degree in results.degrees] or [*results.degrees, ""][:1]
         for part, meshes in pages(results.meshes, fits_as_columns).items():
             for degree in degrees:
@@ -84,12 +84,6 @@ def plan_solvers(results):
                     lambda columns=columns, degree=degree, meshes=meshes: draw_history(results, columns, degree, False, meshes),
                     whole=name + variant))
     return planned
-
-
-def varying(columns, rows):
-    """The columns that smoothing changes, unlike the number of degrees of freedom; all columns if it changes none."""
-    groups = [group for _, group in groups_of(rows, "mesh", "degree")]
-    return [name for name in columns if any(len({*group.text(name)} - {""}) > 1 for group in groups)] or columns
 
 
 def plan_requested_history(results, request):

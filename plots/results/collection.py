@@ -11,6 +11,8 @@ import numpy as np
 
 from .rows import SOLVING, ResultsError, Rows, entries, is_there, open_rows, order_of, read_provenance, read_rows
 from .smoothing import INITIAL
+from .solvers import solvers_of
+from .symbols import of_solver
 
 MEMBER_COLUMNS = ("member", "family", "elements", "solution", "status", "reason")
 QUALITIES = ("q_min", "q_star_min", "q_mean")
@@ -39,12 +41,13 @@ class CollectionResults:
     methods: tuple
     titles: dict
     members: Rows
-    iterations: Rows  # KEYS, NUMBERS and the columns of metrics only
+    iterations: Rows  # KEYS, NUMBERS, and the columns of metrics and further solvers only
     refined: Rows = Rows(Path("refined.csv"), {})  # REFINED: initial and resulting meshes with every cell split
     summary: Rows = Rows(Path("summary.csv"), {})  # SUMMARY
     solving: frozenset = frozenset()  # methods that solve by themselves
     interpreted: frozenset = frozenset()  # methods in Python
     qualities: tuple = QUALITIES  # columns of iterations: what may predict an outcome; none if only ends were kept
+    solvers: tuple = ()  # besides Poisson's
 
     def title(self, name):
         """The title of a method; its name where the provenance gives none."""
@@ -53,7 +56,7 @@ class CollectionResults:
 
 def read_some_columns(path, names, optional=()):
     """Some columns of a CSV file, which may be large; raises ResultsError if it is missing, truncated or lacks
-    one of them. Optional ones are left out where they are not there."""
+    one of them. Optional ones are left out where they are not there. Those of further solvers are always read."""
     try:
         with open_rows(path) as stream:
             lines = csv.reader(stream)
@@ -61,7 +64,7 @@ def read_some_columns(path, names, optional=()):
             missing = [name for name in names if name not in header]
             if missing:
                 raise ResultsError(f"{path}: column `{missing[0]}` is missing.")
-            names = (*names, *(name for name in optional if name in header))
+            names = (*names, *(name for name in header if name in optional or of_solver(name)[0]))
             chosen = itemgetter(*(header.index(name) for name in names))
             table = [chosen(line) for line in lines]
     except FileNotFoundError:
@@ -140,4 +143,4 @@ def read_collection_results(folder):
         summary=summary, solving=frozenset(iterations.text("method")[iterations.text("n_solves") != ""]),
         interpreted=frozenset(entry["name"] for entry in entries(provenance, "methods")
                               if str(entry.get("type", "")).startswith("python:")),
-        qualities=(*QUALITIES, *of_metrics) if is_there(file) else ())
+        qualities=(*QUALITIES, *of_metrics) if is_there(file) else (), solvers=solvers_of(summary if has_summary else iterations, provenance))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The solvers of a study that are not Poisson's, and the columns of their numbers."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .rows import groups_of
 from .symbols import of_solver
@@ -20,7 +20,7 @@ class Solver:
     title: str
     degrees: tuple  # as in the files; empty: its numbers do not depend on the degree
     columns: tuple  # with numbers, in the order of the file
-    described: dict  # column -> (unit, meaning)
+    described: dict = field(hash=False)  # column -> (unit, meaning)
 
     @property
     def numbers(self):
@@ -54,9 +54,10 @@ def degrees_of(rows, columns):
     """The degrees with numbers in these columns; none if each mesh has the same numbers at all degrees."""
     # Times differ always.
     columns = [name for name in columns if not name.endswith(SECONDS)] or columns
-    keys = [name for name in ("member", "mesh", "method", "iteration") if name in rows.columns]
-    records = [list(zip(*(group.text(name) for name in columns))) for _, group in groups_of(rows, *keys)]
-    if all(len(set(of_mesh)) == 1 for of_mesh in records):
+    of_methods = {}
+    for (*method, _), group in groups_of(rows, *(name for name in ("member", "mesh", "method") if name in rows.columns), "degree"):
+        of_methods.setdefault(tuple(method), set()).add(tuple(field for name in columns for field in group.text(name)))
+    if all(len(records) == 1 for records in of_methods.values()):
         return ()
     with_numbers = {degree for degree, *fields in zip(rows.text("degree"), *map(rows.text, columns)) if any(fields)}
     return tuple(sorted(with_numbers - {""}, key=float))
@@ -68,3 +69,9 @@ def main_numbers(columns):
     first = [*of_kind[ERRORS][:MOST_ERRORS], *of_kind[ITERATIONS][:1], *of_kind[CONDITION][:1]]
     others = [name for name in columns if not any(name in names for names in of_kind.values())]
     return tuple(dict.fromkeys((*first, *others, *columns)))[:MOST_SHOWN]
+
+
+def varying(columns, rows):
+    """The columns that smoothing changes, unlike the number of degrees of freedom."""
+    groups = [group for _, group in groups_of(rows, *(name for name in ("member", "mesh", "degree") if name in rows.columns))]
+    return tuple(name for name in columns if any(len({*group.text(name)} - {""}) > 1 for group in groups))

@@ -3,13 +3,13 @@
 
 import math
 
-from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, at_budgets, gains, payoffs
+from ..collections.comparison import INITIAL_MESH, NEXT_DEGREE, SPLIT, at_budgets, gains, gains_by_number, payoffs
 from ..collections.findings import findings_as_markdown
 from ..collections.orders import ERRORS, LEAST_CHANGE, orders
 from ..collections.prediction import RECORDS_OF_CURVE, predictions
 from ..collections.problems import problems_of
 from ..results.rows import groups_of
-from ..results.symbols import symbol_of
+from ..results.symbols import of_solver, symbol_of
 from .columns import between, number, table_of
 from .gains import gains_table
 from .pairs import pairs_table
@@ -21,18 +21,21 @@ LEVELS = "Level: mean quality that the initial mesh was distorted to."
 
 
 def make_collection_tables(results):
-    """(tables, page of findings): members, gains, budgets, whether smoothing pays, orders, correlations, and what knowing the solution
-    gains; tables without rows are left out."""
+    """(tables, page of findings): members, gains, budgets, whether smoothing pays, orders, correlations, what knowing the solution
+    gains, and gains by numbers of further solvers; tables without rows are left out."""
     problems, predicted = problems_of(results), predictions(results)
     found, budgets = gains(problems, results.methods), at_budgets(problems, results.methods)
     # The reference method, and methods that move nodes by the solution.
     paying = [method for method in results.methods if method == results.methods[0] or method in results.solving]
     alternatives = payoffs(problems, paying)
+    of_solvers = {solver: gains_by_number(results, solver) for solver in results.solvers}
     tables = (members_table(results), smoothing_table(results, found), budget_table(results, budgets),
               payoff_table(results, alternatives), orders_table(results, orders(results)), prediction_table(results, predicted),
-              gains_table(results), pairs_table(results))
+              gains_table(results), pairs_table(results),
+              *(solver_table(results, solver, by_number) for solver, by_number in of_solvers.items()))
     return ([table for table in tables if table.keys],
-            findings_as_markdown(results, problems, found, budgets, alternatives, predicted, orders(results)))
+            findings_as_markdown(results, problems, found, budgets, alternatives, predicted, orders(results),
+                                 of_solvers.values()))
 
 
 def kind_columns(found):
@@ -59,22 +62,42 @@ def members_table(results):
         ["members.csv has the reasons of failed members."])
 
 
+def gain_columns(reference, found, what, higher):
+    """The columns of gains in a number; higher: the heading of the share of problems where it rises."""
+    return [(f"{what} / initial", [("", [number(gain.ratio, ".3f") for gain in found]),
+                                   ("interval", [between(gain.interval, ".3f") for gain in found])]),
+            (f"{what} / {reference}", [("", [number(gain.over_reference, ".3f") for gain in found]),
+                                       ("interval", [between(gain.over_reference_interval, ".3f") for gain in found]),
+                                       ("p", [number(gain.p_value, ".2g") for gain in found])]),
+            ("Time", [("", [number(gain.seconds, ".2g") for gain in found])]),
+            (f"{higher} (%)", [("", [percent(gain.worse) for gain in found])]),
+            ("Failed (%)", [("", [percent(gain.failed) for gain in found])]),
+            ("Problems", [("", [number_cell(str(gain.n_problems)) for gain in found])]),
+            ("Families", [("", [number_cell(str(gain.n_families)) for gain in found])])]
+
+
+def solver_table(results, solver, by_number):
+    """What each method does to the numbers of a further solver."""
+    names, found = zip(*((name, gain) for name, of_number in by_number.items() for gain in of_number)) if by_number else ((), ())
+    reference = results.title(results.methods[0]) if results.methods else ""
+    return table_of(
+        results, f"table_solver_{solver.label}", f"what smoothing does to the numbers of {solver.title}",
+        [("Number", [text_cell(symbol_of(of_solver(name)[1]).text) for name in names]), *kind_columns(found),
+         ("Method", [text_cell(results.title(gain.method)) for gain in found])],
+        gain_columns(reference, found, "Number", "Higher"),
+        ["Numbers after over before smoothing, geometric means. Failed: no number, or a mesh with invalid cells; the initial mesh is then "
+         "used, ratio 1. Higher: the number rises by more than 1 %. Time: of smoothing, over one solution of this solver on the initial "
+         "mesh, without assembly; a dash: the solver records no times of CG. p: as in table_smoothing, for each number by itself. Numbers "
+         "that smoothing does not change, and those with values of 0 or below, are left out.", LEVELS, INTERVALS])
+
+
 def smoothing_table(results, found):
     """What each method does to the error."""
     reference = results.title(results.methods[0]) if results.methods else ""
     return table_of(
         results, "table_smoothing", "what smoothing does to the error",
         [*kind_columns(found), ("Method", [text_cell(results.title(gain.method)) for gain in found])],
-        [("Error / initial", [("", [number(gain.ratio, ".3f") for gain in found]),
-                              ("interval", [between(gain.interval, ".3f") for gain in found])]),
-         (f"Error / {reference}", [("", [number(gain.over_reference, ".3f") for gain in found]),
-                                   ("interval", [between(gain.over_reference_interval, ".3f") for gain in found]),
-                                   ("p", [number(gain.p_value, ".2g") for gain in found])]),
-         ("Time", [("", [number(gain.seconds, ".2g") for gain in found])]),
-         ("Worse (%)", [("", [percent(gain.worse) for gain in found])]),
-         ("Failed (%)", [("", [percent(gain.failed) for gain in found])]),
-         ("Problems", [("", [number_cell(str(gain.n_problems)) for gain in found])]),
-         ("Families", [("", [number_cell(str(gain.n_families)) for gain in found])])],
+        gain_columns(reference, found, "Error", "Worse"),
         ["True H1 error after over that before smoothing, geometric means. Failed: no result, or one with invalid cells; the initial mesh is "
          "then used, ratio 1. Worse: the error rises by more than 1 %. Time: of smoothing, over one solution on the initial mesh by the "
          f"fastest solver of the run. p: sign flips of the families' mean logarithms against {reference}, the first method of the study; "
