@@ -15,7 +15,7 @@ from .method_order import order_notes
 from .notes import Notes
 from .number_format import BELOW_CLOCK, CLOCK, MISSING, format_seconds, relative_difference
 from .sessions import times_sentence
-from .table import Cell, Group, Table, escape_tex, number_cell
+from .table import Cell, Group, Table, escape_tex, heading_of, number_cell
 
 
 COLUMNS_NOTE = ("Columns: the value of smoothfem, that of the thesis, and where it makes sense the relative difference "
@@ -254,7 +254,8 @@ def key_cells(rows, keys, results):
 
 def key_cell(name, value, results):
     """The cell of a key: titles for methods, symbols for errors; meshes keep their short names."""
-    if name == "error" and value in SYMBOLS:
-        return Cell(SYMBOLS[value].text, tex=SYMBOLS[value].tex)
+    if name == "error":
+        heading = heading_of(value)
+        return Cell(heading.text, tex=heading.tex)
     title = results.title(value) if name == "method" else value
     return Cell(title, tex=escape_tex(title))

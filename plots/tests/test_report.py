@@ -27,7 +27,7 @@ from plots.study_kinds import outputs_of
 from plots.tables.table import Cell, Group, Table
 from plots.tests.test_collection import write_collection
 from plots.tests.synthetic_polygons import write_polygon_results
-from plots.tests.synthetic_results import change_provenance, write_csv, write_results
+from plots.tests.synthetic_results import write_csv, write_results
 from plots.tests.test_read_results import InFolder
 
 MOST_BYTES = 8e6

@@ -3,6 +3,7 @@
 
 import csv
 
+from plots.__main__ import main
 from plots.results.smoothing import read_results
 from plots.tables.solvers import make_solver_tables
 from plots.tests.synthetic_results import change_provenance, write_csv, write_results
@@ -44,6 +45,15 @@ class SolverTables(InFolder):
         table, = self.tables({"beam.stress": lambda row: "1", "beam.cg_seconds": lambda row: "0.5"})
         self.assertEqual([group.heading.text for group in table.groups], ["stress"])
         self.assertIn("times", table.notes[-1][1])
+
+    def test_tables_of_earlier_numbers_are_removed(self):
+        self.tables({"beam.stress": lambda row: "1"})
+        self.assertEqual(main([str(self.results), "--no-figures", "--quiet"]), 0)
+        table = self.results / "tables" / "table_solver_beam.md"
+        self.assertTrue(table.is_file())
+        self.tables({"beam.stress": lambda row: ""})
+        self.assertEqual(main([str(self.results), "--no-figures", "--quiet"]), 0)
+        self.assertFalse(table.exists())
 
     def test_a_solver_that_failed_everywhere_has_none(self):
         self.assertEqual(self.tables({"beam.stress": lambda row: ""}), [])

@@ -348,6 +348,7 @@ class CollectionRun {
                                       .earlier_sessions = earlier_.sessions,
                                       .dimensions = {dimension, dimension},
                                       .methods = common.methods,
+                                      .solvers = common.solvers,
                                       .shard = options_.shard,
                                       .members = meshes_of(collection_.members)}));
   }
