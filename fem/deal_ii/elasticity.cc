@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "fem/deal_ii/lagrange_space.h"
 #include "fem/deal_ii/solution_functions.h"
@@ -159,7 +160,8 @@ class Elasticity final : public TriangulationSolver<dim> {
                      "Largest error of the von Mises stress at the quadrature points."});
     }
     all.push_back({"energy", "", "Square of the energy norm of the computed displacement."});
-    all.push_back({"u_max", "", "Largest displacement of a node of the finite elements."});
+    all.push_back(
+        {"u_max", "", "Largest length of the displacement at a node of the finite elements."});
     all.push_back({"von_mises_max", "", "Largest von Mises stress at the quadrature points."});
     return all;
   }
@@ -228,7 +230,7 @@ class Elasticity final : public TriangulationSolver<dim> {
         }
       if (!is_known)
         throw InputError("elasticity has '" + parameter + " " + group +
-                         "', but no cell is in this group; 'smoothfem quality' lists the groups");
+                         "', but no cell of the mesh is in this group");
     }
     materials_.clear();
     for (const auto kind : kinds) materials_.push_back(lame_of(of_kinds[kind]));
@@ -245,8 +247,21 @@ class Elasticity final : public TriangulationSolver<dim> {
     for (const int tag : topology.labels().facet_tags)
       if (is_group(topology.labels(), dim - 1, tag, group)) return static_cast<Id>(tag);
     throw InputError("elasticity names the group '" + group +
-                     "' of the boundary, which the mesh does not have; 'smoothfem quality' lists "
-                     "the groups");
+                     "' of the boundary, which the mesh does not have; " +
+                     groups_of_boundary(topology.labels(), dim - 1));
+  }
+
+  /// Returns the ids of a group that is held: of all facets for "boundary", if no group has this
+  /// name.
+  static std::set<Id> ids_of_displacement(const Topology& topology, const std::string& group) {
+    const MeshLabels& labels = topology.labels();
+    const bool is_named =
+        std::any_of(labels.facet_tags.begin(), labels.facet_tags.end(),
+                    [&](int tag) { return is_group(labels, dim - 1, tag, group); });
+    if (group != "boundary" || is_named) return {id_of(topology, group)};
+    std::set<Id> all{0};  // of facets without a tag
+    for (const int tag : labels.facet_tags) all.insert(static_cast<Id>(tag));
+    return all;
   }
 
   void set_boundary(const Topology& topology) {
@@ -255,7 +270,8 @@ class Elasticity final : public TriangulationSolver<dim> {
     traction_of_.clear();
     for (const auto& group : split_list(natural_)) natural_ids_.push_back(id_of(topology, group));
     for (std::size_t k = 0; k < displacements_.size(); ++k)
-      displacement_of_[id_of(topology, displacements_[k].group)].push_back(k);
+      for (const Id id : ids_of_displacement(topology, displacements_[k].group))
+        displacement_of_[id].push_back(k);
     for (std::size_t k = 0; k < tractions_.size(); ++k)
       traction_of_[id_of(topology, tractions_[k].group)].push_back(k);
   }

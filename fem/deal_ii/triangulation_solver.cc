@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/deal_ii/triangulation_solver.h"
 
+#include <deal.II/lac/solver_control.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -55,6 +57,9 @@ static const RegisteredPluginKind deal_ii_of_plugins({.abi = deal_ii_abi});
 void with_failures_of_deal_ii(const std::function<void()>& work) {
   try {
     work();
+  } catch (const dealii::SolverControl::NoConvergence& failure) {
+    throw SolverFailure("no convergence after " + std::to_string(failure.last_step) +
+                        " iterations, residual " + number_text(failure.last_residual));
   } catch (const dealii::ExceptionBase& error) {
     std::ostringstream text;
     error.print_info(text);

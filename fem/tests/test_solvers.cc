@@ -191,6 +191,17 @@ TEST(Elasticity, RigidBodyModesMakeMultigridGood) {
   EXPECT_LT(numbers.at("amg_cg_iterations"), 0.25 * numbers.at("jacobi_cg_iterations"));
 }
 
+TEST(Elasticity, TheWholeBoundaryCanBeHeld) {
+  const auto mesh = unit_square(6, Cells::quadrilaterals, 0.1);
+  const Settings load{{"f", "1 ; x"}, {"cg_tolerance", "1e-12"}};
+  const auto plain =
+      solve<2>(mesh, 1, "elasticity", load, {{"displacement group", "boundary", "0 ; 0"}});
+  const auto grouped = solve<2>(with_groups(mesh), 1, "elasticity", load,
+                                {{"displacement group", "boundary", "0 ; 0"}});
+  EXPECT_EQ(plain.at("n_free"), 50.0) << "two components at 5 x 5 inner nodes";
+  EXPECT_NEAR(plain.at("energy"), grouped.at("energy"), 1e-12);
+}
+
 TEST(Elasticity, RefusesWhatItCannotSolve) {
   const auto refused = [](const Settings& settings, const Keyed& keyed, const std::string& why) {
     EXPECT_THAT(
@@ -204,12 +215,14 @@ TEST(Elasticity, RefusesWhatItCannotSolve) {
   refused({{"u", "x"}}, {}, "'u', 'x', needs 2 formulas");
   refused({{"u", "x ; q"}}, {}, "'q'");
   refused({{"u", "x ; y"}, {"nu", "0.5"}}, {}, "nu = 0.5 is outside its range (-1, 0.5)");
-  refused({{"u", "x ; y"}}, {{"E group", "steel", "2"}}, "no cell is in this group");
+  refused({{"u", "x ; y"}}, {{"E group", "steel", "2"}}, "no cell of the mesh is in this group");
   refused({{"u", "x ; y"}}, {{"E group", "steel", "-2"}}, "E group steel = -2 is outside");
   refused({{"u", "x ; y"}, {"natural", "top"}}, {}, "names the group 'top' of the boundary");
   refused({{"u", "x ; y"}, {"natural", "left, right, side"}}, {},
           "no part of the boundary is held");
   refused({{"u", "x ; y"}}, {{"traction group", "left", "1 ; 0"}}, "leave out u, or 'f'");
+  refused({}, {{"displacement group", "bottom", "0 ; 0"}},
+          "does not have; the mesh has the groups");
   refused({}, {{"displacement group", "left", "free ; free"}}, "no part of the boundary is held");
 }
 

@@ -24,6 +24,7 @@ SOLVER = "jacobi_cg_iterations"
 FEWEST_FAMILIES = 3  # of an interval that says something
 SURE = 0.05  # adjusted p-values below it tell methods apart
 PERCENT = 100
+FAR_BELOW = 0.25  # times the median of q_min of meshes as generated
 
 
 class Fields:
@@ -71,9 +72,9 @@ class Fields:
         counts = np.concatenate([rows.number("n_nodes") for rows in self.members.values()])
         return int(np.nanmin(counts)), int(np.nanmax(counts))
 
-    def qualities(self, elements):
-        """Mean qualities of the meshes as generated."""
-        of_members = [rows.select(elements=elements, distortion="").number("q_mean") for rows in self.members.values()]
+    def qualities(self, elements, column="q_mean"):
+        """Mean qualities of the meshes as generated, or another column of theirs."""
+        of_members = [rows.select(elements=elements, distortion="").number(column) for rows in self.members.values()]
         return [quality for qualities in of_members for quality in qualities if np.isfinite(quality)]
 
     def iterations(self, elements, level, degree):
@@ -145,7 +146,7 @@ def differences(found):
 def blocks(found, reference):
     """The blocks of the answer page."""
     return {"run": what_was_run(found), "levels": levels(found), "good": good_meshes(found), "bad": bad_meshes(reference),
-            "methods": methods(found), "budgets": budgets(found), "clusters": clusters(reference), "minimum": minimum(reference),
+            "methods": methods(found), "budgets": budgets(found), "clusters": clusters(reference), "minimum": minimum(reference), "low-minimum": low_minimum(found),
             "cost": cost(found), "prediction": prediction(found), "practice": practice(reference), "orders": order_or_constant(reference), "moving": moving(reference)}
 
 
@@ -156,8 +157,11 @@ def what_was_run(found):
     complete, total = sum(count["complete"] for count in counts), sum(sum(count.values()) for count in counts)
     folders = " and ".join(f"`results/reference/{study}`" for study in found.studies)
     qualities = "; ".join(f"{elements} {spread(found.qualities(elements))}" for elements in found.elements)
+    smallest = "; ".join(f"{elements} {spread(found.qualities(elements, 'q_min'))}, median {np.median(found.qualities(elements, 'q_min')):.2f}"
+                         for elements in found.elements)
     return (f"{found.n_meshes():,} meshes of {found.domains()} have {least:,} to {most:,} nodes. Each mesh has five problems; {complete:,} of "
-            f"{total:,} are complete ({folders}). The mean quality of meshes as generated (mean ratio, at most 1): {qualities}.")
+            f"{total:,} are complete ({folders}). The mean quality `q_mean` of meshes as generated (mean ratio, at most 1): {qualities}. "
+            f"Their smallest quality `q_min`: {smallest}.")
 
 
 def levels(found):
@@ -181,6 +185,31 @@ def good_meshes(found):
         parts.append(f"with elements of degree {degree} the H1 error falls by less than 2 % on {PERCENT * small:.0f} % of the problems, and "
                      f"rises by more than 1 % on {PERCENT * worse:.0f} %")
     return f"On meshes as generated, {parts[0]}; {parts[1]} (means over domains)."
+
+
+def low_minimum(found):
+    """Meshes as generated with a few bad cells: errors and iterations after over before smoothing."""
+    rows = []
+    for initial, after in found.pairs:
+        ratios = {"h1_error": after.number("h1_error") / initial.number("h1_error"), SOLVER: after.number(SOLVER) / initial.number(SOLVER)}
+        meshes = np.array([member.rsplit(".", 1)[0] for member in initial.text("member")])
+        for elements in found.elements:
+            limit = FAR_BELOW * np.median(found.qualities(elements, "q_min") or [0.0])
+            low = (initial.text("elements") == elements) & (initial.text("distortion") == "") & (initial.number("q_min") < limit)
+            for mesh in dict.fromkeys(meshes[low]):
+                here = low & (meshes == mesh)
+                cells = [mean_ratio(ratios[column][here & (initial.text("degree") == degree)]) for degree in "12" for column in ratios]
+                rows.append((initial.text("domain")[here][0], elements, f"{initial.number('q_min')[here][0]:.4f}",
+                             f"{initial.number('q_mean')[here][0]:.2f}", *cells))
+    return ("Meshes as generated whose q_min is below a quarter of the median of their elements (a limit chosen after looking). Each number is after over "
+            "before smoothing, a geometric mean over five problems:\n\n"
+            + table(("domain", "elements", "q_min", "q_mean", "H1 error, degree 1", "CG iterations with Jacobi", "degree 2", "iterations"),
+                    rows, "llrrrrrr"))
+
+
+def mean_ratio(ratios):
+    """The geometric mean of the known ratios."""
+    return f"{np.exp(np.nanmean(np.log(ratios))):.2f}"
 
 
 def of_study(reference, study):

@@ -2,6 +2,7 @@
 #include "smoothing/mesh/boundary_tags.h"
 
 #include <map>
+#include <set>
 
 #include "smoothing/mesh/sorted_nodes.h"
 
@@ -19,6 +20,18 @@ std::vector<int> boundary_tags(const Topology& topology) {
     result.push_back(found == tags.end() ? 0 : found->second);
   }
   return result;
+}
+
+std::string groups_of_boundary(const MeshLabels& labels, int dimension) {
+  const std::set<int> tags(labels.facet_tags.begin(), labels.facet_tags.end());
+  if (tags.empty()) return "the mesh has no groups of the boundary";
+  std::string text;
+  for (const int tag : tags) {
+    const auto name = labels.names.find({dimension, tag});
+    text += (text.empty() ? "the mesh has the groups " : ", ") + std::to_string(tag) +
+            (name == labels.names.end() ? "" : " (" + name->second + ")");
+  }
+  return text;
 }
 
 }  // namespace smoothfem

@@ -18,4 +18,8 @@ inline bool is_group(const MeshLabels& labels, int dimension, int tag, const std
   return group == std::to_string(tag) || (name != labels.names.end() && group == name->second);
 }
 
+/// Returns the groups of the boundary for a message, for example "the mesh has the groups 4, 5
+/// (inlet)".
+std::string groups_of_boundary(const MeshLabels& labels, int dimension);
+
 }  // namespace smoothfem

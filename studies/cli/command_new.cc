@@ -83,6 +83,8 @@ void make_folder(const Kind& kind, const NewArguments& arguments) {
   if (fs::exists(arguments.name))
     throw InputError("a file or folder '" + arguments.name +
                      "' exists here; choose another name or another folder");
+  if (arguments.name == "poisson")
+    throw InputError("'poisson' is the program's own solver; choose another name");
   for (const auto& info : method_catalogue(true))
     if (info.name == arguments.name)
       throw InputError("a method '" + arguments.name + "' exists; choose another name");

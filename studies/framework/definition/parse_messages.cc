@@ -65,10 +65,13 @@ std::string no_such(const std::string& what, const std::string& wanted,
          "'smoothfem list --study-keys' shows the available keys";
 }
 
-/// Message for an unknown subsection. Each mesh, method and solution that the study names has one.
+/// Message for an unknown subsection. Each mesh, method, solution and solver that the study names
+/// has one.
 std::string no_such_subsection(const std::string& wanted, const std::vector<std::string>& names) {
-  for (const auto& [kind, list] :
-       {std::pair{"mesh ", "meshes"}, {"method ", "methods"}, {"solution ", "solutions"}}) {
+  for (const auto& [kind, list] : {std::pair{"mesh ", "meshes"},
+                                   {"method ", "methods"},
+                                   {"solution ", "solutions"},
+                                   {"solver ", "solvers"}}) {
     if (!wanted.starts_with(kind)) continue;
     const std::string nearest = nearest_name(wanted, names);
     return "'set " + std::string(list) + "' does not name '" +

@@ -13,6 +13,7 @@
 #include "meshes/io/atomic_file.h"
 #include "smoothing/base/interruption.h"
 #include "smoothing/base/parallel.h"
+#include "smoothing/base/text.h"
 #include "studies/framework/definition/seeds.h"
 #include "studies/framework/definition/study_file.h"
 #include "studies/framework/results/folder_lock.h"
@@ -503,6 +504,25 @@ class StudyRun {
                      thresholds_csv(study_.header.name, thresholds));
     if (study_.write_meshes) write_meshes(data_, options_.out);
     progress_.end();
+    report_failed_solvers();
+  }
+
+  /// Says on the error stream if solvers other than Poisson's have failed: their columns are then
+  /// empty.
+  void report_failed_solvers() const {
+    const auto rows = summary_rows(data_);
+    std::size_t n_failed = 0;
+    std::string first;
+    for (const auto& row : rows)
+      for (const auto& solver : study_.solvers)
+        if (row.status.find(solver.label + ": failed") != std::string::npos) {
+          ++n_failed;
+          if (first.empty()) first = row.mesh + ", " + row.method + ": " + row.status;
+          break;
+        }
+    if (n_failed > 0)
+      std::fprintf(stderr, "smoothfem: a solver failed for %zu of %zu rows of summary.csv (%s)\n",
+                   n_failed, rows.size(), in_one_line(first).c_str());
   }
 
   /// Returns the problem as text.
