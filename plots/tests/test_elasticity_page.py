@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The outcome of the study elasticity: its criteria, with numbers computed by hand."""
+"""The outcome of the study elasticity: its criteria, with numbers that are known."""
 
 import math
 import tempfile
