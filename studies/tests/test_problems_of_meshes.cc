@@ -258,6 +258,12 @@ TEST_F(ProblemOfMesh, PeriodicPartnersHaveTheSameUnknown) {
   run("tied", "set degrees = 1\nset periodic = constrain\n" + wave);
   EXPECT_EQ(summary("tied").rows.front().at("n_free"), "56");
   EXPECT_LT(largest("tied", "l2_error"), 0.05);
+  const std::string solver =
+      "set solvers = other\nsubsection solver other\n set type = deal.II\nend\n" + wave;
+  run("changed", "set degrees = 1\n" + solver);
+  EXPECT_EQ(summary("changed").rows.front().at("other.n_free"), "49");
+  run("changed", "set degrees = 1\nset periodic = constrain\n" + solver);
+  EXPECT_EQ(summary("changed").rows.front().at("other.n_free"), "56") << "solved again";
   EXPECT_THAT(refused("set degrees = 1\nset periodic = constrain\n"
                       "subsection solution\n set u = x*y\nend\n"),
               HasSubstr("not that at its periodic partner"));

@@ -170,6 +170,17 @@ void add_problem(const StudyMethod& method, const Study& study, Ingredients& mad
   if (!any) add_solution(study.solution, made_of);
 }
 
+void add_ties(const NodeTies& ties, Ingredients& made_of) {
+  for (const auto& tie : ties.nodes) {
+    made_of.add("tied", tie.node);
+    for (const auto& [node, weight] : tie.masters) {
+      made_of.add("to", node);
+      made_of.add("weight", weight);
+    }
+  }
+  for (const auto& facet : ties.inner_facets) made_of.add_bytes("inner facet", facet);
+}
+
 }  // namespace
 
 std::string kept_mesh_name(const StudyMesh& description, const std::string& source_sha256,
@@ -249,21 +260,13 @@ std::string solved_name(const SolvedFrom& from, const StudySolution& solution, c
   if (from.solver != nullptr) {
     add_solver(*from.solver, made_of);
     if (from.solver->traits.needs_solution) add_solution(solution, made_of);
+    if (from.ties != nullptr) add_ties(*from.ties, made_of);
     return made_of.name("solved");
   }
   made_of.add("series", study.write_series);
   add_options(study.finite_elements, made_of);
   add_solution(solution, made_of);
-  if (from.ties != nullptr) {
-    for (const auto& tie : from.ties->nodes) {
-      made_of.add("tied", tie.node);
-      for (const auto& [node, weight] : tie.masters) {
-        made_of.add("to", node);
-        made_of.add("weight", weight);
-      }
-    }
-    for (const auto& facet : from.ties->inner_facets) made_of.add_bytes("inner facet", facet);
-  }
+  if (from.ties != nullptr) add_ties(*from.ties, made_of);
   return made_of.name("solved");
 }
 
