@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 
 from ..results.request import TIME
 from ..results.smoothing import INITIAL
-from ..results.symbols import THESIS_NORMS, symbol_of
+from ..results.symbols import THESIS_NORMS, of_solver, symbol_of
 from .diagrams import (FOOT, HEAD, INITIAL_DASHES, MARKER_SIZE, draw_legend, figure_size,
                        styles_in_order, thin_markers)
 from .history_lines import COUNTS, depends_on_degree, panel_lines, range_of
@@ -49,7 +49,7 @@ def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log
     styles = styles_in_order(results)
     is_single = len(columns) * len(meshes) == 1  # then the caption says what it shows
     figure, axes = empty_panels(results, styles, [[lines[name, mesh] for mesh in meshes] for name in columns],
-                                ["" if is_single else results.title(mesh) for mesh in meshes])
+                                ["" if is_single else results.title(mesh) + solver_in_title(results, columns) for mesh in meshes])
     for row, name in zip(axes, columns):
         values = [shown_values(lines[name, mesh], extent) for mesh, extent in zip(meshes, ranges)]
         logarithmic = log_y or name not in LINEAR and any(map(spans_magnitudes, values))
@@ -66,6 +66,18 @@ def draw_history(results, columns, degree, log_x=False, meshes=None, x=TIME, log
             annotate_free_area(ax, words_on(results, lines[name, mesh], extent))
     thin_markers(figure)
     return figure
+
+
+def only_solver(columns):
+    """The label of the solver that has all columns; empty if there is none."""
+    labels = {of_solver(name)[0] for name in columns}
+    return labels.pop() if len(labels) == 1 else ""
+
+
+def solver_in_title(results, columns):
+    """" – Title" of the solver that has all columns; then its label is in no name of an axis."""
+    label = only_solver(columns)
+    return "".join(f" – {solver.title}" for solver in results.solvers if label and solver.label == label)
 
 
 def empty_panels(results, styles, lines, titles):
@@ -101,12 +113,18 @@ def empty_panels(results, styles, lines, titles):
 def label_axes(figure, axes, columns, units, x, ranges):
     """Names of the axes, and room for them. columns: each with its degree; empty: it has none. units: of columns whose headings have
     none."""
+    # The titles above the panels name a single solver.
+    named_above = axes.size > 1 and only_solver(columns)
+
+    def short(column):
+        return of_solver(column)[1] if named_above and column in columns else column
+
     def name_of(column):
-        return label_of(column) + (f" [{units[column]}]" if column in units else "")
+        return label_of(short(column)) + (f" [{units[column]}]" if column in units else "")
     for letter, row, (name, degree) in zip(string.ascii_lowercase, axes, columns.items()):
         words = [*([f"$d={degree}$"] if degree else []),
                  *(["log"] if row[0].get_yscale() == "log" else [])]
-        gap = "\n" if len(symbol_of(name).text) > LONGEST_LABEL else "  "
+        gap = "\n" if len(symbol_of(short(name)).text) > LONGEST_LABEL else "  "
         row[0].set_ylabel((f"({letter})  " if len(axes) > 1 else "") + name_of(name)
                           + (f"{gap}({', '.join(words)})" if words else ""))
     for ax, extent in zip(axes[-1], ranges):
