@@ -58,6 +58,7 @@ CONSOLE = {
 # Listings that are neither files nor commands: {(page, language): reason}.
 LISTINGS = {
     ("how-to/smoother-in-cpp", "cpp"): "studies/CMakeLists.txt compiles it into documented_smoother_test",
+    ("how-to/solver-in-cpp", "cpp"): "two lines that need the class around them",
     ("explanation/architecture", "text"): "the data flow",
 }
 # Commands of one page: drawing all figures of a study takes 12 s, and launcher/tests/test_installed.py tests it.
