@@ -341,17 +341,26 @@ def converged(reference):
             "GETMe's meshes.")
 
 
+ORDERS = {"orders": "square and L-shape, triangles and quadrilaterals, five sizes, distorted to 0.45",
+          "orders-volume": "cube and Fichera corner, tetrahedra and hexahedra, five or six sizes, distorted to 0.6"}
+
+
 def order_or_constant(reference):
-    """Whether smoothing changes the order of the error in the plane."""
-    rows = [row for row in tables_of(reference, "orders", "table_orders") if row["Level"] != "as generated"]
+    """Whether smoothing changes the order of the error, in the plane and in space."""
+    return "Observed orders on a smooth solution:\n\n" + "\n\n".join(
+        f"{meshes[0].upper()}{meshes[1:]} (`results/reference/{study}/tables/table_orders.csv`):\n\n{orders_of(reference, study)}"
+        for study, meshes in ORDERS.items())
+
+
+def orders_of(reference, study):
+    """The table of one study."""
+    rows = [row for row in tables_of(reference, study, "table_orders") if row["Level"] != "as generated"]
     expected = {("H1", "1"): 1, ("H1", "2"): 2, ("L2", "1"): 2, ("L2", "2"): 3}
-    lines = [(norm, degree, order, *(spread([float(row[f"Order of {norm}"]) for row in rows
-                                             if row["d"] == degree and (row["Method"] == "Initial") == is_initial])
+    lines = [(norm, degree, order, *(spread([float(row[f"Order of {norm}"]) for row in rows if row[f"Order of {norm}"] not in ("", "–")
+                                             and row["d"] == degree and (row["Method"] == "Initial") == is_initial])
                                      for is_initial in (True, False)))
              for (norm, degree), order in expected.items()]
-    return ("Observed orders on a smooth solution: square and L-shape, triangles and quadrilaterals, five sizes, distorted to 0.45 "
-            "(`results/reference/orders/tables/table_orders.csv`):\n\n"
-            + table(("error", "degree", "expected", "before smoothing", "after smoothing"), lines, "lrrrr"))
+    return table(("error", "degree", "expected", "before smoothing", "after smoothing"), lines, "lrrrr")
 
 
 def of_families(row):
