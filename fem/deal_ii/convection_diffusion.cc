@@ -3,7 +3,6 @@
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_ilu.h>
-#include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,15 +69,16 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
     space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, 1,
                                                   static_cast<unsigned int>(points_), this->ties());
     dealii::DynamicSparsityPattern pattern(space_->dofs.n_dofs());
-    dealii::DoFTools::make_sparsity_pattern(space_->dofs, pattern, boundary_values(), false);
+    dealii::DoFTools::make_sparsity_pattern(space_->dofs, pattern,
+                                            boundary_values(*space_, solution_), false);
     matrix_.clear();
     pattern_.copy_from(pattern);
     matrix_.reinit(pattern_);
     load_.reinit(space_->dofs.n_dofs());
   }
 
-  SolverResult solve(const dealii::Triangulation<dim>& triangulation) override {
-    const auto constraints = boundary_values();
+  SolverResult solve(const dealii::Triangulation<dim>& /*triangulation*/) override {
+    const auto constraints = boundary_values(*space_, solution_);
     const double peclet = assemble(constraints);
     dealii::SparseDirectUMFPACK factors;
     factors.initialize(matrix_);
@@ -86,11 +86,7 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
     factors.vmult(u, load_);
     constraints.distribute(u);
     const auto error = [&](dealii::VectorTools::NormType norm) {
-      dealii::Vector<double> of_cells(triangulation.n_active_cells());
-      dealii::VectorTools::integrate_difference(space_->mappings, space_->dofs, u,
-                                                SolutionFunction<dim>(solution_), of_cells,
-                                                space_->rules, norm);
-      return dealii::VectorTools::compute_global_error(triangulation, of_cells, norm);
+      return error_of(u, *space_, solution_, norm);
     };
     SolverResult result{.numbers = {{"n_dofs", static_cast<double>(u.size())},
                                     {"l2_error", error(dealii::VectorTools::L2_norm)},
@@ -102,18 +98,6 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
   }
 
  private:
-  dealii::AffineConstraints<double> boundary_values() const {
-    dealii::AffineConstraints<double> constraints;
-    const auto points = space_->support_points();
-    space_->for_each_boundary_dof([&](auto dof, unsigned int, auto) {
-      constraints.add_line(dof);
-      constraints.set_inhomogeneity(dof, solution_.value(point_from(points[dof])));
-    });
-    space_->add_ties(constraints);
-    constraints.close();
-    return constraints;
-  }
-
   /// Returns the extent of a cell in the direction of a vector.
   template <class Cell>
   static double extent(const Cell& cell, const dealii::Tensor<1, dim>& direction) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/numerics/error_estimator.h>
-#include <deal.II/numerics/vector_tools.h>
 
 #include <cmath>
 
@@ -52,19 +51,15 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
              unsigned int degree) override {
     space_ = std::make_unique<LagrangeSpace<dim>>(triangulation, degree, 1,
                                                   static_cast<unsigned int>(points_), this->ties());
-    system_.reinit(*space_, boundary_values());
+    system_.reinit(*space_, boundary_values(*space_, solution_));
   }
 
   SolverResult solve(const dealii::Triangulation<dim>& triangulation) override {
-    const auto constraints = boundary_values();
+    const auto constraints = boundary_values(*space_, solution_);
     assemble(constraints);
     SolverResult result{.numbers = system_.solve(constraints, {}, cg_tolerance_)};
     const auto error = [&](NormType norm) {
-      dealii::Vector<double> of_cells(triangulation.n_active_cells());
-      dealii::VectorTools::integrate_difference(space_->mappings, space_->dofs, system_.solution,
-                                                SolutionFunction<dim>(solution_), of_cells,
-                                                space_->rules, norm);
-      return dealii::VectorTools::compute_global_error(triangulation, of_cells, norm);
+      return error_of(system_.solution, *space_, solution_, norm);
     };
     result.numbers.push_back({"l2_error", error(NormType::L2_norm)});
     result.numbers.push_back({"h1_error", error(NormType::H1_norm)});
@@ -74,18 +69,6 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
   }
 
  private:
-  dealii::AffineConstraints<double> boundary_values() const {
-    dealii::AffineConstraints<double> constraints;
-    const auto points = space_->support_points();
-    space_->for_each_boundary_dof([&](auto dof, unsigned int, auto) {
-      constraints.add_line(dof);
-      constraints.set_inhomogeneity(dof, solution_.value(point_from(points[dof])));
-    });
-    space_->add_ties(constraints);
-    constraints.close();
-    return constraints;
-  }
-
   void assemble(const dealii::AffineConstraints<double>& constraints) {
     system_.assemble(
         *space_, constraints,

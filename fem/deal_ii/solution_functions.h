@@ -2,7 +2,9 @@
 #pragma once
 
 #include <deal.II/base/function.h>
+#include <deal.II/numerics/vector_tools.h>
 
+#include "fem/deal_ii/lagrange_space.h"
 #include "fem/solutions/manufactured_solution.h"
 
 namespace smoothfem {
@@ -35,5 +37,32 @@ class SolutionFunction final : public dealii::Function<dim> {
  private:
   const ManufacturedSolution<dim>& solution_;
 };
+
+/// Returns the constraints of a scalar problem: u on the boundary, and the ties of the mesh.
+template <int dim>
+dealii::AffineConstraints<double> boundary_values(const LagrangeSpace<dim>& space,
+                                                  const ManufacturedSolution<dim>& solution) {
+  dealii::AffineConstraints<double> constraints;
+  const auto points = space.support_points();
+  space.for_each_boundary_dof([&](auto dof, unsigned int, auto) {
+    constraints.add_line(dof);
+    constraints.set_inhomogeneity(dof, solution.value(point_from(points[dof])));
+  });
+  space.add_ties(constraints);
+  constraints.close();
+  return constraints;
+}
+
+/// Returns the error of a scalar u_h in a norm, by the quadrature of the space.
+template <int dim>
+double error_of(const dealii::Vector<double>& u_h, const LagrangeSpace<dim>& space,
+                const ManufacturedSolution<dim>& solution, dealii::VectorTools::NormType norm) {
+  const auto& triangulation = space.dofs.get_triangulation();
+  dealii::Vector<double> of_cells(triangulation.n_active_cells());
+  dealii::VectorTools::integrate_difference(space.mappings, space.dofs, u_h,
+                                            SolutionFunction<dim>(solution), of_cells, space.rules,
+                                            norm);
+  return dealii::VectorTools::compute_global_error(triangulation, of_cells, norm);
+}
 
 }  // namespace smoothfem

@@ -11,21 +11,17 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-GAUSS = np.polynomial.legendre.leggauss(3)
 CORNERS = {2: [(0, 0), (1, 0), (1, 1), (0, 1)]}
 CORNERS[3] = [(*c, z) for z in (0, 1) for c in CORNERS[2]]
 
 
 def rule(dim, n_corners):
-    """Points of the reference cell, and weights: 3 Gauss points in each direction; collapsed ones on simplices."""
-    x, w = (GAUSS[0] + 1) / 2, GAUSS[1] / 2
-    points = np.array(list(itertools.product(x, repeat=dim)))
-    weights = np.prod(list(itertools.product(w, repeat=dim)), axis=1)
-    if n_corners == dim + 1:
-        fine = np.polynomial.legendre.leggauss(5)
-        x, w = (fine[0] + 1) / 2, fine[1] / 2
-        points = np.array(list(itertools.product(x, repeat=dim)))
-        weights = np.prod(list(itertools.product(w, repeat=dim)), axis=1)
+    """Points of the reference cell, and weights: 3 Gauss points in each direction, or 5 collapsed ones on simplices."""
+    is_simplex = n_corners == dim + 1
+    x, w = np.polynomial.legendre.leggauss(5 if is_simplex else 3)
+    points = np.array(list(itertools.product((x + 1) / 2, repeat=dim)))
+    weights = np.prod(list(itertools.product(w / 2, repeat=dim)), axis=1)
+    if is_simplex:
         for d in range(1, dim):  # x_d becomes x_d (1 - x_0 - ... - x_{d-1})
             rest = 1 - points[:, :d].sum(axis=1)
             points[:, d] *= rest
