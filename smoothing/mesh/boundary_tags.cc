@@ -22,16 +22,22 @@ std::vector<int> boundary_tags(const Topology& topology) {
   return result;
 }
 
-std::string groups_of_boundary(const MeshLabels& labels, int dimension) {
-  const std::set<int> tags(labels.facet_tags.begin(), labels.facet_tags.end());
-  if (tags.empty()) return "the mesh has no groups of the boundary";
+std::string groups_text(const std::vector<std::pair<int, std::string>>& groups) {
+  if (groups.empty()) return "the mesh has no labelled boundary groups";
   std::string text;
-  for (const int tag : tags) {
-    const auto name = labels.names.find({dimension, tag});
+  for (const auto& [tag, name] : groups)
     text += (text.empty() ? "the mesh has the groups " : ", ") + std::to_string(tag) +
-            (name == labels.names.end() ? "" : " (" + name->second + ")");
-  }
+            (name.empty() ? "" : " (" + name + ")");
   return text;
+}
+
+std::string groups_of_boundary(const MeshLabels& labels, int dimension) {
+  std::vector<std::pair<int, std::string>> groups;
+  for (const int tag : std::set<int>(labels.facet_tags.begin(), labels.facet_tags.end())) {
+    const auto name = labels.names.find({dimension, tag});
+    groups.emplace_back(tag, name == labels.names.end() ? std::string() : name->second);
+  }
+  return groups_text(groups);
 }
 
 }  // namespace smoothfem

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "smoothing/mesh/topology.h"
@@ -18,8 +19,11 @@ inline bool is_group(const MeshLabels& labels, int dimension, int tag, const std
   return group == std::to_string(tag) || (name != labels.names.end() && group == name->second);
 }
 
-/// Returns the groups of the boundary for a message, for example "the mesh has the groups 4, 5
+/// Returns tags with their names, which may be empty, for a message: "the mesh has the groups 4, 5
 /// (inlet)".
+std::string groups_text(const std::vector<std::pair<int, std::string>>& groups);
+
+/// Returns the groups of labelled facets for a message.
 std::string groups_of_boundary(const MeshLabels& labels, int dimension);
 
 }  // namespace smoothfem

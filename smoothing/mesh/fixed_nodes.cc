@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "smoothing/mesh/boundary_tags.h"
 #include "smoothing/mesh/interfaces.h"
 
 namespace smoothfem {
@@ -64,12 +65,9 @@ void for_each_group_member(const Topology& topology, const Use& use) {
 
 /// Returns the list of groups for an error message, for example "4, 5 (inlet)".
 std::string available_groups(const std::set<Group>& groups) {
-  if (groups.empty()) return "the mesh has no labelled boundary groups";
-  std::string text;
-  for (const Group& group : groups)
-    text += (text.empty() ? "the mesh has the groups " : ", ") + std::to_string(group.tag) +
-            (group.name.empty() ? "" : " (" + group.name + ")");
-  return text;
+  std::vector<std::pair<int, std::string>> listed;
+  for (const Group& group : groups) listed.emplace_back(group.tag, group.name);
+  return groups_text(listed);
 }
 
 void add_groups(const Topology& topology, const std::vector<std::string>& names,
