@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fem/adaptivity/fixed_boundary.h"
 #include "fem/adaptivity/gradient_recovery.h"
 #include "fem/adaptivity/residual_indicator.h"
 #include "smoothing/base/scoped_timer.h"
@@ -22,7 +23,7 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
 
   void prepare(const Mesh<dim>& mesh, int degree) override {
     if (topology_ == mesh.shared_topology() && degree_ == degree) return;
-    check(mesh.topology());
+    require_fixed_boundary(mesh.topology());
     topology_.reset();
     energy_.reset();  // frees memory before the next one is made
     energy_ = make_energy_solver_(mesh, degree, number_);
@@ -73,14 +74,6 @@ class PoissonProblemSolver final : public ProblemSolver<dim> {
   auto of_cells(const Measure& measure) const {
     const auto [space, x, u] = energy_->function();
     return in_order_of_cells(space, measure(GradientRecovery<dim>(space, x, u, solution_)));
-  }
-
-  void check(const Topology& topology) const {
-    for (NodeIndex i = 0; i < topology.n_nodes(); ++i)
-      if (topology.on_boundary()[i] && !topology.is_fixed(i))
-        throw InputError("node " + std::to_string(i) +
-                         " of the boundary is not fixed, as solution-adaptive methods need it; "
-                         "fix the boundary");
   }
 
   /// Reorders values of the space's cells to the order of the mesh's cells.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "fem/deal_ii/kelly.h"
 #include "fem/deal_ii/lagrange_space.h"
 #include "fem/deal_ii/solution_functions.h"
 #include "fem/deal_ii/triangulation_solver.h"
@@ -24,7 +25,11 @@ template <int dim>
 class ConvectionDiffusion final : public TriangulationSolver<dim> {
  public:
   SolverTraits traits() const override {
-    return {.degrees = {1, 2}, .needs_mpi = true, .needs_solution = true, .takes_ties = true};
+    return {.degrees = {1, 2},
+            .needs_mpi = true,
+            .needs_solution = true,
+            .takes_ties = true,
+            .has_indicators = true};
   }
 
   Parameters parameters() override {
@@ -80,11 +85,7 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
   SolverResult solve(const dealii::Triangulation<dim>& /*triangulation*/) override {
     const auto constraints = boundary_values(*space_, solution_);
     const double peclet = assemble(constraints);
-    dealii::SparseDirectUMFPACK factors;
-    factors.initialize(matrix_);
-    dealii::Vector<double> u(load_.size());
-    factors.vmult(u, load_);
-    constraints.distribute(u);
+    const auto u = solution_of_system(constraints);
     const auto error = [&](dealii::VectorTools::NormType norm) {
       return error_of(u, *space_, solution_, norm);
     };
@@ -97,7 +98,23 @@ class ConvectionDiffusion final : public TriangulationSolver<dim> {
     return result;
   }
 
+  dealii::Vector<float> indicators(const dealii::Triangulation<dim>& /*triangulation*/) override {
+    const auto constraints = boundary_values(*space_, solution_);
+    assemble(constraints);
+    return kelly_means(*space_, solution_of_system(constraints));
+  }
+
  private:
+  dealii::Vector<double> solution_of_system(
+      const dealii::AffineConstraints<double>& constraints) const {
+    dealii::SparseDirectUMFPACK factors;
+    factors.initialize(matrix_);
+    dealii::Vector<double> u(load_.size());
+    factors.vmult(u, load_);
+    constraints.distribute(u);
+    return u;
+  }
+
   /// Returns the extent of a cell in the direction of a vector.
   template <class Cell>
   static double extent(const Cell& cell, const dealii::Tensor<1, dim>& direction) {

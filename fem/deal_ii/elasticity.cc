@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "fem/deal_ii/kelly.h"
 #include "fem/deal_ii/lagrange_space.h"
 #include "fem/deal_ii/solution_functions.h"
 #include "fem/deal_ii/symmetric_system.h"
@@ -87,8 +88,12 @@ template <int dim>
 class Elasticity final : public TriangulationSolver<dim> {
  public:
   SolverTraits traits() const override {
-    return {
-        .degrees = {1, 2, 3, 4}, .needs_mpi = true, .needs_solution = false, .takes_ties = true};
+    return {.degrees = {1, 2, 3, 4},
+            .needs_mpi = true,
+            .needs_solution = false,
+            .takes_ties = true,
+            .has_energy = true,
+            .has_indicators = true};
   }
 
   Parameters parameters() override {
@@ -191,6 +196,56 @@ class Elasticity final : public TriangulationSolver<dim> {
     add_norms(result);
     result.numbers.push_back({"u_max", largest_displacement()});
     return result;
+  }
+
+  /// Returns J = a(u_h, u_h) - 2 (f, u_h) - 2 <t, u_h> with the tractions t, twice the potential
+  /// energy. If the boundary stays, the squared error in the energy norm is J + const.
+  double energy(const dealii::Triangulation<dim>& /*triangulation*/) override {
+    const auto constraints = boundary_values();
+    assemble(constraints);
+    system_.solve_accurately(constraints, rigid_body_modes(constraints));
+    return system_.energy(*space_, integrands());
+  }
+
+  /// For inner vertices v with hat functions N_v, the sum over cells of integrals of
+  ///
+  ///   (sigma : eps) grad N_v - 2 (grad u)^T sigma grad N_v + 2 N_v (grad u)^T f.
+  ///
+  /// J is stationary in u. Materials move with their cells. The last term is -2 times the
+  /// derivative of (f, u), integrated by parts to avoid grad f.
+  std::vector<dealii::Tensor<1, dim>> energy_gradient(
+      const dealii::Triangulation<dim>& triangulation) override {
+    std::vector<dealii::Tensor<1, dim>> gradient(triangulation.n_vertices());
+    const dealii::FEValuesExtractors::Vector displacement(0);
+    std::vector<dealii::Tensor<2, dim>> gradients;
+    space_->for_each_cell_with_hats([&](const dealii::FEValues<dim>& values,
+                                        const dealii::FEValues<dim>& hats, const auto& cell) {
+      const Lame& c = materials_[cell->active_cell_index()];
+      gradients.resize(values.n_quadrature_points);
+      values[displacement].get_function_gradients(system_.solution, gradients);
+      for (const unsigned int q : values.quadrature_point_indices()) {
+        const Tensor<dim> grad_u = matrix_from(gradients[q]);
+        const Tensor<dim> stress = stress_of<dim>(grad_u, c);
+        const Tensor<dim> of_grad_hat = energy_density<dim>(grad_u, c) * Tensor<dim>::Identity() -
+                                        2.0 * grad_u.transpose() * stress;
+        const Eigen::Matrix<double, dim, 1> of_hat =
+            2.0 * grad_u.transpose() * load_at(point_from(values.quadrature_point(q)), c);
+        for (const unsigned int v : hats.dof_indices()) {
+          auto& of_vertex = gradient[cell->vertex_index(v)];
+          const auto grad_hat = hats.shape_grad(v, q);
+          for (int k = 0; k < dim; ++k) {
+            double sum = of_hat[k] * hats.shape_value(v, q);
+            for (int j = 0; j < dim; ++j) sum += of_grad_hat(k, j) * grad_hat[j];
+            of_vertex[k] += sum * values.JxW(q);
+          }
+        }
+      }
+    });
+    return gradient;
+  }
+
+  dealii::Vector<float> indicators(const dealii::Triangulation<dim>& /*triangulation*/) override {
+    return kelly_means(*space_, system_.solution);
   }
 
  private:
@@ -314,20 +369,30 @@ class Elasticity final : public TriangulationSolver<dim> {
   }
 
   void assemble(const dealii::AffineConstraints<double>& constraints) {
-    system_.assemble(
-        *space_, constraints,
-        [&](const dealii::FEValues<dim>& values, const auto& cell,
-            dealii::FullMatrix<double>& cell_matrix, dealii::Vector<double>& cell_load) {
-          const Lame& c = materials_[cell->active_cell_index()];
-          add_stiffness(values, c, cell_matrix);
-          for (const unsigned int q : values.quadrature_point_indices()) {
-            const auto f = load_at(point_from(values.quadrature_point(q)), c);
-            for (const unsigned int i : values.dof_indices())
-              cell_load(i) +=
-                  values.shape_value(i, q) * f[component(cell->get_fe(), i)] * values.JxW(q);
-          }
-          add_tractions(cell, c, cell_load);
-        });
+    system_.assemble(*space_, constraints, integrands());
+  }
+
+  /// Returns the integrals over a cell, for SymmetricSystem.
+  auto integrands() const {
+    return [this](const dealii::FEValues<dim>& values, const auto& cell,
+                  dealii::FullMatrix<double>& cell_matrix, dealii::Vector<double>& cell_load) {
+      const Lame& c = materials_[cell->active_cell_index()];
+      add_stiffness(values, c, cell_matrix);
+      for (const unsigned int q : values.quadrature_point_indices()) {
+        const auto f = load_at(point_from(values.quadrature_point(q)), c);
+        for (const unsigned int i : values.dof_indices())
+          cell_load(i) +=
+              values.shape_value(i, q) * f[component(cell->get_fe(), i)] * values.JxW(q);
+      }
+      add_tractions(cell, c, cell_load);
+    };
+  }
+
+  static Tensor<dim> matrix_from(const dealii::Tensor<2, dim>& given) {
+    Tensor<dim> matrix;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) matrix(i, j) = given[i][j];
+    return matrix;
   }
 
   static int component(const dealii::FiniteElement<dim>& element, unsigned int i) {
@@ -450,12 +515,9 @@ class Elasticity final : public TriangulationSolver<dim> {
       values[displacement].get_function_values(system_.solution, u_h);
       values[displacement].get_function_gradients(system_.solution, gradients);
       for (const unsigned int q : values.quadrature_point_indices()) {
-        Tensor<dim> gradient;
+        const Tensor<dim> gradient = matrix_from(gradients[q]);
         Eigen::Matrix<double, dim, 1> value;
-        for (int i = 0; i < dim; ++i) {
-          value[i] = u_h[q][i];
-          for (int j = 0; j < dim; ++j) gradient(i, j) = gradients[q][i][j];
-        }
+        for (int i = 0; i < dim; ++i) value[i] = u_h[q][i];
         const double weight = values.JxW(q), stress_here = von_mises<dim>(gradient, c);
         energy += weight * energy_density<dim>(gradient, c);
         stress = std::max(stress, stress_here);

@@ -88,6 +88,7 @@ LagrangeSpace<dim>::LagrangeSpace(const dealii::Triangulation<dim>& triangulatio
   if (n_points == 0) n_points = degree + 4;
   for (const ReferenceCell& type : types) {
     elements.push_back(dealii::FESystem<dim>(*element_of<dim>(type, degree), n_components));
+    hats.push_back(*element_of<dim>(type, 1));
     if (type.is_hyper_cube())
       mappings.push_back(dealii::MappingQ<dim>(1));
     else

@@ -21,6 +21,7 @@ namespace smoothfem {
 template <int dim>
 struct LagrangeSpace {
   dealii::hp::FECollection<dim> elements;
+  dealii::hp::FECollection<dim> hats;  ///< of degree 1, with one component
   dealii::hp::MappingCollection<dim> mappings;
   dealii::hp::QCollection<dim> rules;
   dealii::hp::QCollection<dim - 1> facet_rules;
@@ -48,6 +49,20 @@ struct LagrangeSpace {
       values_of_types.reinit(cell);
       visit(values_of_types.get_present_fe_values(), cell);
     }
+  }
+
+  /// Calls visit(values, hats, cell) as above, with the FEValues of the hat functions of the cell's
+  /// vertices, which map the cell, at the same points.
+  template <class Visit>
+  void for_each_cell_with_hats(const Visit& visit) const {
+    dealii::hp::FEValues<dim> hats_of_types(mappings, hats, rules,
+                                            dealii::update_values | dealii::update_gradients);
+    for_each_cell([&](const dealii::FEValues<dim>& values, const auto& cell) {
+      const unsigned int type = cell->active_fe_index();
+      const typename dealii::Triangulation<dim>::cell_iterator of_mesh = cell;
+      hats_of_types.reinit(of_mesh, type, type, type);
+      visit(values, hats_of_types.get_present_fe_values(), cell);
+    });
   }
 
   /// Calls visit(dof, component) for each dof of each cell, so often more than once for a dof.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <deal.II/numerics/error_estimator.h>
-
 #include <cmath>
 
+#include "fem/deal_ii/kelly.h"
 #include "fem/deal_ii/lagrange_space.h"
 #include "fem/deal_ii/solution_functions.h"
 #include "fem/deal_ii/symmetric_system.h"
@@ -19,7 +18,11 @@ template <int dim>
 class PoissonByDealII final : public TriangulationSolver<dim> {
  public:
   SolverTraits traits() const override {
-    return {.degrees = {1, 2, 3, 4}, .needs_mpi = true, .needs_solution = true, .takes_ties = true};
+    return {.degrees = {1, 2, 3, 4},
+            .needs_mpi = true,
+            .needs_solution = true,
+            .takes_ties = true,
+            .has_indicators = true};
   }
 
   Parameters parameters() override {
@@ -54,7 +57,7 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
     system_.reinit(*space_, boundary_values(*space_, solution_));
   }
 
-  SolverResult solve(const dealii::Triangulation<dim>& triangulation) override {
+  SolverResult solve(const dealii::Triangulation<dim>& /*triangulation*/) override {
     const auto constraints = boundary_values(*space_, solution_);
     assemble(constraints);
     SolverResult result{.numbers = system_.solve(constraints, {}, cg_tolerance_)};
@@ -64,8 +67,16 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
     result.numbers.push_back({"l2_error", error(NormType::L2_norm)});
     result.numbers.push_back({"h1_error", error(NormType::H1_norm)});
     if (space_->elements.size() == 1 && !solution_.diffusivity)
-      result.numbers.push_back({"kelly_estimate", kelly_estimate(triangulation)});
+      result.numbers.push_back(
+          {"kelly_estimate", kelly_indicators(*space_, system_.solution).l2_norm()});
     return result;
+  }
+
+  dealii::Vector<float> indicators(const dealii::Triangulation<dim>& /*triangulation*/) override {
+    const auto constraints = boundary_values(*space_, solution_);
+    assemble(constraints);
+    system_.solve_accurately(constraints, {});
+    return kelly_means(*space_, system_.solution);
   }
 
  private:
@@ -95,13 +106,6 @@ class PoissonByDealII final : public TriangulationSolver<dim> {
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j) a[i][j] = given(i, j);
     return a;
-  }
-
-  double kelly_estimate(const dealii::Triangulation<dim>& triangulation) const {
-    dealii::Vector<float> of_cells(triangulation.n_active_cells());
-    dealii::KellyErrorEstimator<dim>::estimate(space_->mappings[0], space_->dofs,
-                                               space_->facet_rules, {}, system_.solution, of_cells);
-    return of_cells.l2_norm();
   }
 
   double cg_tolerance_ = 1e-8;

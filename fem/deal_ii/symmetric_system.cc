@@ -4,6 +4,7 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/precondition.h>
 #include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <Epetra_CrsMatrix.h>
@@ -127,8 +128,7 @@ std::vector<SolverNumber> SymmetricSystem::solve(
   dealii::PreconditionJacobi<dealii::SparseMatrix<double>> jacobi;
   jacobi.initialize(matrix);
   const Run by_jacobi = run_cg(matrix, solution, right_hand_side, jacobi, tolerance);
-  if (!trilinos_) trilinos_ = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
-  trilinos_->reinit(matrix, 0.0);
+  trilinos_matrix().reinit(matrix, 0.0);
   dealii::TrilinosWrappers::PreconditionAMG multigrid;
   double setup = 0.0;
   {
@@ -152,6 +152,28 @@ std::vector<SolverNumber> SymmetricSystem::solve(
           {"amg_cg_iterations", by_multigrid.iterations},
           {"amg_setup_seconds", setup},
           {"amg_cg_seconds", by_multigrid.seconds}};
+}
+
+void SymmetricSystem::solve_accurately(const dealii::AffineConstraints<double>& constraints,
+                                       const std::vector<dealii::Vector<double>>& near_null_space) {
+  constexpr double tolerance = 1e-11;
+  if (matrix.m() <= most_rows_to_factor_) {
+    dealii::SparseDirectUMFPACK factors;
+    factors.initialize(matrix);
+    factors.vmult(solution, right_hand_side);
+  } else {
+    trilinos_matrix().reinit(matrix, 0.0);
+    dealii::TrilinosWrappers::PreconditionAMG multigrid;
+    set_up_multigrid(*trilinos_, near_null_space, multigrid);
+    const Run run = run_cg(matrix, solution, right_hand_side, multigrid, tolerance);
+    if (std::isnan(run.iterations)) throw SolverFailure("CG with multigrid does not converge");
+  }
+  constraints.distribute(solution);
+}
+
+dealii::TrilinosWrappers::SparseMatrix& SymmetricSystem::trilinos_matrix() {
+  if (!trilinos_) trilinos_ = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
+  return *trilinos_;
 }
 
 double SymmetricSystem::condition_number(

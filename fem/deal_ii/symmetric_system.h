@@ -61,13 +61,41 @@ class SymmetricSystem {
                                   const std::vector<dealii::Vector<double>>& near_null_space,
                                   double tolerance);
 
+  /// Solves once, with an error far below the discretization error: by factors, or for large
+  /// matrices by CG with multigrid. Throws SolverFailure.
+  void solve_accurately(const dealii::AffineConstraints<double>& constraints,
+                        const std::vector<dealii::Vector<double>>& near_null_space);
+
+  /// Returns a(u_h, u_h) - 2 l(u_h) of the solution; `integrate` as for `assemble`.
+  template <int dim, class Integrate>
+  double energy(const LagrangeSpace<dim>& space, const Integrate& integrate) const {
+    dealii::FullMatrix<double> cell_matrix;
+    dealii::Vector<double> cell_load, u, force;
+    double energy = 0.0;
+    space.for_each_cell([&](const dealii::FEValues<dim>& values, const auto& cell) {
+      const unsigned int n = values.dofs_per_cell;
+      cell_matrix.reinit(n, n);
+      cell_load.reinit(n);
+      integrate(values, cell, cell_matrix, cell_load);
+      u.reinit(n);
+      cell->get_dof_values(solution, u);
+      force.reinit(n);
+      cell_matrix.vmult(force, u);
+      force.add(-2.0, cell_load);
+      energy += u * force;
+    });
+    return energy;
+  }
+
   static std::vector<NumberDescription> descriptions();
 
  private:
   /// Returns the condition number of the matrix without the constrained dofs.
   double condition_number(const dealii::AffineConstraints<double>& constraints) const;
 
-  std::size_t most_rows_to_factor_ = 0;  ///< for the condition number
+  dealii::TrilinosWrappers::SparseMatrix& trilinos_matrix();
+
+  std::size_t most_rows_to_factor_ = 0;
   dealii::SparsityPattern pattern_;
   /// Made at first use, as it needs MPI.
   std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> trilinos_;

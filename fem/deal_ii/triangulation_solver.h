@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deal.II/grid/tria.h>
+#include <deal.II/lac/vector.h>
 
 #include <optional>
 
@@ -49,6 +50,34 @@ class TriangulationSolver : public MeshSolver<dim> {
     return result;
   }
 
+  double energy(const Mesh<dim>& mesh) final {
+    move_vertices(mesh, *triangulation_);
+    double energy = 0.0;
+    with_failures_of_deal_ii([&] { energy = this->energy(*triangulation_); });
+    return energy;
+  }
+
+  std::vector<Point<dim>> energy_gradient() final {
+    std::vector<Point<dim>> gradient;
+    with_failures_of_deal_ii([&] {
+      for (const auto& g : energy_gradient(*triangulation_)) {
+        gradient.emplace_back();
+        for (int d = 0; d < dim; ++d) gradient.back()[d] = g[d];
+      }
+    });
+    return gradient;
+  }
+
+  std::vector<double> indicators(const Mesh<dim>& mesh) final {
+    move_vertices(mesh, *triangulation_);
+    std::vector<double> indicators;
+    with_failures_of_deal_ii([&] {
+      const auto of_cells = this->indicators(*triangulation_);
+      indicators.assign(of_cells.begin(), of_cells.end());
+    });
+    return indicators;
+  }
+
  protected:
   /// Called once, for the initial mesh: make the DoFHandler and the sparsity pattern here. degree:
   /// 0 if the solver has no degrees.
@@ -57,6 +86,19 @@ class TriangulationSolver : public MeshSolver<dim> {
 
   /// Called for each mesh, after its vertices have moved.
   virtual SolverResult solve(const dealii::Triangulation<dim>& triangulation) = 0;
+
+  /// The functions of MeshSolver with the same names; vectors have an entry for each vertex or
+  /// cell.
+  virtual double energy(const dealii::Triangulation<dim>& /*triangulation*/) {
+    throw InputError("it has no energy");
+  }
+  virtual std::vector<dealii::Tensor<1, dim>> energy_gradient(
+      const dealii::Triangulation<dim>& /*triangulation*/) {
+    throw InputError("it has no energy");
+  }
+  virtual dealii::Vector<float> indicators(const dealii::Triangulation<dim>& /*triangulation*/) {
+    throw InputError("it has no error indicators");
+  }
 
   /// Hanging and periodic nodes; null: none.
   const std::shared_ptr<const NodeTies>& ties() const { return ties_; }

@@ -38,6 +38,8 @@ struct SolverTraits {
   bool needs_mpi = false;       ///< it calls libraries that need MPI, and is not called by threads
   bool needs_solution = false;  ///< of the study, by use_solution
   bool takes_ties = false;      ///< it solves on meshes with tied nodes (use_ties)
+  bool has_energy = false;      ///< `energy` and `energy_gradient`
+  bool has_indicators = false;  ///< `indicators`
 };
 
 /// Computes numbers on meshes of one topology, for the records of a study. A new solver is one
@@ -81,6 +83,23 @@ class MeshSolver {
 
   /// Solves on a mesh with valid cells. Throws SolverFailure.
   virtual SolverResult solve(const Mesh<dim>& mesh) = 0;
+
+  // The functions below are for methods that move nodes by the solution ('smooth for' in a study).
+  // They are called for a solver whose traits have them.
+
+  /// Solves on a mesh with valid cells. Returns a number that falls with the error while the
+  /// boundary stays: the minimum of a functional over the finite element space, such as a(u_h, u_h)
+  /// - 2 (f, u_h). Throws SolverFailure.
+  virtual double energy(const Mesh<dim>& /*mesh*/) { throw InputError("it has no energy"); }
+
+  /// Returns the derivative of the last `energy` in the position of each node.
+  virtual std::vector<Point<dim>> energy_gradient() { throw InputError("it has no energy"); }
+
+  /// Returns an error indicator of each cell, not negative: a mean over the cell. Follows `energy`
+  /// on the same mesh if the solver has it; otherwise it solves. Throws SolverFailure.
+  virtual std::vector<double> indicators(const Mesh<dim>& /*mesh*/) {
+    throw InputError("it has no error indicators");
+  }
 };
 
 /// Every plugin with a solver contains it.

@@ -20,7 +20,7 @@ using testing::ThrowsMessage;
 std::vector<std::string> names() {
   std::vector<std::string> all;
   for (const auto& info : method_catalogue(true))
-    if (info.needs_problem) all.push_back(info.name);
+    if (info.needs_problem()) all.push_back(info.name);
   return all;
 }
 
@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMethodWithAProblem, testing::ValuesIn(n
                          test::test_name);
 
 TEST(MethodsWithAProblem, AreNotAmongAll) {
-  for (const auto& info : method_catalogue()) EXPECT_FALSE(info.needs_problem) << info.name;
+  for (const auto& info : method_catalogue()) EXPECT_FALSE(info.needs_problem()) << info.name;
   EXPECT_THAT(names(),
               testing::IsSupersetOf({"energy-descent", "indicator-weighted", "indicator-aligned"}));
 }

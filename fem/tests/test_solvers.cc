@@ -52,12 +52,6 @@ std::map<std::string, double> solve(const Mesh<dim>& mesh, int degree, const std
 
 class SolverOfCells : public testing::TestWithParam<Case> {};
 
-/// deal.II 9.4 does not number dofs of mixed volume meshes.
-std::vector<Case> cases_of_deal_ii() {
-  auto cases = all_cases();
-  std::erase_if(cases, [](const Case& c) { return c.cells == Cells::mixed_volume; });
-  return cases;
-}
 INSTANTIATE_TEST_SUITE_P(Elements, SolverOfCells, testing::ValuesIn(cases_of_deal_ii()),
                          [](const auto& info) { return name_of(info.param); });
 

@@ -184,6 +184,13 @@ inline std::vector<Case> all_cases() {
   return cases;
 }
 
+/// Returns the cases of deal.II 9.4, which does not number dofs of mixed volume meshes.
+inline std::vector<Case> cases_of_deal_ii() {
+  auto cases = all_cases();
+  std::erase_if(cases, [](const Case& c) { return c.cells == Cells::mixed_volume; });
+  return cases;
+}
+
 /// Returns the cases of volume meshes.
 inline std::vector<Case> volume_cases() {
   auto cases = all_cases();

@@ -34,6 +34,8 @@ class PythonSolver final : public MeshSolver<dim> {
     traits_.needs_mpi = py::cast<bool>(definition.attr("gives_matrix"));
     traits_.takes_ties = true;  // the class gets the mesh as it is
     traits_.degrees = py::cast<std::vector<int>>(definition.attr("degrees"));
+    traits_.has_energy = py::cast<bool>(definition.attr("has_energy"));
+    traits_.has_indicators = py::cast<bool>(definition.attr("has_indicators"));
     for (const py::handle entry : definition.attr("numbers")) {
       auto [name, unit, meaning] =
           py::cast<std::tuple<std::string, std::string, std::string>>(entry);
@@ -81,6 +83,32 @@ class PythonSolver final : public MeshSolver<dim> {
         for (auto& number : numbers_of_matrix(found[1]))
           result.numbers.push_back(std::move(number));
       return result;
+    });
+  }
+
+  double energy(const Mesh<dim>& mesh) override {
+    return with_python([&] {
+      const auto lent = lend(mesh);
+      const GivenBack given_back(*lent);
+      return py::cast<double>(python_.run.attr("energy")(lent));
+    });
+  }
+
+  std::vector<Point<dim>> energy_gradient() override {
+    return with_python([&] {
+      const auto values = py::cast<Numbers>(python_.run.attr("energy_gradient")());
+      std::vector<Point<dim>> gradient(static_cast<std::size_t>(values.shape(0)));
+      std::copy_n(values.data(), values.size(), gradient.front().data());
+      return gradient;
+    });
+  }
+
+  std::vector<double> indicators(const Mesh<dim>& mesh) override {
+    return with_python([&] {
+      const auto lent = lend(mesh);
+      const GivenBack given_back(*lent);
+      const auto values = py::cast<Numbers>(python_.run.attr("indicators")(lent));
+      return std::vector<double>(values.data(), values.data() + values.size());
     });
   }
 

@@ -36,6 +36,8 @@ class SolverDefinition:
             raise InputError(f"the class {self.name} is not a solver: it has no solve(self, mesh)")
         self.title = unicode(getattr(self.given, "title", self.name))
         self.parameters = parameters_of(self.given, self.name)
+        self.has_energy = self._has_energy()
+        self.has_indicators = callable(getattr(self.given, "indicators", None))
         self.gives_matrix = bool(getattr(self.given, "gives_matrix", False))
         self.degrees = self._degrees(getattr(self.given, "degrees", ()))
         self.numbers = [self._number(*entry) for entry in dict(getattr(self.given, "numbers", {})).items()]
@@ -44,6 +46,13 @@ class SolverDefinition:
     def files(self):
         """The solver's file and those of the modules that it imports from the same folder: its code."""
         return files_of(self.path)
+
+    def _has_energy(self):
+        """True if it has energy(mesh) and energy_gradient(mesh)."""
+        has = [name for name in ("energy", "energy_gradient") if callable(getattr(self.given, name, None))]
+        if len(has) == 1:
+            raise InputError(f"the class {self.name} has {has[0]}, but not the other one of energy and energy_gradient; methods need both")
+        return len(has) == 2
 
     def _degrees(self, given):
         """Returns the degrees of its finite elements; none without."""
@@ -94,13 +103,35 @@ class SolverRun:
         numbers = [self._number(*entry) for entry in found.items()]
         return numbers, None if matrix is None else self._with_context("its matrix cannot be read", lambda: rows_of(matrix, right_hand_side))
 
-    def _number(self, name, value):
+    def energy(self, mesh):
+        """Solves on a mesh and returns the energy."""
+        self.shape = mesh.points.shape
+        value = self._with_context("energy failed", lambda: self.solver.energy(mesh))
+        return self._number("energy", value, "energy")[1]
+
+    def energy_gradient(self):
+        """Returns the derivative of the last energy in the nodes' positions, in the shape of mesh.points."""
+        return self._array("energy_gradient", self.solver.energy_gradient, self.shape)
+
+    def indicators(self, mesh):
+        """Returns the error indicator of each cell."""
+        return self._array("indicators", lambda: self.solver.indicators(mesh), (mesh.n_cells,))
+
+    def _array(self, name, call, shape):
+        import numpy as np
+        values = self._with_context(f"{name} failed", lambda: np.ascontiguousarray(call(), dtype=float))
+        if values.shape != tuple(shape) or not np.isfinite(values).all():
+            raise InputError(f"{self.definition.name}: {name} returns an array of shape {values.shape}, but has to return finite numbers of shape "
+                             f"{tuple(shape)}")
+        return values
+
+    def _number(self, name, value, function="solve"):
         if not NAME.fullmatch(str(name)):
             raise InputError(f"{self.definition.name}: solve gives a number the name {name!r}; names have letters, digits and _, a letter first")
         try:
             number = float(value)
         except (TypeError, ValueError):
-            raise InputError(f"{self.definition.name}: solve gives {name} a value that is not a number") from None
+            raise InputError(f"{self.definition.name}: {function} gives {name} a value that is not a number") from None
         if not math.isfinite(number):
-            raise InputError(f"{self.definition.name}: solve gives {name} the value {number}, which is not finite")
+            raise InputError(f"{self.definition.name}: {function} gives {name} the value {number}, which is not finite")
         return str(name), number

@@ -74,12 +74,33 @@ class Indefinite(Given):
     matrix = [[1.0, 2.0], [2.0, 1.0]]
 class Oblong(Given):
     matrix = [[1.0, 2.0]]
+class Half(Right):
+    def energy(self, mesh):
+        return 0.0
 class Numbers:
     numbers = {"a": "metres"}
     def solve(self, mesh):
         return {"a": 1.0}
 """
-REFUSED = {"Nothing": "is not a solver: it has no solve", "Numbers": "numbers has the entry 'a'", "Absent": "has no class 'Absent'"}
+SPRINGS = """import numpy as np
+class Springs:
+    def solve(self, mesh):
+        return {"sum": float(((mesh.points - 0.5) ** 2).sum())}
+    def energy(self, mesh):
+        self.arms = np.array(mesh.points) - 0.5
+        return (self.arms ** 2).sum()
+    def energy_gradient(self):
+        return 2 * self.arms
+    def indicators(self, mesh):
+        return np.ones(mesh.n_cells)
+class Short(Springs):
+    def energy_gradient(self):
+        return self.arms[1:]
+class Wrong(Springs):
+    def energy(self, mesh):
+        return "low"
+"""
+REFUSED = {"Half": "has energy, but not the other one of energy and energy_gradient", "Nothing": "is not a solver: it has no solve", "Numbers": "numbers has the entry 'a'", "Absent": "has no class 'Absent'"}
 FAILED = {"Raises": "Raises: solve failed: ", "List": "solve returned list", "Word": "gives a a value that is not a number",
           "Infinite": "the value inf", "Name": "the name 'a b'", "Writes": "read-only", "Untold": "gives a matrix, but the class has gives_matrix = False",
           "Missing": "gives no matrix, but the class has gives_matrix = True", "Skew": "is not symmetric", "Negative": "no positive number",
@@ -151,3 +172,22 @@ class SolverClasses(InAFolder):
         self.assertEqual(set(reasons), set(FAILED))
         for name, why in FAILED.items():
             self.assertIn(why, reasons[name])
+
+    def test_methods_move_nodes_by_their_energy(self):
+        (self.folder / "springs.py").write_text(SPRINGS, encoding="utf-8")
+        names = ("Springs", "Short", "Wrong")
+        sections = "".join(f"subsection solver {name}\n set type = python:springs.py:{name}\nend\n"
+                           f"subsection method by_{name}\n set type = energy-descent\n set start.method = none\n set smooth for = {name}\nend\n"
+                           for name in names)
+        text = STUDY.format(domain="square", elements="triangles", u=U[2], nu=0.3, more="", file="springs.py", name="Springs") + sections
+        text = text.replace("set methods = laplace", f"set methods = laplace, by_Springs, by_Short, by_Wrong, weighted")
+        text = text.replace("own, mine", "own, mine, Springs, Short, Wrong")
+        text += "subsection method weighted\n set type = indicator-weighted\n set smooth for = mine\nend\n"
+        (self.folder / "my.prm").write_text(text, encoding="utf-8")
+        outcome = run(PROGRAM, "study", "my.prm", "--no-figures", "--quiet", "--out", "out", folder=self.folder)
+        with open(self.folder / "out" / "summary.csv", newline="", encoding="utf-8") as stream:
+            rows = {row["method"]: row for row in csv.DictReader(stream)}
+        self.assertLess(float(rows["by_Springs"]["mine.sum"]), float(rows["initial"]["mine.sum"]))
+        self.assertEqual(rows["weighted"]["status"], "ok")
+        self.assertIn("energy_gradient returns an array of shape", rows["by_Short"]["status"] + outcome.stderr)
+        self.assertIn("energy gives energy a value that is not a number", rows["by_Wrong"]["status"] + outcome.stderr)

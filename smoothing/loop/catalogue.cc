@@ -39,7 +39,7 @@ static const RegisteredPluginKind methods_of_plugins({.registration = "Registere
 std::vector<MethodInfo> method_catalogue(bool include_special) {
   std::vector<MethodInfo> infos;
   for (const auto& entry : registry().all())
-    if (include_special || !(entry.info.needs_parameters || entry.info.needs_problem))
+    if (include_special || !(entry.info.needs_parameters || entry.info.needs_problem()))
       infos.push_back(entry.info);
   return infos;
 }

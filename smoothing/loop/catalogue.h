@@ -18,6 +18,14 @@ namespace smoothfem {
     "smoothfem plugin types:", {sizeof(SmoothingState<3>), sizeof(StepReport), sizeof(StoppingRule),
                                 sizeof(Parameter), sizeof(SmootherTraits)});
 
+/// What a method takes from the solution that it moves nodes by (loop/problem.h).
+struct ProblemUse {
+  bool energy_gradient = false;  ///< the energy and its gradient
+  bool indicators = false;       ///< one error indicator for each cell
+  bool directions = false;       ///< error tensors or second derivatives
+  bool any() const { return energy_gradient || indicators || directions; }
+};
+
 struct MethodInfo {
   std::string name;         ///< on the command line, in study files and results
   std::string title;        ///< in tables and figures
@@ -26,10 +34,12 @@ struct MethodInfo {
   /// True if the method has required parameters: it cannot run without them and is excluded from
   /// "all".
   bool needs_parameters = false;
-  /// True if the method moves nodes by the solution of a problem (loop/problem.h), which only
-  /// studies with a problem have. It is excluded from "all".
-  bool needs_problem = false;
+  ProblemUse problem_use = {};
   std::filesystem::path library = {};  ///< the plugin that registered it; empty: this program
+
+  /// True if the method moves nodes by the solution of a problem, which only studies with a problem
+  /// have. It is excluded from "all".
+  bool needs_problem() const { return problem_use.any(); }
 };
 
 template <int dim, int spacedim = dim>

@@ -64,7 +64,7 @@ class SmoothingRun {
 
   /// The initial quality counts as a method's time only if the method uses quality.
   void start(const Method<dim, spacedim>& method) {
-    if (method.info.needs_problem) {
+    if (method.info.needs_problem()) {
       solver_ = method.problem->make_solver();
       state_.solver = solver_.get();
     }
@@ -278,7 +278,7 @@ void require_targets_taken(const Mesh<dim, spacedim>& mesh, const Method<dim, sp
 
 template <int dim, int spacedim>
 void require_problem(const Method<dim, spacedim>& method) {
-  if (method.info.needs_problem && !method.problem)
+  if (method.info.needs_problem() && !method.problem)
     throw InputError("method " + method.info.name +
                      " moves nodes by the solution of a problem; it works only in a study "
                      "with a solution");
@@ -332,7 +332,7 @@ SmoothingResult smooth(Mesh<dim, spacedim>& mesh, Method<dim, spacedim>& method,
   require_ordinary_numbers(own_exponent);
   // Scaling would move the mesh off its constraints, its targets and its problem.
   const int exponent =
-      mesh.constraints() || mesh.targets() || method.info.needs_problem ? 0 : own_exponent;
+      mesh.constraints() || mesh.targets() || method.info.needs_problem() ? 0 : own_exponent;
   if (exponent == 0) return smooth_unscaled(mesh, method, observer);
   const ScaledMesh scaled(mesh, -exponent);
   Observer<dim, spacedim> rescaling_observer;

@@ -25,7 +25,7 @@ struct SmoothingState {
   std::vector<double> cell_quality;
   /// Quality of the mesh at the start of the method, not only of this stage.
   MeshQuality initial_quality = {};
-  /// Solver of the problem whose solution the method needs (MethodInfo::needs_problem); otherwise
+  /// Solver of the problem whose solution the method needs (MethodInfo::problem_use); otherwise
   /// null.
   ProblemSolver<spacedim>* solver = nullptr;
 };

@@ -139,13 +139,13 @@ const RegisteredMethod descent({.name = "energy-descent",
                                                "solution, and with it the true error; one solve "
                                                "in each iteration",
                                 .source = "Delfour, Payre, Zolésio 1985; Sobolev gradient",
-                                .needs_problem = true},
+                                .problem_use = {.energy_gradient = true}},
                                {make_stages<2, 0>, make_stages<3, 0>});
 const RegisteredMethod lbfgs({.name = "energy-lbfgs",
                               .title = "Energy L-BFGS",
                               .description = "energy-descent by limited-memory BFGS",
                               .source = "Nocedal 1980",
-                              .needs_problem = true},
+                              .problem_use = {.energy_gradient = true}},
                              {make_stages<2, 10>, make_stages<3, 10>});
 
 }  // namespace

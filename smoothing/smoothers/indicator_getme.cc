@@ -129,7 +129,7 @@ const RegisteredMethod registered(
      .description = "GETMe, then GETMe simultaneous whose elements are scaled to target sizes from "
                     "an error indicator of the solution; one solve in each iteration",
      .source = "Section 4.2; indicator of Zienkiewicz and Zhu 1987",
-     .needs_problem = true},
+     .problem_use = {.indicators = true}},
     {make_stages<2>, make_stages<3>});
 
 }  // namespace

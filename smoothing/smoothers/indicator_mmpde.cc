@@ -142,14 +142,14 @@ const RegisteredMethod registered(
      .description = "GETMe, then a moving mesh method: cells become alike in a metric of the "
                     "solution's recovered second derivatives; one solve in each iteration",
      .source = "Huang, Kamenski 2015, arXiv 1410.7872",
-     .needs_problem = true},
+     .problem_use = {.directions = true}},
     {make_stages<2>, make_stages<3>});
 const RegisteredMethod and_descent({.name = "indicator-mmpde-descent",
                                     .title = "MMPDE, descent",
                                     .description = "indicator-mmpde from GETMe's mesh, then "
                                                    "energy-descent",
                                     .source = "the two",
-                                    .needs_problem = true},
+                                    .problem_use = {.energy_gradient = true, .directions = true}},
                                    {with_descent<2>, with_descent<3>});
 
 }  // namespace

@@ -187,7 +187,7 @@ const RegisteredMethod registered(
      .description = "GETMe, then weighted Laplace whose weights grow with an error indicator of "
                     "the solution; one solve in each iteration",
      .source = "indicator of Zienkiewicz and Zhu 1987",
-     .needs_problem = true},
+     .problem_use = {.indicators = true}},
     {weighted<2, OfAllDirections>, weighted<3, OfAllDirections>});
 const RegisteredMethod by_direction(
     {.name = "indicator-aligned",
@@ -195,14 +195,14 @@ const RegisteredMethod by_direction(
      .description = "indicator-weighted with a weight for each direction: cells become thin "
                     "across a front or layer, and stay long along it",
      .source = "indicator of Zienkiewicz and Zhu 1987",
-     .needs_problem = true},
+     .problem_use = {.directions = true}},
     {weighted<2, OfEachDirection>, weighted<3, OfEachDirection>});
 const RegisteredMethod with_descent(
     {.name = "indicator-weighted-descent",
      .title = "Indicator-weighted, descent",
      .description = "indicator-weighted from GETMe's mesh, then energy-descent",
      .source = "the two",
-     .needs_problem = true},
+     .problem_use = {.energy_gradient = true, .indicators = true}},
     {weighted_and_descent<2>, weighted_and_descent<3>});
 
 }  // namespace

@@ -27,7 +27,7 @@ class StartMethod final : public Smoother<dim> {
   }
 
   void check_parameters() const override {
-    if (method_ != "none" && make_method<dim>(method_).info.needs_problem)
+    if (method_ != "none" && make_method<dim>(method_).info.needs_problem())
       throw InputError(
           "'start.method' is " + method_ +
           ", which is a solution-adaptive method itself; choose another method, or none");

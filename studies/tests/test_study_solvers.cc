@@ -154,6 +154,50 @@ TEST_F(StudySolvers, GroupsThatTheMeshLacksAreFoundBeforeAnythingIsWritten) {
   }
 }
 
+/// Methods that move nodes by a solver's solution.
+TEST_F(StudySolvers, MakeMeshes) {
+  const std::string keys =
+      "set methods = laplace, mine\nset solvers = beam, load\n"
+      "subsection solver beam\n set type = elasticity\n set degrees = 1\n"
+      " set u = exp(-5*x) ; y\n set nu = NU\nend\n"
+      "subsection solver load\n set type = convection-diffusion\n set degrees = 1\n"
+      " set velocity = 1 ; 1\nend\n"
+      "subsection method mine\n set type = METHOD\n set smooth for = SOLVER\nend\n";
+  const auto with = [&](const std::string& method, const std::string& solver,
+                        const std::string& nu = "0.3") {
+    std::string text = keys;
+    for (const auto& [word, value] : {std::pair{"METHOD", method}, {"SOLVER", solver}, {"NU", nu}})
+      text.replace(text.find(word), std::string(word).size(), value);
+    return text;
+  };
+  const CsvTable summary = summary_of(with("energy-descent", "beam"));
+  const auto error = [&](const CsvTable& table, const std::string& method) {
+    return std::stod(table.select({{"method", method}}).at(0).at("beam.energy_error"));
+  };
+  EXPECT_LT(error(summary, "mine"), 0.95 * error(summary, "laplace"));
+
+  const auto bytes_of_kept = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(file("out") / "kept"))
+      if (entry.path().string().find("trajectory") != std::string::npos)
+        names.insert(entry.path().filename());
+    return names;
+  };
+  const auto before = bytes_of_kept();
+  summary_of(with("energy-descent", "beam", "0.4"));
+  EXPECT_NE(bytes_of_kept(), before);  // smoothed anew for the changed solver
+
+  summary_of(with("indicator-weighted", "load"));
+  const auto refuse = [&](const std::string& text, const std::string& message) {
+    EXPECT_THAT([&] { study(text); }, ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  refuse(with("energy-descent", "load"), "this solver has no energy and gradient");
+  refuse(with("indicator-mmpde", "beam"), "directions of the error");
+  refuse(with("indicator-getme", "beam, load"), "is smoothed for one solver alone");
+  refuse(with("indicator-getme", "girder"), "is none of the 'solvers'");
+  refuse(with("smart-laplace", "beam"), "does not move nodes by a solution");
+}
+
 TEST_F(StudySolvers, WrongKeysAreRefused) {
   const auto refused = [&](const std::string& keys, const std::string& why) {
     EXPECT_THAT([&] { (void)study(keys); }, ThrowsMessage<InputError>(HasSubstr(why)));

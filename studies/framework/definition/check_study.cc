@@ -87,10 +87,11 @@ void check_stages(const Study& study) {
 void check_problem(const Study& study) {
   if (!study.degrees.empty()) return;
   for (const auto& method : study.methods)
-    if (method.needs_problem(study.dimensions))
+    if (method.needs_problem(study.dimensions) && solver_smoothed_for(study, method) == nullptr)
       throw InputError("method " + method.name +
                        " moves nodes by the solution of the study's problem, but the study "
-                       "solves none; write 'set degrees = 1', or leave the method out");
+                       "solves none; write 'set degrees = 1', name one of the 'solvers' in the "
+                       "method's 'smooth for', or leave the method out");
 }
 
 /// Throws InputError if a method moves nodes by a solution whose diffusivity belongs to groups of
@@ -101,29 +102,58 @@ void check_materials(const Study& study) {
                    [](const StudySolution* solution) { return solution->has_materials(); }))
     return;
   for (const auto& method : study.methods)
-    if (!method.is_stand_in && method.needs_problem(study.dimensions))
+    if (!method.is_stand_in && method.needs_problem(study.dimensions) &&
+        solver_smoothed_for(study, method) == nullptr)
       throw InputError("method " + method.name +
                        " moves nodes by the solution, for which it needs the diffusivity as a "
                        "function of the position; give 'diffusivity' as one formula with "
                        "conditions, or leave the method out");
 }
 
-/// Throws InputError if a mesh is smoothed for a solution that the study does not have.
+/// Throws InputError unless a solver gives what a method takes from its solution.
+void check_solver_of_method(const Study& study, const StudyMethod& method,
+                            const StudySolver& solver) {
+  const std::string what = "method " + method.name + " has 'smooth for = " + solver.label + "'";
+  if (method.smooth_for.size() > 1)
+    throw InputError(what + " and other labels; a mesh is smoothed for one solver alone");
+  if (OnlyLook::is_on()) return;
+  const ProblemUse use = method.problem_use(study.dimensions);
+  const SolverTraits& given = solver.traits;
+  if (use.directions)
+    throw InputError(what +
+                     ", but moves nodes by directions of the error, which only Poisson's equation "
+                     "has; take indicator-weighted, or leave 'smooth for' out");
+  if (use.energy_gradient && !given.has_energy)
+    throw InputError(what + ", but this solver has no energy and gradient; take " +
+                     (given.has_indicators ? "a method with error indicators, such as "
+                                             "indicator-weighted"
+                                           : "another solver"));
+  if (use.indicators && !given.has_indicators)
+    throw InputError(what + ", but this solver has no error indicators; take " +
+                     (given.has_energy ? "energy-descent or energy-lbfgs" : "another solver"));
+}
+
+/// Throws InputError if a mesh is smoothed for a solution or solver that the study does not have.
 void check_smooth_for(const Study& study) {
   std::vector<std::string> labels;
   for (const StudySolution* solution : solutions_of(study)) labels.push_back(solution->label);
   for (const auto& method : study.methods) {
     if (method.smooth_for.empty()) continue;
     const std::string what = "method " + method.name + " has 'smooth for'";
-    if (study.solution.label.empty())
-      throw InputError(what +
-                       ", which is for studies with a list 'solutions' but not for collections; "
-                       "take it out, or name the solutions in 'solutions'");
     if (!method.is_stand_in && !method.needs_problem(study.dimensions))
       throw InputError(what + ", but does not move nodes by a solution; take it out");
+    if (const StudySolver* solver = solver_smoothed_for(study, method)) {
+      check_solver_of_method(study, method, *solver);
+      continue;
+    }
+    if (study.solution.label.empty())
+      throw InputError(what + " = " + method.smooth_for.front() +
+                       ", which is none of the 'solvers', and the study has no list 'solutions'; "
+                       "take it out, or name it in one of these lists");
     for (const auto& label : method.smooth_for) {
       if (std::find(labels.begin(), labels.end(), label) == labels.end())
-        throw InputError(what + " = " + label + ", which is not in the list 'solutions'; " +
+        throw InputError(what + " = " + label +
+                         ", which is not in the lists 'solutions' and 'solvers'; " +
                          choose_one_of(labels, label));
       if (std::count(method.smooth_for.begin(), method.smooth_for.end(), label) > 1)
         throw InputError(what + " with '" + label + "' twice; name it once");
@@ -167,9 +197,9 @@ void check_study(const Study& study) {
   for (const StudySolution* solution : solutions_of(study))
     check_solution(*solution, study.dimensions.cells);
   check_stages(study);
+  check_smooth_for(study);
   check_problem(study);
   check_materials(study);
-  check_smooth_for(study);
   check_degrees("refined degrees", study.refined_degrees, study);
   check_degrees("record degrees", study.record_degrees, study);
   check_thresholds(study);

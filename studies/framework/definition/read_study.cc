@@ -367,10 +367,20 @@ template Method<2> StudyMethod::make() const;
 template Method<3> StudyMethod::make() const;
 template Method<2, 3> StudyMethod::make() const;
 
+ProblemUse StudyMethod::problem_use(MeshDimensions dimensions) const {
+  return with_dimensions(
+      dimensions, [&]<int dim, int spacedim>() { return make<dim, spacedim>().info.problem_use; });
+}
+
 bool StudyMethod::needs_problem(MeshDimensions dimensions) const {
-  return with_dimensions(dimensions, [&]<int dim, int spacedim>() {
-    return make<dim, spacedim>().info.needs_problem;
-  });
+  return problem_use(dimensions).any();
+}
+
+const StudySolver* solver_smoothed_for(const Study& study, const StudyMethod& method) {
+  for (const auto& solver : study.solvers)
+    for (const auto& label : method.smooth_for)
+      if (solver.label == label) return &solver;
+  return nullptr;
 }
 
 std::vector<StudySolve> solves_of(const Study& study) {

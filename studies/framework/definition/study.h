@@ -71,8 +71,8 @@ struct StudyMethod {
   std::string type;   ///< registered method, or method in a file, as in the study file
   std::string title;  ///< in tables and figures
   int threads = 0;    ///< 0: that of StudyOptions
-  /// Labels of the solutions that its mesh is smoothed for, with equal weight; empty: the first
-  /// solution.
+  /// Labels of the solutions that its mesh is smoothed for, with equal weight, or that of one
+  /// solver; empty: the first solution.
   std::vector<std::string> smooth_for{};
   InterfaceRule interfaces = InterfaceRule::fixed;
   std::optional<TargetKind> target{};  ///< taken from the initial mesh; nothing: regular cells
@@ -86,6 +86,8 @@ struct StudyMethod {
   template <int dim, int spacedim = dim>
   Method<dim, spacedim> make() const;
 
+  /// What the method takes from the solution that it moves nodes by.
+  ProblemUse problem_use(MeshDimensions dimensions) const;
   /// True if the method moves nodes by the solution of the study's problem.
   bool needs_problem(MeshDimensions dimensions) const;
 };
@@ -198,6 +200,10 @@ inline bool is_recorded(const Study& study, int degree) {
   return degree == 0 || chosen.empty() ||
          std::find(chosen.begin(), chosen.end(), degree) != chosen.end();
 }
+
+/// Returns the solver that a method's mesh is smoothed for; null: the method is smoothed for
+/// solutions of Poisson's equation.
+const StudySolver* solver_smoothed_for(const Study& study, const StudyMethod& method);
 
 /// Returns the solves of every recorded mesh. Those of Poisson's equation are the first, in the
 /// order of `degrees`.

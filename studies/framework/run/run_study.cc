@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "fem/adaptivity/poisson_problem.h"
+#include "fem/adaptivity/solver_problem.h"
 #include "fem/elements/adaptive_quadrature.h"
 #include "fem/materials/materials_of_mesh.h"
 #include "fem/solutions/check_pieces.h"
@@ -172,9 +173,23 @@ class StudyRun {
     return solution;
   }
 
+  /// Returns the degree for a solver, or 0 if it has none. Throws InputError if it lacks this one.
+  static int with_degree(const StudySolver& solver, int degree) {
+    const auto& offered = solver.traits.degrees;
+    if (offered.empty()) return 0;
+    if (std::find(offered.begin(), offered.end(), degree) == offered.end())
+      throw InputError("the solver " + solver.label + " has no finite elements of degree " +
+                       std::to_string(degree) + ", which a method of the study asks for");
+    return degree;
+  }
+
   /// Returns the problem that a method moves nodes by; null if the study solves nothing.
   std::shared_ptr<const Problem<spacedim>> problem_of(std::size_t m, const StudyMethod& method) {
     if constexpr (dim == spacedim) {
+      if (const StudySolver* solver = solver_smoothed_for(study_, method))
+        return make_solver_problem<dim>(data_.meshes[m].mesh, [this, m, solver](int degree) {
+          return solver_on_mesh(data_, m, {solver, with_degree(*solver, degree)});
+        });
       if (data_.solutions.empty()) return nullptr;
       std::vector<std::size_t> chosen;  // indices of the study's solutions
       const auto all = solutions_of(study_);

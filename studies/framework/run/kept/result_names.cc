@@ -158,7 +158,13 @@ void add_solver(const StudySolver& solver, Ingredients& made_of) {
 
 /// Adds the problem that a method moves nodes by.
 void add_problem(const StudyMethod& method, const Study& study, Ingredients& made_of) {
-  if (study.degrees.empty() || !method.needs_problem(study.dimensions)) return;
+  if (!method.needs_problem(study.dimensions)) return;
+  if (const StudySolver* solver = solver_smoothed_for(study, method)) {
+    add_solver(*solver, made_of);
+    if (solver->traits.needs_solution) add_solution(study.solution, made_of);
+    return;
+  }
+  if (study.degrees.empty()) return;
   add_options(study.finite_elements, made_of);
   bool any = false;
   for (const StudySolution* solution : solutions_of(study))

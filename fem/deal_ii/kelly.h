@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deal.II/numerics/error_estimator.h>
+
+#include <cmath>
+
+#include "fem/deal_ii/lagrange_space.h"
+#include "fem/solvers/mesh_solver.h"
+
+namespace smoothfem {
+
+/// Returns deal.II's Kelly indicator of each cell, of the jumps of grad u_h across facets: its
+/// square is a cell's part of the estimate's square. Throws SolverFailure for a mesh with several
+/// types of cells.
+template <int dim>
+dealii::Vector<float> kelly_indicators(const LagrangeSpace<dim>& space,
+                                       const dealii::Vector<double>& u_h) {
+  if (space.elements.size() > 1)
+    throw SolverFailure("Kelly's indicators need a mesh with one type of cells");
+  dealii::Vector<float> of_cells(space.dofs.get_triangulation().n_active_cells());
+  dealii::KellyErrorEstimator<dim>::estimate(space.mappings[0], space.dofs, space.facet_rules, {},
+                                             u_h, of_cells);
+  return of_cells;
+}
+
+/// Returns Kelly's indicators divided by the square roots of the cells' sizes: means over the
+/// cells, which methods that move nodes compare.
+template <int dim>
+dealii::Vector<float> kelly_means(const LagrangeSpace<dim>& space,
+                                  const dealii::Vector<double>& u_h) {
+  auto of_cells = kelly_indicators(space, u_h);
+  for (const auto& cell : space.dofs.active_cell_iterators())
+    of_cells[cell->active_cell_index()] /= static_cast<float>(std::sqrt(cell->measure()));
+  return of_cells;
+}
+
+}  // namespace smoothfem
