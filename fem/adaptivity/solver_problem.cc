@@ -7,7 +7,6 @@
 
 #include "fem/adaptivity/fixed_boundary.h"
 #include "smoothing/base/scoped_timer.h"
-#include "smoothing/solution/error_indicators.h"
 
 namespace smoothfem {
 
@@ -28,6 +27,8 @@ class AnyProblemSolver final : public ProblemSolver<dim> {
     solved_.clear();
   }
 
+  bool has_energy() const override { return solver_->traits().has_energy; }
+
   double solve(std::span<const Point<dim>> coordinates) override {
     if (std::equal(coordinates.begin(), coordinates.end(), solved_.begin(), solved_.end()))
       return value_;
@@ -45,7 +46,7 @@ class AnyProblemSolver final : public ProblemSolver<dim> {
   }
 
   std::vector<Point<dim>> energy_gradient() const override {
-    require(solver_->traits().has_energy, "energy");
+    require(has_energy(), "energy");
     auto gradient = solver_->energy_gradient();
     require_values(gradient.size() == mesh_.n_nodes() &&
                        std::all_of(gradient.begin(), gradient.end(),
@@ -72,12 +73,13 @@ class AnyProblemSolver final : public ProblemSolver<dim> {
 
  private:
   double energy() {
-    if (solver_->traits().has_energy) {
-      const double energy = solver_->energy(mesh_);
-      require_values(std::isfinite(energy), "energy", "finite number");
-      return energy;
+    if (!has_energy()) {
+      (void)indicators();
+      return 0.0;
     }
-    return estimated_squared_error(mesh_, *this);
+    const double energy = solver_->energy(mesh_);
+    require_values(std::isfinite(energy), "energy", "finite number");
+    return energy;
   }
 
   const std::vector<double>& indicators() const {

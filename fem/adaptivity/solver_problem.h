@@ -18,8 +18,7 @@ using MakeMeshSolver = std::function<std::unique_ptr<MeshSolver<dim>>(int degree
 /// initial: the mesh that solvers are initialized on; its nodes and cells are those of the smoothed
 /// meshes.
 ///
-/// The energy of a solver that has none is the sum of |K| eta_K^2 over the cells, with its
-/// indicators eta_K. A solver has indicators of one kind, which both kinds of ProblemSolver return.
+/// A solver has indicators of one kind, which both kinds of ProblemSolver return.
 /// It has no tensors and second derivatives: these throw InputError. A failure on the first mesh is
 /// thrown as SmootherFailure; on later ones the energy is infinite.
 template <int dim>

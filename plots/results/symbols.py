@@ -27,6 +27,11 @@ SYMBOLS = {
     "w_max": Heading("w_max", r"$w_{\max}$"), "w_mean": Heading("w_mean", r"$w_{\mathrm{mean}}$"),
     "condition_number": Heading("cond(A)", r"$\mathrm{cond}(A)$"),
     "cg_iterations": Heading("CG iterations", "CG iterations"),
+    "jacobi_cg_iterations": Heading("CG Jacobi", "CG iterations, Jacobi"),
+    "amg_cg_iterations": Heading("CG multigrid", "CG iterations, multigrid"),
+    "energy_error": Heading("Energy error", r"$\Vert u-u_h\Vert_a$"),
+    "von_mises_error": Heading("Stress error", "Largest error of the von Mises stress"),
+    "von_mises_max": Heading("Largest stress", "Largest von Mises stress"), "u_max": Heading("Largest u", r"$\max|u_h|$"),
     "smoothing_seconds": Heading("Smoothing time (s)", "Smoothing time (s)"),
     "iteration": Heading("Iteration", "Iteration"), "n_solves": Heading("Solves", "Solves"),
 }

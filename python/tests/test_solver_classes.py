@@ -180,7 +180,7 @@ class SolverClasses(InAFolder):
                            f"subsection method by_{name}\n set type = energy-descent\n set start.method = none\n set smooth for = {name}\nend\n"
                            for name in names)
         text = STUDY.format(domain="square", elements="triangles", u=U[2], nu=0.3, more="", file="springs.py", name="Springs") + sections
-        text = text.replace("set methods = laplace", f"set methods = laplace, by_Springs, by_Short, by_Wrong, weighted")
+        text = text.replace("set methods = laplace", "set methods = laplace, by_Springs, by_Short, by_Wrong, weighted")
         text = text.replace("own, mine", "own, mine, Springs, Short, Wrong")
         text += "subsection method weighted\n set type = indicator-weighted\n set smooth for = mine\nend\n"
         (self.folder / "my.prm").write_text(text, encoding="utf-8")

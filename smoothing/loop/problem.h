@@ -34,6 +34,9 @@ class ProblemSolver {
   /// if the problem cannot be solved on the mesh.
   virtual void prepare(const Mesh<dim>& mesh, int degree) = 0;
 
+  /// False if the problem has indicators only. `solve` then returns 0.
+  virtual bool has_energy() const { return true; }
+
   /// Solves on a mesh whose cells are all valid; a second solve on the same mesh costs nothing.
   /// Returns the energy J = a(u_h, u_h) - 2 (f, u_h) up to a constant, with a(v, v) = |grad v|^2 if
   /// the operator is -laplace. If boundary nodes stay, a(u - u_h, u - u_h) = J + const. Returns

@@ -13,7 +13,8 @@ namespace smoothfem {
 /// Base of solution-adaptive methods: they move nodes by the solution, solve again, and so on. The
 /// result is the mesh of the lowest energy, and with it of the lowest true error. If boundary nodes
 /// slide, energies cannot be compared (their boundary values change); the total of the recovery's
-/// error estimates replaces them.
+/// error estimates replaces them. Without an energy the result is the last mesh: an estimate may
+/// rise as a front is resolved, while the error falls.
 template <int dim>
 class SolutionDriven : public Smoother<dim> {
  public:
@@ -96,7 +97,10 @@ class SolutionDriven : public Smoother<dim> {
 
   void solve(const SmoothingState<dim>& state) {
     score_ = -state.solver->solve(state.mesh.coordinates());
-    if (boundary_ == slide && std::isfinite(score_)) score_ = -estimated_error(state);
+    if (!state.solver->has_energy())
+      score_ = n_solves(state);
+    else if (boundary_ == slide && std::isfinite(score_))
+      score_ = -estimated_error(state);
   }
 
   int degree_ = 1;

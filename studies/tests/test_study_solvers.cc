@@ -194,7 +194,7 @@ TEST_F(StudySolvers, MakeMeshes) {
   refuse(with("energy-descent", "load"), "this solver has no energy and gradient");
   refuse(with("indicator-mmpde", "beam"), "directions of the error");
   refuse(with("indicator-getme", "beam, load"), "is smoothed for one solver alone");
-  refuse(with("indicator-getme", "girder"), "is none of the 'solvers'");
+  refuse(with("indicator-getme", "girder"), "is not in the list 'solvers'");
   refuse(with("smart-laplace", "beam"), "does not move nodes by a solution");
 }
 

@@ -148,7 +148,7 @@ void check_smooth_for(const Study& study) {
     }
     if (study.solution.label.empty())
       throw InputError(what + " = " + method.smooth_for.front() +
-                       ", which is none of the 'solvers', and the study has no list 'solutions'; "
+                       ", which is not in the list 'solvers', and the study has no list 'solutions'; "
                        "take it out, or name it in one of these lists");
     for (const auto& label : method.smooth_for) {
       if (std::find(labels.begin(), labels.end(), label) == labels.end())
