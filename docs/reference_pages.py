@@ -96,6 +96,22 @@ def parameter(line):
     return code(name), code(default), cell(meaning)
 
 
+def solvers(text):
+    """Returns solvers.md: solvers with their parameters and the numbers that they record."""
+    parts = ["# Solvers and their numbers", "", "`set solvers` in a study names solvers, and the subsection of one sets its parameters. `smoothfem list solvers` prints the "
+             "same. [Another equation, another solver](../how-to/other-equations.md) shows how to use them.", ""]
+    for block in re.split(r"\n\n", text.strip("\n")):
+        lines = block.splitlines()
+        name, _, title = lines[0].strip().partition(": ")
+        records = [re.fullmatch(r" {6}records (\S+) +(\S.*)", line) for line in lines[2:]]
+        rows = [parameter(line) for line, record in zip(lines[2:], records) if record is None]
+        numbers = [(code(record[1]), cell(record[2])) for record in records if record]
+        parts += [f"## {name}", "", cell(title if len(lines) == 1 else lines[1].strip()), ""]
+        parts += [table(("parameter", "default", "meaning"), rows), ""] if rows else []
+        parts += [table(("number", "meaning"), numbers), ""] if numbers else []
+    return "\n".join(parts)
+
+
 def named(title, where, text, note=""):
     """Returns a page of names with descriptions, one a line."""
     rows = [re.fullmatch(r"  (\S+):? +(\S.*)", line) for line in text.splitlines() if line.strip()]
@@ -153,7 +169,8 @@ def pages(program):
     listed = sections(program)
     made = {f"reference/{name.lower()}.md": named(name.capitalize(), *listed[name]) for name in ("METRICS", "DOMAINS", "SOLUTIONS", "FORMATS")}
     return {**made, "reference/commands.md": commands(program), "reference/study-keys.md": study_keys(program),
-            "reference/methods.md": methods(listed["METHODS"][1]), "reference/presets.md": presets(*listed["PRESETS"]),
+            "reference/methods.md": methods(listed["METHODS"][1]), "reference/solvers.md": solvers(listed["SOLVERS"][1]),
+            "reference/presets.md": presets(*listed["PRESETS"]),
             "reference/columns.md": columns(), "reference/studies.md": studies(program), "explanation/claims.md": claims()}
 
 

@@ -147,9 +147,10 @@ void check_smooth_for(const Study& study) {
       continue;
     }
     if (study.solution.label.empty())
-      throw InputError(what + " = " + method.smooth_for.front() +
-                       ", which is not in the list 'solvers', and the study has no list 'solutions'; "
-                       "take it out, or name it in one of these lists");
+      throw InputError(
+          what + " = " + method.smooth_for.front() +
+          ", which is not in the list 'solvers', and the study has no list 'solutions'; "
+          "take it out, or name it in one of these lists");
     for (const auto& label : method.smooth_for) {
       if (std::find(labels.begin(), labels.end(), label) == labels.end())
         throw InputError(what + " = " + label +

@@ -62,7 +62,8 @@ std::string no_such(const std::string& what, const std::string& wanted,
          (nearest.empty()     ? ""
           : nearest == wanted ? "it is for another part of the file; "
                               : "did you mean '" + nearest + "'? ") +
-         "'smoothfem list --study-keys' shows the available keys";
+         "'smoothfem list --study-keys' shows the keys of studies, and 'smoothfem list' those of "
+         "methods and solvers";
 }
 
 /// Message for an unknown subsection. Each mesh, method, solution and solver that the study names
