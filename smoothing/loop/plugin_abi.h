@@ -20,7 +20,7 @@ struct PluginAbi {
 };
 
 /// Increase it when functions that plugins call or provide change but no type's size does.
-inline constexpr std::uint32_t plugin_interface = 1;
+inline constexpr std::uint32_t plugin_interface = 2;
 
 /// Returns the layout of a kind. mark: 23 characters, which no other kind has.
 constexpr PluginAbi abi_with(const char (&mark)[24], std::array<std::uint32_t, 5> own) {

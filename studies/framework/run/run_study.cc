@@ -137,7 +137,7 @@ class StudyRun {
     if constexpr (dim == spacedim)
       for (std::size_t m = 0; m < data_.meshes.size(); ++m)
         for (const StudySolve& solve : data_.solves) try {
-            if (solve.solver != nullptr) (void)solver_on_mesh(data_, m, solve);
+            if (solve.solver != nullptr) (void)solver_on_mesh(data_, m, solve, &team_);
           } catch (const SolverFailure&) {
           }
   }
