@@ -177,8 +177,8 @@ double SymmetricSystem::condition_number(
   for (const auto row : matrix.locally_owned_range_indices())
     if (!constraints.is_constrained(row))
       for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-        entries.push_back({static_cast<unsigned int>(row), static_cast<unsigned int>(entry->column()),
-                           entry->value()});
+        entries.push_back({static_cast<unsigned int>(row),
+                           static_cast<unsigned int>(entry->column()), entry->value()});
   const Ranks ranks(matrix.get_mpi_communicator());
   entries = ranks.gather(entries);
   double condition = unknown;

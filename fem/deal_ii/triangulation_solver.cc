@@ -54,8 +54,7 @@ void set_boundary_ids(const FacetIds& ids, dealii::Triangulation<dim>& triangula
     nodes.clear();
     for (const unsigned int v : face->vertex_indices()) nodes.push_back(face->vertex_index(v));
     std::sort(nodes.begin(), nodes.end());
-    if (const auto id = ids.find(nodes); id != ids.end())
-      face->set_all_boundary_ids(id->second);
+    if (const auto id = ids.find(nodes); id != ids.end()) face->set_all_boundary_ids(id->second);
   }
 }
 

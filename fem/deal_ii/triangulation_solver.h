@@ -53,8 +53,7 @@ class TriangulationSolver : public MeshSolver<dim> {
 
   void initialize(const Mesh<dim>& mesh, int degree) final {
     mesh_.emplace(mesh, ranks_);
-    with_failures(
-        [&] { setup(mesh, mesh_->triangulation(), static_cast<unsigned int>(degree)); });
+    with_failures([&] { setup(mesh, mesh_->triangulation(), static_cast<unsigned int>(degree)); });
   }
 
   SolverResult solve(const Mesh<dim>& mesh) final {

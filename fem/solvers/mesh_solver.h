@@ -40,7 +40,7 @@ struct SolverTraits {
   bool needs_mpi = false;       ///< it calls libraries that need MPI, and is not called by threads
   bool needs_solution = false;  ///< of the study, by use_solution
   bool takes_ties = false;      ///< it solves on meshes with tied nodes (use_ties)
-  bool takes_ranks = false;     ///< it solves on several processes, if there are no ties (use_ranks)
+  bool takes_ranks = false;  ///< it solves on several processes, if there are no ties (use_ranks)
 };
 
 /// Computes numbers on meshes of one topology, for the records of a study. A new solver is one

@@ -171,7 +171,8 @@ class PlanarWorker {
 /// between jobs. So an interruption between jobs does not change results.
 class TeamWorker {
  public:
-  TeamWorker(StudyData<3>& data, SolverTeam& team) : data_(data), team_(team), others_(data, &team) {}
+  TeamWorker(StudyData<3>& data, SolverTeam& team)
+      : data_(data), team_(team), others_(data, &team) {}
 
   void work(SolveTask& task) {
     const SolveJob& job = task.job;
